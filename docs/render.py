@@ -134,7 +134,7 @@ def show_page(path: Path) -> None:
 
 
 def main() -> None:
-    picture(read_spec(SPEC), FOLDER / "pair.png", size=(1400, 700))
+    picture(read_spec(SPEC.with_name("reducer-21-43.toml")), FOLDER / "pair.png", size=(1400, 700))
     picture(read_spec(SPEC), FOLDER / "mesh.png", view="mesh", size=(1400, 700))
     draw_sheet(FOLDER / "sheet.svg")
     plot_study(FOLDER / "study.png")

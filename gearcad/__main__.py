@@ -20,6 +20,7 @@ _MINDS_ITSELF = ("batch", "open")
 
 def run() -> None:
     """Do what the command line says, and end this process."""
+    _open_standard_streams()
     command = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
     if CAN_GUARD and command not in _MINDS_ITSELF:
         guarded(_work)
@@ -31,6 +32,16 @@ def run() -> None:
     except KeyboardInterrupt:
         os.write(2, b"Aborted!\n")
         sys.exit(128 + signal.SIGINT)
+
+
+def _open_standard_streams() -> None:
+    """Open the null device in place of standard streams that the caller has closed: other files would get their numbers."""
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # the lowest free number, which is this one
+            setattr(sys, name, open(number, "w" if number else "r", closefd=False))
 
 
 def _work() -> None:

@@ -139,12 +139,17 @@ def plain_numbers(instance: Any) -> None:
     """
     for name, whole in _fields_of(instance.__class__):
         value = getattr(instance, name)
-        if isinstance(value, _NO_CHANGE) or not isinstance(value, Real) or getattr(value, "derived", False):
+        if isinstance(value, _NO_CHANGE) or not isinstance(value, Real) or _is_marked(value):
             continue
         if isinstance(value, Integral) and (whole or abs(int(value)) > _MOST_EXACT):
             object.__setattr__(instance, name, int(value))
         else:
             object.__setattr__(instance, name, float(value))
+
+
+def _is_marked(value: Any) -> bool:
+    """Return whether a number says of itself that nobody gave it."""
+    return getattr(value, "derived", False) or getattr(value, "assumed", False)
 
 
 _NO_CHANGE = (float, str, bool, tuple, type(None))

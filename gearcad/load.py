@@ -7,7 +7,7 @@ from typing import Annotated
 
 from gearcad.ranges import APPLICATION_FACTOR, SPEED, TORQUE
 from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
+from gearcad.schema import AssumedNumber, Words, require_fields
 
 __all__ = ["Load"]
 
@@ -21,7 +21,9 @@ class Load:
 
     torque: Annotated[float, TORQUE, Words("torque on the pinion", "T_1", "ISO 6336-1")]
     speed: Annotated[float, SPEED, Words("speed of the pinion", "n_1", "ISO 6336-1")] = 0.0
-    application_factor: Annotated[float, APPLICATION_FACTOR, Words("application factor", "K_A", "ISO 6336-1")] = 1.0
+    application_factor: Annotated[float, APPLICATION_FACTOR, Words("application factor", "K_A", "ISO 6336-1")] = AssumedNumber(
+        1.0
+    )
 
     __repr__ = concise
 

@@ -163,6 +163,12 @@ class Material:
             object.__setattr__(self, field, value)
 
     @property
+    def asks_strength(self) -> bool:
+        """Return whether an endurance limit, a local limit or a quality is given, which asks for a verdict on strength."""
+        limits = (self.contact_limit, self.root_limit, self.contact_endurance_limit, self.root_endurance_limit)
+        return self.quality is not None or any(each is not None for each in limits)
+
+    @property
     def grade(self) -> Grade | None:
         """Group and quality, if both are known."""
         return None if self.group is None or self.quality is None else Grade(self.group, self.quality)

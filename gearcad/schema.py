@@ -22,10 +22,13 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ELSEWHERE",
+    "AssumedCount",
+    "AssumedNumber",
     "FieldSchema",
     "InPlaceOf",
     "NamedPart",
     "Words",
+    "is_assumed",
     "parts_of",
     "require_fields",
     "schema_of",
@@ -37,6 +40,34 @@ Permitted = Range | Whole | Choice | Member
 
 ELSEWHERE = "written elsewhere"
 """The mark of a field whose own fields are not written with the others: they have tables, or a file, of their own."""
+
+
+class AssumedNumber(float):
+    """A number that is the default of a field: documents mark it as assumed, since nobody gave it.
+
+    `dataclasses.replace` hands it on as it is. A number of the same size that somebody gives is no AssumedNumber.
+    """
+
+    __slots__ = ()
+
+    assumed = True
+
+
+class AssumedCount(int):
+    """A whole number that is the default of a field, as AssumedNumber."""
+
+    __slots__ = ()
+
+    assumed = True
+
+
+def is_assumed(value: Any) -> bool:
+    """Return whether a value of a field is its default, which nobody gave.
+
+    >>> is_assumed(AssumedCount(6)), is_assumed(6)
+    (True, False)
+    """
+    return getattr(value, "assumed", False)
 
 
 class Words(NamedTuple):

@@ -120,6 +120,11 @@ PAIR = {
     "path_of_contact.C": Symbol("T1C", "mm", "5.4", "pitch point"),
     "path_of_contact.D": Symbol("T1D", "mm", "5.4", "single contact ends"),
     "path_of_contact.E": Symbol("T1E", "mm", "5.4", "last contact"),
+    "specific_sliding.pinion_A": Symbol("ζ_A1", "", "5.4", "specific sliding at A, pinion"),
+    "specific_sliding.wheel_A": Symbol("ζ_A2", "", "5.4", "specific sliding at A, wheel"),
+    "specific_sliding.pinion_E": Symbol("ζ_E1", "", "5.4", "specific sliding at E, pinion"),
+    "specific_sliding.wheel_E": Symbol("ζ_E2", "", "5.4", "specific sliding at E, wheel"),
+    "specific_sliding.greatest": Symbol("ζ", "", "5.4", "specific sliding, greatest"),
     "contact_line_lengths.minimum": Symbol("", "mm", "5.4", "contact lines, least total length"),
     "contact_line_lengths.mean": Symbol("", "mm", "5.4", "contact lines, mean total length"),
     "contact_line_lengths.maximum": Symbol("", "mm", "5.4", "contact lines, greatest total length"),
@@ -316,7 +321,7 @@ STRENGTH = {
 """Of a full rating: symbols, clauses and words of its factors, stresses and safeties."""
 
 STRENGTH_FIGURES = {
-    "passed": Symbol("", "", "", "whether all required safeties are reached; empty where that was not judged"),
+    "passed": Symbol("", "", "", "whether all required safeties are reached; empty where that was not judged or not asked for"),
     "strength": Symbol("", "", "", "verdict on strength"),
     "S_H": STRENGTH["S_H"],
     "S_F": STRENGTH["S_F"],
@@ -435,7 +440,7 @@ LOAD_FACTOR_DETAILS = {
 """Figures behind the load factors of a rating."""
 
 CHECK = {
-    "passed": Symbol("", "", "", "whether numerics are passed, and strength where it is judged"),
+    "passed": Symbol("", "", "", "whether numerics are passed, and strength where it is asked for"),
     "numerics": Symbol("", "", "", "verdict of the gates of the computation"),
     "strength": Symbol("", "", "", "verdict of the gates of strength"),
     "mesh_stiffness_mean": Symbol("c_γ", "N/(mm·µm)", "", "mean mesh stiffness per common face width"),

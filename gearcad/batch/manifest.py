@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from gearcad.output import json_text
+from gearcad.output import json_text, locked
 from gearcad.shipped import PACKAGE
 from gearcad.version import __version__
 
@@ -100,13 +100,19 @@ def publish(staging: Path, folder: Path, manifest: Manifest, before: Manifest | 
 
     A new folder appears by one rename, manifest and all. In a folder that exists, the manifest first gives up every part
     whose files are about to change (`before` says which there are), then the files move one by one, and the manifest says
-    last that they are all there. Files that are not gearcad's stay. Raises OSError.
+    last that they are all there. Files that are not gearcad's stay. Raises OSError, OutputError where another process holds
+    the lock of the folder.
     """
     (staging / MANIFEST).write_text(manifest.text(), encoding="utf-8")
     if not folder.exists():
         with suppress(FileExistsError):  # made meanwhile by a run that was killed, and is dying
             staging.rename(folder)
             return
+    with locked(folder):
+        _replace_files(staging, folder, manifest, before)
+
+
+def _replace_files(staging: Path, folder: Path, manifest: Manifest, before: Manifest | None) -> None:
     made = sorted(file.name for file in staging.iterdir() if file.name != MANIFEST)
     stale = sorted((before.files if before else set()) - manifest.files)
     touched = {*made, *stale}

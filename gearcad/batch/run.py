@@ -22,8 +22,9 @@ from gearcad.batch.worker import WorkerLostError
 from gearcad.designs.table import Row, Table, open_table
 from gearcad.errors import OutputError, SpecError, require_number
 from gearcad.jobs.job import Job
-from gearcad.output import UNWRITABLE, unwritable
+from gearcad.output import MARK, UNWRITABLE, has_mark, mark_folder, unwritable
 from gearcad.progress import Progress
+from gearcad.verdict import Verdict
 
 __all__ = ["falls_short", "run_table"]
 
@@ -173,8 +174,10 @@ class _Run:
 
 
 def falls_short(values: Mapping[str, Any]) -> bool:
-    """Whether a check failed, or a rating failed or judged not all, as their commands end with status 1."""
-    return values.get("check.passed") is False or values.get("rate.passed", True) is not True
+    """Return whether a check or a rating of a row ends its command with exit status 1."""
+    if values.get("check.passed") is False:
+        return True
+    return values.get("rate.passed", True) is not True and values.get("rate.strength") != Verdict.NOT_ASKED.value
 
 
 def _checked(outcome: Outcome[list[Row], list[Checked]]) -> list[Checked]:
@@ -208,8 +211,13 @@ def _workspace(folder: Path) -> Iterator[Path]:
             if path.is_symlink():  # it would be cleared, or emptied, where it leads
                 raise OSError(errno.ELOOP, f"{path.relative_to(folder.resolve())} is a link; remove it")
         workspace.mkdir(exist_ok=True)
+        if not has_mark(workspace) and any(path.is_dir() for path in workspace.iterdir()):
+            raise OSError(errno.EEXIST, f"{WORKSPACE} there has no mark of gearcad, so it is not cleared; move it away")
         lock = FileLock(workspace / _LOCK)
         lock.acquire(blocking=False)
+        if not (workspace / _LOCK).exists():  # its last holder has removed it since
+            raise Timeout(lock.lock_file)
+        mark_folder(workspace)
     except Timeout as error:
         raise OutputError("output", str(folder), "is in use by another gearcad batch; wait for its end") from error
     except UNWRITABLE as error:
@@ -220,6 +228,7 @@ def _workspace(folder: Path) -> Iterator[Path]:
     finally:
         _clear(workspace)
         with suppress(OSError):  # while it is ours: once released it may be that of the next run
+            (workspace / MARK).unlink(missing_ok=True)
             (workspace / _LOCK).unlink(missing_ok=True)
         lock.release()
         with suppress(OSError):

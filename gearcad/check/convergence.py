@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -11,6 +11,7 @@ from gearcad.check.summary import figures
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.shared.loaded import Cycle
 from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.per_gear import Role
 
 __all__ = [
     "FACTORS",
@@ -33,7 +34,7 @@ LEAST_ORDER = 1.0
 """Order below which the changes from mesh to mesh are taken for noise."""
 
 _SAFETY = 1.25
-"""Factor on the change to the finest mesh where the changes are too small or too uneven to show an order (Roache)."""
+"""Factor on the change to the finest mesh where the changes go back and forth (Roache)."""
 
 SOLID_FACTORS = (0.794, 1.0, 1.26)
 """Refinement of three solid meshes, each of twice the dofs of the one before; the check itself is the middle one.
@@ -80,7 +81,23 @@ class Convergence:
 
 def three_meshes(cycles: Iterable[PlaneCycle]) -> tuple[Convergence, ...]:
     """From the cycles on meshes refined by FACTORS: Richardson's estimate of the middle one's error."""
-    return tuple(_of_plane(quantity, values) for quantity, values in _values(cycles))
+    on_edge: list[tuple[bool, ...]] = []
+
+    def watched() -> Iterator[PlaneCycle]:
+        for cycle in cycles:
+            on_edge.append((False, *(_on_edge(cycle, role) for role in Role)))
+            yield cycle
+
+    every = _values(watched())
+    return tuple(
+        _of_plane(quantity, values, singular=any(edges))
+        for (quantity, values), edges in zip(every, zip(*on_edge, strict=True), strict=True)
+    )
+
+
+def _on_edge(cycle: PlaneCycle, role: Role) -> bool:
+    """Whether the edge of a tip carries load where the root tension of a gear is greatest."""
+    return any(contact.edge for contact in cycle.worst_position(role).contacts)
 
 
 def three_solid_meshes(cycles: Iterable[SolidCycle]) -> tuple[Convergence, ...]:
@@ -89,11 +106,12 @@ def three_solid_meshes(cycles: Iterable[SolidCycle]) -> tuple[Convergence, ...]:
 
 
 def _values(cycles: Iterable[Cycle]) -> list[tuple[str, tuple[float, ...]]]:
-    """Mean mesh stiffness - of the even positions, the same on every mesh - and root tension of both gears, mesh by mesh.
+    """Mean mesh stiffness and root tension of both gears, mesh by mesh, as a summary of each cycle would tell them.
 
     A cycle is let go before the next is made.
     """
-    found = [(float(cycle.values("stiffness").mean()), *figures(cycle).root_tension) for cycle in cycles]
+    every = (figures(cycle) for cycle in cycles)
+    found = [(each.mesh_stiffness, *each.root_tension) for each in every]
     return list(zip(_FIGURES, zip(*found, strict=True), strict=True))
 
 
@@ -105,12 +123,21 @@ def _order(values: tuple[float, ...], refinement: float) -> float | None:
     return math.log(ratio) / math.log(refinement) if 0 < ratio < math.inf else None
 
 
-def _of_plane(quantity: str, values: tuple[float, ...]) -> Convergence:
+def _of_plane(quantity: str, values: tuple[float, ...], *, singular: bool = False) -> Convergence:
+    """Richardson's estimate by the order that shows; LEAST_ORDER where it is less, or where a `singular` tip edge leads.
+
+    An edge shares the load by how finely it is meshed: the mesh error of such a figure falls slowly. Changes that go back and
+    forth show no order.
+    """
     _, middle, fine = values
     change, order = abs((middle - fine) / fine), _order(values, 2.0)
-    if order is None or order < LEAST_ORDER:
+    if order is None and not singular:
         return Convergence(quantity, values, FACTORS, order, _SAFETY * change)
-    return Convergence(quantity, values, FACTORS, order, change * 2**order / (2**order - 1))
+    credited = LEAST_ORDER if singular or order is None else max(order, LEAST_ORDER)
+    error = change * 2**credited / (2**credited - 1)
+    if singular:
+        error = max(error, abs(max(values) - min(values)) / abs(fine))
+    return Convergence(quantity, values, FACTORS, order, error)
 
 
 def _of_solids(quantity: str, values: tuple[float, ...]) -> Convergence:

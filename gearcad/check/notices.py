@@ -7,12 +7,13 @@ from collections.abc import Iterator
 from gearcad.check.rim import rim_notices
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
+from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.contact.shared.loaded import Cycle
-from gearcad.geometry import Gear
+from gearcad.geometry import Gear, GearPair
 from gearcad.notice import Notice
 from gearcad.rating.rim import RING_RIM_LIMIT
 
-__all__ = ["common_notices"]
+__all__ = ["common_notices", "elastic_end", "relief_start"]
 
 _ABSURD = 0.03
 """Stress over modulus above which strains are no longer small."""
@@ -22,9 +23,65 @@ def common_notices(task: CheckTask, cycle: Cycle, summary: Summary) -> Iterator[
     """Of every model: the pair, the load, the bodies and their rims, tips whose edge touches."""
     yield from task.pair.notices
     yield from _strain(task, summary)
+    yield from _elastic(task, summary)
+    yield from _few_teeth(task, cycle)
     yield from _bodies(task, cycle)
     yield from rim_notices(task, summary)
     yield from _corners(cycle, summary)
+    yield from relief_start(task.pair)
+
+
+_STEEL, _METAL = 206000.0, 40000.0
+"""Modulus of elasticity (MPa) to which the bounds below belong, and from which on a material is taken for a metal."""
+
+_CONTACT, _ROOT = 4000.0, 2500.0
+"""Bounds (MPa) where no yield strength is given: the static limit of rolling contact along lines (ISO 76), and about the
+greatest tensile strength of steels."""
+
+_ONSET = 1.79
+"""Pressure over yield strength at which a line contact begins to yield below its surface (von Mises, nu 0.3)."""
+
+_FEW_TEETH = 7
+"""Teeth of a body between cuts from which on its mesh is within 1 % of the full ring's where pairs share the load."""
+
+
+def elastic_end(task: CheckTask, summary: Summary) -> str:
+    """Return in words which stress is beyond linear elasticity, of which gear and beyond which bound; empty if none is."""
+    found = []
+    for role, material in task.materials.items():
+        known, scale = material.yield_strength, material.youngs_modulus / _STEEL
+        if known is None and material.youngs_modulus < _METAL:
+            continue
+        words = (
+            "its yield strength" if known else "the bound for the hardest steels, scaled by the modulus; give yield_strength"
+        )
+        contact, root = (known * _ONSET, known) if known else (_CONTACT * scale, _ROOT * scale)
+        onset = f"{_ONSET} times {words}" if known else words
+        for name, stress, bound, source in (
+            ("contact pressure", summary.contact_pressure or 0.0, contact, onset),
+            ("root stress", summary.root_tension.pick(role), root, words),
+        ):
+            if stress > bound:
+                found.append(f"{name} of the {role.value} {stress:.0f} MPa exceeds {bound:.0f} MPa ({source})")
+    return "; ".join(found)
+
+
+def _elastic(task: CheckTask, summary: Summary) -> Iterator[Notice]:
+    if text := elastic_end(task, summary):
+        advice = "the material yields, so stresses and shares are not those that are told; reduce the load"
+        yield Notice("beyond-elasticity", f"linear elasticity has ended: {text}: {advice}")
+
+
+def _few_teeth(task: CheckTask, cycle: Cycle) -> Iterator[Notice]:
+    teeth = task.options.body_teeth or None
+    held = [task.body.teeth_held(gear) for gear in task.pair.gears]
+    shared = any(len(position.contacts) > 1 for position in cycle.positions)
+    if teeth is not None and shared and any(each is not None and each < _FEW_TEETH for each in held):
+        text = (
+            f"body_teeth = {teeth}: where several pairs of teeth share the load, the outer ones stand beside the cuts, and the "
+            f"transmission error can be off by more than 3 %; use body_teeth = {_FEW_TEETH} or more, or leave it out"
+        )
+        yield Notice("few-teeth", text)
 
 
 def _strain(task: CheckTask, summary: Summary) -> Iterator[Notice]:
@@ -65,4 +122,24 @@ def _corners(cycle: Cycle, summary: Summary) -> Iterator[Notice]:
             "corner-contact",
             f"a tip corner touches at {summary.corner_positions} of {len(cycle.positions)} positions: its pressure depends on "
             "the mesh and is left out; tip relief would avoid it",
+        )
+
+
+def relief_start(pair: GearPair) -> Iterator[Notice]:
+    """Yield a notice if a linear relief of the pair begins where its flanks carry: the pressure there is not judged."""
+    line = line_of_action(pair)
+    ends = [line.lengths(end) for end in pair.usable_path]
+    roles = []
+    for role, flank in line.flanks.items():
+        first, last = sorted(end.pick(role) for end in ends)
+        if any(first < kink < last for kink in flank.kinks):
+            roles.append(role.value)
+    if roles:
+        yield Notice(
+            "relief-start",
+            f"linear relief of {' and '.join(roles)} begins where the flanks carry: the contact pressure told is that more "
+            "than three half widths of the contact away from the ends of the flanks and the start of the relief; at the start "
+            "itself a sharp bend has no finite pressure, and a real flank has a rounded transition, which is not given, so the "
+            "local pressure there is not judged; use the parabolic shape (tip_relief_shape, root_relief_shape), or treat the "
+            "pressure there as unknown",
         )

@@ -13,6 +13,7 @@ from gearcad.check.comparison import Comparison, Subject, verdict
 from gearcad.check.convergence import Convergence
 from gearcad.check.explanation import Explanations
 from gearcad.check.load_share import LoadShare
+from gearcad.check.notices import elastic_end
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.stiffness import StiffnessMethods, stiffness_methods
 from gearcad.check.strength import CheckStrength
@@ -30,7 +31,7 @@ from gearcad.rating.rate import Rating
 from gearcad.rating.strength import Part
 from gearcad.reprs import Pictured
 from gearcad.stiffness import StiffnessMethod
-from gearcad.verdict import Verdict
+from gearcad.verdict import NOT_ASKED_WORDS, Verdict, strength_verdict
 
 __all__ = ["CheckResult"]
 
@@ -187,13 +188,15 @@ class CheckResult(Pictured, ABC):
 
     @property
     def strength(self) -> Verdict:
-        """Whether the material bears them; not judged without a limit."""
-        return verdict(self.comparisons, Subject.STRENGTH)
+        """The verdict on strength by `strength_verdict`: the rating's, with the limits of local stresses as further gates."""
+        rating = self.safeties.rating
+        gates = verdict(self.comparisons, Subject.STRENGTH)
+        return strength_verdict(rating.asked, rating.required_verdicts, [gates] if gates is Verdict.FAILED else [])
 
     @property
     def passed(self) -> bool:
-        """True if no gate fails; strength may not have been judged."""
-        return Verdict.FAILED not in (self.numerics, self.strength)
+        """Whether no gate of the numerics fails, and strength is passed or not asked for."""
+        return self.numerics is not Verdict.FAILED and not self.strength.falls_short
 
     @property
     def without_limit(self) -> tuple[str, ...]:
@@ -218,21 +221,22 @@ class CheckResult(Pictured, ABC):
     def verdict(self) -> str:
         """Numerics and strength in one line."""
         numerics = "NOT passed" if self.numerics is Verdict.FAILED else self.numerics.value
-        strength = f"not judged: {self._not_judged}" if self.strength is Verdict.NOT_JUDGED else self.strength.value
+        strength = {
+            Verdict.NOT_JUDGED: f"not judged: {self._not_judged}",
+            Verdict.NOT_ASKED: NOT_ASKED_WORDS,
+        }.get(self.strength, self.strength.value)
         if below := self.safeties.below_required:
             standard = self.safeties.rating.options.standard.part(2)[:-2]
             strength += f" by {standard}; by finite elements {', '.join(below)}"
-        if self.without_limit and self.strength is not Verdict.NOT_JUDGED:
+        if self.without_limit and self.strength in (Verdict.PASSED, Verdict.FAILED):
             strength += f"; not judged, no limit given: {', '.join(self.without_limit)}"
-        return f"numerics {numerics}; strength {strength}"
+        ended = "; linear elasticity has ended, see the warnings" if elastic_end(self.task, self.summary) else ""
+        return f"numerics {numerics}{ended}; strength {strength}"
 
     @property
     def _not_judged(self) -> str:
-        """Why strength was not: the first thing in the way of a rating, where the materials have what it needs."""
-        limits = self.safeties.rating.limits
-        if all(each.contact is None and each.root is None for each in limits):
-            return "no limit given"
-        return next(iter(self.safeties.rating.not_judged.values()))
+        """Why strength was not: each reason of the rating once."""
+        return "; ".join(dict.fromkeys(self.safeties.rating.not_judged.values()))
 
     # ------------------------------------------------------------------ what to know before trusting it
 

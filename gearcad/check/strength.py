@@ -187,6 +187,19 @@ class CheckStrength:
         }
 
 
+def _scuffing_comparisons(rating: StrengthRating) -> Iterator[Comparison]:
+    """Safeties against scuffing that were judged, where one is required: gates."""
+    required, found = rating.options.required_safety_scuffing, rating.scuffing
+    if required is None or found is None:
+        return
+    for words, safety in (
+        ("S_int, integral temperature", found.integral_safety),
+        ("S_B, flash temperature", found.flash_safety),
+    ):
+        if safety is not None:
+            yield at_least(words, safety, required, "scuffing temperature of the oil over that of the teeth")
+
+
 def _factors(of: LoadFactors, part: Part) -> dict[str, float]:
     """All but K_A, which every model contains, by symbols."""
     common = {"K_gamma": of.mesh_load, "K_v": of.dynamic}
@@ -215,3 +228,4 @@ def strength_comparisons(strength: CheckStrength) -> Iterator[Comparison]:
             note = "" if found.stress is None else f"{found.stress:.5g} MPa {where}{raised}"
             source = f"required; stress by {_FE}, strength by {clause}"
             yield beside_required(f"{words}, {_FE}", found.safety, rated.required, source, note, found.reason)
+    yield from _scuffing_comparisons(strength.rating)

@@ -24,7 +24,10 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     """Check the pair of SPEC under its [load]: contact and root stress by finite elements, beside Hertz and ISO 6336.
 
     Writes check.json and report.html, and for solid bodies the stresses in the loaded teeth (stress_*.vtu). Exit status 1 if a
-    gate is not passed or cannot be evaluated; [check] in SPEC sets model, body, torques and bands.
+    gate is not passed or cannot be evaluated, or if the strength that is asked for is not passed or cannot be judged, as in
+    `gearcad rate`: contact_limit and root_limit are further gates and replace none.
+
+    [check] in SPEC sets model, body, torques and bands.
     """
     from gearcad.jobs.check import Check
 

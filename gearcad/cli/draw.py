@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -56,14 +57,15 @@ def draw(
     }
     given = {name: value for name, value in asked.items() if value is not None}
     job = Draw(formats=parse_choices("format", formats, SheetFormat), given=given)
-    perform(job, spec, output, _show, as_json=as_json, quiet=quiet)
+    perform(job, spec, output, partial(_show, quiet=quiet), as_json=as_json, quiet=quiet)
 
 
-def _show(_name: str, drawing: Drawing) -> None:
-    """The sheets, a line each, then what to know of them."""
+def _show(_name: str, drawing: Drawing, *, quiet: bool) -> None:
+    """Print the sheets, a line each, then the warnings about them unless `quiet`."""
     from gearcad.jobs.draw import paper_of, scale_of
 
     width = max(len(sheet.name) for sheet in drawing.sheets)
     for sheet in drawing.sheets:
         click.echo(f"{sheet.name:<{width}}  {paper_of(sheet):<3} {scale_of(sheet):>6}  {sheet.title}")
-    echo_warnings(drawing.notices)
+    if not quiet:
+        echo_warnings(drawing.notices)

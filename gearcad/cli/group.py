@@ -65,6 +65,9 @@ class Commands(click.Group):
             if isinstance(error, GearcadError):
                 click.echo("".join(f"Error: {printable(line)}\n" for line in str(error).split("\n")), err=True, nl=False)
                 ctx.exit(1 if isinstance(error, SolverError) else 2)
+            if isinstance(error, ModuleNotFoundError) and (error.name or "gearcad").partition(".")[0] != "gearcad":
+                click.echo(f"Error: {_missing(str(error.name))}", err=True)
+                ctx.exit(1)
             if isinstance(error, OSError):  # the system's fault, such as a full disk behind stdout
                 click.echo(f"Error: {printable(error.strerror or str(error))}", err=True)
                 ctx.exit(1)
@@ -74,6 +77,23 @@ class Commands(click.Group):
             what = shown(" ".join(f"{type(error).__name__}: {error}".split()), _LONGEST_FAULT)
             click.echo(f"Error: unexpected {what} (a fault of gearcad: please report it, with what --debug shows)", err=True)
             ctx.exit(1)
+
+
+_DISTRIBUTIONS = {
+    "OCP": "cadquery-ocp",
+    "PIL": "pillow",
+    "fontTools": "fonttools",
+    "skfem": "scikit-fem",
+    "vtkmodules": "vtk",
+}
+"""The distribution of each module that is called otherwise."""
+
+
+def _missing(module: str) -> str:
+    """Return the sentence for a module that is not installed, with the command that installs it."""
+    top = module.partition(".")[0]
+    package = _DISTRIBUTIONS.get(top, top)
+    return f"the package {package} is not installed, and this command needs it: pip install {package}"
 
 
 def _leave_interrupted(ctx: click.Context) -> NoReturn:

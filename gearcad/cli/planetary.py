@@ -13,6 +13,7 @@ from gearcad.cli.job import echo_warnings, json_option, output_option, perform, 
 from gearcad.cli.planetary_search import require_no_search, search_options, search_sets
 from gearcad.cli.train_strength import train_strength_lines
 from gearcad.notice import joined
+from gearcad.schema import is_assumed
 
 if TYPE_CHECKING:
     from gearcad.dynamics.planetary.result import PlanetaryStudy
@@ -119,6 +120,8 @@ def _efficiency(study: PlanetaryStudy) -> str:
     flow = study.flow
     if flow is None or flow.efficiency is None:
         return "-"
+    if is_assumed(flow.load.mesh_efficiency):
+        return "not known: mesh_efficiency is not given, and 1 (no losses) is assumed"
     forth = f"{100 * flow.efficiency:.4g} %"
     if flow.efficiency_back is None:
         return forth

@@ -30,8 +30,9 @@ def rate(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
     [rating] in SPEC sets standard, accuracy, life, oil, shafts and required safeties; [material] what the gears bear, by group,
     quality and hardness of ISO 6336-5. What is not given is assumed and told; without its limit a flank or root is not judged.
 
-    Writes rate.json and rate.html, of a train rate-MESH.html of each mesh. Exit status 1 if a required safety is not reached or
-    strength could not be judged.
+    Writes rate.json and rate.html, of a train rate-MESH.html of each mesh. Exit status 0 if strength is
+    passed, or not asked for: no endurance limit, local limit or quality of a material and no required_safety_* is given. Exit
+    status 1 if a required safety is not reached, or if a flank, a root or the scuffing that is asked for cannot be judged.
     """
     from gearcad.jobs.rate import Rate
 
@@ -39,7 +40,7 @@ def rate(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
         result = perform(Rate(), spec, output, print_strength, as_json=as_json, quiet=quiet)
     if as_json and not quiet:
         click.echo(verdict_line(result.name, result), err=True)
-    if not result.passed:
+    if result.strength.falls_short:
         click.get_current_context().exit(1)
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from gearcad.reprs import grouped
+from gearcad.schema import is_assumed
 
 if TYPE_CHECKING:
     from gearcad.rating.options import RatingOptions
@@ -78,6 +79,7 @@ def scuffing_line(options: RatingOptions) -> str | None:
 def basis_lines(options: RatingOptions, application_factor: float, assumed: Iterable[str]) -> Iterator[str]:
     """What the safeties go by, said once: what is required, the accuracy, and what was assumed."""
     grade = f"accuracy grade {options.accuracy_grade} of {options.accuracy.value}"
+    grade += " (assumed)" if is_assumed(options.accuracy_grade) else ""
     required = f"S_H {options.required_safety_flank:g}, S_F {options.required_safety_root:g}"
     yield f"required {required}; K_A {application_factor:g}; {grade}; {options.standard.value}"
     yield from _wrapped("assumed ", "; ".join(assumed))

@@ -13,7 +13,6 @@ import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.check.task import CheckTask
-from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.contact.shared.loaded import Cycle, LoadedPosition, PairContact
 from gearcad.decks.calculix import Flanks, LoadedPairDeck
 from gearcad.decks.results import displacements, printed_contact
@@ -22,6 +21,7 @@ from gearcad.decks.words import pair_words
 from gearcad.geometry import GearPair
 from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.bodies.contact_zone import ContactZone
+from gearcad.meshing.bodies.names import BORE, RIM
 from gearcad.meshing.bodies.posed import posed, poses
 from gearcad.per_gear import PerGear, Role
 
@@ -60,6 +60,11 @@ class PairDecks(ABC):
         return self.task.torque > 0
 
     @property
+    def flank_side(self) -> str:
+        """Return "left" or "right": the flanks of both gears that carry."""
+        return "left" if self.left else "right"
+
+    @property
     @abstractmethod
     def cycle(self) -> Cycle:
         """Our own model of the pair under its torque."""
@@ -87,12 +92,12 @@ class PairDecks(ABC):
 
     def tooth(self, role: Role, tooth: int) -> int:
         """The tooth of a gear that has part in our solution's pair of teeth `tooth`, counted counter-clockwise from 0."""
-        order = TOOTH_ORDER.pick(role) * (1 if self.left else -1)
-        return order * tooth % self.pair.gears.pick(role).teeth
+        order = 1 if role is Role.PINION or self.pair.internal else -1
+        return order * (1 if self.left else -1) * tooth % self.pair.gears.pick(role).tooth_count
 
     def side(self, role: Role, tooth: int, part: str) -> str:
         """Name of the loaded "flank" or "fillet" of a tooth in the joined mesh."""
-        return f"{role.value}_{'left' if self.left else 'right'}_{part}_{tooth}"
+        return f"{role.value}_{self.flank_side}_{part}_{tooth}"
 
     def flanks(self, tooth: int) -> Flanks:
         """Names of the flanks of our solution's pair of teeth `tooth` in the joined mesh."""
@@ -200,6 +205,9 @@ class PairDeck:
 
 
 def held_nodes(mesh: ElementMesh, gear: str = "") -> Wholes:
-    """Nodes that the hub of a gear holds: all of the bore, and the cuts of less than a ring. Names begin with `gear`."""
-    names = (f"{gear}{side}" for side in ("bore", "cut_behind", "cut_ahead"))
+    """Return the nodes (n,) that are held: all of the bore or rim, and the cuts of a body that is not a full ring.
+
+    Names of sides begin with `gear`.
+    """
+    names = (f"{gear}{side}" for side in (BORE, RIM, "cut_behind", "cut_ahead"))
     return np.unique(np.concatenate([mesh.nodes(name) for name in names if name in mesh.sides]))

@@ -9,6 +9,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.plane.cycle import PlanePairContact
+from gearcad.contact.shared.engaged import LoadedFlank
 from gearcad.decks.calculix import number
 from gearcad.decks.plane import PlaneDecks
 from gearcad.decks.tooth import ToothDeck
@@ -37,18 +38,18 @@ def plane_tooth_deck(decks: PlaneDecks, roll_angle: float, role: Role) -> PlaneT
     """A gear of the pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
     position = decks.cycle.solve(roll_angle)
     mesh = joined({role.value: decks.mesh(role, decks.zones(roll_angle, role))})
-    base_radius = decks.pair.gears.pick(role).base_diameter / 2
+    flank = decks.cycle.model.bodies.pick(role).flank
     loaded, pressures = list[Faces](), list[Floats]()
     for contact in position.contacts:
         name = decks.side(role, decks.tooth(role, contact.tooth), "flank")
-        laid = _laid(mesh, name, contact, role, base_radius)
+        laid = _laid(mesh, name, contact, role, flank)
         loaded.append(Faces(mesh.sides[name].elements[laid > 0], mesh.sides[name].sides[laid > 0]))
         pressures.append(laid[laid > 0])
     faces = Faces(np.concatenate([each.elements for each in loaded]), np.concatenate([each.sides for each in loaded]))
     return PlaneToothDeck(decks, role, mesh, position, faces, np.concatenate(pressures))
 
 
-def _laid(mesh: ElementMesh, flank: str, contact: PlanePairContact, role: Role, base_radius: float) -> Floats:
+def _laid(mesh: ElementMesh, flank: str, contact: PlanePairContact, role: Role, exact: LoadedFlank) -> Floats:
     """Pressures (n,) in MPa on the edges of a flank: the forces of the cells of contact on each, over its chord."""
     cells = contact.pair.cells
     lengths = cells.lengths.pick(role)
@@ -57,7 +58,7 @@ def _laid(mesh: ElementMesh, flank: str, contact: PlanePairContact, role: Role, 
     passed = np.r_[0.0, np.cumsum(contact.pressures)] * cells.width
     order = np.argsort(ends)
     points = mesh.points[mesh.face_cells(flank)[:, :2], :2]
-    at = np.sqrt(np.maximum((points**2).sum(-1) - base_radius**2, 0.0))
+    at = exact.roll_lengths(np.hypot(points[..., 0], points[..., 1]))
     force = np.abs(np.diff(np.interp(at, ends[order], passed[order]), axis=1)[:, 0])
     result: Floats = force / np.hypot(*(points[:, 1] - points[:, 0]).T)
     return result

@@ -94,10 +94,10 @@ class SolidDecks(PairDecks):
     @property
     def _reach(self) -> int:
         """Teeth beside tooth 0 that both bodies have."""
-        return min((self.task.body.teeth_held(gear) or gear.teeth) for gear in self.pair.gears) // 2
+        return min((self.task.body.teeth_held(gear) or gear.tooth_count) for gear in self.pair.gears) // 2
 
     def zones(self, roll_angle: float, role: Role) -> Mapping[int, ContactZone]:
-        contacts, diameter = self._contacts(roll_angle), self.pair.gears.pick(role).base_diameter
+        contacts, diameter = self._contacts(roll_angle), abs(self.pair.gears.pick(role).base_diameter)
         squares = [contact.line.places.pick(role)[0][contact.forces > 0] ** 2 for contact in contacts]
         half = max(float(contact.half_widths.max()) for contact in contacts)
         reaches = [float(np.ptp(each)) / diameter / 2 + _REACH * half for each in squares]
@@ -142,7 +142,8 @@ class SolidDecks(PairDecks):
     def root_tension(self, mesh: ElementMesh, moved: Floats, role: Role, tooth: int, turn: float) -> float:
         """Of the fillet's surface, by strains, as our own check has it."""
         gear = self.pair.gears.pick(role)
-        fillet = Fillet(mesh, self.side(role, tooth, "fillet"), turn + 2 * math.pi * tooth / gear.teeth, twist(gear))
+        upward, around = -1 if gear.internal else 1, turn + 2 * math.pi * tooth / gear.tooth_count
+        fillet = Fillet(mesh, self.side(role, tooth, "fillet"), around, twist(gear), upward)
         return root_tension(fillet, moved, self.task.materials.pick(role))
 
 

@@ -19,13 +19,15 @@ __all__ = ["Fillet", "root_tension"]
 @dataclass(frozen=True)
 class Fillet:
     """A fillet over the whole face of a posed body of hexahedra. The middle of its tooth is at the angle `turn` (rad) about the
-    gear's axis where the gear begins, and turns by `rate` (rad/mm).
+    gear's axis where the gear begins, and turns by `rate` (rad/mm). `upward` is 1, or -1 for a ring's tooth, which points
+    inwards.
     """
 
     mesh: ElementMesh
     name: str
     turn: float
     rate: float
+    upward: int = 1
 
 
 def root_tension(fillet: Fillet, moved: Floats, material: Material) -> float:
@@ -46,7 +48,7 @@ def root_tension(fillet: Fillet, moved: Floats, material: Material) -> float:
 def _tangent_angles(fillet: Fillet, along: Floats, z: Floats) -> Floats:
     """Angles (n,) in degrees between the profile's tangents (n, 3) at heights (n,) of the gear and the middle of the tooth."""
     own = (along[:, 0] + 1j * along[:, 1]) * np.exp(-1j * (fillet.turn + fillet.rate * z))
-    result: Floats = np.degrees(np.arctan2(own.imag, np.abs(own.real)))
+    result: Floats = np.degrees(np.arctan2(fillet.upward * own.imag, np.abs(own.real)))
     return result
 
 

@@ -17,13 +17,14 @@ from gearcad.decks.tooth import ToothDeck
 from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.bodies.interpolation import shape_values
 from gearcad.meshing.bodies.mesh import joined
+from gearcad.meshing.bodies.names import rises
 from gearcad.per_gear import Role
 
 __all__ = ["SolidToothDeck", "solid_tooth_deck"]
 
 
 _MIRRORED = np.array([1.0, -1.0, 1.0])
-"""Turns vectors into those in the mirror in which our solution has right flanks."""
+"""Mirrors vectors: our solution has every loaded flank on the side y > 0 of its tooth."""
 
 
 @dataclass(frozen=True)
@@ -48,10 +49,10 @@ def solid_tooth_deck(decks: SolidDecks, roll_angle: float, role: Role) -> SolidT
     for contact in position.contacts:
         tooth, places = decks.tooth(role, contact.tooth), contact.line.places.pick(role)
         pressing = contact.forces[:, None] * exact.inward(places)
-        if not decks.left:
+        if not rises(gear, decks.flank_side):
             pressing = pressing * _MIRRORED
-        turned = _turned(pressing, 2 * math.pi * tooth / gear.teeth)
-        _lay(forces, mesh, decks.side(role, tooth, "flank"), gear.base_diameter / 2, places, turned)
+        turned = _turned(pressing, 2 * math.pi * tooth / gear.tooth_count)
+        _lay(forces, mesh, decks.side(role, tooth, "flank"), exact.base_radius, places, turned)
     nodes = np.flatnonzero(forces.any(axis=1))
     return SolidToothDeck(decks, role, mesh, position, nodes, forces[nodes])
 

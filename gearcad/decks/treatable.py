@@ -34,7 +34,8 @@ def _require_rigid_hubs(task: CheckTask) -> None:
     body = task.body
     for role, support in body.supports(task.pair).items():
         if support.hold is not Hold.RIGID:
-            permitted = f'must be "{Hold.RIGID.value}" for a deck, which holds the bore all round'
+            held = "rim" if task.pair.gears.pick(role).internal else "bore"
+            permitted = f'must be "{Hold.RIGID.value}" for a deck, which holds the {held} all round'
             raise ParameterError(f"check.{role.value}_support", support.hold.value, permitted)
         if body.teeth_held(task.pair.gears.pick(role)) is not None and body.cuts is not Cuts.FIXED:
             raise ParameterError("check.cuts", body.cuts.value, f'must be "{Cuts.FIXED.value}" for a deck')

@@ -11,9 +11,10 @@ _PAIR = """\
 A pair of gears in mesh at the roll angle {roll_angle:.6g} deg, the pinion pressed against the wheel by {torque:.6g} N m.
 CalculiX runs this deck as it is:  ccx NAME  for NAME.inp
 
-The pinion turns about the z axis; the wheel's axis is at x = {distance:.10g} mm. Hubs hold all of the bores, and the cuts of
-bodies that are no rings: the wheel's stands, the pinion's turns with the node "reference", whose first degree of freedom
-is the angle in rad. The flanks of pairs of teeth that may touch are surfaces; pressure is a stiffness times overlap.
+The pinion turns about the z axis; the wheel's axis is at x = {distance:.10g} mm. All of each bore, or of an internal gear's
+rim, is held, and the cuts of bodies of fewer teeth: the wheel's stand, the pinion's turn with the node "reference", whose
+first degree of freedom is the angle in rad. The flanks of pairs of teeth that may touch are surfaces; pressure is a stiffness
+times overlap.
 
 The pinion stands turned by {approach_in_mesh:.6g} um along the line of action already, so that there is contact in the first
 iteration. The transmission error is that and the angle times the base radius, {base_radius:.10g} mm.
@@ -25,7 +26,7 @@ _TOOTH = """\
 The {gear} under the loads that gearcad's own check has found on its flanks at the roll angle {roll_angle:.6g} deg,
 with {torque:.6g} N m on the pinion. CalculiX runs this deck as it is:  ccx NAME  for NAME.inp
 
-Tooth 0 is on the x axis; the hub holds all of the bore, and the cuts of a body that is no ring. {laid}
+Tooth 0 is on the x axis; all of the bore, or of an internal gear's rim, is held, and the cuts of a body of fewer teeth. {laid}
 
 Greatest tension along the fillets by gearcad's own check: {root_stress:.6g} MPa."""
 

@@ -11,6 +11,7 @@ from gearcad.designs.lines import explain_syntax, find_lines, nearest_line
 from gearcad.designs.named_files import find_named_files
 from gearcad.designs.suffixes import is_table_name
 from gearcad.errors import ParameterError, SpecError, format_number, printable, shown
+from gearcad.output import file_bytes
 
 __all__ = ["Where", "read_tables", "require_sane_tables", "spec_text", "tables_of_text"]
 
@@ -41,7 +42,9 @@ def spec_text(path: Path | str) -> str:
     """The text of a spec. Raises SpecError."""
     path, file = Path(path), printable(str(path))
     try:
-        return path.read_bytes().decode("utf-8-sig")
+        return file_bytes(path).decode("utf-8-sig")
+    except UnicodeEncodeError as error:
+        raise SpecError(f"{shown(file)}: is no name that a file can have; give a spec file") from error
     except OSError as error:
         raise SpecError(
             f"{file}: cannot be read ({error.strerror}); give a spec file, or make one with `gearcad new`"

@@ -39,6 +39,9 @@ OF_SHIFT = (
 
 _DERIVED = ("normal_module", "tip_diameter", "root_diameter", "centre_distance", "mounting_distance")
 _ROLES = tuple(role.value for role in Role)
+_DIGITS_TOLD = 9
+"""Decimals of a derived shift in words: beyond them it is rounding noise."""
+
 _SWITCH = {"true": True, "false": False}
 """What cells of a table have for what is true or false."""
 
@@ -147,7 +150,7 @@ class Spec:
         shift = self.values.get(f"{owner}.profile_shift")
         if field == "profile_shift" or field not in OF_SHIFT or shift is None or not shift.note:
             return ""
-        return f"; its profile_shift is {shift.value:.6g} ({shift.note})"
+        return f"; its profile_shift is {round(shift.value, _DIGITS_TOLD) + 0.0:.6g} ({shift.note})"
 
     def _unwritten(self, owner: str, field: str) -> Given:
         """Where a value that nobody wrote comes from."""

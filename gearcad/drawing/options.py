@@ -179,7 +179,7 @@ class DrawingOptions:
     scale: Annotated[str, _SCALE] = "auto"
     projection: Annotated[Projection, Words("projection", "", "ISO 5456-2")] = Projection.FIRST
     template: Annotated[str | None, Words("file that changes title block, frame and words")] = None
-    general_tolerance: Annotated[str, Words("general tolerances", "", "ISO 2768-1")] = "ISO 2768-mK"
+    general_tolerance: Annotated[str, Words("general tolerances", "", "ISO 2768-1, ISO 22081")] = "ISO 2768-1-m, ISO 22081"
     material: Annotated[str | None, _MATERIAL] = None
     heat_treatment: Annotated[str, _HEAT] = ""
     case_depth: Annotated[str, _CASE] = ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.words import Words
-from gearcad.material import Material, MaterialGroup
+from gearcad.material import Material, MaterialGroup, grade_of
 
 __all__ = ["material_text", "treatment_text"]
 
@@ -28,13 +28,15 @@ def material_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> st
     if options.material is not None:
         return options.material
     name = "" if drawn.material is None else drawn.material.name
-    return words["data.steel"] if name == _STEEL else name
+    return words["data.steel"] if name == _STEEL or grade_of(name) is not None else name
 
 
 def treatment_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> str:
     """As it was given, else what the group of the material is, and its hardness; with the depth of the case. "" if unknown."""
     text = options.heat_treatment or ("" if drawn.material is None else _of_group(drawn.material, words))
-    depth = f"CHD {options.case_depth}" if options.case_depth else ""
+    depth = options.case_depth or ""
+    if depth and not depth.upper().startswith("CHD"):
+        depth = f"CHD {depth}"
     return ", ".join(filter(None, (text, depth)))
 
 

@@ -238,7 +238,7 @@ def chart_speeds(
 
 def _course(train: Train, over: OverSpeed, asked: float) -> tuple[Course, tuple[Notice, ...]]:
     """At the frequency of the train's speed, or where the first mesh's K_v is greatest; and what to know about it."""
-    frequency = asked or float(over.up.frequencies[over.up.factors[:, 0].argmax()])
+    frequency = asked or float(over.up.frequencies[np.nanargmax(over.up.factors[:, 0])])
     response, notices = over.response(frequency), tuple[Notice, ...]()
     within = over.up.frequencies[0] <= frequency <= over.up.frequencies[-1]
     if not within and over.excitation.parting and _pull(response):

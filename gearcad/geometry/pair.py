@@ -8,9 +8,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad import symbols
+from gearcad.arrays import Floats
 from gearcad.geometry.derived import derive, is_given
 from gearcad.geometry.helix import twist
 from gearcad.geometry.interference import FilletCut, fillet_cut
@@ -25,7 +27,7 @@ from gearcad.geometry.mating import (
     check_tolerance,
 )
 from gearcad.geometry.pair_data import PairData
-from gearcad.geometry.path import BaseTangent, ContactLineLengths, ContactZone, PathOfContact
+from gearcad.geometry.path import BaseTangent, ContactLineLengths, ContactZone, PathOfContact, SpecificSliding, sliding_along
 from gearcad.geometry.picture import pair_html
 from gearcad.geometry.pose import Pose, wheel_pose
 from gearcad.notice import Notice, texts
@@ -90,6 +92,20 @@ class GearPair(PairData):
     def usable_path(self) -> tuple[float, float]:
         """First and last contact (mm from T1) when the root form circles limit the path as well."""
         return self.base_tangent.usable(self.path_of_contact, self.gears.map(lambda gear: gear.form_diameter))
+
+    def rolling_speeds(self, distances: ArrayLike) -> PerGear[Floats]:
+        """Velocities (n,) of both flanks along their common tangent (mm per radian of the pinion) at distances (mm) from T1."""
+        along = np.atleast_1d(np.asarray(distances, float))
+        return PerGear(along, (self.base_tangent.length - along) * self.pinion.teeth / self.wheel.teeth)
+
+    def specific_sliding_at(self, distances: ArrayLike) -> PerGear[Floats]:
+        """Specific sliding zeta (n,) of pinion and wheel at distances (mm) from T1 along the path of contact (ISO 21771)."""
+        return sliding_along(self.rolling_speeds(distances))
+
+    @property
+    def specific_sliding(self) -> SpecificSliding:
+        """Specific sliding of both flanks at the first and the last contact, and the greatest."""
+        return SpecificSliding.between(self.rolling_speeds(self.usable_path))
 
     @property
     def transverse_contact_ratio(self) -> float:
@@ -235,6 +251,7 @@ class GearPair(PairData):
             "common_width": self.common_width._asdict(),
             **{name: list(value) if isinstance(value, PerGear) else value for name, value in derived.items()},
             "path_of_contact": self.path_of_contact._asdict(),
+            "specific_sliding": self.specific_sliding._asdict(),
             "contact_line_lengths": self.contact_line_lengths._asdict(),
             **self._tolerated(),
             **({"interference_margins": margins._asdict()} if (margins := self.interference_margins) else {}),

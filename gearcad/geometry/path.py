@@ -18,7 +18,15 @@ from gearcad.arrays import Floats
 from gearcad.geometry.involute import tangent_length
 from gearcad.per_gear import PerGear
 
-__all__ = ["BaseTangent", "ContactLineLengths", "ContactZone", "PathOfContact", "farthest_centre_distance"]
+__all__ = [
+    "BaseTangent",
+    "ContactLineLengths",
+    "ContactZone",
+    "PathOfContact",
+    "SpecificSliding",
+    "farthest_centre_distance",
+    "sliding_along",
+]
 
 
 class PathOfContact(NamedTuple):
@@ -29,6 +37,38 @@ class PathOfContact(NamedTuple):
     C: float
     D: float
     E: float
+
+
+class SpecificSliding(NamedTuple):
+    """Specific sliding of both flanks at the first contact A and the last contact E of the usable path, and the greatest.
+
+    ISO 21771: zeta = 1 - v_mate/v_own, with the velocities of both flanks along their common tangent. None where a flank rolls
+    to a standstill at its base circle, so that zeta is not limited. `greatest` is the largest of the four in magnitude.
+    """
+
+    pinion_A: float | None
+    wheel_A: float | None
+    pinion_E: float | None
+    wheel_E: float | None
+    greatest: float | None
+
+    @classmethod
+    def between(cls, own: PerGear[Floats]) -> SpecificSliding:
+        """That of velocities (2,) along the tangent in A and E, in any unit."""
+        sliding = sliding_along(own)
+        ends = [float(values[end]) if math.isfinite(values[end]) else None for end in (0, 1) for values in sliding]
+        finite = [abs(value) for value in ends if value is not None]
+        pinion_a, wheel_a, pinion_e, wheel_e = ends
+        return cls(pinion_a, wheel_a, pinion_e, wheel_e, max(finite) if len(finite) == len(ends) else None)
+
+
+def sliding_along(own: PerGear[Floats]) -> PerGear[Floats]:
+    """Specific sliding zeta (n,) of pinion and wheel by the velocities (n,) of their flanks along the common tangent.
+
+    Infinite where a flank stands still.
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return PerGear(1 - own.wheel / own.pinion, 1 - own.pinion / own.wheel)
 
 
 class ContactLineLengths(NamedTuple):

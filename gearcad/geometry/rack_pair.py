@@ -8,20 +8,23 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad import symbols
+from gearcad.arrays import Floats
 from gearcad.geometry.derived import derive
 from gearcad.geometry.helix import twist
 from gearcad.geometry.involute import tangent_length
 from gearcad.geometry.pair import ROUNDING
-from gearcad.geometry.path import ContactLineLengths, ContactZone, PathOfContact
+from gearcad.geometry.path import ContactLineLengths, ContactZone, PathOfContact, SpecificSliding, sliding_along
 from gearcad.geometry.pose import RackPose
 from gearcad.geometry.rack_interference import RackPlace, cut_by_pinion, cut_by_rack
 from gearcad.geometry.rack_mating import check_rack_inputs, check_rack_mates, check_rack_mesh
 from gearcad.geometry.rack_pair_data import RackPairData
 from gearcad.geometry.rack_picture import rack_pair_html
 from gearcad.notice import Notice, texts
+from gearcad.per_gear import PerGear
 from gearcad.reprs import concise
 from gearcad.schema import symbols_of
 
@@ -88,6 +91,20 @@ class RackPair(RackPairData):
         path = self.path_of_contact
         first = max(path.A, tangent_length(self.pinion.form_diameter, self.pinion.base_diameter))
         return first, min(path.E, self._along(-self.rack.form_depth))
+
+    def rolling_speeds(self, distances: ArrayLike) -> PerGear[Floats]:
+        """Velocities (n,) of both flanks along their common tangent (mm per radian of the pinion) at distances (mm) from T1."""
+        along = np.atleast_1d(np.asarray(distances, float))
+        return PerGear(along, np.full_like(along, self.path_of_contact.C))
+
+    def specific_sliding_at(self, distances: ArrayLike) -> PerGear[Floats]:
+        """Specific sliding zeta (n,) of pinion and rack at distances (mm) from T1 along the path of contact (ISO 21771)."""
+        return sliding_along(self.rolling_speeds(distances))
+
+    @property
+    def specific_sliding(self) -> SpecificSliding:
+        """Specific sliding of both flanks at the first and the last contact, and the greatest; `wheel` is the rack."""
+        return SpecificSliding.between(self.rolling_speeds(self.usable_path))
 
     @property
     def transverse_contact_ratio(self) -> float:
@@ -200,6 +217,7 @@ class RackPair(RackPairData):
             "common_width": {"width": self.common_width},
             "tip_clearances": self.tip_clearances._asdict(),
             "path_of_contact": self.path_of_contact._asdict(),
+            "specific_sliding": self.specific_sliding._asdict(),
             "contact_line_lengths": self.contact_line_lengths._asdict(),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],

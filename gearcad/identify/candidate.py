@@ -145,8 +145,8 @@ def _gear(measured: Measured, fit: Fit) -> Gear | None:
     pitch = size.pitch
     if fit.hypothesis.transverse:
         module, pitch = float(f"{size.module * math.cos(math.radians(helix)):.8g}"), None
-    thinning = round(math.exp(float(values[Unknown.THINNING])), _DIGITS)
     try:
+        thinning = round(math.exp(float(values[Unknown.THINNING])), _DIGITS)
         full = BasicRack(pressure_angle=angle, dedendum=dedendum).full_root_radius(thinning=thinning / module)
         radius = min(rack.root_radius, math.floor(full / _RADIUS_STEP) * _RADIUS_STEP)
         return Gear(
@@ -163,7 +163,7 @@ def _gear(measured: Measured, fit: Fit) -> Gear | None:
                 pressure_angle=angle, addendum=rack.addendum, dedendum=dedendum, root_radius=round(max(radius, 0.0), 2)
             ),
         )
-    except InputError:
+    except (InputError, OverflowError):  # a fit far from the readings may have a thinning beyond any float
         return None
 
 

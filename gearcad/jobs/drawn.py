@@ -11,6 +11,7 @@ from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.material import Material
 from gearcad.planetary.materials import material_of
 from gearcad.rating.options import RatingOptions
+from gearcad.schema import is_assumed
 
 __all__ = ["drawn_assembly", "drawn_gears"]
 
@@ -87,7 +88,7 @@ def _drawn(
     """With the accuracy that its rating goes by, its own before that of all."""
     rating: RatingOptions | None = getattr(design, "rating", None)
     grade = gear.accuracy_grade if isinstance(gear, Gear) else None
-    if grade is None and rating is not None:
+    if grade is None and rating is not None and not is_assumed(rating.accuracy_grade):
         grade = rating.accuracy_grade
     accuracy = (rating or RatingOptions()).accuracy
     return DrawnGear(role=role, gear=gear, material=material, accuracy=accuracy, grade=grade, mates=mates)

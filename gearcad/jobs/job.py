@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
 from gearcad.designs.design import Design, DesignKind
+from gearcad.errors import ParameterError
 from gearcad.notice import Notice
 from gearcad.output import json_text, staged_files
 from gearcad.progress import Agenda, Expected, Progress
@@ -50,6 +51,7 @@ class Job(ABC, Generic[Accepted, Result]):
 
     def run(self, design: Design, progress: Progress | None = None) -> Result:
         """The result for a design. Raises ParameterError for a kind that it does not take, and what its solvers raise."""
+        _require_progress(progress)
         with one_thread() if self.solves else nullcontext():
             return self._run(self._accepted(design), progress)
 
@@ -86,15 +88,13 @@ class Job(ABC, Generic[Accepted, Result]):
 
     def write(self, result: Result, folder: Path | str, progress: Progress | None = None) -> list[Path]:
         """Write all files of a result into `folder`, or none, and return their paths. Raises OutputError."""
+        _require_progress(progress)
         folder, files = Path(folder), self.files(result)
         agenda = Agenda(progress, dict.fromkeys(files, 1.0))
-        with staged_files(folder) as staging:
+        with staged_files(folder, sometimes=self.sometimes) as staging:
             for name, write in files.items():
                 agenda(name)
                 write(staging / name)
-        for name in self.sometimes:
-            if name not in files:
-                (folder / name).unlink(missing_ok=True)
         return [folder / name for name in files]
 
     # ------------------------------------------------------------------ rows of a table
@@ -120,6 +120,11 @@ class Job(ABC, Generic[Accepted, Result]):
     def _accepted(self, design: Design) -> Accepted:
         design.require_kind(*self.accepts, why=self.why)
         return cast("Accepted", design)
+
+
+def _require_progress(progress: object) -> None:
+    if progress is not None and not callable(progress):
+        raise ParameterError("progress", progress, "must be a function of three arguments: step, done and whole")
 
 
 def _plain(value: Any) -> Any:

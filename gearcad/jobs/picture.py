@@ -76,6 +76,8 @@ class Picture(Job[ToothedDesign, Pictured]):
 
     def __post_init__(self) -> None:
         if self.size is not None:
+            if not isinstance(self.size, tuple | list) or len(self.size) != 2:
+                raise ParameterError("size", self.size, "must be width and height in pixels, such as (800, 600)")
             for name, value in zip(("width", "height"), self.size, strict=True):
                 require_whole(f"size.{name}", value, at_least=_LEAST, at_most=_MOST)
             self._require_memory(1)

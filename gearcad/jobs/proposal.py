@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gearcad.check.notices import relief_start
 from gearcad.check.solid.summary import worst_place
 from gearcad.contact.optimum.search import Found
 from gearcad.contact.optimum.variants import Condition
@@ -127,6 +128,7 @@ class Proposal(Pictured):
         if after.transmission_error_peak_to_peak > self.before.transmission_error_peak_to_peak:
             text = "the transmission error is not less than it was: the flanks as they are break the bounds"
             found.append(Notice("transmission-error-not-less", text))
+        found.extend(relief_start(self.pair))
         return tuple(found)
 
     @property

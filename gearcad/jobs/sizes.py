@@ -19,15 +19,13 @@ _TABLE, _BEST, _FRONT, _PICTURE, _DOCUMENT = _EVERY = ["pairs.csv", "best.toml",
 def write_sizing(result: Sizing, folder: Path) -> list[Path]:
     """Write them, complete or not at all; where nothing was found the document alone. Raises OutputError."""
     names = _EVERY if result.found else [_DOCUMENT]
-    with staged_files(folder) as staging:
+    with staged_files(folder, sometimes=_EVERY) as staging:
         if (best := result.best) is not None:
             write_pairs(result, staging / _TABLE)
             write_pair(best, list(_comments(best)), staging / _BEST)
             write_front(result, staging / _FRONT)
             save_front(result, staging / _PICTURE)
         (staging / _DOCUMENT).write_text(json_text(result.to_dict()), encoding="utf-8")
-    for former in set(_EVERY).difference(names):
-        (folder / former).unlink(missing_ok=True)  # of another search
     return [folder / name for name in names]
 
 

@@ -116,7 +116,7 @@ class MeshOptions:
         """Numbers of the teeth that have finer tetrahedra. Raises ParameterError."""
         try:
             return tuple(int(number) for number in self.refined_teeth.replace(",", " ").split())
-        except (AttributeError, ValueError):
+        except (AttributeError, TypeError, ValueError):
             permitted = 'must be whole numbers with commas between them, such as "0, 1"'
             raise ParameterError("refined_teeth", self.refined_teeth, permitted) from None
 

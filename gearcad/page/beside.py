@@ -74,4 +74,5 @@ def _verdicts(words: Words) -> dict[str, str]:
         Verdict.PASSED.value: words["passed"],
         Verdict.FAILED.value: words["not passed"],
         Verdict.NOT_JUDGED.value: words["not judged"],
+        Verdict.NOT_ASKED.value: words["not asked for"],
     }

@@ -13,6 +13,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from gearcad.output import has_mark, mark_folder
+
 __all__ = ["ending"]
 
 _PATIENCE = 2.0
@@ -38,6 +40,7 @@ def ending() -> Iterator[None]:
     _bury_the_dead(Path(tempfile.gettempdir()))
     folder = tempfile.mkdtemp(prefix=_PREFIX)
     _hold(folder)
+    mark_folder(Path(folder))
     former, tempfile.tempdir = tempfile.tempdir, folder
     os.environ["TMPDIR"] = folder
     signal.signal(signal.SIGTERM, _stop)
@@ -88,8 +91,8 @@ def _hold(folder: str) -> int | None:
 
 
 def _bury_the_dead(temporary: Path) -> None:
-    """Remove the folders of servers that were killed."""
-    for folder in temporary.glob(f"{_PREFIX}*"):
+    """Remove the folders of servers that were killed, those with our mark only."""
+    for folder in filter(has_mark, temporary.glob(f"{_PREFIX}*")):
         with suppress(OSError):
             if time.time() - folder.lstat().st_mtime > _YOUNG and (held := _hold(str(folder))) is not None:
                 shutil.rmtree(folder, ignore_errors=True)

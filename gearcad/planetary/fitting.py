@@ -5,8 +5,10 @@ A set meshes central a with rim 2 and central b with rim 2' of the same planet; 
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Sequence
+from itertools import product
 from typing import NamedTuple
 
 __all__ = ["Fit", "SetTeeth", "fit_planets", "meshing_angle", "permitted_steps"]
@@ -77,5 +79,17 @@ def fit_planets(teeth: SetTeeth, angles: Sequence[float], *, central_b: float = 
 
 
 def permitted_steps(positions: int, planets: int) -> tuple[int, ...]:
-    """Which of the positions are nearest to equal angles."""
-    return tuple(round(positions * number / planets) for number in range(planets))
+    """Return which of the positions, numbers below `positions`, are nearest to equal angles, one for each planet.
+
+    Where two positions are equally near, the planets balance each other as well as they can: the choice has the least
+    |sum exp(i psi)|, and of equal ones the greater numbers.
+    """
+    nearest = []
+    for number in range(planets):
+        whole, rest = divmod(2 * positions * number, 2 * planets)
+        nearest.append((whole + 1, whole) if rest == planets else (whole + (rest > planets),))
+
+    def unbalance(steps: tuple[int, ...]) -> float:
+        return round(abs(sum(cmath.exp(1j * TURN * step / positions) for step in steps)), 9)
+
+    return min(product(*nearest), key=unbalance)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from gearcad.ranges import APPLICATION_FACTOR, SPEED, TORQUE, Range
 from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
+from gearcad.schema import AssumedNumber, Words, require_fields
 
 __all__ = ["TrainLoad"]
 
@@ -27,8 +27,10 @@ class TrainLoad:
 
     torque: Annotated[float, TORQUE, Words("torque on the output", "T")]
     speed: Annotated[float, SPEED, Words("speed of the input", "n")] = 0.0
-    mesh_efficiency: Annotated[float, _EFFICIENCY, Words("efficiency of a mesh", "η")] = 1.0
-    application_factor: Annotated[float, APPLICATION_FACTOR, Words("application factor", "K_A", "ISO 6336-1")] = 1.0
+    mesh_efficiency: Annotated[float, _EFFICIENCY, Words("efficiency of a mesh", "η")] = AssumedNumber(1.0)
+    application_factor: Annotated[float, APPLICATION_FACTOR, Words("application factor", "K_A", "ISO 6336-1")] = AssumedNumber(
+        1.0
+    )
     mesh_load_factor: Annotated[float | None, _SHARING, Words("mesh load factor of the planets", "K_γ", "ISO 6336-1")] = None
 
     __repr__ = concise

@@ -13,6 +13,7 @@ from gearcad.planetary.load import TrainLoad
 from gearcad.planetary.shafts import Shaft, shafts_of
 from gearcad.planetary.speeds import Speeds, speeds
 from gearcad.planetary.train_data import TrainData
+from gearcad.schema import is_assumed
 
 __all__ = ["PowerFlow", "efficiency", "power_flow"]
 
@@ -75,7 +76,8 @@ class PowerFlow:
             "losses": dict(self.losses),
             "efficiency": self.efficiency,
             "efficiency_back": self.efficiency_back,
-            "self_locking": self.self_locking,
+            "mesh_efficiency_source": "assumed" if is_assumed(self.load.mesh_efficiency) else "given",
+            "self_locking": None if is_assumed(self.load.mesh_efficiency) else self.self_locking,
             "rolling_power": self.rolling_power,
             "rolling_ratio": self.rolling_ratio,
             "circulation": self.circulation,

@@ -9,6 +9,7 @@ keeps them.
     plot_shift_limits(gear)                 shifts that undercut or point, over numbers of teeth
     plot_pair(pair)                         both gears in mesh, with the path of contact
     plot_backlash(pair)                     over the centre distance
+    plot_sliding(pair)                      specific sliding along the path of contact
     plot_mesh(elements)                     a section or a body
     plot_stress_field(check)                von Mises stress of a plane check; plot_contact_zone around the contact
     plot_contact_pressure(check)            along the path of contact, of a plane check; plot_load_share
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
     from gearcad.plots.lines import plot_line_loads
     from gearcad.plots.measured import plot_residuals
     from gearcad.plots.mesh import plot_mesh
-    from gearcad.plots.pair import plot_backlash, plot_pair
+    from gearcad.plots.pair import plot_backlash, plot_pair, plot_sliding
     from gearcad.plots.planetary.scheme import plot_scheme
     from gearcad.plots.side_by_side import plot_beside
     from gearcad.plots.speeds import plot_cycle, plot_factors
@@ -78,6 +79,7 @@ __all__ = [
     "plot_scatter",
     "plot_scheme",
     "plot_shift_limits",
+    "plot_sliding",
     "plot_stiffness",
     "plot_stress_field",
     "plot_transmission_error",
@@ -103,7 +105,7 @@ if not TYPE_CHECKING:
         "lines": ["plot_line_loads"],
         "measured": ["plot_residuals"],
         "mesh": ["plot_mesh"],
-        "pair": ["plot_backlash", "plot_pair"],
+        "pair": ["plot_backlash", "plot_pair", "plot_sliding"],
         "planetary.scheme": ["plot_scheme"],
         "side_by_side": ["plot_beside"],
         "speeds": ["plot_cycle", "plot_factors"],

@@ -84,7 +84,8 @@ def _draw(axes: Axes, study: TrainStudy, names: Sequence[str], words: str, curve
         axes.plot(study.speeds, drawn[:, number], color=colour, linewidth=width, label=plain(name))
         if study.down is not None:
             axes.plot(study.speeds, curve(study.down)[:, number], "--", color=colour, linewidth=1.1)
-    if drawn.min() > 0 and drawn.max() > _WIDE * np.median(drawn):
+    drawn = drawn[np.isfinite(drawn)]
+    if drawn.size and drawn.min() > 0 and drawn.max() > _WIDE * np.median(drawn):
         axes.set_yscale("log")
     else:
         axes.set_ylim(bottom=0)

@@ -11,7 +11,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.errors import GeometryError
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.helix import twist
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared
 from gearcad.rating.rim import outer_diameter
@@ -19,7 +19,7 @@ from gearcad.rating.rim import outer_diameter
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["fill_gear", "pair_inches", "plot_backlash", "plot_pair"]
+__all__ = ["fill_gear", "pair_inches", "plot_backlash", "plot_pair", "plot_sliding"]
 
 
 _CHORD = 2e-3
@@ -94,6 +94,23 @@ def plot_backlash(pair: GearPair, ax: Axes | None = None) -> Axes:
     axes.plot([0, 0], [1000 * each for each in nominal], "o", color=DARK, label=f"at {abs(pair.centre_distance):.7g} mm")
     axes.set_ylim(bottom=0)
     legend_above(axes, 3)
+    return axes
+
+
+def plot_sliding(pair: GearPair | RackPair, ax: Axes | None = None) -> Axes:
+    """Draw the specific sliding of both flanks along the path of contact, from the first to the last contact."""
+    axes = prepared(ax, "distance from T1 in mm", "specific sliding ζ")
+    path, (first, last) = pair.path_of_contact, pair.usable_path
+    along = np.linspace(first, last, _PLACES)
+    names = ("pinion", "wheel" if isinstance(pair, GearPair) else "rack")
+    for values, name, (_, colour, _) in zip(pair.specific_sliding_at(along), names, GEARS, strict=True):
+        axes.plot(along, np.where(np.isfinite(values), values, np.nan), color=colour, label=name)
+    axes.axhline(0, color=MARKED, linewidth=0.8)
+    for name, place in path._asdict().items():
+        if first <= place <= last:
+            axes.axvline(place, color=MARKED, linewidth=0.5, linestyle=":")
+            axes.annotate(name, (place, 1), xycoords=("data", "axes fraction"), ha="center", va="bottom")
+    axes.legend()
     return axes
 
 

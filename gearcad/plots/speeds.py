@@ -95,6 +95,7 @@ def plot_shaft_overload(study: TrainStudy, ax: Axes | None = None) -> Axes:
             axes.plot(study.speeds, study.down.shaft_factors[:, shaft], color=colour, linewidth=1.4, linestyle="--")
     factors = study.up.shaft_factors[:, kept]
     axes.set_xlim(float(study.speeds[0]), float(study.speeds[-1]))
+    factors = factors[np.isfinite(factors)]
     if factors.size and factors.max() > _WIDE * factors.min() > 0:
         axes.set_yscale("log")
     finish_speeds(axes, study)
@@ -105,6 +106,7 @@ def _set_height(axes: Axes, charts: list[KvChart]) -> None:
     """From 1 or below to the greatest K_v, with room for names above; logarithmic where it is far above 1."""
     drawn = [chart.factors.ravel() for chart in charts] + [each.standard for each in charts if each.standard is not None]
     factors = np.concatenate(drawn)
+    factors = factors[np.isfinite(factors)]
     lowest, highest = min(1.0, float(factors.min())), float(max(factors.max(), 1.0))
     if highest > _WIDE and lowest > 0:
         axes.set_yscale("log")
@@ -116,7 +118,8 @@ def _set_height(axes: Axes, charts: list[KvChart]) -> None:
 def _draw_damped(axes: Axes, study: TrainStudy) -> None:
     """Thin, the same with the force of the dampers, running up, where that can be told apart."""
     up, label = study.up, "with the dampers' force"
-    if np.abs(up.damped - up.factors).max() < _APART * np.ptp(up.factors):
+    known = up.known
+    if np.abs(up.damped - up.factors)[known].max() < _APART * np.ptp(up.factors[known]):
         return
     for mesh in range(len(up.mesh_names)):
         axes.plot(study.speeds, up.damped[:, mesh], ":", color=SERIES[mesh % len(SERIES)], linewidth=0.9, label=label)
@@ -130,6 +133,8 @@ def _draw_jumps(axes: Axes, study: TrainStudy, mesh: int) -> None:
             continue
         for jump in jumps:
             after = int(np.abs(chart.frequencies - jump).argmin())
+            if not 0 <= after + before < len(study.speeds):
+                continue
             start, end = ((float(study.speeds[i]), float(chart.factors[i, mesh])) for i in (after + before, after))
             axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": DARK, "linewidth": 1.0})
 

@@ -107,7 +107,7 @@ def _draw_rays(axes: Axes, study: TrainStudy, mesh: int, name: str) -> None:
 
     errors = study.up.transmission
     starts = np.unique(np.linspace(0, len(study.speeds), min(_MOST_PIECES, len(study.speeds)) + 1).astype(int)[:-1])
-    amplitudes = np.maximum.reduceat(errors.amplitudes[:, :, mesh], starts, axis=0)
+    amplitudes = np.maximum.reduceat(np.nan_to_num(errors.amplitudes[:, :, mesh]), starts, axis=0)
     ends = np.append(study.speeds[starts], study.speeds[-1])
     greatest = float(amplitudes.max(initial=0.0)) or 1.0
     norm, floor = LogNorm(greatest / 10**_DECADES, greatest, clip=True), greatest / 10**_DECADES

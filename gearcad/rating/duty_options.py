@@ -10,7 +10,7 @@ from typing import Annotated, Any, NamedTuple
 from gearcad.errors import ParameterError, format_number, is_finite_number
 from gearcad.ranges import Range
 from gearcad.rating.both import Both, take_both
-from gearcad.schema import Words
+from gearcad.schema import AssumedNumber, Words
 
 __all__ = ["DutyOptions", "LoadBin"]
 
@@ -49,8 +49,12 @@ class DutyOptions:
     long_life_factor: Annotated[
         float, Range("", 0.85, 1.0), Words("life factor at 10^10 load cycles", "Z_NT", "ISO 6336-2, -3")
     ] = 0.85
-    required_safety_flank: Annotated[float, _SAFETY, Words("required safety of the flank", "S_Hmin", "ISO 6336-2")] = 1.0
-    required_safety_root: Annotated[float, _SAFETY, Words("required safety of the root", "S_Fmin", "ISO 6336-3")] = 1.4
+    required_safety_flank: Annotated[float, _SAFETY, Words("required safety of the flank", "S_Hmin", "ISO 6336-2")] = (
+        AssumedNumber(1.0)
+    )
+    required_safety_root: Annotated[float, _SAFETY, Words("required safety of the root", "S_Fmin", "ISO 6336-3")] = (
+        AssumedNumber(1.4)
+    )
     required_safety_scuffing: Annotated[float | None, _SAFETY, Words("required safety against scuffing", "S_Smin")] = None
 
     @property

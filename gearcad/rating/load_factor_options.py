@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from gearcad.ranges import LENGTH, OFFSET, Range
 from gearcad.rating.both import Both, take_both
-from gearcad.schema import Words
+from gearcad.schema import AssumedNumber, Words
 
 __all__ = ["AlphaDeviation", "BearingArrangement", "ContactPattern", "HelixModification", "LoadFactorOptions"]
 
@@ -82,7 +82,7 @@ class LoadFactorOptions:
     transverse_load_factor: Annotated[
         float | Literal["B"], _FACTOR, Words("transverse load factor, or its method", "K_Hα", "ISO 6336-1")
     ] = "B"
-    mesh_load_factor: Annotated[float, _FACTOR, Words("mesh load factor", "K_γ", "ISO 6336-1")] = 1.0
+    mesh_load_factor: Annotated[float, _FACTOR, Words("mesh load factor", "K_γ", "ISO 6336-1")] = AssumedNumber(1.0)
     helix_modification: Annotated[HelixModification, Words("helix modification", "B_1", "ISO 6336-1")] = HelixModification.NONE
     contact_pattern: Annotated[ContactPattern, Words("favourable contact pattern", "", "ISO 6336-1")] = ContactPattern.UNPROVEN
     bearing_arrangement: Annotated[BearingArrangement, Words("place of the pinion", "K'", "ISO 6336-1, figure 13")] = (

@@ -14,7 +14,7 @@ from gearcad.rating.load_factor_options import LoadFactorOptions
 from gearcad.rating.lubricant_options import LubricantOptions
 from gearcad.rating.tolerances import Accuracy, grades
 from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
+from gearcad.schema import AssumedCount, Words, is_assumed, require_fields
 
 __all__ = ["RatingOptions", "RootShift"]
 
@@ -33,7 +33,7 @@ class RootShift(StrEnum):
 class _Standards:
     standard: Annotated[Edition, Words("standard of the rating")] = Edition.ISO_2006
     accuracy: Annotated[Accuracy, Words("standard of the accuracy grade")] = Accuracy.ISO_1995
-    accuracy_grade: Annotated[int, Words("accuracy grade", "", "ISO 1328-1")] = 6
+    accuracy_grade: Annotated[int, Words("accuracy grade", "", "ISO 1328-1")] = AssumedCount(6)
     root_shift: Annotated[RootShift, Words("profile shift of root stresses", "x_E", "ISO 6336-3")] = RootShift.GENERATING
 
 
@@ -54,6 +54,20 @@ class RatingOptions(LubricantOptions, LoadFactorOptions, DutyOptions, _Standards
         self._check_duty()
         self._check_load_factors()
         self._check_lubricant()
+
+    @property
+    def asks_strength(self) -> bool:
+        """Return whether a required safety is given, which asks for a verdict on strength."""
+        safeties = (self.required_safety_flank, self.required_safety_root, self.required_safety_scuffing)
+        return any(each is not None and not is_assumed(each) for each in safeties)
+
+    @property
+    def given_compensation(self) -> float | None:
+        """Return what a proven contact pattern takes off the deflection (µm): a given f_ma by DIN 3990-1:1987; else None.
+
+        ISO 6336-1 takes the helix slope deviation of grade 5 (53), and so does DIN 3990-1 here where no f_ma is given.
+        """
+        return self.manufacturing_misalignment if self.standard is Edition.DIN_1987 else None
 
     def grade_of(self, gear: Gear) -> int:
         """A gear's own accuracy grade, else that of both."""

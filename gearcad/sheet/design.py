@@ -11,7 +11,7 @@ from gearcad.designs.keys import BESIDE, FIELDS, Fields
 from gearcad.errors import format_number
 from gearcad.geometry import Rack
 from gearcad.material import Material
-from gearcad.schema import symbols_of
+from gearcad.schema import is_assumed, symbols_of
 from gearcad.sheet.blocks import ABSENT, Row, Section, Sheet, block, flattened
 from gearcad.sheet.gears import gear_section, rack_section
 from gearcad.sheet.pairs import pair_section
@@ -98,6 +98,8 @@ def _title(design: Design, document: Mapping[str, Any]) -> str:
 def _given(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if is_assumed(value):
+        return f"{format_number(value)} (assumed)"
     if isinstance(value, tuple):
         if isinstance(value[0], tuple):
             from gearcad.designs.cells import nested_text

@@ -28,6 +28,8 @@ _PAIR_BLOCKS = {
     " common_width.offset contact_line_lengths.minimum contact_line_lengths.mean contact_line_lengths.maximum"
     " active_root_diameter active_root_depth",
     "Line of action, from T1": "path_of_contact.A path_of_contact.B path_of_contact.C path_of_contact.D path_of_contact.E",
+    "Specific sliding": "specific_sliding.pinion_A specific_sliding.wheel_A specific_sliding.pinion_E specific_sliding.wheel_E"
+    " specific_sliding.greatest",
     "Free of interference by (negative: it is there)": "interference_margins.involute interference_margins.pinion_fillet"
     " interference_margins.wheel_fillet interference_margins.trochoid interference_margins.radial",
 }

@@ -207,7 +207,8 @@ class ManyLoadFactors:
         if options.contact_pattern is ContactPattern.PROVEN:
             pinion, wheel = (each.helix_slope for each in self._tolerances(_FIFTH))
             fifth: Numbers = np.minimum(pinion, wheel)
-            return proven_misalignment(self._deflection, fifth, factors, least)
+            compensation = options.given_compensation
+            return proven_misalignment(self._deflection, fifth if compensation is None else compensation, factors, least)
         given = options.manufacturing_misalignment
         made = manufacturing_misalignment(*slopes) if given is None else given
         return initial_misalignment(self._deflection, made, factors, least)

@@ -18,6 +18,7 @@ from gearcad.batch import run_table
 from gearcad.errors import OutputError
 from gearcad.jobs.build import Build
 from gearcad.jobs.data import Data
+from gearcad.output import mark_folder
 from gearcad.solids import Format
 
 pytestmark = pytest.mark.usefixtures("kept_workers")
@@ -103,6 +104,19 @@ def test_link_in_place_of_the_workspace_is_refused_and_its_target_stays(link: st
     reason = f"cannot be written ({link} is a link; remove it); give a folder you may write to"
     assert str(caught.value) == f"output = '{tmp_path / 'out'}': {reason}"
     assert snapshot(precious) == before and place.is_symlink()
+
+
+def test_workspace_that_is_not_ours_is_refused_and_stays(table: Path, tmp_path: Path) -> None:
+    """A user's folder of that name was cleared once; one that a killed run has left bears our mark, and is cleared."""
+    workspace = tmp_path / "out" / ".gearcad-batch"
+    (workspace / "mine").mkdir(parents=True)
+    (workspace / "mine" / "file").write_text("mine")
+    with pytest.raises(OutputError, match=r"\.gearcad-batch there has no mark of gearcad, so it is not cleared; move it away"):
+        run_table(table, tmp_path / "out", DATA, jobs=1)
+    assert (workspace / "mine" / "file").read_text() == "mine"
+    mark_folder(workspace)
+    assert run_table(table, tmp_path / "out", DATA, jobs=1).ok == 3
+    assert not workspace.exists()
 
 
 def test_results_that_cannot_be_replaced_are_status_1(table: Path, tmp_path: Path) -> None:

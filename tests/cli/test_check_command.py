@@ -12,6 +12,7 @@ from click.testing import CliRunner, Result
 
 from gearcad.cli import main
 from gearcad.jobs.check import Check
+from gearcad.verdict import NOT_ASKED_WORDS
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
@@ -67,12 +68,12 @@ def spec(text: str) -> str:
 def test_check_prints_the_verdict_and_writes_both_files(here: Path) -> None:
     result = run("check", spec(SPUR))
     assert result.exit_code == 0, result.output
-    assert "pair at 50 N·m: numerics passed; strength not judged: no limit given\n" in result.stdout
+    assert f"pair at 50 N·m: numerics passed; strength {NOT_ASKED_WORDS}\n" in result.stdout
     assert result.stdout.splitlines()[-2:] == ["output/pair/check.json", "output/pair/report.html"]
     assert sorted(path.name for path in (here / "output/pair").iterdir()) == ["check.json", "report.html"]
     document = json.loads((here / "output/pair/check.json").read_text(encoding="utf-8"))
     assert document["kind"] == "check"
-    assert (document["passed"], document["numerics"], document["strength"]) == (True, "passed", "not judged")
+    assert (document["passed"], document["numerics"], document["strength"]) == (True, "passed", "not asked for")
     assert [point["torque"] for point in document["torque_sweep"]] == [25.0, 50.0]
     assert len(document["mesh_cycle"]["roll_angle"]) == document["positions"] == 12
     for mesh in document["mesh"].values():

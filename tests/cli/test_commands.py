@@ -410,3 +410,49 @@ def test_control_characters_never_reach_the_terminal(tmp_path: Path) -> None:
     ):
         result = run(*arguments, status=2)
         assert result.stderr.startswith("Error: ") and result.stderr.rstrip("\n").isprintable()
+
+
+@pytest.mark.parametrize("closed", ["stdout", "stderr", "stdin"])
+def test_closed_standard_streams_are_no_fault(closed: str, tmp_path: Path) -> None:
+    """As `>&-` does: nothing is shown there, and files do not get what was meant for the screen."""
+    (tmp_path / "it.toml").write_text("[gear]\nteeth = 20\nnormal_module = 2\nface_width = 5\n")
+    number = ("stdin", "stdout", "stderr").index(closed)
+    closes = f"import os, sys; os.close({number}); os.execv(sys.executable, sys.argv[1:])"
+    done = subprocess.run(
+        [sys.executable, "-c", closes, sys.executable, *"-m gearcad build it.toml -o out --format csv".split()],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+    )
+    assert (done.returncode, "unexpected" in done.stderr) == (0, False), done.stderr
+    assert sorted(each.name for each in (tmp_path / "out").iterdir()) == ["data.json", "gear.csv"]
+
+
+def test_missing_package_is_named_with_what_installs_it(tmp_path: Path) -> None:
+    """In a process of its own: here other tests may have imported it."""
+    without = "import sys; sys.modules['ezdxf'] = None; from gearcad.cli import main; main()"
+    (tmp_path / "it.toml").write_text("[gear]\nteeth = 20\nnormal_module = 2\nface_width = 5\n")
+    command = [sys.executable, "-c", without, "build", "it.toml", "-o", "out", "--format", "dxf"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and "Error: the package ezdxf is not installed" in done.stderr, done.stderr
+    assert "pip install ezdxf" in done.stderr and not (tmp_path / "out").exists()
+
+
+def test_identify_survives_fits_that_are_far_off(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One of the fits had a thinning beyond any float."""
+    monkeypatch.chdir(tmp_path)
+    readings = "--teeth 24 --over-pins 4.5:0.004 --tip-diameter 66.58 --span 3:19.77 --span 4:27.16 --centre-distance 89.5"
+    done = CliRunner().invoke(main, ["identify", *readings.split(), *"--mate-teeth 47 --mate-tip-diameter 122.5".split()])
+    assert "unexpected" not in done.output
+    done = CliRunner().invoke(
+        main, ["identify", *readings.split(), *"--mate-teeth 47 --mate-tip-diameter 122.5 --helix-angle 0".split()]
+    )
+    assert "unexpected" not in done.output and done.exit_code in (0, 2), done.output
+
+
+def test_time_where_a_text_is_expected_is_a_wrong_value(tmp_path: Path) -> None:
+    spec = "[gear]\nteeth = 20\nnormal_module = 2\nface_width = 5\n[mesh]\nrefined_teeth = 12:00:00\n"
+    (tmp_path / "it.toml").write_text(spec)
+    done = CliRunner().invoke(main, ["mesh", str(tmp_path / "it.toml")])
+    assert done.exit_code == 2 and "refined_teeth" in done.stderr and "unexpected" not in done.stderr

@@ -91,6 +91,7 @@ def test_runs_and_spectra_are_in_all_files(text: str, folder: str, here: Path, m
         assert arrays["campbell_pinion_speed"].shape == (len(speeds), len(frequencies))
         np.testing.assert_allclose(arrays["campbell_pinion_speed"][:, 0], speeds * np.pi / 30, rtol=1e-3)
     assert campbell["speeds"] == speeds.tolist()
+    np.testing.assert_allclose(speeds, speeds[-1] * np.arange(1, len(speeds) + 1) / len(speeds))  # even, none at standstill
     with (output / "dynamics-transient.csv").open(encoding="utf-8") as file:
         rows = list(csv.reader(file))
     assert rows[0][:3] == ["time (s)", "speed (rpm)", "overload.mesh"]

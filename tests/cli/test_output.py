@@ -2,6 +2,7 @@
 
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -9,11 +10,11 @@ import time
 from pathlib import Path
 
 import pytest
-from support.processes import hear_interrupts, wait_until
+from support.processes import PATIENCE, hear_interrupts, wait_until
 
-from gearcad import ParameterError
+from gearcad import ParameterError, output
 from gearcad.designs.starters import starter_text
-from gearcad.output import json_text, staged_files
+from gearcad.output import MARK, json_text, locked, mark_folder, staged_files
 
 
 def everything(folder: Path) -> list[str]:
@@ -80,6 +81,116 @@ def test_json_refuses_what_is_no_json() -> None:
     with pytest.raises(ValueError, match="not JSON compliant"):
         json_text({"lead": float("inf")})
     assert json_text({"a": 1.0, "b": "µ"}) == '{\n  "a": 1.0,\n  "b": "\\u00b5"\n}\n'
+
+
+MOVES_SLOWLY = """
+import sys, time
+from pathlib import Path
+from gearcad.output import staged_files
+
+replace = Path.replace
+pause = 0.2 if sys.argv[1] == "x" else 0.01
+Path.replace = lambda *to: (replace(*to), time.sleep(pause))
+with staged_files(Path("out")) as staging:
+    for name in "abcde":
+        (staging / name).write_text(sys.argv[1])
+    (staging / f"only {sys.argv[1]}").write_text(sys.argv[1])
+"""
+
+
+def start_slow_moves(folder: Path, *texts: str) -> list[subprocess.Popen[bytes]]:
+    """Start processes that write the same files into folder/out, with pauses between the renames."""
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    return [subprocess.Popen([sys.executable, "-c", MOVES_SLOWLY, text], cwd=folder, env=environment) for text in texts]
+
+
+def test_files_of_one_folder_are_of_one_process(tmp_path: Path) -> None:
+    """One that moves its files slowly has begun when three others come: all files that they share are of the last one."""
+    slow = start_slow_moves(tmp_path, "x")
+    wait_until((tmp_path / "out" / "a").exists, "the first file")
+    processes = [*slow, *start_slow_moves(tmp_path, "y", "y", "y")]
+    assert [each.wait(PATIENCE) for each in processes] == [0] * 4
+    assert everything(tmp_path) == ["out", *(f"out/{name}" for name in ("a", "b", "c", "d", "e", "only x", "only y"))]
+    assert {(tmp_path / "out" / name).read_text() for name in "abcde"} == {"y"}
+
+
+def test_lock_of_a_killed_process_does_not_hold(tmp_path: Path) -> None:
+    """The next one writes all of its files, and removes the folder that the killed one has left."""
+    (killed,) = start_slow_moves(tmp_path, "x")
+    wait_until((tmp_path / "out" / "a").exists, "the first file")
+    killed.kill()
+    killed.wait(PATIENCE)
+    assert len(list((tmp_path / "out").glob(".unfinished-*"))) == 1
+    (after,) = start_slow_moves(tmp_path, "y")
+    assert after.wait(PATIENCE) == 0
+    assert everything(tmp_path / "out") == ["a", "b", "c", "d", "e", "only y"]
+    assert {(tmp_path / "out" / name).read_text() for name in "abcde"} == {"y"}
+
+
+def test_folder_that_another_process_keeps_locked_is_refused_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(output, "_LONGEST_WAIT", 0.1)
+    with locked(tmp_path), pytest.raises(ParameterError) as caught, staged_files(tmp_path):
+        raise AssertionError("a folder that is in use")
+    said = "is in use by another process; wait for its end, or give another folder"
+    assert str(caught.value) == f"output = '{tmp_path}': {said}"
+    with staged_files(tmp_path) as staging:
+        (staging / "one").write_text("new")
+    assert everything(tmp_path) == ["one"]
+
+
+def test_a_pipe_in_the_place_of_the_folder_is_refused(tmp_path: Path) -> None:
+    """Its open waited for a writer for ever."""
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(ParameterError, match=r"pipe': cannot be written \(Not a directory\)"), staged_files(tmp_path / "pipe"):
+        raise AssertionError("no folder")
+
+
+def test_large_files_are_not_read(tmp_path: Path) -> None:
+    (tmp_path / "large").touch()
+    os.truncate(tmp_path / "large", 100_000_000)
+    with pytest.raises(OSError, match="it has more than 10 MB"):
+        output.file_bytes(tmp_path / "large")
+
+
+def test_folders_without_our_mark_stay(tmp_path: Path) -> None:
+    """A user's folder may be called as ours are; a copy of ours under another name is the user's too."""
+    mine = [tmp_path / name for name in (".unfinished-thesis", ".unfinished-0123456789ab", ".unfinished-copy")]
+    for folder in mine:
+        folder.mkdir()
+        (folder / "chapter").write_text("mine")
+    ours = tmp_path / ".unfinished-ba9876543210"
+    ours.mkdir()
+    mark_folder(ours)
+    shutil.copy(ours / MARK, mine[2] / MARK)
+    (mine[1] / MARK).mkdir()
+    with staged_files(tmp_path) as staging:
+        (staging / "one").write_text("new")
+    assert not ours.exists() and (tmp_path / "one").is_file()
+    assert [(folder / "chapter").read_text() for folder in mine] == ["mine"] * 3
+
+
+@pytest.mark.parametrize("trial", range(3))
+def test_four_builds_of_two_specs_into_one_folder_leave_one_of_them(tmp_path: Path, trial: int) -> None:
+    """One of the four is killed at some moment; the files that are there are of one of the two gears."""
+    for teeth in (20, 30):
+        spec = f'[gear]\nname = "it"\nteeth = {teeth}\nnormal_module = 2\nface_width = 10\n'
+        (tmp_path / f"{teeth}.toml").write_text(spec)
+    command = [sys.executable, "-m", "gearcad", "build", "-o", "out", "--format", "csv,dxf", "--quiet"]
+    runs = [
+        subprocess.Popen([*command, f"{teeth}.toml"], cwd=tmp_path, stdout=subprocess.DEVNULL) for teeth in (20, 30, 20, 30)
+    ]
+    time.sleep(random.Random(trial).uniform(0.3, 1.5))
+    runs[trial].kill()
+    statuses = [run.wait(PATIENCE) for run in runs]
+    assert [status for at, status in enumerate(statuses) if at != trial] == [0] * 3
+    made = {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir() if not path.name.startswith(".unfinished-")}
+    alone = {}
+    for teeth in (20, 30):
+        alone_command = [*command, f"{teeth}.toml"]
+        alone_command[alone_command.index("out")] = f"alone-{teeth}"
+        subprocess.run(alone_command, cwd=tmp_path, stdout=subprocess.DEVNULL, check=True)
+        alone[teeth] = {path.name: path.read_bytes() for path in (tmp_path / f"alone-{teeth}").iterdir()}
+    assert made in list(alone.values())
 
 
 @pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGINT, signal.SIGTERM])

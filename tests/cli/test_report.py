@@ -112,10 +112,11 @@ def test_verdict_comes_first_and_names_what_failed(document):
 def test_passes_where_every_gate_does(monkeypatch):
     monkeypatch.setattr(PlaneSections, "stiffness", "pairs like <this> have none")
     inside = tuple(each for each in small_check().comparisons if each.quantity != "contact pressure")
-    document = lxml.html.document_fromstring(report_html(replace(small_check(), comparisons=inside), "good"))
+    document = lxml.html.document_fromstring(report_html(replace(small_check(), comparisons=inside), "unjudged"))
     verdict = document.xpath("//div")[0]
-    assert verdict.get("class") == "verdict good"
-    assert verdict.text_content().strip().startswith("Numerics passed; strength passed; not judged, no limit given: ")
+    assert verdict.get("class") == "verdict bad"  # local limits replace no endurance limit
+    assert verdict.text_content().strip().startswith("Numerics passed; strength not judged: sigma_Hlim is not known")
+    assert "gates are passed at" in verdict.text_content()
     # Other methods can fail where the check does not.
     assert document.xpath("//p[text()='There are none for this pair: pairs like <this> have none']")
     assert len(document.xpath("//figure")) == _PICTURES - 1

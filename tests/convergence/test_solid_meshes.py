@@ -28,8 +28,9 @@ class Told:
 
     value: float
 
-    def values(self, _name: str) -> Floats:
-        return np.array([self.value])
+    @property
+    def mesh_stiffness(self) -> float:
+        return self.value
 
     @property
     def root_tension(self) -> tuple[float, float]:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from gearcad.output import mark_folder
 from gearcad.page.ending import _PREFIX, _bury_the_dead, _hold
 
 PROGRAM = """
@@ -41,19 +42,22 @@ def test_only_who_is_killed_leaves_a_folder(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs locks of Unix")
 def test_the_next_removes_what_the_dead_have_left_and_nothing_else(tmp_path: Path) -> None:
-    dead, held, young, other = (tmp_path / name for name in (f"{_PREFIX}a", f"{_PREFIX}b", f"{_PREFIX}c", "gearcad-d"))
-    for folder in (dead, held, young, other):
+    names = (f"{_PREFIX}a", f"{_PREFIX}b", f"{_PREFIX}c", "gearcad-d", f"{_PREFIX}e")
+    dead, held, young, other, unmarked = (tmp_path / name for name in names)
+    for folder in (dead, held, young, other, unmarked):
         (folder / "more").mkdir(parents=True)
+        if folder != unmarked:
+            mark_folder(folder)
     (tmp_path / f"{_PREFIX}link").symlink_to(other)
     hour = time.time() - 3600
-    for folder in (dead, held, other):
+    for folder in (dead, held, other, unmarked):
         os.utime(folder, (hour, hour))
     os.utime(tmp_path / f"{_PREFIX}link", (hour, hour), follow_symlinks=False)
     lock = _hold(str(held))
     assert lock is not None
     _bury_the_dead(tmp_path)
     assert not dead.exists()
-    assert all((folder / "more").exists() for folder in (held, young, other))
+    assert all((folder / "more").exists() for folder in (held, young, other, unmarked))
     os.close(lock)
     _bury_the_dead(tmp_path)
     assert not held.exists()

@@ -84,8 +84,8 @@ def test_what_carries_nothing_has_no_rating_and_no_warning(name: str) -> None:
 def test_why_nothing_is_judged_stands_apart_from_the_verdict() -> None:
     found = strength_figures(starter("double-23-81"))
     shown = shown_figures(found, Words.of(Language.GERMAN))
-    assert shown["title"] == "Tragfähigkeit nicht beurteilt"
-    assert found.title == f"strength not judged: {shown['reason']}"
+    assert shown["title"] == "Tragfähigkeit nicht verlangt"
+    assert found.title == f"strength not asked for: {shown['reason']}"
 
 
 def test_what_only_the_document_of_a_rating_finds_to_be_wrong_is_a_line_too(tmp_path: Path) -> None:

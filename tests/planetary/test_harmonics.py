@@ -52,10 +52,9 @@ def test_both_meshes_of_trains_have_their_own() -> None:
 
 
 def test_unequal_planets_leave_some_of_everything() -> None:
-    """Four planets of 25/20/-65 at 22, 23, 22 and 23 ninetieths of a turn, added up as vectors."""
-    train = simple_train((25, 20, -65), (0.2, 0.2, -0.6), 4, planet_angles="permitted")
-    steps = permitted_steps(90, 4)
-    assert steps == (0, 22, 45, 68)
+    """Four planets of 25/20/-65 put in at 0, 22, 45 and 68 ninetieths of a turn, added up as vectors."""
+    steps = (0, 22, 45, 68)
+    train = simple_train((25, 20, -65), (0.2, 0.2, -0.6), 4, planet_angles=[4.0 * step for step in steps])
     for each in train_harmonics(train)["sun-planet"]:
         waves = [-each.harmonic * 25 * step / 90 * 2 * math.pi for step in steps]
         places = [2 * math.pi * step / 90 for step in steps]
@@ -72,3 +71,17 @@ def test_unequal_planets_leave_some_of_everything() -> None:
         ]
         assert each.force == pytest.approx(max(forces), abs=1e-9)
         assert 0 < each.torque < 1
+
+
+def test_permitted_angles_balance_where_positions_are_equally_near() -> None:
+    """17/16/-49: of 66 positions 16 and 17, 49 and 50 are equally near to quarters of a turn: opposite ones are chosen."""
+    train = simple_train((17, 16, -49), (0.4, 0.4, -1.2), 4, planet_angles="permitted")
+    assert train.angles == pytest.approx((0, 92.7272727, 180, 272.7272727))
+    assert train.unbalance == pytest.approx(0, abs=1e-12)
+    assert train_harmonics(train)["sun-planet"][0].torque == pytest.approx(0, abs=1e-9)
+    for positions in range(7, 100):
+        for planets in range(2, min(positions, 7)):
+            steps = permitted_steps(positions, planets)
+            assert len(set(steps)) == planets
+            off = [abs(step - positions * number / planets) for number, step in enumerate(steps)]
+            assert max(off) <= 0.5

@@ -74,7 +74,7 @@ def test_a_picture_has_the_least_safety_of_every_gear() -> None:
         assert [bar.get_height() for bar in bars] == [each.safety for each in least if each is not None]
     assert "<img" in strength._repr_html_()
     unlimited = rated(weighed(simple_set(24, 21)), Material()).strength
-    assert "not judged" in unlimited._repr_html_() and "<img" not in unlimited._repr_html_()
+    assert "not asked for" in unlimited._repr_html_() and "<img" not in unlimited._repr_html_()
 
 
 def test_gears_have_the_least_of_their_meshes() -> None:

@@ -273,7 +273,13 @@ def _shaft(**changes: Any) -> list[dict[str, Any]]:
         ({"torques": {"a": math.nan}}, "torques.a = nan N·m: must be a number, 0 or from 1e-09 to 1e+09 N·m in size"),
         (
             {"torques": {"a": 10.0, "b": 10.0}},
-            "torques = 5 N·m: on a, the sum of all, must be 0 on a train that no shaft holds: balance them, or hold it",
+            "torques = 5 N·m: on a, the sum of all, must be 0 on a train that no shaft holds: "
+            "give b = 20 instead of 10 N·m, or hold the train",
+        ),
+        (
+            {"torques": {"a": 10.0, "b": -20.0}},
+            "torques = 20 N·m: on a, the sum of all, must be 0 on a train that no shaft holds: "
+            "give b = 20 instead of -20 N·m, or hold the train",
         ),
     ],
 )

@@ -12,13 +12,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearcad import BasicRack, Body, Gear, GearPair, Material
+from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Load, Material, check
+from gearcad.check.comparison import Comparison
+from gearcad.check.notices import relief_start
+from gearcad.check.options import CheckOptions
 from gearcad.check.plane.summary import PlaneSummary, summarise_plane
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
+from gearcad.geometry import ReliefShape
 from gearcad.per_gear import PerGear
 
 TORQUE = 12.7
@@ -191,3 +195,82 @@ def test_any_pair_carries_its_torque(changes: dict[str, Any]) -> None:
         for position in PlaneCycle.run(model, torque, 6).positions:
             reaction = sum(body.hub_torque(contact.centre(role)) * contact.force for contact in position.contacts)
             assert reaction == pytest.approx(model.force(torque) * body.flank.base_radius, rel=1e-3)
+
+
+def high_teeth() -> GearPair:
+    """34/47, m 2, 17.5 deg, h_a 1.35: Hertz's half width is 1.3 % off on any mesh, the pressure within 0.8 %."""
+    rack = BasicRack(pressure_angle=17.5, addendum=1.35, dedendum=1.6, root_radius=0.3)
+    gears = (Gear(teeth=teeth, normal_module=2.0, face_width=20.0, rack=rack) for teeth in (34, 47))
+    pinion, wheel = gears
+    return GearPair(pinion=pinion, wheel=wheel)
+
+
+def row(comparisons: tuple[Comparison, ...], quantity: str) -> Comparison:
+    return next(each for each in comparisons if each.quantity == quantity)
+
+
+PRESSURE_IS_RIGHT = 0.008
+"""What the gate on the half width is there for."""
+
+
+def test_high_teeth_pass_hertzs_gates_and_rows_are_those_told() -> None:
+    """The middle of the three meshes has the figures of the summary, to the last digit."""
+    found = check(high_teeth(), Load(torque=200.0))
+    assert found.numerics.value == "passed"
+    pressure = row(found.comparisons, "peak contact pressure").deviation
+    assert pressure is not None
+    assert abs(pressure) < PRESSURE_IS_RIGHT
+    told = (found.summary.mesh_stiffness_mean, *found.summary.root_tension)
+    assert tuple(each.values[1] for each in found.convergence) == told
+
+
+@pytest.mark.parametrize(("youngs_modulus", "torque", "ends"), [(206000.0, 400.0, False), (206000.0, 4800.0, True)])
+def test_a_load_far_beyond_elasticity_is_told(youngs_modulus: float, torque: float, ends: bool) -> None:
+    """Rolling contact along lines leaves marks from 4,000 MPa on (ISO 76); the hardest steels tear at about 2,500 MPa."""
+    material = Material(youngs_modulus=youngs_modulus)
+    found = check(high_teeth(), Load(torque=torque), material=material, check=CheckOptions(convergence="off"))
+    assert ("linear elasticity has ended" in found.verdict) == ends
+    assert ("beyond-elasticity" in {notice.code for notice in found.notices}) == ends
+    stress = max(found.summary.root_tension)
+    beyond = replace(material, yield_strength=0.9 * stress)
+    again = check(high_teeth(), Load(torque=torque), material=beyond, check=CheckOptions(convergence="off"))
+    assert "yield strength" in next(notice.text for notice in again.notices if notice.code == "beyond-elasticity")
+
+
+@pytest.mark.parametrize(("teeth", "told"), [(3, True), (9, False)])
+def test_few_teeth_between_cuts_are_told(teeth: int, told: bool) -> None:
+    found = check(high_teeth(), Load(torque=200.0), check=CheckOptions(body_teeth=teeth, convergence="off"))
+    assert ("few-teeth" in {notice.code for notice in found.notices}) == told
+
+
+def relieved(shape: ReliefShape, **given: float) -> GearPair:
+    flanks = FlankModification(**given, tip_relief_shape=shape, root_relief_shape=shape)
+    gears = [Gear(teeth=teeth, normal_module=3.0, face_width=10.0, modification=flanks) for teeth in (21, 43)]
+    return GearPair(pinion=gears[0], wheel=gears[1])
+
+
+@pytest.mark.parametrize("model", ["2d", "3d"])
+def test_the_start_of_a_linear_relief_is_told_as_not_judged(model: str) -> None:
+    pair = relieved(ReliefShape.LINEAR, tip_relief=20.0, tip_relief_length=4.0)
+    options = CheckOptions(convergence="off", positions=12, body_teeth=3)
+    found = check(pair, Load(torque=150.0), model=model, check=options)
+    texts = [notice.text for notice in found.notices if notice.code == "relief-start"]
+    assert len(texts) == 1
+    assert "local pressure there is not judged" in texts[0]
+    assert "pinion and wheel" in texts[0]
+    assert not list(relief_start(relieved(ReliefShape.PARABOLIC, tip_relief=20.0, tip_relief_length=4.0)))
+
+
+def test_a_root_relief_that_begins_below_the_path_of_contact_is_not_told() -> None:
+    plain = relieved(ReliefShape.LINEAR).pinion
+    # The pinion's involute begins at its form circle; the wheel's tip comes down to A only.
+    begins = np.sqrt(plain.form_diameter**2 - plain.base_diameter**2) / 2
+    unused = relieved(ReliefShape.LINEAR).path_of_contact.A - begins
+    assert unused > 0.1
+    for share, told in ((0.9, 0), (1.1, 1)):
+        pair = relieved(ReliefShape.LINEAR)
+        relief = FlankModification(root_relief=10.0, root_relief_length=share * unused)
+        pair = replace(pair, pinion=replace(pair.pinion, modification=relief))
+        notices = list(relief_start(pair))
+        assert len(notices) == told
+        assert all("linear relief of pinion begins" in notice.text for notice in notices)

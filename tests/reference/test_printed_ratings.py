@@ -81,14 +81,13 @@ def test_annex_c_of_iso_6336_6(published: Published) -> None:
     borne = given["limit"] * given["Z_L"] * given["Z_v"] * given["Z_R"]
     curve = [(reached, factor * borne) for reached, factor in flank_points(MaterialGroup.CASE_HARDENED)]
     found = permissible_cycles(stresses, curve)
-    over = stresses > 1.6 * borne
-    assert over.sum() == 5
-    assert np.all(found[over] == 0)
-    assert found[~over] == pytest.approx(permissible[~over], rel=PRINTED_DIGITS)
-    assert cycles[~over] / found[~over] == pytest.approx(damages[~over], rel=PRINTED_DIGITS)
+    assert (stresses > 1.6 * borne).sum() == 5
+    assert found == pytest.approx(permissible, rel=PRINTED_DIGITS)
+    assert cycles / found == pytest.approx(damages, rel=PRINTED_DIGITS)
+    published("damage sum of 42 bins", damage_sum(cycles, stresses, curve), f"{damages.sum():.4f}", 0.0015, given["source"])
+    # With its S-N line, the static strength is not reached before 1e4 cycles.
     (_, static), *rest = curve
     slope = np.log(1.6) / np.log(500)
     longer = [(1e4, static * 10**slope), *rest]
-    published("damage sum of 42 bins", damage_sum(cycles, stresses, longer), f"{damages.sum():.4f}", 0.0015, given["source"])
     assert damages.sum() == pytest.approx(1, abs=0.001)
     published("safety at a damage of 1", safety_at_failure(cycles, stresses, longer), "1", 2e-4, given["source"])

@@ -74,12 +74,12 @@ def test_equal_bytes_from_processes_that_hash_differently(tmp_path: Path) -> Non
 # How names stand in the file by ISO 10303-21, with | for the backslash.
 HOSTILE = {
     "Zähne 歯": "Z|X2|00E4|X0|hne |X2|6B6F|X0|",
-    "O'Brien \\ Söhne": "O''Brien || S|X2|00F6|X0|hne",
+    "O'Brien \\ Söhne": "O|X|27Brien || S|X2|00F6|X0|hne",
     r"\X2\0041\X0\ \S\a \X\41 \P\ \N\ ": "||X2||0041||X0|| ||S||a ||X||41 ||P|| ||N|| ",
-    "';#1=X(';/*": "'';#1=X('';/*",
-    "'gearcad-name-0'": "''gearcad-name-0''",
+    "';#1=X(';/*": "|X|27;#1=X(|X|27;/*",
+    "'gearcad-name-0'": "|X|27gearcad-name-0|X|27",
     "a😀\ue000b": "a|X4|0001F600|X0||X2|E000|X0|b",
-    "q'" * 50: "q''" * 50,
+    "q'" * 50: "q|X|27" * 50,
     "歯" * 100: "|X2|" + "6B6F" * 100 + "|X0|",
     "歯a\\" * 33: "|X2|6B6F|X0|a||" * 33,
 }
@@ -112,7 +112,7 @@ def test_names_of_an_assembly_read_back(tmp_path: Path) -> None:
 def test_header_says_which_gearcad_and_names_nobody(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
     head = _header(tmp_path)
-    assert head[:2] == ["FILE_DESCRIPTION(('O''Brien'),'2;1')", _file_name("2000-01-01T00:00:00")]
+    assert head[:2] == ["FILE_DESCRIPTION(('O\\X\\27Brien'),'2;1')", _file_name("2000-01-01T00:00:00")]
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
     assert _header(tmp_path)[1] == _file_name("2023-11-14T22:13:20")
     for wrong in ("yesterday", "-1", "1e9", "9" * 400, "253402300800"):
@@ -129,7 +129,7 @@ def _header(folder: Path) -> list[str]:
 
 
 def _file_name(stamp: str) -> str:
-    return f"FILE_NAME('O''Brien','{stamp}',(''),(''),'gearcad {__version__}','gearcad {__version__}','')"
+    return f"FILE_NAME('O\\X\\27Brien','{stamp}',(''),(''),'gearcad {__version__}','gearcad {__version__}','')"
 
 
 def _product_names(path: Path) -> list[str]:

@@ -51,7 +51,7 @@ def test_any_name_reads_back(name: str, tmp_path: Path) -> None:
     path = tmp_path / "box.step"
     write_step(cadquery.Solid.makeBox(1, 1, 1), path, name=name)
     assert [part.product for part in product_tree(path)] == [name]
-    assert f"FILE_NAME('{name[:5]}" in path.read_text("ascii").replace("O''", "O'") or not name[:5].isascii()
+    assert f"FILE_NAME('{name[:5]}" in path.read_text("ascii").replace(r"O\X\27", "O'") or not name[:5].isascii()
 
 
 def _gone_on_with() -> cadquery.Assembly:

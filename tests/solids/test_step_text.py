@@ -219,3 +219,26 @@ def _same_as_union(solid: cadquery.Solid, union: cadquery.Workplane) -> None:
     assert solid.Volume() == pytest.approx(other.Volume(), rel=SAME)
     assert solid.Area() == pytest.approx(other.Area(), rel=SAME)
     assert (solid.Center() - other.Center()).Length < 1e-9
+
+
+@pytest.mark.parametrize(
+    "name", ["a')b", "dogs', cats", "it's", "''", "#5=X('", "a\\b", "\\S\\a", "x\\'", "é'齿轮", "𝛼'", "a;b", "/*c*/"]
+)
+def test_open_cascade_reads_names_as_they_were_given(name: str, tmp_path: Path) -> None:
+    """Its reader takes a doubled apostrophe before `)` or `,` for the end of the string."""
+    from OCP.STEPCAFControl import STEPCAFControl_Reader
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDataStd import TDataStd_Name
+    from OCP.TDF import TDF_LabelSequence
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool
+
+    write_product(SolidProduct(name, gear_boundary(_bodied(9, body=Body())), None), tmp_path / "it.step")
+    document, reader, labels = TDocStd_Document(TCollection_ExtendedString("it")), STEPCAFControl_Reader(), TDF_LabelSequence()
+    reader.SetNameMode(True)
+    reader.ReadFile(str(tmp_path / "it.step"))
+    reader.Transfer(document)
+    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetShapes(labels)
+    read = TDataStd_Name()
+    assert labels.Value(1).FindAttribute(TDataStd_Name.GetID_s(), read)
+    assert read.Get().ToExtString() == name

@@ -2,21 +2,42 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
+from pathlib import Path
 
 import pytest
 from support.checks import small_check, small_solid_check
 
-from gearcad import Load, Material, Mounting
+from gearcad import Gear, Load, Material, Mounting, read
+from gearcad.batch.run import falls_short
 from gearcad.check.comparison import ComparisonRole, Subject, verdict
 from gearcad.check.document import check_document
 from gearcad.check.result import CheckResult
 from gearcad.check.strength import strength_comparisons
+from gearcad.designs import PairDesign, PlanetaryDesign
+from gearcad.drawing.options import DrawingOptions
+from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.treatment import material_text
+from gearcad.drawing.words import Language, Words
+from gearcad.jobs.drawn import drawn_gears
+from gearcad.jobs.rate import Rate
+from gearcad.jobs.rate_columns import rate_columns
 from gearcad.output import json_text
+from gearcad.page.panels.strength import strength_figures
+from gearcad.planetary import TrainLoad
+from gearcad.planetary.power import power_flow
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import Part
 from gearcad.report import report_html
+from gearcad.report.planetary.loads import power_rows
+from gearcad.report.strength.tables import option_rows
+from gearcad.schema import is_assumed, schema_of
+from gearcad.sheet import sheet_of
+from gearcad.shipped import templates
 from gearcad.verdict import Verdict
 
 EXACT = 1e-12
@@ -138,7 +159,7 @@ def test_reports_have_a_section_of_it() -> None:
 @pytest.mark.parametrize(
     ("material", "speed", "words"),
     [
-        (Material(), 1500.0, "strength not judged: no limit given"),
+        (Material(), 1500.0, "strength not asked for"),
         (Material(name="Eh MQ"), 0.0, "strength not judged: the speed is 0 rpm"),
     ],
 )
@@ -149,5 +170,156 @@ def test_strength_that_was_not_judged_is_said(material: Material, speed: float, 
     assert list(strength_comparisons(result.safeties)) == []
     assert words in result.verdict
     document = check_document(result)
-    assert document["strength"] == "not judged"
+    assert document["strength"] == ("not judged" if material.asks_strength else "not asked for")
+    assert document["strength"] == document["strength_rating"]["strength"]
     assert document["safeties"]["root"]["pinion"]["fe_safety"] is None
+
+
+ASKING = {
+    "material": [name for name in schema_of(Material) if name.endswith("_limit") or name == "quality"],
+    "rating": [name for name in schema_of(RatingOptions) if name.startswith("required_safety_")],
+}
+"""Keys that ask for a verdict on strength, as the schema has them."""
+
+VALUES = {
+    "contact_limit": 1e4,
+    "root_limit": 1e4,
+    "contact_endurance_limit": 1500.0,
+    "root_endurance_limit": 430.0,
+    "quality": '"MQ"',
+    "required_safety_flank": 1.0,
+    "required_safety_root": 1.4,
+    "required_safety_scuffing": 0.2,
+    "scuffing_stage": 12,
+}
+FEW = 11
+"""Of so many combinations one is rated in a quick run; all of them in a long one."""
+
+PAGE_EACH = 5
+"""Of so many combinations the page is asked for one: it shows the same rating."""
+
+
+def combinations() -> Iterator[tuple[str, ...]]:
+    """Yield all choices of the keys that ask, with and without a scuffing stage."""
+    keys = [*ASKING["material"], *ASKING["rating"], "scuffing_stage"]
+    assert set(keys) == set(VALUES)
+    return chain.from_iterable(itertools.combinations(keys, count) for count in range(len(keys) + 1))
+
+
+def asked_spec(keys: tuple[str, ...]) -> str:
+    """The text of a spec that holds with ease, with these keys given."""
+    text = "[pair]\nname = 'asked'\nnormal_module = 3.0\nface_width = 30.0\n[pinion]\nteeth = 21\n[wheel]\nteeth = 43\n"
+    text += "[load]\ntorque = 20.0\nspeed = 1450.0\n[material]\ngroup = 'Eh'\nhardness = 720.0\n"
+    text += "".join(f"{key} = {VALUES[key]}\n" for key in keys if key in ASKING["material"])
+    text += "[rating]\nlife = 1000.0\noil_viscosity_40 = 220.0\n"
+    return text + "".join(f"{key} = {VALUES[key]}\n" for key in keys if key not in ASKING["material"])
+
+
+def expected(keys: tuple[str, ...]) -> str:
+    """The verdict by the words of the manual."""
+    if not set(keys) - {"scuffing_stage"}:
+        return "not asked for"
+    flank, root = (f"{part}_endurance_limit" in keys or "quality" in keys for part in ("contact", "root"))
+    scuffing = "required_safety_scuffing" not in keys or "scuffing_stage" in keys
+    return "passed" if flank and root and scuffing else "not judged"
+
+
+@pytest.mark.parametrize("stride", [FEW, pytest.param(1, marks=pytest.mark.long)])
+def test_one_rule_decides_everywhere(tmp_path: Path, stride: int) -> None:
+    spec, small = tmp_path / "asked.toml", small_check()
+    for number, keys in enumerate(itertools.islice(combinations(), 0, None, stride)):
+        spec.write_text(asked_spec(keys), encoding="utf-8")
+        design = read(spec)
+        assert isinstance(design, PairDesign)
+        rating = Rate(report=False).run(design)
+        found = rating.to_dict()
+        said, status = expected(keys), expected(keys) == "not judged"
+        assert (found["strength"], rating.strength.falls_short) == (said, status), keys
+        assert said in rating.verdict
+        task = replace(small.task, material=design.material, load=design.load, rating_options=design.rating)
+        check = replace(small, task=task, comparisons=())
+        check = replace(check, comparisons=tuple(strength_comparisons(check.safeties)))
+        if said != "passed":  # these gears are others than those of the spec, and need not hold
+            assert (check.strength.value, check.passed) == (said, not status), keys
+        columns = {f"rate.{name}": value for name, value in rate_columns(found).items()}
+        assert falls_short(columns) is status
+        if number % PAGE_EACH == 0:
+            assert strength_figures(design).title == rating.verdict
+
+
+def test_a_check_tells_that_scuffing_could_not_be_judged() -> None:
+    options = replace(OPTIONS, required_safety_flank=0.1, required_safety_root=0.1, required_safety_scuffing=1.5)
+    result = strong(small_check(), options)
+    assert (result.strength, result.passed) == (Verdict.NOT_JUDGED, False)
+    assert "scuffing_stage" in result.verdict
+    judged = replace(options, required_safety_scuffing=0.1, oil_viscosity_40=220.0, scuffing_stage=12)
+    found = strong(small_check(), judged)
+    assert found.strength is Verdict.PASSED
+    assert {each.quantity[:5] for each in found.comparisons if each.quantity.startswith(("S_int", "S_B"))} == {"S_int", "S_B, "}
+    assert strong(small_check(), replace(judged, required_safety_scuffing=90.0)).strength is Verdict.FAILED
+
+
+ASSUMED = {
+    "rating": [name for name, field in schema_of(RatingOptions).items() if is_assumed(field.default)],
+    "load": [name for name, field in schema_of(Load).items() if is_assumed(field.default)],
+}
+"""Keys whose defaults are marked, as the schema has them."""
+
+
+@pytest.mark.parametrize(("table", "key"), [(table, key) for table, keys in ASSUMED.items() for key in keys])
+def test_a_default_that_nobody_gave_is_marked_everywhere(tmp_path: Path, table: str, key: str) -> None:
+    spec, text = tmp_path / "asked.toml", asked_spec(("quality",))
+    default = schema_of(RatingOptions if table == "rating" else Load)[key].default
+    for given in (False, True):
+        spec.write_text(text.replace(f"[{table}]\n", f"[{table}]\n{key} = {default}\n") if given else text, encoding="utf-8")
+        design = read(spec)
+        assert isinstance(design, PairDesign)
+        rating = Rate(report=False).run(design)
+        said = [each for each in rating.to_dict()["assumed"] if each.startswith(f"{key} = ")]
+        assert len(said) == (not given)
+        rows = [row for section in sheet_of(design).sections for each in section.blocks for row in each.rows]
+        shown = [text for row in rows if row.key == f"{table}.{key}" for text in row.texts]
+        assert all(text.endswith("(assumed)") is not given for text in shown)
+        assert shown or key.startswith("required_safety") or key == "mesh_load_factor", "the data sheet shows it"
+        if (symbol := {"application_factor": "K_A", "mesh_load_factor": "K_gamma"}.get(key)) is not None:
+            assert rating.to_dict()["sources"][symbol] == ("given" if given else "assumed")
+        if key == "accuracy_grade":
+            assert [each.grade for each in drawn_gears(design)] == ([6, 6] if given else [None, None])
+            options = option_rows(rating.options)
+            grades = [row.values[0] for row in options if row.words == "accuracy grade"]
+            assert grades == ["6" if given else "6 (assumed)"]
+
+
+def test_changed_options_keep_what_was_assumed() -> None:
+    changed = replace(RatingOptions(), life=100.0)
+    assert is_assumed(changed.accuracy_grade) and not changed.asks_strength
+    assert not is_assumed(RatingOptions(accuracy_grade=6).accuracy_grade)
+    assert RatingOptions(required_safety_root=1.4).asks_strength
+    assert RatingOptions(required_safety_root=1.4) == RatingOptions()
+
+
+@pytest.mark.parametrize("given", [False, True])
+def test_an_efficiency_that_nobody_gave_is_no_result(given: bool) -> None:
+    design = read(templates() / "planetary-24-21-66.toml")
+    assert isinstance(design, PlanetaryDesign)
+    train, load = design.train, TrainLoad(torque=100.0, speed=1000.0)
+    if given:
+        load = replace(load, mesh_efficiency=1.0)
+    flow = power_flow(train, load)
+    rows, document = power_rows(train, flow), flow.to_dict()
+    assert document["mesh_efficiency_source"] == ("given" if given else "assumed")
+    assert document["self_locking"] is (False if given else None)
+    words = " ".join(f"{row.words} {row.source}" for row in rows)
+    assert ("assumed" in words) is not given
+    assert ("efficiency of a mesh, given" in words) is given
+    assert ("not self-locking" in words) is given
+    assert ("whether it is self-locking is not known" in words) is not given
+
+
+def test_a_sheet_names_no_grade_of_iso_6336_as_a_material() -> None:
+    words = Words.of(Language.ENGLISH)
+    gear = Gear(teeth=20, normal_module=2, face_width=20)
+    drawn = DrawnGear(role="gear", gear=gear, material=Material(name="Eh MQ"))
+    assert material_text(drawn, DrawingOptions(), words) == words["data.steel"]
+    named = replace(drawn, material=Material(name="16MnCr5", group="Eh", quality="MQ"))
+    assert material_text(named, DrawingOptions(), words) == "16MnCr5"

@@ -16,7 +16,7 @@ from gearcad.cli.verdict import print_verdict
 from gearcad.notice import Notice
 from gearcad.output import json_text
 from gearcad.per_gear import PerGear
-from gearcad.verdict import Verdict
+from gearcad.verdict import NOT_ASKED_WORDS, Verdict
 
 
 def gate(computed: float | None, subject: Subject = Subject.NUMERICS, reason: str = "") -> Comparison:
@@ -56,29 +56,33 @@ def test_verdicts_keep_numerics_and_strength_apart() -> None:
     assert verdict([good, outside], Subject.STANDARD) is Verdict.NOT_JUDGED  # information decides nothing
 
 
-_LIMITS = ("contact pressure", "root stress", "von Mises stress below the flank")
+_LACKING = "; ".join(f"sigma_{part}lim is not known: the material has no group, and no limit is given" for part in "HF")
+"""Local limits replace no endurance limit."""
+
+_ENDED = "linear elasticity has ended, see the warnings"
+"""Of a load whose root stress is above a yield strength of 1 MPa."""
 
 
 @pytest.mark.parametrize(
     ("gates", "material", "said", "passed"),
     [
-        ([gate(1.0)], Material(), "numerics passed; strength not judged: no limit given", True),
+        ([gate(1.0)], Material(), f"numerics passed; strength {NOT_ASKED_WORDS}", True),
         (
             [gate(1.0), gate(1.0, Subject.STRENGTH)],
             Material(root_limit=1.0),
-            f"numerics passed; strength passed; not judged, no limit given: {_LIMITS[0]}, {_LIMITS[2]}",
-            True,
+            f"numerics passed; strength not judged: {_LACKING}",
+            False,
         ),
         (
             [gate(999.0), gate(999.0, Subject.STRENGTH)],
             Material(contact_limit=1.0, root_limit=1.0, yield_strength=1.0),
-            "numerics NOT passed; strength failed",
+            f"numerics NOT passed; {_ENDED}; strength failed",
             False,
         ),
         (
             [gate(None), gate(1.0, Subject.STRENGTH)],
             Material(contact_limit=1.0, root_limit=1.0, yield_strength=1.0),
-            "numerics NOT passed; strength passed",
+            f"numerics NOT passed; {_ENDED}; strength not judged: {_LACKING}",
             False,
         ),
     ],
@@ -112,7 +116,7 @@ def test_the_screen_keeps_columns_apart_and_tells_the_use_of_limits(capsys: pyte
     assert "Warning: the rim is thin" in text
     assert result.rating.warnings
     assert all(f"Warning: rating: {warning}" in text for warning in result.rating.warnings)
-    assert lines[-1].startswith("pair at 30200 N·m: numerics NOT passed; strength not judged: no limit given")
+    assert lines[-1].startswith("pair at 30200 N·m: numerics NOT passed; strength not judged: sigma_Hlim is not known")
 
 
 def test_limits_of_each_gear_are_judged() -> None:

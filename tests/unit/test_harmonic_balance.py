@@ -23,6 +23,7 @@ from gearcad.dynamics.response.branch import sweep, trace
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.floquet import growth
 from gearcad.dynamics.response.linear import harmonic_orders, periodic_response
+from gearcad.dynamics.response.resolved import Resolution
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import GeometryError, ParameterError, SolverError
 from gearcad.mesh_cycle import MeshCycle
@@ -398,3 +399,16 @@ def test_method_b_beside_ours() -> None:
     speeds = np.linspace(2000, 40000, 39)
     chart = kv_chart(periodic_response(isolated(), cosine(VARIATION), speeds), method_b=method_b)
     assert chart.standard == pytest.approx(method_b.values(speeds * 30 / (18 * math.pi)))
+
+
+def test_a_motion_far_from_where_the_search_began_is_another_one() -> None:
+    """More harmonics must refine the motion that was found: a linear balance is met from afar too, but does not count."""
+    balance = Resolution(oscillator(0.1), cosine(0.2), 8)
+    omega = np.array([0.7])
+    (found,) = balance.solve(omega)
+    assert found.solved.all()
+    start = found.approach[:, :9]
+    for beside, near in ((0.0, True), (1.0, False)):
+        (again,) = balance.solve(omega, start + beside)
+        np.testing.assert_allclose(again.approach, found.approach, atol=1e-5)
+        assert again.solved.tolist() == [near]

@@ -92,6 +92,17 @@ def test_rings_next_to_their_pinions_are_refused_whatever_is_given() -> None:
         _ring_pair((40, -41), pair={"centre_distance": -1.0})
 
 
+def test_a_ring_with_a_given_tip_diameter_is_not_told_another_number_of_teeth() -> None:
+    """50/-65 with given tips goes in along the axis only. One tooth more would be another ring with the same tips, so the tip
+    that would do is named; where the tip follows from the teeth, the number of teeth is.
+    """
+    inputs: dict[str, Any] = {"teeth": (50, -65), "shifts": (0.6, -0.4), "rack": BasicRack(addendum=0.8)}
+    given = _only(_ring_pair(**inputs, wheel={"tip_diameter": -129.02}), "radial-assembly")
+    assert "with wheel.tip_diameter at most -129.103 mm it goes in either way" in given
+    followed = _only(_ring_pair(**inputs, wheel={"tip_alteration": 0.2}), "radial-assembly")
+    assert "from wheel.teeth = -6" in followed
+
+
 # ---------------------------------------------------------------------- what is told
 
 

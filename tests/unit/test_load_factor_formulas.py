@@ -234,3 +234,46 @@ def test_limits_are_those_of_one_pair_that_carries_all() -> None:
     assert (np.diff(factor) <= 0).all()
     assert factor[0] == 1.25
     assert factor[-1] == 1.0
+
+
+# ---------------------------------------------------------------------- table 8 of ISO 6336-1
+
+
+TABLE_8 = {
+    HelixModification.NONE: (1.0, 1.0),
+    HelixModification.CROWNING: (1.0, 0.5),
+    HelixModification.FULL_CROWNING: (0.5, 0.5),
+    HelixModification.HELIX_CORRECTION: (0.1, 1.0),
+    HelixModification.CORRECTION_AND_CROWNING: (0.1, 0.5),
+    HelixModification.END_RELIEF: (0.7, 0.7),
+}
+"""B_1 and B_2 of ISO 6336-1:2006, table 8, as printed."""
+
+
+@pytest.mark.parametrize("modification", list(HelixModification))
+def test_helix_modifications_leave_what_table_8_prints(modification: HelixModification) -> None:
+    """F_beta_x = 1.33 B_1 f_sh + B_2 f_ma (52): each part alone shows its own factor."""
+    factors = helix_factors(modification, Edition.ISO_2006)
+    first, second = TABLE_8[modification]
+    assert initial_misalignment(10.0, 0.0, factors, 0.0) == pytest.approx(13.3 * first, rel=EXACT)
+    assert initial_misalignment(0.0, 10.0, factors, 0.0) == pytest.approx(10.0 * second, rel=EXACT)
+
+
+DIN_HELIX = {
+    HelixModification.NONE: (1.0, 1.0, 0.023),
+    HelixModification.CROWNING: (1.0, 0.5, 0.012),
+    HelixModification.FULL_CROWNING: (1.0, 0.5, 0.012),
+    HelixModification.END_RELIEF: (1.0, 0.7, 0.016),
+}
+"""B_1, B_2 and the compliance (µm mm/N) of DIN 3990-1:1987, where a modification reduces the compliance, not B_1."""
+
+
+@pytest.mark.parametrize("modification", list(DIN_HELIX))
+def test_helix_modifications_of_din(modification: HelixModification) -> None:
+    """With b = d_1 and B* = 1 between bearings alike far, f_sh is the compliance times F_m/b."""
+    factors = helix_factors(modification, Edition.DIN_1987)
+    first, second, compliance = DIN_HELIX[modification]
+    deflection = shaft_deflection(100.0, 40.0, 40.0, shaft_term=0.0, compliance=factors.compliance)
+    assert deflection == pytest.approx(100 * compliance, rel=EXACT)
+    assert initial_misalignment(deflection, 0.0, factors, 0.0) == pytest.approx(133 * first * compliance, rel=EXACT)
+    assert initial_misalignment(0.0, 10.0, factors, 0.0) == pytest.approx(10.0 * second, rel=EXACT)

@@ -29,9 +29,7 @@ CYCLES, STRESSES = np.array([1e4, 1e6, 1e8, 3e9]), np.array([1500.0, 1200, 950, 
 
 
 def _by_hand(stress: float) -> float:
-    """N of a flank, with the slopes worked out: 13.2225 of limited life, 32.6008 beyond."""
-    if stress > 2080:
-        return 0.0
+    """N of a flank, with the slopes worked out: 13.2225 of limited life, which goes on above 2080 MPa, 32.6008 beyond."""
     if stress >= 1300:
         return 5e7 * (1300 / stress) ** (math.log(500) / math.log(1.6))
     return 5e7 * (1300 / stress) ** (math.log(200) / math.log(1 / 0.85))
@@ -52,6 +50,16 @@ def test_permissible_cycles() -> None:
 def test_a_static_strength_below_endurance_holds_for_more_cycles_too() -> None:
     odd = ((1e3, 100.0), (3e6, 120.0), (1e10, 102.0))
     assert permissible_cycles(np.array([100.1, 100, 50]), odd).tolist() == [0, math.inf, math.inf]
+
+
+def test_the_line_of_limited_life_goes_on_above_the_static_strength() -> None:
+    """No jump at the corner; twice the stress is 2^-13.2225 of the cycles; a level start goes on from where it ends."""
+    found = permissible_cycles(np.array([2080 * (1 - 1e-9), 2080 * (1 + 1e-9), 4160.0]), FLANK)
+    assert found == pytest.approx([1e5, 1e5, 1e5 * 2 ** -(math.log(500) / math.log(1.6))], rel=1e-6)
+    level = ((1e3, 2080.0), *FLANK)
+    assert permissible_cycles(np.array([2080.001, 4160.0]), level) == pytest.approx(found[1:], rel=1e-5)
+    # The safety is never more than the static strength over the greatest stress.
+    assert safety_at_failure(np.array([1.0]), np.array([4160.0]), FLANK) == pytest.approx(0.5, rel=1e-12)
 
 
 @pytest.mark.parametrize("endurance", [False, True])
@@ -98,7 +106,7 @@ def test_more_load_and_more_cycles_are_never_safer() -> None:
 def test_no_load_and_no_number() -> None:
     assert safety_at_failure(np.array([0.0, 1e6]), np.array([5000.0, 0]), FLANK) == math.inf
     assert damage_sum(np.array([0.0, 1e5]), np.array([5000.0, 2080]), FLANK) == pytest.approx(1)
-    assert damage_sum(np.array([1.0, 1e5]), np.array([5000.0, 2080]), FLANK) == math.inf
+    assert damage_sum(np.array([1.0, 1e5]), np.array([5000.0, 2080]), FLANK) == pytest.approx(1 + 1 / _by_hand(5000.0))
     with pytest.raises(ParameterError, match="stress"):
         safety_at_failure(np.array([1.0]), np.array([math.nan]), FLANK)
 

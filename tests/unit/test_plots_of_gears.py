@@ -105,7 +105,7 @@ def test_a_notebook_shows_axes_and_results() -> None:
     assert "a &amp; b" in html and "iso6336" in html
     assert b64decode(search(r"base64,([^\"]*)", html)[1]).startswith(b"\x89PNG")
     unlimited = gearcad.rate(named, Load(torque=50, speed=1000))  # of a material without limits there is no life to draw
-    assert "not judged" in unlimited._repr_html_() and "<img" not in unlimited._repr_html_()
+    assert "strength not asked for" in unlimited._repr_html_() and "<img" not in unlimited._repr_html_()
     with pytest.raises(GeometryError, match=r"must have limits of the flank, for its life to be drawn"):
         plots.plot(unlimited)
     own = axes.figure.subplots()

@@ -80,7 +80,7 @@ def test_percent_and_time_left_stand_on_stderr(checked: Result) -> None:
     assert len(percents) == len(rest) and percents[0] == 0
     assert percents == sorted(percents) and percents[-1] <= 100
     assert all(each[3] for each in found[:2] if each)
-    assert "strength not judged" in verdict
+    assert "strength not asked for" in verdict
 
 
 def test_a_check_tells_of_bodies_positions_and_other_meshes(checked: Result) -> None:

@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
 from importlib import import_module
 from inspect import signature
 from pathlib import Path
@@ -232,3 +233,20 @@ def test_jobs_refuse_what_their_functions_refuse(tmp_path: Path) -> None:
     rate = Rate(report=False)
     made = rate.write(rate.run(PairDesign(name="pair", pair=FZG_C, load=Load(torque=60))), str(tmp_path))
     assert made == [tmp_path / "rate.json"] == list(tmp_path.iterdir())
+
+
+GEAR = gearcad.Gear(teeth=20, normal_module=2, face_width=5)
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: gearcad.picture(GEAR, "it.png", size=5), "size = 5: must be width and height in pixels"),
+        (lambda: gearcad.build(GEAR, "out", progress=5), "progress = 5: must be a function"),
+        (lambda: gearcad.read("\ud800"), "is no name that a file can have"),
+        (lambda: gearcad.read("/dev/zero"), "/dev/zero: cannot be read (it is a device or a pipe, not a file)"),
+    ],
+)
+def test_wrong_types_are_errors_of_ours(call: Callable[[], object], said: str) -> None:
+    with pytest.raises(gearcad.errors.GearcadError, match=re.escape(said)):
+        call()

@@ -144,10 +144,13 @@ def test_roughness_goes_by_grade_unless_it_is_given():
 @pytest.mark.parametrize("language", Language)
 def test_what_is_ours_is_marked_and_treatment_is_said(language):
     words = Words.of(language)
-    hard = Material(name="Eh MQ", hardness=720)
+    hard = Material(name="Eh MQ", hardness=720)  # a quality of ISO 6336-5, which is no material
     found = _of(GEAR, replace(USUAL, case_depth="0.6"), material=hard)
-    assert found.material(words) == "Eh MQ"
+    assert found.material(words) == words["data.steel"]
+    assert _of(GEAR, USUAL, material=replace(hard, name="18CrNiMo7-6")).material(words) == "18CrNiMo7-6"
     assert found.heat_treatment(words) == f"{words['data.group_case_hardened']}, 720 HV, CHD 0.6"
+    deep = _of(GEAR, replace(USUAL, case_depth="CHD 0.6"), material=hard)
+    assert deep.heat_treatment(words) == found.heat_treatment(words)
     assert found.tooth_notes(words) == (words["data.note_by_grade"],)
     few = replace(GEAR, teeth=14, body=Body())
     assert few.undercut and words["data.note_undercut"] in _of(few).tooth_notes(words)

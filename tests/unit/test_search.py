@@ -23,10 +23,10 @@ from gearcad.jobs.modify import _best, unmirrored
 TORQUE = TORQUES["FZG C"]
 
 _GENEROUS = 1.3
-"""Of the pressure of plain flanks: so much that the pressure at the bend of a linear relief does not decide."""
+"""Of the pressure of plain flanks: so much that the pressure does not decide."""
 
 
-_TIGHT = 1.15
+_TIGHT = 1.02
 """So little that it does."""
 
 BETWEEN = 0.3

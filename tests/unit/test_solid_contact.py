@@ -12,17 +12,21 @@ from support.gap import gap_along_action, middle_height
 from support.hertz import hertz_ellipse
 
 from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.line_of_action import line_of_action
+from gearcad.contact.shared.loaded import INTERIOR
 from gearcad.contact.solid.boussinesq import (
     half_space_displacement,
     half_space_normal_displacement,
     half_space_traction,
     surface_displacement,
 )
+from gearcad.contact.solid.contact import SolidPairContact
 from gearcad.contact.solid.contact_lines import ContactLine, Gaps, contact_lines, gaps
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.flank import SolidFlank
 from gearcad.contact.solid.hexahedra import lame
-from gearcad.contact.solid.line_contact import Responses, solve_lines
+from gearcad.contact.solid.line_contact import LineSolution, Responses, half_widths, solve_lines
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
 from gearcad.errors import SolverError
 from gearcad.per_gear import PerGear
@@ -256,8 +260,107 @@ def test_solution_is_complementary() -> None:
     assert sum(plain.parts) == pytest.approx(plain.approach - plain.forces @ gap / 500, rel=1e-9)
 
 
+@pytest.mark.parametrize(("forces", "edge"), [((5.0, 5.0, 0.0), False), ((5.0, 5.0, 1.0), True)])
+def test_an_edge_counts_where_it_carries(forces: tuple[float, ...], edge: bool) -> None:
+    """The last cell of three lies on the edge of a tip: it is an edge contact with a force there, not without."""
+    (line,) = half_spaces(3.0, 3).lines
+    loads = np.array(forces)
+    contact = SolidPairContact(
+        line=replace(line, aside=np.array([0.0, 0.0, 0.1])),
+        forces=loads,
+        half_widths=0.1 * (loads > 0),
+        pressures=loads,
+        radii=np.ones(3),
+        margin=np.ones(3),
+        force=float(loads.sum()),
+        share=1.0,
+    )
+    assert contact.edge is edge
+
+
 def test_flanks_of_too_few_elements_are_refused() -> None:
     """Loads stand on vertices where the flank carries; of one row nothing is known between."""
     pinion, wheel = (Gear(teeth=teeth, normal_module=2, face_width=8, body=Body(bore=12)) for teeth in (17, 23))
     with pytest.raises(SolverError, match="the flanks of the gear with 17 teeth have too few elements to be loaded"):
         solid_pair(GearPair(pinion=pinion, wheel=wheel), STEEL, sizes=SolidSizes().refined(0.25))
+
+
+UNSETTLED = [(20, 29, 15.0, 0.0), (25, 41, 45.0, 60.0)]
+"""Teeth, helix angle and the pinion's bore (mm) of pairs, m 3, b 12, whose contact once did not settle."""
+
+SAME_WIDTH = 1e-8
+"""Relative: the half widths solve Hertz's equation for the loads that were found, within ten times the solver's own bound."""
+
+
+@pytest.mark.parametrize("count", [pytest.param(25, id="quick"), pytest.param(500, id="1,000 in all", marks=pytest.mark.long)])
+@pytest.mark.parametrize(("teeth", "mate", "helix", "bore"), UNSETTLED)
+def test_contact_settles_whatever_the_misalignment(teeth: int, mate: int, helix: float, bore: float, count: int) -> None:
+    """Random torques, misalignments, reliefs and roll angles: the force is all there, no cell overlaps, widths are Hertz's."""
+    common = {"normal_module": 3.0, "face_width": 12.0}
+    pinion = Gear(teeth=teeth, helix_angle=helix, body=Body(bore=bore), **common)  # type: ignore[arg-type]
+    wheel = Gear(teeth=mate, helix_angle=-helix, body=Body(bore=bore and 100.0), **common)  # type: ignore[arg-type]
+    body = BodyModel(teeth=5) if not bore else BodyModel()
+    model = solid_pair(GearPair(pinion=pinion, wheel=wheel), STEEL, body=body)
+    random = np.random.default_rng(teeth)
+    for _ in range(count):
+        relief = FlankModification(tip_relief=random.uniform(2, 40), tip_relief_length=random.uniform(0.5, 1.5))
+        gear = replace(pinion, modification=relief) if random.random() < 0.6 else pinion
+        mounting = Mounting(misalignment=random.choice([0.0, random.normal(0, 40), random.uniform(-300, 300)]))
+        moved = replace(model, pair=replace(model.pair, pinion=gear), mounting=mounting, known={}, solved={})
+        torque, angle = 10 ** random.uniform(0.5, 2.7), random.uniform(-8, 8)
+        solved = moved.solve(angle, torque)
+        force = moved.force(torque) * moved.width / math.cos(moved.helix)
+        assert solved.forces.sum() == pytest.approx(force, rel=1e-9)
+        assert solved.forces.min() >= 0
+        assert_widths_are_hertzs(solved)
+
+
+def assert_widths_are_hertzs(solved: LineSolution) -> None:
+    """Rebuild the equation of the widths from the forces alone: loads evened out as the docstring of the module says."""
+    given, radii, total = solved.given, solved.gaps.radii, solved.forces.sum()
+    even = total * given.lengths / given.lengths.sum()
+    near = np.exp(-((given.apart / half_widths(given, radii, even)[:, None]) ** 2)) * given.lengths
+    weights = near / near.sum(axis=1, keepdims=True)
+    loads = weights @ (np.maximum(solved.forces, 1e-3 * even) / given.lengths)
+    kernel = given.half_space(half_widths(given, radii, loads * given.lengths))
+    moved = (given.both + kernel) @ solved.forces + solved.gaps.normal - solved.approach
+    carries = solved.forces > 0
+    assert np.abs(moved[carries]).max() < SAME_WIDTH * max(solved.approach - solved.rigid, 1e-3)
+    assert moved.min() > -SAME_WIDTH
+
+
+def test_a_contact_wider_than_teeth_are_deep_is_refused() -> None:
+    """The torque is spread over the face, but the misaligned end carries all of it: both are named, and what to do."""
+    gears = [Gear(teeth=teeth, normal_module=1.0, face_width=12.0, body=Body(bore=8.0)) for teeth in (20, 30)]
+    soft = Material(youngs_modulus=100.0, poisson_ratio=0.4)
+    model = solid_pair(GearPair(pinion=gears[0], wheel=gears[1]), soft, body=BodyModel(teeth=5))
+    moved = replace(model, mounting=Mounting(misalignment=1000.0), known={}, solved={})
+    assert moved.solve(0.0, 0.02).half_widths.max() < 2.25
+    with pytest.raises(SolverError, match=r"half width, .* mm at 13 N·m, is more than .*; reduce load.torque or mounting"):
+        moved.solve(0.0, 13.0)
+
+
+SAME_AWAY = 0.002
+"""Relative: pressure away from the starts of reliefs, whatever the length over which slope and curvature are taken. At a start
+it would differ by 15 %."""
+
+
+def test_pressure_away_from_the_start_of_a_relief_has_no_internal_length(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An ideal kink has no finite pressure: within three half widths of it none is told, and beyond no internal length acts."""
+    relief = FlankModification(tip_relief=40.0, tip_relief_length=4.5)
+    gears = [
+        Gear(teeth=teeth, normal_module=3.0, face_width=10.0, body=Body(bore=bore), modification=relief)
+        for teeth, bore in ((21, 30.0), (43, 60.0))
+    ]
+    model = solid_pair(GearPair(pinion=gears[0], wheel=gears[1]), STEEL, body=BodyModel(teeth=5))
+    found, told = [], []
+    for bend in (0.025, 0.05, 0.1):
+        monkeypatch.setattr("gearcad.contact.solid.contact_lines.BEND", bend)
+        fresh = replace(model, known={}, solved={})
+        cycle = SolidCycle.run(fresh, 150.0, 48)
+        contacts = [contact for position in cycle.positions for contact in position.contacts]
+        found.append(np.nanmax([contact.peak_pressure for contact in contacts]))
+        near = [(each.margin < 0) & (each.line.edge_distance > each.half_widths.max() * INTERIOR) for each in contacts]
+        told.append(max(float(each.pressures[at].max(initial=0.0)) for each, at in zip(contacts, near, strict=True)))
+    assert found == pytest.approx([found[0]] * 3, rel=SAME_AWAY)
+    assert told[0] > 1.1 * told[2], (found, told)

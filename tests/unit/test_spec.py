@@ -284,6 +284,11 @@ def test_a_gear_that_is_wrong_at_any_centre_distance_is_named_itself() -> None:
         ({"wheel": {"face_width": "auto"}}, "<wheel.face_width>: wheel.face_width = 'auto': must be a number above 0 mm"),
         ({"wheel": {"face_width": float("nan")}}, "<wheel.face_width>: wheel.face_width = nan mm: must be a number above 0 mm"),
         ({"pinion": {"facewidth": 3}}, "<pinion.facewidth>: pinion.facewidth: unknown key; did you mean face_width?"),
+        (
+            {"pinion": {"drawing": {"tooth_allowance": "cd25"}}},
+            "<pinion.drawing.tooth_allowance>: pinion.drawing.tooth_allowance: unknown key here; tooth_allowance is a key "
+            "of the table of the gear itself, not of its drawing",
+        ),
         ({"pinion": {"z": 3}}, "<pinion.z>: pinion.z: unknown key; did you mean teeth?"),
         (
             {"pinion": {"root_radius": 3}},

@@ -33,6 +33,8 @@ from gearcad.errors import GeometryError
 Floats = NDArray[np.float64]
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
+SAME_MOTION = 0.01
+"""Two ways to integrate a motion, by steps of a hundredth of a vibration and by events."""
 MAXIMUM = 0.01
 """What a maximum may be short of the true one."""
 
@@ -219,9 +221,45 @@ def test_force_over_time_is_that_of_the_motion(parting: OverSpeed) -> None:
 
 
 def test_few_speeds_begin_with_flanks_apart() -> None:
-    """No motion below the first speed to begin with: a warning, and the linear motion."""
-    found = over_speed(oscillator(0.02), cosine(0.3, phase=180.0, backlash=math.inf), np.linspace(0.9, 1.0, 5))
-    assert found.down is None and any("flanks are taken to stick to each other" in str(notice) for notice in found.notices)
+    """No motion below the first speed to begin with: integrated in time, as from any other first speed."""
+    of, excitation = oscillator(0.02), cosine(0.3, phase=180.0, backlash=math.inf)
+    charts = [over_speed(of, excitation, np.linspace(low, 1.0, count)) for low, count in ((0.9, 3), (0.8, 5), (0.5, 11))]
+    values = []
+    for found in charts:
+        assert found.down is not None
+        here = np.isclose(found.up.frequencies, 0.95) | np.isclose(found.up.frequencies, 1.0)
+        values.append([found.up.factors[here, 0], found.down.factors[here, 0]])
+    for other in values[1:]:
+        assert np.array(other) == pytest.approx(np.array(values[0]), rel=SAME_MOTION)
+
+
+@pytest.mark.parametrize(
+    "damping_ratio", [pytest.param(0.005, marks=pytest.mark.long), 0.02, pytest.param(0.05, marks=pytest.mark.long)]
+)
+@pytest.mark.parametrize("backlash", [pytest.param(1e6, marks=pytest.mark.long), math.inf])
+def test_loads_where_flanks_part_are_those_of_an_integration_by_events(damping_ratio: float, backlash: float) -> None:
+    """A run by DOP853 from a linear motion below the resonance in even steps of speed, its steps ending where flanks part."""
+    of, excitation = oscillator(damping_ratio), cosine(0.1, phase=180.0, backlash=backlash)
+    found = over_speed(of, excitation, np.array([0.9, 1.0, 1.1]))
+    speeds, state, true = [*np.arange(0.7, 1.0, 0.02), 1.0], None, {}
+    for nu in speeds:
+        periods = math.ceil(6 / damping_ratio * nu / (2 * np.pi))
+        end = (periods + 2) * 2 * np.pi / nu
+        times = np.linspace(periods * 2 * np.pi / nu, end, 401)
+        motion = integrate(of, excitation, nu, end, times=times, start=state, tolerance=1e-7)
+        state, true[round(nu, 9)] = (motion.modal[-1], motion.modal_speed[-1]), float(motion.spring_forces.max())
+    for nu in (0.9, 1.0):
+        value = found.up.factors[np.isclose(found.up.frequencies, nu), 0][0]
+        assert np.isnan(value) or value == pytest.approx(true[nu], rel=SAME_MOTION)
+
+
+def test_no_loads_where_runs_in_time_would_take_too_long() -> None:
+    """Hardly damped: null and the reason, not the resonance of flanks that stick."""
+    found = over_speed(oscillator(2e-6), cosine(0.1, backlash=math.inf), np.linspace(0.5, 1.4, 7))
+    known = found.up.known
+    assert not known.all() and found.up.factors[known].max() < 3
+    assert any(notice.code == "no-value" for notice in found.notices)
+    assert None in found.up.to_dict()["kv"]["mesh"]
 
 
 # ---------------------------------------------------------------------- one speed, no mesh

@@ -167,13 +167,14 @@ def test_root_shift() -> None:
 
 STEEL = Material()
 LIGHT = replace(LOAD, torque=150.0)
+ASKED = replace(LIFE, required_safety_root=1.4)
 GIVEN = RatingOptions(dynamic_factor=1.1, load_cycles=1e7)
 
 
 @pytest.mark.parametrize(
     ("material", "load", "options", "inputs", "unjudged", "reason"),
     [
-        (STEEL, LIGHT, LIFE, {}, 4, "is not known: the material has no group"),
+        (STEEL, LIGHT, ASKED, {}, 4, "is not known: the material has no group"),
         (CASE_HARDENED, replace(LIGHT, speed=0.0), LIFE, {}, 4, "the speed is 0 rpm"),
         (CASE_HARDENED, replace(LIGHT, speed=0.0), GIVEN, {}, 0, ""),
         (Material(group="Eh", contact_endurance_limit=1500.0), LIGHT, LIFE, {}, 2, "sigma_Flim is not known"),

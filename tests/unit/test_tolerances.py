@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from gearcad import Gear, ParameterError, symbols
-from gearcad.rating.tolerances import Accuracy, GearTolerances, flank_tolerances, gear_tolerances
+from gearcad.rating.tolerances import Accuracy, GearTolerances, flank_tolerances, gear_tolerances, iso1328_2013
+from gearcad.rating.tolerances.grading import mean_of_range
 
 OLD, NEW = Accuracy.ISO_1995, Accuracy.ISO_2013
 
@@ -115,3 +116,50 @@ def test_a_ring_has_the_tolerances_of_its_magnitudes():
 def test_every_tolerance_has_a_symbol():
     beside = {"accuracy", "grade", "verify", "not_covered"}
     assert {*of().to_dict(2.0), *of(NEW).to_dict()} - beside == set(symbols.TOLERANCES)
+
+
+EXACT = 1e-12
+"""Relative: a formula against its terms, added up by hand."""
+
+CLASS_5 = {  # d = 10000, m_n = 10, b = 400 mm: square roots 100 and 20
+    "single_pitch": 10 + 4 + 5,
+    "cumulative_pitch": 20 + 55 + 7 + 12,
+    "profile_slope": 4 + 10 + 4,
+    "profile_form": 5.5 + 5,
+    "profile_total": math.hypot(18, 10.5),
+    "runout": 0.9 * 94,
+    "helix_slope": 5 + 7 + 4,
+    "helix_form": 7 + 9 + 4,
+    "helix_total": math.hypot(16, 20),
+}
+
+
+@pytest.mark.parametrize("name", CLASS_5)
+def test_terms_of_class_5_of_2013(name):
+    """A gear so large that each term of a formula is more than the last digit: no constant hides behind rounding."""
+    formula = getattr(iso1328_2013, name)
+    size = 400.0 if name.startswith("helix") else 10.0
+    assert formula(10000.0, size) == pytest.approx(CLASS_5[name], rel=EXACT)
+
+
+def test_sector_pitch_of_class_5_of_2013():
+    """Over a quarter of the teeth: f_pT + (0.001 d + 0.55 sqrt(d) + 0.3 m_n + 7) = F_pT."""
+    assert iso1328_2013.sector_pitch(10000.0, 10.0, 10, 40) == pytest.approx(19 + 10 + 55 + 3 + 7, rel=EXACT)
+    assert iso1328_2013.sector_pitch(10000.0, 10.0, 5, 40) == pytest.approx(19 + (10 + 55 + 3 + 7) / 2, rel=EXACT)
+
+
+def test_ranges_end_with_their_upper_limit():
+    """ISO 1328-1:1995 has "above 5 up to 20": the limit belongs to the range below it, and so does the greatest of all."""
+    limits = (5.0, 20.0, 45.0, 80.0)
+    means = {5.5: 10.0, 20.0: 10.0, 20.01: 30.0, 45.0: 30.0, 45.01: 60.0, 80.0: 60.0, 80.01: 80.01, 200.0: 200.0}
+    for value, mean in means.items():
+        assert mean_of_range(value, limits) == pytest.approx(mean, rel=EXACT), value
+    assert mean_of_range(np.array(list(means)), limits) == pytest.approx(list(means.values()), rel=EXACT)
+
+
+@pytest.mark.parametrize(("teeth", "diameter", "printed"), [(36, 756.0, 36.0), (95, 285.0, 43.0), (-93, 279.0, 54.0)])
+def test_sector_pitches_of_1995_are_whole_ones(teeth, diameter, printed):
+    """F_pk goes up to k = z/8, cut off: 4 of 36 teeth, 11 of 95 and of 93; the edition of 2013 takes the nearest."""
+    whole = {36: 4, 95: 11, -93: 11}[teeth]
+    assert of(teeth=abs(teeth), reference_diameter=diameter).sector_pitches == whole
+    assert of(NEW, teeth=abs(teeth), reference_diameter=diameter).sector_pitches == {36: 5, 95: 12, -93: 12}[teeth]

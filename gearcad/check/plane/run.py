@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, three_meshes
-from gearcad.check.extremes import PLANE, ROOTS
+from gearcad.check.extremes import PLANE
 from gearcad.check.notices import common_notices
 from gearcad.check.options import Model
 from gearcad.check.plane.judge import compare_plane
@@ -44,7 +44,7 @@ def plane_steps(task: CheckTask) -> dict[str, float]:
 
     few = (FEW_POSITIONS + _SOUGHT) * _POSITION
     own = (task.options.positions_of(Model.PLANE) + _SOUGHT + _SINGLE) * _POSITION
-    others = [bodies(factor) + few for factor in FACTORS if factor != 1] if task.options.refines else []
+    others = [bodies(factor) + own for factor in FACTORS if factor != 1] if task.options.refines else []
     return {
         "mesh cycle": bodies(1.0) + own,
         "convergence": sum(others),
@@ -60,7 +60,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     cycle = PlaneCycle.run(model, task.torque, task.options.positions_of(Model.PLANE)).searched(PLANE)
     summary = summarise_plane(cycle, model.single_stiffness(task.torque))
     tell("convergence")
-    convergence = three_meshes(_refined(task, model)) if task.options.refines else ()
+    convergence = three_meshes(_refined(task, cycle)) if task.options.refines else ()
     tell("torque sweep")
     sweep = sweep_points(cycle, task.torques)
     tell("rating")
@@ -89,10 +89,14 @@ def plane_model(task: CheckTask, factor: float = 1.0) -> PlanePair:
     return plane_pair(task.pair, task.material, plane=options.plane_state, body=task.body, sizes=sizes, pitch_error=error)
 
 
-def _refined(task: CheckTask, middle: PlanePair) -> Iterator[PlaneCycle]:
+def _refined(task: CheckTask, middle: PlaneCycle) -> Iterator[PlaneCycle]:
+    """Yield the cycles of coarser, own and finer meshes at as many positions: the middle one has the figures that are told."""
     for factor in FACTORS:
-        model = middle if factor == 1 else plane_model(task, factor)
-        yield PlaneCycle.run(model, task.torque, FEW_POSITIONS).searched(ROOTS)
+        if factor == 1:
+            yield middle
+        else:
+            positions = task.options.positions_of(Model.PLANE)
+            yield PlaneCycle.run(plane_model(task, factor), task.torque, positions).searched(PLANE)
 
 
 def plane_notices(task: CheckTask) -> Iterator[Notice]:

@@ -40,10 +40,11 @@ def _bodies(task: CheckTask) -> dict[str, Expected]:
 def solid_steps(task: CheckTask) -> dict[str, float]:
     """Seconds expected of each step, in order."""
     few = _SOUGHT * FEW_POSITIONS * POSITION_SECONDS
-    bodies = {name: each.seconds + few for name, each in _bodies(task).items()}
-    positions = _SOUGHT * task.options.positions_of(Model.SOLID) + _SINGLE_POSITIONS
+    cycle = _SOUGHT * task.options.positions_of(Model.SOLID)
+    bodies = {name: each.seconds + cycle * POSITION_SECONDS for name, each in _bodies(task).items()}
+    positions = cycle + _SINGLE_POSITIONS
     return {
-        BODIES: bodies.pop(BODIES),
+        BODIES: bodies.pop(BODIES) - cycle * POSITION_SECONDS,
         CYCLE: positions * POSITION_SECONDS,
         SWEEP: len(task.torques) * few,
         **bodies,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS, three_solid_meshes
-from gearcad.check.extremes import ROOTS, SOLID
+from gearcad.check.convergence import SOLID_FACTORS, three_solid_meshes
+from gearcad.check.extremes import SOLID
 from gearcad.check.notices import common_notices
 from gearcad.check.options import Model
 from gearcad.check.solid.expected import BODIES, COARSER, CYCLE, FINER, RATING, SWEEP, sizes_of
@@ -45,7 +45,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     model.let_go()
     agenda(SWEEP)
     sweep = sweep_points(cycle, task.torques)
-    convergence = three_solid_meshes(_refined(task, model, agenda)) if task.options.refines else ()
+    convergence = three_solid_meshes(_refined(task, cycle, agenda)) if task.options.refines else ()
     agenda(RATING)
     comparisons = compare_solid(task, cycle, summary, convergence)
     notices = (*common_notices(task, cycle, summary), *_edge_notices(cycle, summary), *wide_contacts(cycle))
@@ -71,16 +71,16 @@ def solid_model(task: CheckTask, factor: float = 1.0, tell: Share = unheard, *, 
     return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, fields=fields, tell=tell)
 
 
-def _refined(task: CheckTask, middle: SolidPair, agenda: Agenda) -> Iterator[SolidCycle]:
-    """The cycles of coarser, own and finer bodies; none but the own are kept."""
+def _refined(task: CheckTask, middle: SolidCycle, agenda: Agenda) -> Iterator[SolidCycle]:
+    """Yield the cycles of coarser, own and finer bodies at as many positions; none but the own bodies are kept."""
     coarser, _, finer = SOLID_FACTORS
-    yield _few(solid_model(task, coarser, agenda.within(COARSER)), task)
-    yield _few(middle, task)
-    yield _few(solid_model(task, finer, agenda.within(FINER)), task)
+    yield _cycle(solid_model(task, coarser, agenda.within(COARSER)), task)
+    yield middle
+    yield _cycle(solid_model(task, finer, agenda.within(FINER)), task)
 
 
-def _few(model: SolidPair, task: CheckTask) -> SolidCycle:
-    return SolidCycle.run(model, task.torque, FEW_POSITIONS).searched(ROOTS)
+def _cycle(model: SolidPair, task: CheckTask) -> SolidCycle:
+    return SolidCycle.run(model, task.torque, task.options.positions_of(Model.SOLID)).searched(SOLID)
 
 
 def _edge_notices(cycle: SolidCycle, summary: SolidSummary) -> Iterator[Notice]:

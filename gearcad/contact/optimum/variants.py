@@ -14,10 +14,11 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.optimum.side_by_side import press
+from gearcad.contact.shared.line_of_action import TransverseFlank
 from gearcad.contact.shared.loaded import INTERIOR
 from gearcad.contact.shared.loaded_left import gears_loaded_left
-from gearcad.contact.solid.contact_lines import BEND, line_gap, places_beside
-from gearcad.contact.solid.line_contact import Responses, half_widths
+from gearcad.contact.solid.contact_lines import along_tangent, line_gap, places_beside
+from gearcad.contact.solid.line_contact import Responses, half_widths, plain_widths
 from gearcad.contact.solid.pair import SolidPair
 from gearcad.geometry import FlankForm, GearPair, ReliefShape
 from gearcad.mounting import Mounting
@@ -92,9 +93,12 @@ class Outcomes:
 
     @property
     def pressures(self) -> Floats:
-        """The greatest interior pressure of all positions (v,) in MPa."""
-        result: Floats = self.position_pressures.max(axis=-1)
-        return result
+        """Return the greatest interior pressure of all positions (v,) in MPa; infinite where no position has one.
+
+        Where all contact is beside edges and kinks no pressure is known: such a variant keeps to no bound.
+        """
+        greatest = self.position_pressures.max(axis=-1)
+        return np.where(greatest > 0, greatest, math.inf)
 
     @property
     def edge_shares(self) -> Floats:
@@ -144,6 +148,15 @@ class _Flanks:
         """How far (v, n) the flank lies behind these places (mm): what stands there comes from further down."""
         return self.depth(lengths - self.depth(lengths, heights), heights)
 
+    def kink_distance(self, lengths: Floats) -> Floats:
+        """Return distances (v, n) in mm along the tangent from roll lengths (n,) to the nearest start of a linear relief."""
+        onset = self.form.last - self.length
+        varied = (self.relief > 0) & (onset > self.form.first) & (self.shape is ReliefShape.LINEAR)
+        nearest = np.where(varied, along_tangent(self.form.base_radius, onset, lengths), math.inf)
+        for kink in TransverseFlank(self.form, 0.0).kinks:
+            nearest = np.minimum(nearest, along_tangent(self.form.base_radius, kink, lengths))
+        return nearest
+
 
 @dataclass(frozen=True)
 class Variants:
@@ -180,14 +193,6 @@ class Variants:
         return np.sort(np.concatenate([self.roomy.roll_angles(self.count), np.degrees(along / self.roomy.base_radius)]))
 
     @cached_property
-    def _halfway(self) -> Floats:
-        """How far it is (mm of roll), on the longer side, to the middle between a position and the next one."""
-        lengths, pitch = np.radians(self._roll_angles) * self.roomy.base_radius, self.roomy.line.pitch
-        apart = np.diff(lengths, append=lengths[0] + pitch)
-        result: Floats = np.maximum(apart, np.roll(apart, 1)) / 2
-        return result
-
-    @cached_property
     def _matrices(self) -> tuple[Floats, ...]:
         """Compliances (n, n) in mm/N of each position but for what a cell's own ellipse adds to the diagonal."""
         force, found = self.force(self.torque), []
@@ -205,23 +210,29 @@ class Variants:
     def outcomes(self, amounts: Floats, condition: Condition) -> Outcomes:
         """What becomes of variants (v, 6) under a condition; all infinite for one whose contact does not settle."""
         force, errors, pressures, edges = self.force(condition.torque), [], [], []
-        for given, matrix, halfway in zip(self.positions, self._matrices, self._halfway, strict=True):
+        for given, matrix in zip(self.positions, self._matrices, strict=True):
             gap, radii = self.gaps(given, amounts, condition)
             forces, approach = press(given, matrix, gap, radii, force)
             errors.append(approach / math.cos(self.roomy.helix) * 1000)
-            pressure, edge = self._judged(given, forces, self._sharpest(given, amounts, radii, halfway), force)
+            pressure, edge = self._judged(given, amounts, radii, forces, force)
             pressures.append(pressure)
             edges.append(edge)
         return Outcomes(np.stack(errors, -1), np.stack(pressures, -1), np.stack(edges, -1))
 
-    def gaps(self, given: Responses, amounts: Floats, condition: Condition) -> tuple[Floats, Floats]:
-        """Gaps along the normal and reduced radii (v, n) in mm of all cells of a position."""
+    def _flanks(self, amounts: Floats) -> PerGear[_Flanks]:
+        """Return the flanks of both gears in all variants (v, 6)."""
         columns = amounts.T[..., None]
         length = np.maximum(columns[[1, 3]], _SHORT)
         nothing = np.zeros_like(columns[0])
         forms = gears_loaded_left(self.plain).map(lambda gear: gear.flank_form)
-        pinion = _Flanks(forms.pinion, self.shape, columns[0], length[0], columns[4], columns[5])
-        wheel = _Flanks(forms.wheel, self.shape, columns[2], length[1], nothing, nothing)
+        return PerGear(
+            _Flanks(forms.pinion, self.shape, columns[0], length[0], columns[4], columns[5]),
+            _Flanks(forms.wheel, self.shape, columns[2], length[1], nothing, nothing),
+        )
+
+    def gaps(self, given: Responses, amounts: Floats, condition: Condition) -> tuple[Floats, Floats]:
+        """Gaps along the normal and reduced radii (v, n) in mm of all cells of a position."""
+        pinion, wheel = self._flanks(amounts)
         mounting = condition.mounted(self.roomy.mounting)
         # All lines, and all places beside them, at once: what costs is how often numpy is called.
         places = np.concatenate([np.array(places_beside(line, self.plain, mounting)) for line in given.lines], axis=-1)
@@ -234,30 +245,23 @@ class Variants:
         normal, radii = zip(*found, strict=True)
         return np.concatenate(normal, axis=1), np.concatenate(radii, axis=1)
 
-    def _sharpest(self, given: Responses, amounts: Floats, radii: Floats, near: float) -> Floats:
-        """Least radii (v, n) in mm that cells see as `near` (mm of roll): where a linear relief starts, flanks have a bend."""
-        if self.shape is not ReliefShape.LINEAR:
-            return radii
-        columns = amounts.T[..., None]
-        bend = np.zeros_like(radii)
-        reliefs = PerGear((columns[0], columns[1]), (columns[2], columns[3]))
-        for role, (relief, length) in reliefs.items():
-            form = self.plain.gears.pick(role).flank_form
-            lengths = np.concatenate([each.places.pick(role)[0] for each in given.lines])
-            length = np.maximum(length, _SHORT)
-            inside = np.abs(form.last - length - lengths) < near
-            bend = np.maximum(bend, np.where(inside, relief / 1000 / length * form.base_radius / np.abs(lengths), 0.0))
-        exact = np.concatenate([each.curvature for each in given.lines])
-        sharp = exact + bend / (BEND * self.plain.pinion.normal_module)
-        return np.minimum(radii, 1 / (sharp * math.cos(self.roomy.helix)))
+    def _judged(self, given: Responses, amounts: Floats, radii: Floats, forces: Floats, force: float) -> tuple[Floats, Floats]:
+        """Return the greatest interior pressure (v,) in MPa of a position, or 0, and the share (v,) of the load on tip edges.
 
-    def _judged(self, given: Responses, forces: Floats, radii: Floats, force: float) -> tuple[Floats, Floats]:
-        """The greatest interior pressure (v,) in MPa of a position, and the share (v,) of the load on the edges of tips."""
+        Interior is what is more than INTERIOR half widths from edges and, of plain flanks, from the starts of linear reliefs.
+        """
         widths = half_widths(given, radii, forces)
         pressures = peak_pressure(forces / given.lengths, radii, given.modulus)
-        to_edge, across, on_edge = (
+        to_edge, across, on_edge, curvature = (
             np.concatenate(parts)
-            for parts in zip(*((line.edge_distance, line.across, line.on_edge) for line in given.lines), strict=True)
+            for parts in zip(
+                *((line.edge_distance, line.across, line.on_edge, line.curvature) for line in given.lines), strict=True
+            )
         )
+        # Beside edges the cells' own half widths decide, the lesser ones: between few positions it counts rather too much.
         inside = np.minimum(to_edge, self.roomy.width / 2 - np.abs(across)) > INTERIOR * widths
+        reach = INTERIOR * plain_widths(widths, radii, curvature, self.roomy.helix)
+        for role, flanks in self._flanks(amounts).items():
+            lengths = np.concatenate([line.places.pick(role)[0] for line in given.lines])
+            inside = inside & (flanks.kink_distance(lengths) > reach)
         return np.where(inside, pressures, 0.0).max(axis=1), np.where(on_edge, forces, 0.0).sum(axis=1) / force

@@ -15,7 +15,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.shared.loaded_left import gears_loaded_left
-from gearcad.geometry import FlankForm, GearPair
+from gearcad.geometry import FlankForm, GearPair, ReliefShape
 from gearcad.per_gear import PerGear
 
 __all__ = [
@@ -77,6 +77,16 @@ class TransverseFlank:
             self.first + relieved.root_relief_length if relieved.root_relief else self.first,
             self.last - relieved.tip_relief_length if relieved.tip_relief else self.last,
         )
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Roll lengths (mm) inside the flank where a linear relief begins: exact flanks have no finite pressure there."""
+        of, found = self.form.modification, []
+        if of.tip_relief and of.tip_relief_shape is ReliefShape.LINEAR:
+            found.append(self.last - of.tip_relief_length)
+        if of.root_relief and of.root_relief_shape is ReliefShape.LINEAR:
+            found.append(self.first + of.root_relief_length)
+        return tuple(each for each in found if self.first < each < self.last)
 
     def depth(self, lengths: Floats) -> Floats:
         """How far (mm) along the line of action the flank lies behind the points of the involute at roll lengths.

@@ -19,8 +19,8 @@ __all__ = ["SolidPairContact"]
 class SolidPairContact(PairContact):
     """One pair of teeth in contact, `force` (N): per cell of its line (n,) forces in N, half widths in mm, pressures in MPa.
 
-    `margin` (n,) in mm is by how much a cell is further than INTERIOR half widths from all edges of both flanks: where it is
-    not positive the pressure depends on the edge.
+    `margin` (n,) in mm is by how much a cell is further than INTERIOR half widths of the plain flanks from all edges of both
+    flanks and from the starts of linear reliefs: where it is not positive the pressure depends on these.
     """
 
     line: ContactLine

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,7 +21,17 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.mounting import Mounting
 from gearcad.per_gear import PerGear
 
-__all__ = ["ContactLine", "Gaps", "contact_lines", "gaps", "line_gap", "near_path", "places_beside"]
+__all__ = [
+    "ContactLine",
+    "Gaps",
+    "along_tangent",
+    "contact_lines",
+    "gaps",
+    "kink_distance",
+    "line_gap",
+    "near_path",
+    "places_beside",
+]
 
 
 BEND = 0.05
@@ -169,6 +179,21 @@ def near_path(line: LineOfAction, farthest_gap: float) -> float:
     nominal = np.linspace(0.0, sum(max(abs(each.first), abs(each.last)) for each in line.flanks), _PLACES)
     usable, (*_, gap, _) = _facing(line, nominal)
     return float(np.ptp(nominal[usable & (gap < farthest_gap)]))
+
+
+def kink_distance(line: ContactLine, action: LineOfAction) -> Floats:
+    """Distances (n,) in mm along the tangent from the cells to the nearest start of a linear relief; infinite without one."""
+    nearest = np.full(line.across.shape, math.inf)
+    for flank, (lengths, _) in zip(action.flanks, line.places, strict=True):
+        for kink in flank.kinks:
+            nearest = np.minimum(nearest, along_tangent(flank.base_radius, kink, lengths))
+    return nearest
+
+
+def along_tangent(base_radius: float, kink: Any, lengths: Floats) -> Floats:
+    """Return distances in mm along the flank between a place, or a column of them, and others; all at roll lengths (mm)."""
+    result: Floats = np.abs((kink**2 - lengths**2) / (2 * base_radius))
+    return result
 
 
 class Gaps(NamedTuple):

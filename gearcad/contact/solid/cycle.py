@@ -12,8 +12,9 @@ from gearcad.arrays import Floats
 from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.contact.shared.loaded import FAIR, INTERIOR, LoadedCycle, LoadedPosition, RootStress
 from gearcad.contact.solid.contact import SolidPairContact
+from gearcad.contact.solid.contact_lines import kink_distance
 from gearcad.contact.solid.flank import SolidCompliance, ToothForces
-from gearcad.contact.solid.line_contact import LineSolution
+from gearcad.contact.solid.line_contact import LineSolution, plain_widths
 from gearcad.contact.solid.pair import SolidPair
 from gearcad.contact.solid.root import FilletState, SolidFillet
 from gearcad.per_gear import PerGear, Role
@@ -181,7 +182,8 @@ def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidPairContac
     for line, forces, widths, pressures, radii in zip(given.lines, *(given.split(part) for part in parts), strict=True):
         if forces.sum() > 0:
             to_end = model.width / 2 - np.abs(line.across)
-            margin = np.minimum(line.edge_distance, to_end) - INTERIOR * widths
+            distance = np.minimum(np.minimum(line.edge_distance, to_end), kink_distance(line, model.line))
+            margin = distance - INTERIOR * plain_widths(widths, radii, line.curvature, model.helix)
             force, share = float(forces.sum()), float(forces.sum() / total)
             found.append(SolidPairContact(line, forces, widths, pressures, radii, margin, force, share))
     return tuple(found)

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Bools, Floats
 from gearcad.contact.shared.complementarity import complementary
 from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.contact.solid.contact_lines import ContactLine, Gaps
@@ -22,7 +23,7 @@ from gearcad.errors import SolverError
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.hertz import half_width, peak_pressure
 
-__all__ = ["LineSolution", "Responses", "half_widths", "responses", "solve_lines"]
+__all__ = ["LineSolution", "Responses", "half_widths", "plain_widths", "responses", "solve_lines"]
 
 
 OWN_DISTANCE = math.exp(-0.5) / 2
@@ -31,9 +32,19 @@ OWN_DISTANCE = math.exp(-0.5) / 2
 _LEAST = 1e-3
 """Share of the mean load per length for which the ellipse of a cell is wide enough, however little it carries."""
 
-_ROUNDS, _FREE_ROUNDS = 40, 8
-_SETTLED = 1e-5
-"""Rounds of fitting the ellipses to the loads, and the relative change at which they have settled."""
+_ROUNDS = 60
+_SETTLED = 1e-9
+"""Rounds of fitting the ellipses to the loads, and the relative error of half widths at which they have settled."""
+
+_SHARES, _DECREASE = (1.0, 0.5, 0.25), 0.1
+"""Shares of Newton's step that are tried, and the share of the decrease it promises that one must reach: with shorter ones it
+creeps along a kink."""
+
+_PARTS = (0.5, 0.3, 0.8)
+"""Shares of the fixed point's step, in turn, that are taken where Newton's does not help: one alone could repeat a cycle."""
+
+_LONGEST = 1.5
+"""Greatest change of a half width's logarithm in one step."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +81,16 @@ class Responses:
         for here in self._own_cells:
             apart, own, half = self.apart[here, here], OWN_DISTANCE * half_widths[here], self.lengths[here] / 2
             kernel = (np.arcsinh((apart + half) / own) - np.arcsinh((apart - half) / own)) / self.lengths[here]
+            result[here, here] = kernel / (math.pi * self.modulus)
+        return result
+
+    def half_space_slopes(self, half_widths: Floats) -> Floats:
+        """Return the derivatives (n, n) in mm/N of `half_space` by the logarithm of the half width of the loaded cell."""
+        result = np.zeros_like(self.apart)
+        for here in self._own_cells:
+            apart, own, half = self.apart[here, here], OWN_DISTANCE * half_widths[here], self.lengths[here] / 2
+            far, near = apart + half, apart - half
+            kernel = (near / np.hypot(near, own) - far / np.hypot(far, own)) / self.lengths[here]
             result[here, here] = kernel / (math.pi * self.modulus)
         return result
 
@@ -140,27 +161,112 @@ def half_widths(given: Responses, radii: Floats, forces: Floats) -> Floats:
     return half_width(forces / given.lengths, radii, given.modulus)
 
 
+def plain_widths(widths: Floats, radii: Floats, curvature: Floats, helix: float) -> Floats:
+    """Return the half widths in mm of cells as they would be on exact flanks: a bend of the depth narrows them.
+
+    `curvature` (1/mm) is that of the exact flanks in the transverse section, `helix` (rad) is on the base cylinder.
+    """
+    result: Floats = widths * np.sqrt(np.maximum(1.0, 1 / (curvature * math.cos(helix) * radii)))
+    return result
+
+
 def solve_lines(given: Responses, gap: Gaps, force: float) -> LineSolution:
-    """Press the gears together with the normal force `force` (N). Raises SolverError."""
-    even = force * given.lengths / given.lengths.sum()
-    smooth, forces, ones = given.both, even, np.ones(given.cells)
-    widths, pressed = half_widths(given, gap.radii, even), np.ones(given.cells, bool)
-    spread = _spread(given, widths)
+    """Press the gears together with the normal force `force` (N). Raises SolverError.
+
+    Newton's rule on the logarithms of the half widths: each cell's width must be that of Hertz for the load that it then
+    carries. Steps are shortened until the residual falls; the cells that carry change with the widths.
+    """
+    problem = _Widths(given, gap, force, given.both, force * given.lengths / given.lengths.sum())
+    state = problem.at(half_widths(given, gap.radii, problem.even), np.ones(given.cells, bool))
     for count in range(_ROUNDS):
-        kernel = given.half_space(widths)
-        found, approach = complementary(smooth + kernel, gap.normal, ones, force, pressed)
-        change = np.abs(found - forces).max() / found.max()
-        forces, pressed = found, found > 0
-        if change < _SETTLED:
+        if state.error < _SETTLED:
             break
-        # Later half the step: a cell at the end of a contact could come and go for ever.
-        step = 1.0 if count < _FREE_ROUNDS else 0.5
-        widths = widths + step * (half_widths(given, gap.radii, spread @ np.maximum(forces, _LEAST * even)) - widths)
+        state = problem.better(state, _PARTS[count % len(_PARTS)])
     else:
-        raise SolverError(f"the widths of the contact did not settle within {_ROUNDS} rounds")
-    contact = float(forces @ kernel @ forces)
+        raise SolverError(
+            f"the widths of the contact did not settle within {_ROUNDS} rounds (half width {state.widths.max():.3g} mm, "
+            f"off by {100 * state.error:.2g} %): reduce load.torque or mounting.misalignment, or raise check.refinement"
+        )
+    forces = state.forces
+    contact = float(forces @ state.kernel @ forces)
     parts = given.smooth.map(lambda matrix: float(forces @ matrix @ forces + contact / 2) / force)
-    return LineSolution(given, gap, forces, approach, float(gap.normal.min()), parts)
+    return LineSolution(given, gap, forces, state.approach, float(gap.normal.min()), parts)
+
+
+@dataclass(frozen=True)
+class _State:
+    """Contact with ellipses of half `widths` (n,) in mm: `forces` (n,) in N, and the half widths `wanted` (n,) by these."""
+
+    widths: Floats
+    kernel: Floats
+    forces: Floats
+    approach: float
+    wanted: Floats
+
+    @property
+    def residual(self) -> Floats:
+        """Logarithm (n,) of the wanted half widths over those that were taken."""
+        result: Floats = np.log(self.wanted / self.widths)
+        return result
+
+    @property
+    def error(self) -> float:
+        """Greatest size of the residual."""
+        return float(np.abs(self.residual).max())
+
+
+@dataclass(frozen=True)
+class _Widths:
+    """The equation for the half widths of all cells; `smooth` (n, n) in mm/N, `even` (n,) the even load in N."""
+
+    given: Responses
+    gap: Gaps
+    force: float
+    smooth: Floats
+    even: Floats
+
+    @cached_property
+    def spread(self) -> Floats:
+        """Weights (n, n) that even out forces along the lines."""
+        return _spread(self.given, half_widths(self.given, self.gap.radii, self.even))
+
+    def at(self, widths: Floats, start: Bools) -> _State:
+        """Solve the contact for given half widths (n,) in mm, from the cells that carry at the `start` (n,)."""
+        kernel = self.given.half_space(widths)
+        forces, approach = complementary(self.smooth + kernel, self.gap.normal, np.ones(len(widths)), self.force, start)
+        evened = self.spread @ np.maximum(forces, _LEAST * self.even)
+        return _State(widths, kernel, forces, approach, half_widths(self.given, self.gap.radii, evened))
+
+    def better(self, state: _State, part: float) -> _State:
+        """Return a state of less residual by Newton's step or, where a kink stops it, after a `part` of the fixed point's."""
+        carries = state.forces > 0
+        step = self._newton_step(state)
+        longest = min(1.0, _LONGEST / max(float(np.abs(step).max()), _SETTLED))
+        for share in (longest * each for each in _SHARES):
+            tried = self.at(state.widths * np.exp(share * step), carries)
+            if np.linalg.norm(tried.residual) < (1 - _DECREASE * share) * np.linalg.norm(state.residual):
+                return tried
+        # The fixed point's own step may raise the residual: it leaves the kink at which Newton's ends.
+        return self.at(state.widths * np.exp(part * state.residual), carries)
+
+    def _newton_step(self, state: _State) -> Floats:
+        """Return the change (n,) of the logarithms of the half widths by the exact derivative, while the same cells carry."""
+        carry = np.flatnonzero(state.forces > 0)
+        count, cells = len(carry), len(state.widths)
+        system = np.zeros((count + 1, count + 1))
+        system[:count, :count] = (self.smooth + state.kernel)[carry[:, None], carry]
+        system[:count, count] = system[count, :count] = -1.0
+        moved = np.zeros((count + 1, cells))
+        moved[:count] = -(self.given.half_space_slopes(state.widths) * state.forces)[carry]
+        changed = np.zeros((cells, cells))
+        changed[carry] = np.linalg.solve(system, moved)[:count]
+        changed[state.forces <= _LEAST * self.even] = 0.0
+        evened = self.spread @ np.maximum(state.forces, _LEAST * self.even)
+        slopes = (self.spread @ changed) / (2 * evened[:, None])
+        try:
+            return np.asarray(np.linalg.solve(np.eye(cells) - slopes, state.residual), float)
+        except np.linalg.LinAlgError:
+            return state.residual
 
 
 def _spread(given: Responses, widths: Floats) -> Floats:

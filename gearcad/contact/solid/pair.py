@@ -20,7 +20,7 @@ from gearcad.contact.solid.cost import KEPT, LEFT, BodyCost, body_cost
 from gearcad.contact.solid.flank import SolidCompliance, solid_compliance
 from gearcad.contact.solid.line_contact import LineSolution, Responses, responses, solve_lines
 from gearcad.contact.solid.root import SolidFillets, solid_fillets
-from gearcad.errors import GeometryError
+from gearcad.errors import GeometryError, SolverError
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.halves import refuse_halves
@@ -199,8 +199,21 @@ class SolidPair(FlexiblePair[SolidCompliance]):
             gap = gaps(given.lines, self.pair, self.mounting, self.helix)
             found = solve_lines(given, gap, force * self.width / math.cos(self.helix))
             if found.approach - found.rigid + self._deviation < farthest * math.cos(self.helix):
+                self._require_in_range(found, torque)
                 return found
             farthest *= 2
+
+    def _require_in_range(self, found: LineSolution, torque: float) -> None:
+        """Raise SolverError where the contact is wider than a tooth is deep, or than its flanks are curved."""
+        worst = int(np.argmax(np.where(found.forces > 0, found.half_widths, 0.0)))
+        half = float(found.half_widths[worst])
+        depth = min((gear.tip_diameter - gear.root_diameter) / 2 for gear in self.pair.gears)
+        for words, bound in (("the depth of the teeth", depth), ("the reduced radius there", float(found.gaps.radii[worst]))):
+            if half > bound:
+                raise SolverError(
+                    f"the contact is outside the range of its model: its half width, {half:.3g} mm at {abs(torque):.4g} N·m, "
+                    f"is more than {words}, {bound:.3g} mm; reduce load.torque or mounting.misalignment"
+                )
 
     def farthest(self, torque: float) -> float:
         """Gap of the exact flanks (mm) beyond which nothing is taken to touch at a torque (N·m) but for very soft bodies."""

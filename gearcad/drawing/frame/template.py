@@ -26,6 +26,7 @@ from gearcad.drawing.options import one_line
 from gearcad.drawing.shapes import Box
 from gearcad.drawing.words import Language, Words
 from gearcad.errors import ParameterError, SpecError, printable, shown
+from gearcad.output import file_bytes
 from gearcad.schema import require_fields, schema_of
 from gearcad.shipped import templates
 
@@ -102,7 +103,7 @@ class SheetTemplate:
 def _read(file: str) -> dict[str, Any]:
     """The content of a company's file. Raises SpecError."""
     try:
-        return tomllib.loads(Path(file).read_bytes().decode("utf-8-sig"))
+        return tomllib.loads(file_bytes(Path(file)).decode("utf-8-sig"))
     except OSError as error:
         raise SpecError(f"{printable(file)}: cannot be read ({error.strerror}); it is the template of [drawing]") from error
     except (ValueError, RecursionError) as error:  # what is no TOML, no UTF-8, or no name of a file

@@ -82,7 +82,10 @@ def gear_notices(drawn: DrawnGear, options: DrawingOptions | None = None) -> tup
 def _notices(drawn: DrawnGear, options: DrawingOptions) -> Iterator[Notice]:
     yield from tolerance_notices(drawn)
     if isinstance(drawn.gear, Gear) and drawn.gear.tooth_allowance is None:
-        text = "tooth thickness: tooth_allowance is not given, so thickness, span and size over balls have no limits"
+        text = (
+            "tooth thickness: thickness, span and size over balls have no limits: give tooth_allowance in the table of the "
+            'gear (such as "cd25" in [pinion])'
+        )
         yield Notice("no-thickness-limits", text)
     if not flank_roughness(drawn).given:
         text = "roughness of the flanks: flank_roughness is not given; the Ra by the accuracy grade is ours, verify it"

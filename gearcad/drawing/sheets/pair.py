@@ -81,7 +81,7 @@ def _notices(pair: GearPair | RackPair) -> Iterator[Notice]:
             "no-limits", "the sheet has it without limits: racks have none here, say them in notes", where="mounting distance"
         )
     if isinstance(pair, GearPair) and pair.centre_distance_tolerance is None:
-        text = 'the sheet has it without limits: none are given (centre_distance_tolerance, such as "js7")'
+        text = 'the sheet has it without limits: none are given (centre_distance_tolerance in [pair], such as "js7")'
         yield Notice("no-limits", text, where="centre distance")
     if isinstance(pair, GearPair) and pair.internal and pair.wheel.body.rim_diameter is None:
         yield Notice("rim-assumed", "the outside that is drawn is assumed: body.rim_diameter is not given", where="wheel")

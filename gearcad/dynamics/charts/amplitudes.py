@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from gearcad.arrays import Floats
 from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.charts.findings import Charts
@@ -91,7 +93,7 @@ def _amplitudes(chart: KvChart) -> dict[tuple[str, str, str], Floats]:
 
 def _most(charts: Charts, courses: list[tuple[Direction, Floats]]) -> tuple[float, float, float, Direction | None]:
     """The greatest value over speed, its speed (rpm), tooth frequency (1/s) and direction."""
-    direction, course = max(courses, key=lambda each: float(each[1].max()))
-    row = int(course.argmax())
+    direction, course = max(courses, key=lambda each: float(np.nanmax(each[1])))
+    row = int(np.nanargmax(course))
     sense = None if charts.down is None else direction
     return float(course[row]), float(charts.speeds[row]), float(charts.up.frequencies[row]), sense

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
 from gearcad.dynamics.charts.displacements import BearingLoads, Displacements
+from gearcad.dynamics.charts.displacements import columns as _columns
 from gearcad.dynamics.charts.transmission import TransmissionErrors
 from gearcad.dynamics.maxima import outstanding
 from gearcad.notice import Notice, texts
@@ -73,18 +74,24 @@ class KvChart:
 
     def peaks(self, mesh: int = 0) -> list[FactorPeak]:
         """Resonances of a mesh, in order of frequency: maxima of K_v that stand out from both sides."""
-        found = outstanding(self.factors[:, mesh], _PROMINENCE)
+        known = np.flatnonzero(np.isfinite(self.factors[:, mesh]))
+        found = known[outstanding(self.factors[known, mesh], _PROMINENCE)]
         return [FactorPeak(float(self.frequencies[i]), float(self.factors[i, mesh])) for i in found]
+
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """Where (s,) there are loads: none where a motion with parted flanks was not found."""
+        return np.asarray(np.isfinite(self.factors).all(axis=1), bool)
 
     @property
     def apart(self) -> NDArray[np.bool_]:
         """Where (s,) flanks part at some time, or would if they could."""
-        return np.asarray(np.any(self.least <= 0, axis=1), bool)
+        return np.asarray(np.any(~(self.least > 0), axis=1), bool)
 
     @property
     def referred_shafts(self) -> list[int]:
         """Shafts that have an overload: the others carry nothing at rest."""
-        return [shaft for shaft, column in enumerate(self.shaft_factors.T) if np.isfinite(column).all()]
+        return [shaft for shaft, column in enumerate(self.shaft_factors.T) if np.isfinite(column[self.known]).all()]
 
     @property
     def idle_shafts(self) -> list[str]:
@@ -109,9 +116,9 @@ class KvChart:
         return {
             "frequency": self.frequencies.tolist(),
             "definition": ForceDefinition.SPRING.value,
-            "kv": dict(zip(self.mesh_names, self.factors.T.tolist(), strict=True)),
-            "kv_with_damping": dict(zip(self.mesh_names, self.damped.T.tolist(), strict=True)),
-            "least_force": dict(zip(self.mesh_names, (self.least * self.static_forces).T.tolist(), strict=True)),
+            "kv": _columns(self.mesh_names, self.factors),
+            "kv_with_damping": _columns(self.mesh_names, self.damped),
+            "least_force": _columns(self.mesh_names, self.least * self.static_forces),
             "static_force": dict(zip(self.mesh_names, self.static_forces.tolist(), strict=True)),
             "shaft_overload": dict(zip(self.shaft_names, shafts, strict=True)),
             "peaks": {name: [each._asdict() for each in self.peaks(j)] for j, name in enumerate(self.mesh_names)},

@@ -12,7 +12,7 @@ from gearcad.dynamics.charts.extremes import Extremes
 from gearcad.dynamics.response.flexibility import StaticState
 from gearcad.dynamics.trains.system import System
 
-__all__ = ["BearingLoads", "Displacements", "bearing_loads", "displacements"]
+__all__ = ["BearingLoads", "Displacements", "bearing_loads", "columns", "displacements"]
 
 
 _ARCSEC = 3600 * 180 / np.pi
@@ -54,10 +54,10 @@ class Displacements:
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it: arcsec and µm, null where nothing holds an inertia."""
         return {
-            "turn_amplitude": _columns(self.inertia_names, self.turns),
-            "turn_greatest": _columns(self.inertia_names, self.farthest),
-            "approach_amplitude": _columns(self.mesh_names, self.approaches),
-            "approach_greatest": _columns(self.mesh_names, self.deepest),
+            "turn_amplitude": columns(self.inertia_names, self.turns),
+            "turn_greatest": columns(self.inertia_names, self.farthest),
+            "approach_amplitude": columns(self.mesh_names, self.approaches),
+            "approach_greatest": columns(self.mesh_names, self.deepest),
         }
 
 
@@ -116,7 +116,7 @@ class BearingLoads:
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it: N and µm."""
         static = dict(zip(self.gears, self.static.tolist(), strict=True))
-        return {"static_force": static, **{name: _columns(self.gears, each) for name, each in self._over_speed().items()}}
+        return {"static_force": static, **{name: columns(self.gears, each) for name, each in self._over_speed().items()}}
 
 
 def bearing_loads(system: System, static: StaticState, found: Extremes) -> BearingLoads | None:
@@ -142,7 +142,7 @@ def bearing_loads(system: System, static: StaticState, found: Extremes) -> Beari
 
 def _but_rounding(across: Floats, along: Floats) -> Floats:
     """0 where bearings are alike in all directions: nothing drives what is across the line of action."""
-    return np.where(np.abs(across).max() > _FREE * np.abs(along).max(), across, 0.0)
+    return np.where(np.nanmax(np.abs(across)) > _FREE * np.nanmax(np.abs(along)), across, 0.0)
 
 
 def _amplitudes(both: Floats) -> Floats:
@@ -150,7 +150,7 @@ def _amplitudes(both: Floats) -> Floats:
     return np.asarray((both[:, 0] - both[:, 1]) / 2, float)
 
 
-def _columns(names: tuple[str, ...], values: Floats) -> dict[str, list[float | None]]:
+def columns(names: tuple[str, ...], values: Floats) -> dict[str, list[float | None]]:
     """Of values (s, c), no value (null) for nan."""
     plain = np.where(np.isnan(values), None, values)  # type: ignore[call-overload]
     return dict(zip(names, plain.T.tolist(), strict=True))

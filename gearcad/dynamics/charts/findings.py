@@ -124,10 +124,10 @@ class ModeSpeed(NamedTuple):
 
 def greatest_factor(charts: Charts) -> GreatestFactor:
     """Of all meshes and directions."""
-    direction, chart = max(charts.directions(), key=lambda each: float(each[1].factors.max()))
-    row, mesh = np.unravel_index(int(chart.factors.argmax()), chart.factors.shape)
+    direction, chart = max(charts.directions(), key=lambda each: float(np.nanmax(each[1].factors)))
+    row, mesh = np.unravel_index(int(np.nanargmax(chart.factors)), chart.factors.shape)
     return GreatestFactor(
-        factor=float(chart.factors.max()),
+        factor=float(np.nanmax(chart.factors)),
         mesh=chart.mesh_names[mesh],
         speed=float(charts.speeds[row]),
         direction=None if charts.down is None else direction,
@@ -187,7 +187,7 @@ def shaft_overloads(charts: Charts) -> tuple[ShaftOverload, ...]:
     """Of the shafts that carry something at rest, running up."""
     chart, found = charts.up, []
     for shaft in chart.referred_shafts:
-        row = int(chart.shaft_factors[:, shaft].argmax())
+        row = int(np.nanargmax(chart.shaft_factors[:, shaft]))
         torque, factor = float(chart.shaft_references[shaft]), float(chart.shaft_factors[row, shaft])
         found.append(ShaftOverload(chart.shaft_names[shaft], torque, factor, float(charts.speeds[row])))
     return tuple(found)

@@ -102,6 +102,7 @@ def idle_shafts(torques: Floats, references: Floats) -> NDArray[np.bool_]:
     """Which shafts (n,) have greatest torques (s, n) over speed that have little to do with those at rest (n,)."""
     if not torques.size:
         return np.zeros(len(references), bool)
+    torques = torques[np.isfinite(torques).all(axis=1)]
     idle = (torques.max(axis=0) >= _IDLE * references) & (np.median(torques, axis=0) >= _IDLE_MOSTLY * references)
     return np.asarray(idle, bool)
 

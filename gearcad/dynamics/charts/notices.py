@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Bools, Floats
 from gearcad.dynamics.charts.resonances import LEAST_RATIO
 from gearcad.dynamics.charts.speed_curves import HIGHEST_SOUGHT, LEFT_OUT, SpeedCurves, Told
 from gearcad.dynamics.response.notices import frequency_ranges
-from gearcad.errors import SolverError
 from gearcad.notice import Notice
 
-__all__ = ["fixed_harmonics", "hardly_damped", "left_out", "not_looked_for", "standstill", "stuck"]
+__all__ = ["fixed_harmonics", "hardly_damped", "in_time", "left_out", "no_value", "not_looked_for", "standstill"]
 
 
 def left_out(curves: SpeedCurves, told: Told) -> tuple[Notice, ...]:
@@ -62,9 +61,26 @@ def hardly_damped(curves: SpeedCurves, frequencies: Floats) -> tuple[Notice, ...
     return (Notice("hardly-damped", text),)
 
 
-def stuck(reason: SolverError) -> Notice:
-    """That no motion was found in which flanks part."""
-    return Notice("flanks-stuck", f"flanks are taken to stick to each other, for want of a motion in which they part: {reason}")
+def in_time(frequencies: Floats, marked: Bools) -> tuple[Notice, ...]:
+    """Where loads are those of motions that were integrated in time."""
+    if not marked.any():
+        return ()
+    text = (
+        f"flanks part at tooth frequencies (1/s) {frequency_ranges(frequencies, marked)}: the loads there are integrated in "
+        "time, running up slowly from standstill and down from the last speed"
+    )
+    return (Notice("integrated-in-time", text),)
+
+
+def no_value(frequencies: Floats, marked: Bools, reason: str) -> Notice:
+    """Where no loads are given, and why."""
+    places = frequencies[marked]
+    text = (
+        f"no loads at {len(places)} speeds between tooth frequencies of {places[0]:g} and {places[-1]:g} 1/s, where flanks "
+        f"would part: {reason}; more damping"
+        ' (damping_ratio), fewer speeds, or [dynamics.transient] or campbell = "on", which integrate in time, give some'
+    )
+    return Notice("no-value", text)
 
 
 def fixed_harmonics(period: int, harmonics: int) -> Notice:

@@ -12,10 +12,19 @@ import numpy as np
 from gearcad.arrays import Bools, Complexes, Floats
 from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.charts.kv import chart_of, idle_shafts, kv_chart
-from gearcad.dynamics.charts.notices import fixed_harmonics, hardly_damped, left_out, not_looked_for, standstill, stuck
+from gearcad.dynamics.charts.notices import (
+    fixed_harmonics,
+    hardly_damped,
+    in_time,
+    left_out,
+    no_value,
+    not_looked_for,
+    standstill,
+)
 from gearcad.dynamics.charts.parting import MOST_ROUNDS, Parted, parted
 from gearcad.dynamics.charts.refine import speeds_between
 from gearcad.dynamics.charts.speed_curves import SpeedCurves, Told
+from gearcad.dynamics.charts.time_runs import TimeRun, TimeRuns, without_values
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.floquet import UNSTABLE, growth
@@ -41,6 +50,9 @@ _DRAWN = 256
 _LINEAR, _ASKED = 0.2, 0.5
 """Shares of the work: of linear motions where flanks may part, and of the speeds asked for. No more than a guess."""
 
+_BESIDE, _AGREE, _JUMP = 0.012, 0.03, 0.15
+"""Relative: how near to a speed a branch may have the load of a run, how far both may differ, and what step of it is a jump."""
+
 _CLOSE = 0.01
 """Relative: speeds so near to a resonance of a low harmonic are looked at, however many high ones there are."""
 
@@ -57,6 +69,8 @@ class OverSpeed:
     notices: tuple[Notice, ...]
     curves: SpeedCurves
     branch: Parted | None
+    runs: TimeRuns | None = None
+    """Runs in time, where the charts are those of these."""
 
     def response(self, frequency: float) -> PeriodicResponse:
         """What is seen running up to any one frequency, with so many harmonics that it can be drawn over time.
@@ -66,6 +80,9 @@ class OverSpeed:
         places = np.array([frequency])
         if not self.curves.resolvable:
             return periodic_response(self.curves.system, self.curves.excitation, places, harmonics=self.curves.few)
+        near = int(np.abs(self.up.frequencies - frequency).argmin())
+        if self.runs is not None and self.down is not None and (self.up.least[near] <= 0).any():
+            return self.runs.response(frequency, min(_DRAWN * max(self.excitation.orders), self.curves.most_orders))
         if self.branch is None or not self.branch.holds(frequency):
             stable = growth(self.curves.system, self.curves.excitation, places) <= UNSTABLE
             return replace(self.curves.response(self._motion(self.curves, frequency)), stable=stable)
@@ -106,30 +123,107 @@ def over_speed(
     told, skipped = _refined(linear, frequencies, part(share, 0.0, _LINEAR if excitation.parting else 1.0))
     stable = growth(system, linear.excitation, told.frequencies) <= UNSTABLE
     apart = np.asarray((told.least <= 0).any(axis=1), bool)
+    sides, runs = [(told, stable, np.zeros(0))], None
     branch, notices = None, (*standstill(linear), *hardly_damped(linear, told.frequencies), *not_looked_for(skipped))
     if excitation.parting and (apart | ~stable).any():
         curves = SpeedCurves(system, excitation, harmonics, linear.idle)
         try:
             rest = part(share, _LINEAR, 1.0)
             branch = parted(curves, frequencies, told.frequencies[apart | ~stable], share=rest)
-        except SolverError as error:
-            notices = (*notices, stuck(error))
+        except SolverError:
+            branch = None
+        sides, runs, more = _by_runs(linear, excitation, frequencies, told, stable, branch)
+        branch, notices = (branch if runs is None else None), (*notices, *more)
     elif apart.any():
         notices = (*notices, parting(told.frequencies, apart))
     share(1.0)
-    sides = [(told, stable, np.zeros(0))]
     if branch is not None:
         sides = [_together(told, stable, branch, direction) for direction in (Direction.UP, Direction.DOWN)]
     charts = [_chart(linear, each, lasting, method_b, parting=excitation.parting) for each, lasting, _ in sides]
     return OverSpeed(
         excitation=excitation,
         up=charts[0],
-        down=charts[1] if branch is not None else None,
+        down=charts[1] if len(charts) > 1 else None,
         jumps=(sides[0][2], sides[-1][2]),
         notices=notices,
         curves=linear,
         branch=branch,
+        runs=runs,
     )
+
+
+_Side = tuple[Told, Bools, Floats]
+"""Loads, whether motions last, and frequencies of jumps."""
+
+
+def _by_runs(
+    linear: SpeedCurves, excitation: Excitation, frequencies: Floats, told: Told, stable: Bools, branch: Parted | None
+) -> tuple[list[_Side], TimeRuns | None, tuple[Notice, ...]]:
+    """Charts by runs in time unless the branch shows the same; without values where runs take too long."""
+    runs = TimeRuns(linear, excitation, float(frequencies[-1]))
+    flagged = runs.parts(told)
+    reason = runs.reason(int(np.isin(frequencies, told.frequencies[flagged]).sum()))
+    if not reason:
+        try:
+            both = [runs.run(direction) for direction in (Direction.UP, Direction.DOWN)]
+            if branch is not None and all(_same(runs, run, branch, frequencies) for run in both):
+                return [], None, ()
+            wanted = _speeds_of(runs, both, frequencies, told.frequencies[~flagged])
+            places = np.setdiff1d(wanted, told.frequencies)
+            contact = Told.joined(told, linear.told(places)[0]).rising() if len(places) else told
+            contact = contact.at(np.flatnonzero(np.isin(contact.frequencies, wanted)))
+            parting_there = runs.parts(contact)
+            sides, shown = list[_Side](), np.zeros(len(contact.frequencies), bool)
+            for run in both:
+                found, by_time = runs.told(run, contact, parting_there)
+                jumps = _run_jumps(runs, run)
+                sides.append(
+                    (found, np.ones(len(by_time), bool), jumps[(jumps >= frequencies[0]) & (jumps <= frequencies[-1])])
+                )
+                shown |= by_time
+            return sides, runs, in_time(contact.frequencies, shown)
+        except SolverError as error:
+            reason = str(error)
+    empty = without_values(told, np.flatnonzero(flagged))
+    return [(empty, stable, np.zeros(0))], runs, (no_value(told.frequencies, flagged, reason),)
+
+
+def _speeds_of(runs: TimeRuns, both: list[TimeRun], frequencies: Floats, contact: Floats) -> Floats:
+    """Return those asked for, those of motions in `contact` and the rungs at which flanks part in a run (1/s)."""
+    nonlinear = np.any([run.nonlinear for run in both], axis=0)
+    near = runs.rungs[nonlinear & (runs.rungs > frequencies[0]) & (runs.rungs < frequencies[-1])]
+    place = np.clip(np.searchsorted(runs.rungs, contact) - 1, 0, len(runs.rungs) - 2)
+    outside = contact[~(nonlinear[place] | nonlinear[place + 1])]
+    return np.union1d(np.union1d(frequencies, near), outside)
+
+
+def _same(runs: TimeRuns, run: TimeRun, branch: Parted, asked: Floats) -> bool:
+    """Return whether a branch has the loads of a run at all its rungs within the frequencies `asked` (s,) in 1/s."""
+    seen = branch.at_least(runs.rungs[run.nonlinear]).seen(run.direction)[0]
+    forces = np.abs(runs.linear.system.stiffness * runs.linear.static.approach)
+    for k, frequency in enumerate(runs.rungs.tolist()):
+        if not run.nonlinear[k]:
+            continue
+        if not branch.holds(frequency):
+            if asked[0] <= frequency <= asked[-1]:
+                return False
+            continue
+        near = np.abs(seen.frequencies / frequency - 1) < _BESIDE
+        if not near.any():
+            continue
+        most, own = seen.most[near] / forces, run.most[k] / forces
+        if (own > most.max(axis=0) * (1 + _AGREE)).any() or (own < most.min(axis=0) * (1 - _AGREE)).any():
+            return False
+    return True
+
+
+def _run_jumps(runs: TimeRuns, run: TimeRun) -> Floats:
+    """Frequencies at which loads of a run jump, in its order."""
+    order = slice(None) if run.direction is Direction.UP else slice(None, None, -1)
+    most, rungs = run.most[order], runs.rungs[order]
+    nonlinear = run.nonlinear[order]
+    step = np.abs(np.diff(most, axis=0)) > _JUMP * np.minimum(most[1:], most[:-1])
+    return np.asarray(rungs[1:][step.any(axis=1) & (nonlinear[1:] | nonlinear[:-1])], float)
 
 
 def _curves(system: System, excitation: Excitation, frequencies: Floats, harmonics: int | None) -> SpeedCurves:

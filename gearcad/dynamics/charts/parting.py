@@ -79,6 +79,10 @@ class Parted:
         joined = Told.joined(self.told, loads(others, self.curves))
         return Parted(self.branch.with_motions(others), joined, self.curves)
 
+    def at_least(self, frequencies: Floats) -> Parted:
+        """Return the branch with motions at those of the frequencies (x,) in 1/s that it goes through."""
+        return self._with(np.array([each for each in frequencies.tolist() if self.holds(each)]))
+
     def holds(self, frequency: float) -> bool:
         """Whether the branch goes through a frequency."""
         return bool(self.branch.frequencies[0] <= frequency <= self.branch.frequencies[-1])

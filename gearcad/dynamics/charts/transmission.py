@@ -42,7 +42,7 @@ class TransmissionErrors:
 
 def transmission_errors(orders: Floats, lines: Floats) -> TransmissionErrors:
     """Of lines (s, k, m) in m at orders (k,): those that are a thousandth of the greatest line of a mesh at some speed."""
-    kept = lines_that_matter(lines.max(axis=0, initial=0.0), _FLOOR, _MOST)
+    kept = lines_that_matter(np.nan_to_num(lines).max(axis=0, initial=0.0), _FLOOR, _MOST)
     return TransmissionErrors(orders=orders[kept], amplitudes=lines[:, kept] / _MICRO)
 
 

@@ -49,7 +49,8 @@ class Motion:
     """A motion by steps of `step` s: `time` (k,) of its samples in s, and what a run writes down at each.
 
     `approach` (k, m) of the flanks in m, `spring` (k, m) and `force` (k, m) in N, without and with that of the dampers; `turns`
-    (k, i) of the inertias in rad and their rates `speeds` (k, i), `shaft_torque` (k, s) in N·m.
+    (k, i) of the inertias in rad and their rates `speeds` (k, i), `shaft_torque` (k, s) in N·m, `travels` (k, t) of axes in m
+    and their rates `travel_rates` (k, t) in m/s.
 
     Of windows of steps that end before `ends` (w,): `crest`, `trough` (w, m), the most and the least that the springs of a mesh
     carry, as the load presses it, `force_crest` (w, m) with that of the damper, `parted` (w, m) the share of its steps in which
@@ -67,6 +68,8 @@ class Motion:
     turns: Floats
     speeds: Floats
     shaft_torque: Floats
+    travels: Floats
+    travel_rates: Floats
     ends: Wholes
     crest: Floats
     trough: Floats
@@ -179,7 +182,7 @@ class MovingSystem:
 
     @cached_property
     def _rows(self) -> Floats:
-        return np.hstack([self.system.inertias, self.system.shaft_torques])
+        return self.system.outputs
 
     @cached_property
     def _model(self) -> Model:
@@ -245,6 +248,7 @@ class MovingSystem:
         self, step: float, ends: Wholes, count: int, growth: Floats, end: Start, records: Records
     ) -> Motion:  # fmt: skip
         samples, inertias, lengths = len(records.approach), self.system.inertias.shape[1], np.diff(np.append(0, ends))
+        torques = self.system.torque_outputs
         if len(ends):
             # The last window counts the step at its end, and the first that at time 0.
             lengths = np.minimum(ends, count + 1) - np.append(0, ends)[:-1]
@@ -256,14 +260,16 @@ class MovingSystem:
             force=records.total * self.senses,
             turns=records.sums[:, :inertias],
             speeds=records.rates[:, :inertias],
-            shaft_torque=records.sums[:, inertias:],
+            shaft_torque=records.sums[:, torques],
+            travels=records.sums[:, torques.stop :],
+            travel_rates=records.rates[:, torques.stop :],
             ends=ends,
             crest=records.crests[:, :, 0],
             trough=records.crests[:, :, 1],
             force_crest=records.crests[:, :, 2],
             parted=records.parted / np.maximum(lengths, 1)[:, None],
-            shaft_most=records.reach[:, inertias:, 0],
-            shaft_least=records.reach[:, inertias:, 1],
+            shaft_most=records.reach[:, torques, 0],
+            shaft_least=records.reach[:, torques, 1],
             growth=(float(growth[0]), float(growth[2])),
             end=end,
         )

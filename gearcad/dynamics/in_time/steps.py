@@ -9,7 +9,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.dynamics.trains.system import System
 
-__all__ = ["settling_time", "step_for"]
+__all__ = ["settling_time", "shaken_frequency", "step_for"]
 
 PER_TOOTH, PER_WAVE = 256, 80
 """Steps over a tooth of the quickest mesh, and over a vibration on the springs of the teeth: frequencies are then good to
@@ -37,6 +37,11 @@ def settling_time(system: System) -> float:
     squares, rates = _shaken(system)
     slowest = float(np.minimum(rates, np.sqrt(squares)).min(initial=math.inf))
     return _SETTLED / slowest if slowest > 0 else math.inf
+
+
+def shaken_frequency(system: System) -> float:
+    """Return the highest natural frequency (1/s) of the modes that the meshes shake."""
+    return math.sqrt(float(_shaken(system)[0].max(initial=0.0)))
 
 
 def _shaken(system: System) -> tuple[Floats, Floats]:

@@ -9,7 +9,7 @@ from gearcad.dynamics.planetary.result import PlanetaryStudy
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.harmonics import train_harmonics
 from gearcad.planetary.poses import TrainPose
-from gearcad.verdict import Verdict
+from gearcad.verdict import Verdict, strength_verdict
 
 __all__ = ["study_document"]
 
@@ -61,7 +61,12 @@ def _strength(study: PlanetaryStudy) -> dict[str, Any]:
         return study.rating.strength.summary()
     why = study.why_not["rating"]
     unknown = dict.fromkeys(("safety", "required", "life"))
-    return {**unknown, "strength": Verdict.NOT_JUDGED.value, "passed": None, "not_judged": {"train": why}}
+    return {
+        **unknown,
+        "strength": strength_verdict(study.asks_strength, [Verdict.NOT_JUDGED]).value,
+        "passed": None,
+        "not_judged": {"train": why},
+    }
 
 
 def _why_not(study: PlanetaryStudy) -> dict[str, str]:

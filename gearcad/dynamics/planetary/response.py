@@ -100,13 +100,13 @@ class PlanetaryResponse:
     @property
     def greatest(self) -> tuple[float, str, float]:
         """The greatest factor, of which mesh of which planet, and at which speed of the input (rpm)."""
-        row, mesh = np.unravel_index(int(self.up.factors.argmax()), self.up.factors.shape)
-        return float(self.up.factors.max()), self.up.mesh_names[mesh], float(self.speeds[row])
+        row, mesh = np.unravel_index(int(np.nanargmax(self.up.factors)), self.up.factors.shape)
+        return float(np.nanmax(self.up.factors)), self.up.mesh_names[mesh], float(self.speeds[row])
 
     @property
     def greatest_lasts(self) -> bool:
         """Whether the motion of the greatest factor does; what comes instead of one that does not may be greater."""
-        return bool(self.up.stable[int(self.up.factors.max(axis=1).argmax())])
+        return bool(self.up.stable[int(np.nanargmax(self.up.factors.max(axis=1)))])
 
     @cached_property
     def damping_ratios(self) -> Floats:
@@ -146,7 +146,7 @@ class PlanetaryResponse:
         return {
             "speed": self.speeds.tolist(),
             "tooth_frequency_per_rpm": self.tooth_frequency,
-            "load_factor": {name: values.T.tolist() for name, values in self.factors.items()},
+            "load_factor": {name: _or_null(values) for name, values in self.factors.items()},
             "stable": self.up.stable.tolist(),
             "greatest": {"factor": factor, "mesh": mesh, "speed": speed, "lasts": self.greatest_lasts},
             "static_force": dict(zip(self.up.mesh_names, self.up.static_forces.tolist(), strict=True)),
@@ -207,6 +207,11 @@ def planetary_response(
             *modes.notices,
         ),
     )
+
+
+def _or_null(values: Floats) -> list[list[float | None]]:
+    """Return the columns of values (s, m), null for nan."""
+    return [[float(each) if np.isfinite(each) else None for each in column] for column in values.T]
 
 
 def _require_course(stiffness: Mapping[str, MeshStiffness]) -> None:

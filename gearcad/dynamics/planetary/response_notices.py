@@ -99,7 +99,7 @@ def planets_differ(frequencies: Floats, growing: Bools) -> tuple[Notice, ...]:
 
 def differences_where_parted(over: OverSpeed) -> tuple[Notice, ...]:
     """How planets taken for one are judged where their flanks part."""
-    if over.branch is None:
+    if over.branch is None and over.runs is None:
         return ()
     text = "whether planets go on doing the same where flanks part is judged as if flanks stayed in contact"
     return (Notice("planets-in-contact", text),)

@@ -51,7 +51,7 @@ class PlanetaryStudy(Pictured):
 
     A part is None where something that it needs is not given or cannot be had; `why_not` {part: reason} says which.
     The `response` takes long and is there where it was asked for. `stiffness` is of both meshes by their names, `stage_cycles`
-    of the stages that carry something.
+    of the stages that carry something. `asks_strength`: whether materials or required safeties ask for a verdict on strength.
     """
 
     train: PlanetaryTrain
@@ -74,6 +74,7 @@ class PlanetaryStudy(Pictured):
     campbell: PlanetaryCampbell | None
     response: PlanetaryResponse | None
     rating: TrainRating | None
+    asks_strength: bool = False
     why_not: Mapping[str, str] = field(default_factory=dict)
 
     def __repr__(self) -> str:

@@ -13,14 +13,15 @@ from gearcad.per_gear import PerGear
 from gearcad.planetary import PlanetaryTrain, SetMesh
 from gearcad.planetary.materials import TrainMaterial, mesh_material, stage_material
 from gearcad.planetary.mesh_loads import FactorSource, MeshLoad
+from gearcad.rating.load_factors import LoadFactors
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import Part, PartStrength, StrengthRating, rate_strength
 from gearcad.rating.strength.called import called
 from gearcad.rating.strength.part import told
 from gearcad.reprs import Pictured
-from gearcad.verdict import Verdict, together
+from gearcad.verdict import NOT_ASKED_WORDS, Verdict, strength_verdict
 
-__all__ = ["GearStrength", "LeastSafety", "MeshFactors", "TrainStrength", "train_strength"]
+__all__ = ["GearStrength", "LeastSafety", "MeshFactors", "TrainStrength", "asks_strength", "train_strength"]
 
 
 class MeshFactors(NamedTuple):
@@ -72,7 +73,8 @@ class GearStrength:
 class TrainStrength(Pictured):
     """Full ratings of the `meshes` and stages of a train by their names; `unrated`: those without one, and why.
 
-    `gears` are the names of the gears of each mesh and stage, `names` of all in their order.
+    `gears` are the names of the gears of each mesh and stage, `names` of all in their order. `asked` is whether limits,
+    qualities or required safeties ask for a verdict on strength.
     """
 
     name: str
@@ -81,6 +83,7 @@ class TrainStrength(Pictured):
     unrated: Mapping[str, str]
     gears: Mapping[str, PerGear[str]]
     names: tuple[str, ...]
+    asked: bool = True
 
     def __repr__(self) -> str:
         return f"<TrainStrength of {self.name!r}: {self.verdict}>"
@@ -100,13 +103,14 @@ class TrainStrength(Pictured):
 
     @property
     def strength(self) -> Verdict:
-        """Passed if all meshes and stages are; failed if one is."""
-        return together([*(each.strength for each in self.meshes.values()), *(Verdict.NOT_JUDGED for _ in self.unrated)])
+        """The verdict on strength of all meshes and stages by `strength_verdict`."""
+        found = [verdict for each in self.meshes.values() for verdict in each.required_verdicts]
+        return strength_verdict(self.asked, [*found, *(Verdict.NOT_JUDGED for _ in self.unrated)])
 
     @property
     def passed(self) -> bool | None:
-        """None where not all was judged, and nothing failed."""
-        return None if self.strength is Verdict.NOT_JUDGED else self.strength is Verdict.PASSED
+        """Whether strength is passed or failed; None where it was not judged, or not asked for."""
+        return {Verdict.PASSED: True, Verdict.FAILED: False}.get(self.strength)
 
     @property
     def not_judged(self) -> dict[str, str]:
@@ -139,6 +143,8 @@ class TrainStrength(Pictured):
             return "; ".join((f"strength NOT passed: {', '.join(self.failed)}", *self._scuffing_unasked))
         if self.strength is Verdict.PASSED:
             return "; ".join(("strength passed", *self._scuffing_unasked))
+        if self.strength is Verdict.NOT_ASKED:
+            return f"strength {NOT_ASKED_WORDS}"
         return f"strength not judged: {'; '.join(dict.fromkeys(self.not_judged.values()))}"
 
     @property
@@ -220,11 +226,47 @@ def train_strength(
             load, own = loads[name], _of_mesh(loads[name], factors[name], options)
             rating = rate_strength(pair, made_of[name], load.even, own, driver=load.driver)
             rating = replace(rating, assumed=(*_assumed(load), *rating.assumed), verify=(*factors[name].verify, *rating.verify))
-            rated[name] = called(rating, gears[name])
+            found = {} if options.dynamic_factor != "B" else {"K_v": _OF_SET}
+            found |= (
+                {} if load.mesh_load_factor.source is FactorSource.GIVEN else {"K_gamma": load.mesh_load_factor.source.value}
+            )
+            rated[name] = called(_sourced(rating, found), gears[name])
         except InputError as error:
             without[name] = str(error)
     names = tuple(dict.fromkeys((*train.gears, *(name for pair in gears.values() for name in pair))))
-    return TrainStrength(name=train.name, options=options, meshes=rated, unrated=without, gears=gears, names=names)
+    return TrainStrength(
+        name=train.name,
+        options=options,
+        meshes=rated,
+        unrated=without,
+        gears=gears,
+        names=names,
+        asked=asks_strength(material, options),
+    )
+
+
+def asks_strength(material: TrainMaterial | None, options: RatingOptions | None) -> bool:
+    """Return whether a material of a train, or a required safety, asks for a verdict on strength."""
+    materials = material.values() if isinstance(material, Mapping) else () if material is None else (material,)
+    return (options is not None and options.asks_strength) or any(each.asks_strength for each in materials)
+
+
+_OF_SET = "ISO 6336-1, 6, Method B, with the masses of the set"
+"""The source of K_v of a mesh with planets that nobody gave."""
+
+
+def _sourced(rating: StrengthRating, sources: Mapping[str, str]) -> StrengthRating:
+    """Return a rating whose load factors have these sources, by their symbols."""
+    if not sources or rating.governing is None or rating.load_factors is None:
+        return rating
+
+    def own(factors: LoadFactors) -> LoadFactors:
+        return replace(factors, sources={**factors.sources, **sources})
+
+    cases = tuple(replace(case, factors=own(case.factors)) for case in rating.cases)
+    at = rating.governing_number
+    governing = replace(rating.governing, factors=own(rating.governing.factors)) if at is None else cases[at - 1]
+    return replace(rating, load_factors=own(rating.load_factors), cases=cases, governing=governing)
 
 
 def _names(mesh: SetMesh) -> PerGear[str]:

@@ -18,6 +18,7 @@ from gearcad.dynamics.planetary.rolling import CycleCourse, StiffnessCourse
 from gearcad.dynamics.planetary.running import run_train
 from gearcad.dynamics.planetary.sharing import share_load
 from gearcad.dynamics.planetary.springs import train_springs
+from gearcad.dynamics.planetary.strength import asks_strength
 from gearcad.dynamics.planetary.torsion import torsional_stiffness
 from gearcad.errors import InputError, ParameterError, SolverError
 from gearcad.load import Load
@@ -162,6 +163,7 @@ def study_planetary(
         campbell=campbell,
         response=answer,
         rating=found.part("rating", ("loads",), lambda: rate_train(train, _there(loads), on_stages, masses, material, rating)),
+        asks_strength=asks_strength(material, rating),
         why_not=found.why_not,
     )
 

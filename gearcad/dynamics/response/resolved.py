@@ -132,6 +132,14 @@ class Resolution(Driven):
             solved &= np.linalg.norm(_real(own[:, :known] - start[:, :known]), axis=1) <= _ASTRAY * self.scale
         return self._beyond(omega, flexible, own, solved)
 
+    def motions(self, omega: Floats, approach: Complexes) -> Motions:
+        """Motions of coefficients (s, q, m) that are known otherwise, with the forces that belong to them; none is solved."""
+        flexible = at_orders(self.system, self.static, omega, np.arange(2 * self.orders + 1))
+        own = np.zeros((len(omega), self.orders + 1, approach.shape[2]), complex)
+        known = min(approach.shape[1], self.orders + 1)
+        own[:, :known] = approach[:, :known]
+        return self._beyond(omega, flexible, own, np.zeros(len(omega), bool))
+
     def _correction(self, mesh: Complexes, slopes: Floats, residual: Complexes) -> Complexes:
         """Newton's step: (1 + G (slopes - K)) step = residual."""
         varying, shape = slopes - self.system.stiffness, residual.shape

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.errors import GeometryError, ParameterError, format_number
 
 __all__ = ["Graph", "turning_pieces"]
 
@@ -16,6 +16,10 @@ _SAME_SPEED = 1e-6
 """Relative: two ways round a loop must give an inertia the same speed; rounded base radii would lock it."""
 
 _BALANCED = 1e-3
+
+_WRONG_SIGN = 0.05
+"""How near the torque that balances is to the given one with the other sign, relative to it, to be called its sign."""
+
 """Of the greatest torque: torques of four digits balance as well as that."""
 
 
@@ -95,8 +99,10 @@ class Graph(NamedTuple):
         reflected = [torque * ratios[name] for name, torque in torques.items()]
         left = math.fsum(reflected)
         if reflected and abs(left) > _BALANCED * max(abs(torque) for torque in reflected):
+            wrong, needed = _balancing(torques, ratios, left)
             permitted = (
-                f"on {self.reference}, the sum of all, must be 0 on a train that no shaft holds: balance them, or hold it"
+                f"on {self.reference}, the sum of all, must be 0 on a train that no shaft holds: "
+                f"give {wrong} = {needed:.10g} instead of {format_number(torques[wrong])} N·m, or hold the train"
             )
             raise GeometryError("torques", left, permitted, "N·m")
 
@@ -133,3 +139,11 @@ class Graph(NamedTuple):
             parts = " | ".join(", ".join(piece) for piece in pieces)
             permitted = f"does not hang together with the rest ({parts}): join the pieces by a shaft or a mesh"
             raise GeometryError("inertias", next(iter(pieces[1])), permitted)
+
+
+def _balancing(torques: Mapping[str, float], ratios: Mapping[str, float], left: float) -> tuple[str, float]:
+    """Return the member to change first, and its torque (N·m) that balances the train: one with a wrong sign, else the last."""
+    needed = {name: torque - left / ratios[name] for name, torque in torques.items() if ratios[name]}
+    turned = [name for name, torque in needed.items() if math.isclose(torque, -torques[name], rel_tol=_WRONG_SIGN)]
+    name = (turned or list(needed))[-1]
+    return name, needed[name]

@@ -105,6 +105,7 @@ def _headline(verdict: str, words: Words) -> tuple[str, str]:
         "strength passed": words["strength passed"],
         "strength NOT passed": words["strength NOT passed"],
         "strength not judged": words["strength not judged"],
+        "strength not asked for": words["strength not asked for"],
     }
     head = next((each for each in heads if verdict.startswith(each)), "")
     return heads.get(head, ""), verdict.removeprefix(head).removeprefix(": ")

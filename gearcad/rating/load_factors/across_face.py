@@ -72,7 +72,10 @@ class Misalignment(NamedTuple):
         least = least_misalignment(mean_load, max(slopes))
         factors = helix_factors(options.helix_modification, options.standard)
         if options.contact_pattern is ContactPattern.PROVEN:
-            initial = proven_misalignment(deflection, min(helix_slopes_of_grade_five(mesh.pair, options)), factors, least)
+            compensation = options.given_compensation
+            if compensation is None:
+                compensation = min(helix_slopes_of_grade_five(mesh.pair, options))
+            initial = proven_misalignment(deflection, compensation, factors, least)
         else:
             initial = initial_misalignment(deflection, manufacture, factors, least)
         return cls(deflection, slopes, manufacture, factors, least, initial)

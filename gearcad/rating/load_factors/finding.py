@@ -7,9 +7,10 @@ from dataclasses import dataclass, field
 
 from gearcad.notice import Notice
 
-__all__ = ["GIVEN", "Finding"]
+__all__ = ["ASSUMED", "GIVEN", "Finding"]
 
 GIVEN = "given"
+ASSUMED = "assumed"
 
 
 @dataclass(frozen=True, kw_only=True)

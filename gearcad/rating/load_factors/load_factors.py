@@ -14,10 +14,11 @@ from gearcad.per_gear import PerGear
 from gearcad.rating.load_factors.across_face import face_load_factors
 from gearcad.rating.load_factors.between_pairs import transverse_load_factors
 from gearcad.rating.load_factors.dynamic import dynamic_factor
-from gearcad.rating.load_factors.finding import GIVEN
+from gearcad.rating.load_factors.finding import ASSUMED, GIVEN
 from gearcad.rating.load_factors.loaded_mesh import LoadedMesh
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import require_ratable
+from gearcad.schema import is_assumed
 
 __all__ = ["BodyLoad", "LoadFactors"]
 
@@ -95,7 +96,8 @@ class LoadFactors:
             transverse_root=across.factors["K_Falpha"],
             details={symbol: value for each in found for symbol, value in each.details.items()},
             sources={
-                **dict.fromkeys(("K_A", "K_gamma"), GIVEN),
+                "K_A": ASSUMED if is_assumed(load.application_factor) else GIVEN,
+                "K_gamma": ASSUMED if is_assumed(mesh.options.mesh_load_factor) else GIVEN,
                 **{symbol: clause for each in found for symbol, clause in each.sources.items()},
             },
             unknown=tuple(symbol for each in found for symbol in each.unknown),

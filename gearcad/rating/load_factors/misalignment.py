@@ -136,7 +136,8 @@ def initial_misalignment(deflection: Values, manufacture: Values, factors: Helix
 def proven_misalignment(deflection: Values, compensation: Values, factors: HelixFactors, least: Values) -> Values:
     """F_beta_x = |1.33 B_1 f_sh - f_Hbeta5| (53), with a contact pattern that shows that both lie opposite.
 
-    `compensation` f_Hbeta5 is the helix slope deviation of accuracy grade 5 (corrigendum of 2008).
+    `compensation` is f_Hbeta5, the helix slope deviation of accuracy grade 5 (corrigendum of 2008), or f_ma by DIN 3990-1:1987
+    where that is given.
     """
     return larger(magnitude(1.33 * factors.deflection * deflection - compensation), least)
 

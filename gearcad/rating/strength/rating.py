@@ -20,7 +20,7 @@ from gearcad.rating.strength.duty import LoadCase
 from gearcad.rating.strength.part import Part, PartStrength
 from gearcad.rating.tolerances import GearTolerances
 from gearcad.reprs import Pictured
-from gearcad.verdict import Verdict, together
+from gearcad.verdict import NOT_ASKED_WORDS, Verdict, strength_verdict
 
 __all__ = ["StrengthRating"]
 
@@ -147,15 +147,25 @@ class StrengthRating(Pictured):
         return 2 if self.pair.pinion.double_helix.present else 1
 
     @property
+    def asked(self) -> bool:
+        """Whether a limit or a quality of a material, or a required safety, asks for a verdict on strength."""
+        return self.options.asks_strength or any(each.asks_strength for each in self.materials)
+
+    @property
+    def required_verdicts(self) -> tuple[Verdict, ...]:
+        """Verdicts of flanks and roots of both gears, and of scuffing where its safety is required."""
+        scuffing = () if self.options.required_safety_scuffing is None else (self.scuffing_verdict,)
+        return (*(each.verdict for _, each in self.every), *scuffing)
+
+    @property
     def strength(self) -> Verdict:
-        """Passed if flanks and roots of both gears have their required safeties, and against scuffing where one is required."""
-        scuffing = [] if self.options.required_safety_scuffing is None else [self.scuffing_verdict]
-        return together([*(each.verdict for _, each in self.every), *scuffing])
+        """The verdict on strength by `strength_verdict`."""
+        return strength_verdict(self.asked, self.required_verdicts)
 
     @property
     def passed(self) -> bool | None:
-        """None where not all was judged, and nothing failed."""
-        return None if self.strength is Verdict.NOT_JUDGED else self.strength is Verdict.PASSED
+        """Whether strength is passed or failed; None where it was not judged, or not asked for."""
+        return {Verdict.PASSED: True, Verdict.FAILED: False}.get(self.strength)
 
     @property
     def not_judged(self) -> Mapping[str, str]:
@@ -168,6 +178,8 @@ class StrengthRating(Pictured):
     @property
     def verdict(self) -> str:
         """In one line."""
+        if self.strength is Verdict.NOT_ASKED:
+            return f"strength {NOT_ASKED_WORDS}"
         if self.strength is Verdict.NOT_JUDGED:
             return f"strength not judged: {'; '.join(dict.fromkeys(self.not_judged.values()))}"
         failed = [name for name, each in self.every if each.verdict is Verdict.FAILED]

@@ -51,8 +51,9 @@ _DOUBLINGS = 40
 def permissible_cycles(stress: Values, curve: Points, *, endurance: bool = False) -> Values:
     """N_i: the load cycles for which a stress (MPa) can be borne.
 
-    0 above the static strength. Below the last corner the last line goes on or, with `endurance`, no number of cycles does
-    damage; nor does it below a last line that is level. A corner that stands above an earlier one counts as low as that.
+    Above the static strength the line of limited life goes on (ISO 6336-6, annex C), so there is no jump: the first line that
+    falls. Below the last corner the last line goes on or, with `endurance`, no number of cycles does damage; nor does it below
+    a last line that is level. A corner that stands above an earlier one counts as low as that.
     """
     x, y = np.log(_falling(curve)).T
     place = np.log(np.maximum(stress, np.exp(y[-1]) * 1e-9))
@@ -64,18 +65,24 @@ def permissible_cycles(stress: Values, curve: Points, *, endurance: bool = False
     else:
         beyond = x[-1] + (x[-1] - x[-2]) / (y[-1] - y[-2]) * (place - y[-1])
         found = np.where(place < y[-1], np.minimum(beyond, _MOST_LOGARITHM), found)
-    return number_or_array(stress, np.where(place > y[0] + _ROUNDING, 0.0, np.exp(found)))
+    falls = np.flatnonzero(np.diff(y) < 0)
+    slope = (x[falls[0] + 1] - x[falls[0]]) / (y[falls[0] + 1] - y[falls[0]]) if len(falls) else -math.inf
+    above = place > y[0] + _ROUNDING
+    over = x[falls[0] if len(falls) else 0] + slope * np.where(above, place - y[0], 1.0)
+    return number_or_array(stress, np.exp(np.where(above, over, found)))
 
 
 def damage_sum(cycles: Floats, stresses: Floats, curve: Points, *, safety: float = 1.0, endurance: bool = False) -> float:
-    """D = sum n_i/N_i, with stresses (MPa) times a safety; infinite where one of them is above the static strength."""
+    """D = sum n_i/N_i, with stresses (MPa) times a safety."""
     runs = cycles > 0
     permitted = permissible_cycles(safety * stresses[runs], curve, endurance=endurance)
-    return math.inf if np.any(permitted == 0) else float(np.sum(cycles[runs] / permitted))
+    with np.errstate(divide="ignore"):  # a level curve bears no cycle above it
+        return float(np.sum(cycles[runs] / permitted))
 
 
 def safety_at_failure(cycles: Floats, stresses: Floats, curve: Points, *, endurance: bool = False) -> float:
-    """S: the greatest number by which all stresses (MPa) could be multiplied with a damage of no more than 1.
+    """S: the greatest number by which all stresses (MPa) could be multiplied with a damage of no more than 1, and with none of
+    them above the static strength.
 
     Infinite for no load. Raises ParameterError for a stress that is no finite number.
     """

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from gearcad.errors import InputError
-from gearcad.geometry import GearPair, RackPair
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.per_gear import PerGear, Role
@@ -53,6 +53,11 @@ class StrengthTask:
     def rated(self) -> GearPair | RackPair:
         """The pair, or its lower halves."""
         return half_of(self.pair) if self.halved and isinstance(self.pair, GearPair) else self.pair
+
+    @property
+    def pair_gears(self) -> tuple[Gear, ...]:
+        """The gears of the pair; of a pinion and a rack the pinion."""
+        return (self.pair.pinion,) if isinstance(self.pair, RackPair) else tuple(self.pair.gears)
 
     @cached_property
     def rated_load(self) -> Load:

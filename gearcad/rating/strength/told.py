@@ -13,12 +13,14 @@ from gearcad.rating.factors.life import endurance_cycles
 from gearcad.rating.strength.part import Part, PartStrength
 from gearcad.rating.strength.root import notch_strength
 from gearcad.rating.strength.task import StrengthTask
+from gearcad.schema import is_assumed
 
 __all__ = ["assumed_of", "notices_of", "verify_of"]
 
 
 def assumed_of(task: StrengthTask) -> Iterator[str]:
-    """What was not given."""
+    """Yield one sentence for each input that was assumed."""
+    yield from _defaults(task)
     yield from task.conditions.assumed
     if task.hardening.assumed:
         yield task.hardening.assumed
@@ -35,6 +37,20 @@ def assumed_of(task: StrengthTask) -> Iterator[str]:
         yield from task.load_factors.assumed
     if task.scuffing is not None and task.scuffing.judged:
         yield from task.scuffing.assumed
+
+
+def _defaults(task: StrengthTask) -> Iterator[str]:
+    """Yield the defaults that a rating goes by and that nobody gave; a grade only where a gear has none of its own."""
+    options, gears = task.options, [gear for gear in task.pair_gears if gear.accuracy_grade is None]
+    if gears and is_assumed(options.accuracy_grade):
+        yield f"accuracy_grade = {options.accuracy_grade} of {options.accuracy.value}"
+    for name in ("required_safety_flank", "required_safety_root"):
+        if is_assumed(value := getattr(options, name)):
+            yield f"{name} = {value:g}"
+    if is_assumed(options.mesh_load_factor):
+        yield f"mesh_load_factor = {options.mesh_load_factor:g}"
+    if is_assumed(task.load.application_factor) and not options.bins:
+        yield f"application_factor = {task.load.application_factor:g}"
 
 
 def verify_of(task: StrengthTask) -> Iterator[str]:

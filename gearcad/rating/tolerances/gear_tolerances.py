@@ -83,8 +83,9 @@ class GearTolerances(Generic[Values]):
 
     @property
     def sector_pitches(self) -> Values:
-        """k: an eighth of the teeth, two at least."""
-        return number_or_array(self.teeth, np.maximum(np.floor(np.divide(self.teeth, 8) + 0.5), 2.0))
+        """k, two at least: z/8 cut off to a whole number by ISO 1328-1:1995, rounded by the edition of 2013."""
+        eighth = np.divide(self.teeth, 8) + (0.0 if self.accuracy is Accuracy.ISO_1995 else 0.5)
+        return number_or_array(self.teeth, np.maximum(np.floor(eighth), 2.0))
 
     @property
     def cumulative_pitch(self) -> Values:

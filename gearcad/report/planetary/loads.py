@@ -13,6 +13,7 @@ from gearcad.plots.paper import short
 from gearcad.plots.planetary.parts import power_ways, role_words
 from gearcad.report.check.tables import Row
 from gearcad.report.dynamics.tables import WordTable
+from gearcad.schema import is_assumed
 
 __all__ = ["force_table", "harmonic_table", "phase_table", "pin_rows", "power_rows", "speed_table"]
 
@@ -45,12 +46,17 @@ def speed_table(train: PlanetaryTrain, speeds: Speeds, flow: PowerFlow | None, u
 
 def power_rows(train: PlanetaryTrain, flow: PowerFlow) -> list[Row]:
     """Efficiencies, losses, and how much rolls through the meshes."""
+    assumed = is_assumed(flow.load.mesh_efficiency)
+    source, losses = ("assumed", ": mesh_efficiency is not given, no losses are counted") if assumed else ("given", "")
     rows = [
-        Row("efficiency of a mesh, given", "η", (short(flow.load.mesh_efficiency),), "", "with the carrier at rest"),
-        Row(_from_to(train), "", (_percent(flow.efficiency),), "%", ""),
+        Row(
+            f"efficiency of a mesh, {source}", "η", (short(flow.load.mesh_efficiency),), "", f"with the carrier at rest{losses}"
+        ),
+        Row(_from_to(train), "", (_percent(flow.efficiency),), "%", "without losses, assumed" if assumed else ""),
     ]
     if flow.efficiency_back is not None:
         words = "self-locking: the output cannot drive" if flow.self_locking else "not self-locking"
+        words = "whether it is self-locking is not known: mesh_efficiency is not given" if assumed else words
         rows.append(Row(f"efficiency, {train.output} to {train.input}", "", (_percent(flow.efficiency_back),), "%", words))
     rolling = _NONE if flow.rolling_ratio is None else short(flow.rolling_ratio)
     rows.append(Row("power that rolls, seen from the carrier", "", (short(flow.rolling_power),), "W", ""))

@@ -14,7 +14,7 @@ from gearcad.plots.paper import short
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import INFINITE, Part, StrengthRating
 from gearcad.report.check.tables import Row
-from gearcad.schema import symbols_of
+from gearcad.schema import is_assumed, symbols_of
 from gearcad.sheet.strength import LONGEST_LIFE, Quantity, factor_quantities, safety_quantities
 from gearcad.symbols import Symbol
 
@@ -59,7 +59,7 @@ def option_rows(options: RatingOptions) -> list[Row]:
         Row(
             written[each.name].words,
             written[each.name].symbol,
-            (_listed(value),),
+            (f"{_listed(value)} (assumed)" if is_assumed(value) else _listed(value),),
             written[each.name].unit,
             written[each.name].source,
         )

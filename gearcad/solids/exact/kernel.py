@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from gearcad.solids.exact.boundary import PRECISION, Boundary, Chain, Turn
@@ -38,28 +38,50 @@ class _Maker:
         from OCP.BRep import BRep_Builder
 
         self.boundary, self.builder = boundary, BRep_Builder()
-        self.places = _locations(boundary.places)
+        self.places = _Places(boundary.places)
         self.forms: dict[CurveForm | SurfaceForm | OnSurface, Any] = {}
-        self.vertices = self._vertices()
-        self.edges = self._edges()
+        self.vertices: dict[tuple[int, int], tuple[Any, Any]] = {}
+        self.edges: dict[int, Any] = {}
+        self.sources, self.turned = self._copies()
         self._lay()
 
     def solid(self) -> Any:
         """The closed solid."""
-        from OCP.TopoDS import TopoDS_Face, TopoDS_Shell, TopoDS_Solid
+        from OCP.TopoDS import TopoDS_Shell, TopoDS_Solid
 
         builder, shell, solid = self.builder, TopoDS_Shell(), TopoDS_Solid()
         builder.MakeShell(shell)
-        for surface, place, loops, outward in self.boundary.faces:
-            face = TopoDS_Face()
-            builder.MakeFace(face, self._form(surface), self.places[place], PRECISION)
-            for loop in loops:
-                builder.Add(face, self._wire(loop))
-            builder.Add(shell, face if outward else face.Reversed())
+        for face in self._faces():
+            builder.Add(shell, face)
         shell.Closed(True)
         builder.MakeSolid(solid)
         builder.Add(solid, shell)
         return solid
+
+    def _faces(self) -> Iterator[Any]:
+        """Every face, its normal outwards; those of other teeth are those of the first one, moved."""
+        from OCP.TopoDS import TopoDS_Face
+
+        turns, moved, sources, turned = self.places.turns, self.places.moved, self.sources, self.turned
+        first_of: dict[tuple[Any, ...], tuple[Any, float]] = {}
+        for surface, place, loops, outward in self.boundary.faces:
+            turn = turns[place]
+            key = (
+                surface,
+                outward,
+                tuple([(sources[edge], along, turned[edge] - turn) for loop in loops for edge, along in loop]),
+            )
+            known = first_of.get(key)
+            if known is not None:
+                yield known[0].Moved(moved[turn - known[1]])
+                continue
+            face = TopoDS_Face()
+            self.builder.MakeFace(face, self._form(surface), self.places.locations[place], PRECISION)
+            for loop in loops:
+                self.builder.Add(face, self._wire(loop))
+            shape = face if outward else face.Reversed()
+            first_of[key] = shape, turn
+            yield shape
 
     def _form(self, form: CurveForm | SurfaceForm | OnSurface) -> Any:
         """A curve or surface of the kernel, the same one whenever it is asked for."""
@@ -68,67 +90,125 @@ class _Maker:
             made = self.forms[form] = _made(form)
         return made
 
-    def _vertices(self) -> list[tuple[Any, Any]]:
-        """Every vertex as the start and as the end of an edge."""
+    def _vertex(self, source: tuple[int, int]) -> tuple[Any, Any]:
+        """A vertex, as a copy of its source at a place, as the start and as the end of an edge."""
         from OCP.gp import gp_Pnt
         from OCP.TopoDS import TopoDS_Vertex
 
-        make, tolerance, made = self.builder.MakeVertex, self.boundary.tolerance, []
-        for x, y, z in self.boundary.vertices:
-            vertex = TopoDS_Vertex()
-            make(vertex, gp_Pnt(x, y, z), tolerance)
-            made.append((vertex, vertex.Reversed()))
+        made = self.vertices.get(source)
+        if made is None:
+            number, place = source
+            if place:
+                vertex = self._vertex((number, 0))[0].Moved(self.places.locations[place])
+            else:
+                vertex = TopoDS_Vertex()
+                self.builder.MakeVertex(vertex, gp_Pnt(*self.boundary.vertices[number]), self.boundary.tolerance)
+            made = self.vertices[source] = vertex, vertex.Reversed()
         return made
 
-    def _edges(self) -> list[tuple[Any, Any]]:
-        """Every edge, run backward and along its own direction."""
+    def _copies(self) -> tuple[list[int], list[float]]:
+        """Of every edge the one it is a copy of, and by how many pitches it is turned against that: itself and 0 for others.
+
+        Edges of other teeth are those of the first one, moved: they share curves, vertices and curves on surfaces.
+        """
+        from_vertices, turns, edges = self.boundary.sources, self.places.turns, self.boundary.edges
+        first_of: dict[tuple[Any, ...], int] = {}
+        sources, turned = [], []
+        for number, (curve, place, start, end, first, last) in enumerate(edges):
+            (one, here), (other, there), turn = from_vertices[start], from_vertices[end], turns[place]
+            source = first_of.setdefault((curve, first, last, one, other, turns[here] - turn, turns[there] - turn), number)
+            sources.append(source)
+            turned.append(turn - turns[edges[source].place] if source != number else 0)
+        return sources, turned
+
+    def _edge(self, number: int) -> Any:
+        """An edge that is no copy, with its curve and vertices."""
         from OCP.TopoDS import TopoDS_Edge
 
-        make, add, limit, form = self.builder.MakeEdge, self.builder.Add, self.builder.Range, self._form
-        places, vertices, tolerance = self.places, self.vertices, self.boundary.tolerance
-        made = []
-        for curve, place, start, end, first, last in self.boundary.edges:
-            edge = TopoDS_Edge()
-            make(edge, form(curve), places[place], tolerance)
-            add(edge, vertices[start][0])
-            add(edge, vertices[end][1])
-            limit(edge, first, last)
-            made.append((edge.Reversed(), edge))
-        return made
+        shape = self.edges.get(number)
+        if shape is None:
+            curve, place, start, end, first, last = self.boundary.edges[number]
+            shape = self.edges[number] = TopoDS_Edge()
+            self.builder.MakeEdge(shape, self._form(curve), self.places.locations[place], self.boundary.tolerance)
+            self.builder.Add(shape, self._vertex(self.boundary.sources[start])[0])
+            self.builder.Add(shape, self._vertex(self.boundary.sources[end])[1])
+            self.builder.Range(shape, first, last)
+        return shape
 
     def _lay(self) -> None:
-        """Give edges their curves on surfaces."""
-        update, form, edges, places = self.builder.UpdateEdge, self._form, self.edges, self.places
-        tolerance = self.boundary.tolerance
-        for edge, surface, place, curves in self.boundary.laid:
-            update(edges[edge][True], *map(form, curves), form(surface), places[place], tolerance)
+        """Give edges their curves on surfaces, once for all copies that stand on them alike."""
+        form, sources, turned = self._form, self.sources, self.turned
+        turns, locations, moved = self.places.turns, self.places.locations, self.places.moved
+        done = set()
+        for numbers, surface, places, curves in self.boundary.laid:
+            for number, place in zip(numbers, places, strict=True):
+                source, more = sources[number], turned[number]
+                turn = turns[place] - more
+                if (source, surface, turn) not in done:
+                    done.add((source, surface, turn))
+                    location = moved[turn] if more else locations[place]
+                    laid = *map(form, curves), form(surface), location, self.boundary.tolerance
+                    self.builder.UpdateEdge(self._edge(source), *laid)
 
     def _wire(self, loop: Chain) -> Any:
+        """A closed loop of edges."""
         from OCP.TopoDS import TopoDS_Wire
 
-        wire, add, edges = TopoDS_Wire(), self.builder.Add, self.edges
+        wire, add, moved, turned = TopoDS_Wire(), self.builder.Add, self.places.moved, self.turned
         self.builder.MakeWire(wire)
-        for edge, along in loop:
-            add(wire, edges[edge][along])
+        for number, along in loop:
+            edge = self._edge(self.sources[number])
+            if more := turned[number]:
+                edge = edge.Moved(moved[more])
+            add(wire, edge if along else edge.Reversed())
         wire.Closed(True)
         return wire
 
 
-def _locations(places: Sequence[Turn]) -> list[Any]:
+class _Places:
+    """Locations of the kernel, and how many pitches each is turned by: those of teeth are powers of one turn by a pitch, so
+    that a copy of what stands at a tooth is the same in the kernel's eyes as what is made there.
+    """
+
+    def __init__(self, places: Sequence[Turn]) -> None:
+        from OCP.TopLoc import TopLoc_Location
+
+        pitch = min((place.angle for place in places if place.angle > 0 and not place.z), default=0.0)
+        self.moved = _Powers(_location(Turn(0.0, pitch)) if pitch else TopLoc_Location())
+        self.turns = [_pitches(place, pitch, -number) for number, place in enumerate(places)]
+        self.locations = [
+            self.moved[turn] if turn == int(turn) else _location(place) for turn, place in zip(self.turns, places, strict=True)
+        ]
+
+
+class _Powers(dict[float, Any]):
+    """Locations turned by a number of pitches, made when first asked for."""
+
+    def __init__(self, pitch: Any) -> None:
+        super().__init__()
+        self._pitch = pitch
+
+    def __missing__(self, turns: float) -> Any:
+        self[turns] = made = self._pitch.Powered(int(turns))
+        return made
+
+
+def _pitches(place: Turn, pitch: float, number: int) -> float:
+    """Whole pitches by which a place is turned; a broken number that no other place has where there are none."""
+    turns = place.angle / pitch if pitch else 0.0
+    whole = round(turns)
+    return whole if not place.z and abs(turns - whole) < 1e-9 and (pitch or not place.angle) else number - 0.5
+
+
+def _location(place: Turn) -> Any:
     from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
     from OCP.TopLoc import TopLoc_Location
 
-    axis, made = gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), []
-    for place in places:
-        if place == (0.0, 0.0):
-            made.append(TopLoc_Location())
-            continue
-        moved = gp_Trsf()
-        moved.SetRotation(axis, place.angle)
-        if place.z:
-            moved.SetTranslationPart(gp_Vec(0, 0, place.z))
-        made.append(TopLoc_Location(moved))
-    return made
+    moved = gp_Trsf()
+    moved.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), place.angle)
+    if place.z:
+        moved.SetTranslationPart(gp_Vec(0, 0, place.z))
+    return TopLoc_Location(moved)
 
 
 def _made(form: CurveForm | SurfaceForm | OnSurface) -> Any:

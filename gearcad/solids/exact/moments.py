@@ -56,7 +56,11 @@ class _Run(NamedTuple):
 
 def moments(boundary: Boundary) -> Moments:
     """Of the solid within a closed boundary."""
-    laid = {(curve.edge, curve.surface, curve.place): curve.curves for curve in boundary.laid}
+    laid = {
+        (edge, surface, place): curves
+        for edges, surface, places, curves in boundary.laid
+        for edge, place in zip(edges, places, strict=True)
+    }
     flows: dict[tuple[SurfaceForm, _Run], Floats] = {}
     total = np.zeros(2)
     for face in boundary.faces:

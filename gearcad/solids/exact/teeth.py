@@ -9,7 +9,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.geometry.gear import Gear
-from gearcad.solids.exact.boundary import Chain, Recorder, backward
+from gearcad.solids.exact.boundary import BoundaryEdge, Chain, Recorder, backward
 from gearcad.solids.exact.ends import End
 from gearcad.solids.exact.forms import (
     BezierCurve,
@@ -58,32 +58,35 @@ class _ToothRing:
         self.side_curves = [layout.sides(k) for k in range(len(layout.pieces))]
         self.side_edges = self._side_edges()
 
-    def _around(self, points: Floats) -> Floats:
-        """Points (n, 3) of tooth 0 turned to every tooth: (teeth, n, 3)."""
+    def _vertices_around(self, points: Floats) -> list[list[int]]:
+        """Vertices at points (n, 3) of tooth 0 and of every other tooth, by tooth."""
         angle = self.pitch * np.arange(self.teeth)[:, None]
         x, y, z = points.T
         cosine, sine = np.cos(angle), np.sin(angle)
-        return np.stack([cosine * x - sine * y, sine * x + cosine * y, np.broadcast_to(z, (self.teeth, len(z)))], -1)
+        turned = [cosine * x - sine * y, sine * x + cosine * y, np.broadcast_to(z, (self.teeth, len(z)))]
+        return self.recorder.vertices_around(np.stack(turned, -1), self.places)
 
     def _vertices(self, which: int) -> list[list[int]]:
         """Vertices of an end by tooth and station; the station after the last junction belongs to the next tooth."""
         layout, count = self.layout, len(self.layout.pieces)
-        places = self._around(layout.place(layout.ends[which], layout.segments[which][1])).tolist()
-        made = [[self.recorder.vertex(p) for p in tooth[:count] + tooth[count + 1 :]] for tooth in places]
+        stations = layout.place(layout.ends[which], layout.segments[which][1])
+        made = self._vertices_around(np.delete(stations, count, axis=0))
         for i, tooth in enumerate(made):
             tooth.insert(count, made[(i + 1) % self.teeth][0])
         return made
 
     def _end_edges(self, which: int) -> list[list[int]]:
         """Chain of an end by tooth and segment."""
-        segments, drawn = self.layout.segments[which][0], self.drawn[which]
-        return [
-            [
-                self.recorder.edge(d.curve, vertices[s.start], vertices[s.end], d.first, d.last, place)
-                for s, d in zip(segments, drawn, strict=True)
-            ]
-            for place, vertices in zip(self.places, self.vertices[which], strict=True)
-        ]
+        drawn = list(zip(self.layout.segments[which][0], self.drawn[which], strict=True))
+        count, first = (
+            len(drawn),
+            self.recorder.edges(
+                BoundaryEdge(d.curve, place, vertices[s.start], vertices[s.end], d.first, d.last)
+                for place, vertices in zip(self.places, self.vertices[which], strict=True)
+                for s, d in drawn
+            ),
+        )
+        return [list(range(first + i * count, first + (i + 1) * count)) for i in range(self.teeth)]
 
     def _chains(self, which: int) -> list[list[int]]:
         """Segments of an end by piece."""
@@ -98,8 +101,7 @@ class _ToothRing:
             radius, angle = layout.junctions[k]
             z = np.array([rise.high for rise in rises[:-1]])
             angle = angle + layout.turn(k, z)
-            inner = self._around(np.stack([radius * np.cos(angle), radius * np.sin(angle), z], -1)).tolist()
-            columns.append([[self.recorder.vertex(point) for point in tooth] for tooth in inner])
+            columns.append(self._vertices_around(np.stack([radius * np.cos(angle), radius * np.sin(angle), z], -1)))
         lower, upper = self.vertices
         return [[[lower[i][k], *inner[i], upper[i][k]] for k, inner in enumerate(columns)] for i in range(self.teeth)]
 
@@ -130,13 +132,15 @@ class _ToothRing:
         wraps, after = divmod(k + 1, len(self.layout.pieces))
         left_curves = [side.on_cylinder(0.0) for side in self.side_curves[k]]
         right_curves = [side.on_cylinder(wraps * self.pitch) for side in self.side_curves[after]]
+        lefts = [sides[k] for sides in self.side_edges]
+        rights = [self.side_edges[(i + wraps) % self.teeth][after] for i in range(self.teeth)]
+        for sides, curves in ((lefts, left_curves), (rights, right_curves)):
+            for edges, curve in zip(zip(*sides, strict=True), curves, strict=True):
+                recorder.lay_copies(edges, surface, curve, self.places)
+        lower, upper = (self._lay_end(which, k, surface) for which in (0, 1))
         for i, place in enumerate(self.places):
-            left, right = self.side_edges[i][k], self.side_edges[(i + wraps) % self.teeth][after]
-            for edge, curve in zip([*left, *right], [*left_curves, *right_curves], strict=True):
-                recorder.lay(edge, surface, curve, place=place)
-            lower, upper = (self._lay_end(which, i, k, surface) for which in (0, 1))
-            up, down = [(edge, True) for edge in right], [(edge, True) for edge in left]
-            self._face(surface, [*lower, *up, *backward(upper), *backward(down)], place)
+            up, down = [(edge, True) for edge in rights[i]], [(edge, False) for edge in reversed(lefts[i])]
+            self._face(surface, [*lower[i], *up, *backward(upper[i]), *down], place)
 
     def _add_flank(self, k: int, piece: FlankSpan) -> None:
         """One face per tooth and stretch of the face width."""
@@ -144,45 +148,60 @@ class _ToothRing:
         patches = self.layout.sweep.patches(piece)
         wraps, after = divmod(k + 1, len(self.layout.pieces))
         surfaces = {n: BezierSurface(patches[n], *heights[n : n + 2]) for n in stretches}
-        crossings = {n: BezierCurve(patches[n][:, 0]) for n in stretches[1:]}
+        curves = {n: BezierCurve(patches[n][:, 0]) for n in stretches[1:]}
         on_left, on_right = LineOnSurface(0, 0, 0, 1), LineOnSurface(1, 0, 0, 1)
-        for i, place in enumerate(self.places):
-            follows = (i + wraps) % self.teeth
-            below: Chain = []
-            for n in stretches:
-                surface, above = surfaces[n], list[tuple[int, bool]]()
-                left, right = self._rise(i, k, n), self._rise(follows, after, n)
-                for edges, curve in ((left, on_left), (right, on_right)):
-                    for edge, _ in edges:
-                        recorder.lay(edge, surface, curve, place=place)
-                if n == stretches[0]:
-                    below = self._lay_end(0, i, k, surface)
-                else:
-                    recorder.lay(below[0][0], surface, LineOnSurface(0, heights[n], 1, 0), place=place)
-                if n == stretches[-1]:
-                    above = self._lay_end(1, i, k, surface)
-                else:
-                    ends = self._vertex(i, k, n + 1), self._vertex(follows, after, n + 1)
-                    above = [(recorder.edge(crossings[n + 1], *ends, 0.0, 1.0, place), True)]
-                    recorder.lay(above[0][0], surface, LineOnSurface(0, heights[n + 1], 1, 0), place=place)
-                self._face(surface, [*below, *right, *backward(above), *backward(left)], place)
-                below = above
+        follows = [(i + wraps) % self.teeth for i in range(self.teeth)]
+        crossings = self._crossings(curves, k, after, follows)
+        loops: list[list[tuple[BezierSurface, Chain]]] = [[] for _ in self.places]
+        below: list[Chain] = []
+        for n in stretches:
+            surface, left, right = surfaces[n], self._rises(k, n), self._rises(after, n)
+            right = [right[i] for i in follows]
+            for sides, curve in ((left, on_left), (right, on_right)):
+                for edges in zip(*sides, strict=True):
+                    recorder.lay_copies([edge for edge, _ in edges], surface, curve, self.places)
+            if n == stretches[0]:
+                below = self._lay_end(0, k, surface)
+            else:
+                recorder.lay_copies(crossings[n], surface, LineOnSurface(0, heights[n], 1, 0), self.places)
+            if n == stretches[-1]:
+                above = self._lay_end(1, k, surface)
+            else:
+                above = [[(edge, True)] for edge in crossings[n + 1]]
+                recorder.lay_copies(crossings[n + 1], surface, LineOnSurface(0, heights[n + 1], 1, 0), self.places)
+            for i, faces in enumerate(loops):
+                faces.append((surface, [*below[i], *right[i], *backward(above[i]), *backward(left[i])]))
+            below = above
+        for place, faces in zip(self.places, loops, strict=True):
+            for patch, loop in faces:
+                self._face(patch, loop, place)
+
+    def _crossings(self, curves: dict[int, BezierCurve], k: int, after: int, follows: list[int]) -> dict[int, list[int]]:
+        """Edges by tooth where two stretches of a flank meet, by the height (its number) at which they do."""
+        found: dict[int, list[int]] = {height: [] for height in curves}
+        for i, (j, place) in enumerate(zip(follows, self.places, strict=True)):
+            for height, curve in curves.items():
+                ends = self._vertex(i, k, height), self._vertex(j, after, height)
+                found[height].append(self.recorder.edge(curve, *ends, 0.0, 1.0, place))
+        return found
 
     def _face(self, surface: SurfaceForm, loop: Chain, place: int) -> None:
         """A face of the toothed side at the place of a tooth; its loop runs counter-clockwise about the surface's normal."""
         self.recorder.face(surface, [loop], outward=self.outward, place=place)
 
-    def _lay_end(self, which: int, i: int, k: int, surface: SurfaceForm) -> Chain:
-        """The edges of an end on a piece of a tooth, laid on its surface."""
-        chain = self.chains[which][k]
+    def _lay_end(self, which: int, k: int, surface: SurfaceForm) -> list[Chain]:
+        """The edges of an end on a piece of every tooth, by tooth, laid on its surface."""
+        chain, edges = self.chains[which][k], self.edges[which]
         for j in chain:
-            self.recorder.lay(self.edges[which][i][j], surface, self.drawn[which][j].on_face, place=self.places[i])
-        return [(self.edges[which][i][j], True) for j in chain]
+            self.recorder.lay_copies([tooth[j] for tooth in edges], surface, self.drawn[which][j].on_face, self.places)
+        return [[(tooth[j], True) for j in chain] for tooth in edges]
 
-    def _rise(self, i: int, k: int, stretch: int) -> Chain:
-        """The edge at a junction of a tooth on a stretch of the face width; none where an end chamfer has taken it."""
-        edges, place = self.side_edges[i][k], stretch - self.layout.rises[k][0].stretch
-        return [(edges[place], True)] if 0 <= place < len(edges) else []
+    def _rises(self, k: int, stretch: int) -> list[Chain]:
+        """The edges by tooth at a junction on a stretch of the face width; none where an end chamfer has taken them."""
+        place = stretch - self.layout.rises[k][0].stretch
+        if 0 <= place < len(self.layout.rises[k]):
+            return [[(sides[k][place], True)] for sides in self.side_edges]
+        return [[] for _ in self.side_edges]
 
     def _vertex(self, i: int, k: int, height: int) -> int:
         """The vertex at a junction of a tooth where a stretch begins or the one before ends."""
@@ -222,7 +241,7 @@ class _ToothRing:
         """One piece of cone per pitch, parted by generators from the start of each right flank; the plane has a circle."""
         angle = self.layout.segments[which][1][0, 1]
         foot = [end.cone.face_radius * math.cos(angle), end.cone.face_radius * math.sin(angle), end.z]
-        feet = [self.recorder.vertex(tooth[0]) for tooth in self._around(np.array([foot])).tolist()]
+        feet = [foot for (foot,) in self._vertices_around(np.array([foot]))]
         line, length = straight_line(foot, self.layout.place(end, self.layout.segments[which][1][:1])[0])
         generators = [
             self.recorder.edge(line, feet[i], self.vertices[which][i][0], 0.0, length, place)

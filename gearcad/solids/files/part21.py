@@ -26,15 +26,15 @@ _NO_DATE = datetime(2000, 1, 1)
 def string(text: str) -> str:
     r"""A text as a string of the exchange structure, on one line, so that no character is ever broken.
 
-    ISO 10303-21:2016, 6.4.3: apostrophes and backslashes are doubled, \X2\...\X0\ holds characters of the basic plane and
-    \X4\...\X0\ all others; the rest is ASCII.
+    ISO 10303-21:2016, 6.4.3: backslashes are doubled, \X2\...\X0\ holds characters of the basic plane and \X4\...\X0\ all
+    others; the rest is ASCII. An apostrophe is \X\27, as Open CASCADE misreads one that is doubled before `)` or `,`.
     """
     return "'" + "".join(_run(run) for run in _RUNS.findall(text)) + "'"
 
 
 def _run(run: str) -> str:
     if run.isascii() and run.isprintable():
-        return run.replace("\\", "\\\\").replace("'", "''")
+        return run.replace("\\", "\\\\").replace("'", "\\X\\27")
     kind, digits = ("2", 4) if ord(run[0]) < 0x10000 else ("4", 8)
     return f"\\X{kind}\\" + "".join(f"{ord(character):0{digits}X}" for character in run) + "\\X0\\"
 
