@@ -124,13 +124,13 @@ class Session:
         button.props["title"] = button.props["aria-label"] = words
         return button
 
-    def typed(self, key: str, text: str) -> None:
-        """Somebody typed into the field of a key."""
-        self.change({key: text})
+    def typed(self, key: str, text: str, step: int) -> None:
+        """Write what was typed into the field of a key, as part of a step."""
+        self.change({key: text}, step)
 
-    def change(self, given: Mapping[str, str]) -> None:
+    def change(self, given: Mapping[str, str], step: int | None = None) -> None:
         """Write under keys of the spec what was typed or moved."""
-        self.bench.change(given)
+        self.bench.change(given, step)
         self.follow()
 
     def written(self, text: str) -> None:

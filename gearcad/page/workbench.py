@@ -66,6 +66,7 @@ class Workbench:
         self._back: list[str] = []
         self._forth: list[str] = []
         self._place, self._typed = "", 0.0
+        self._step: int | None = None
 
     @property
     def can_undo(self) -> bool:
@@ -75,9 +76,10 @@ class Workbench:
     def can_redo(self) -> bool:
         return bool(self._forth)
 
-    def change(self, given: Mapping[str, str]) -> bool:
+    def change(self, given: Mapping[str, str], step: int | None = None) -> bool:
         """Write what was typed under its keys, "" to leave a key out; whether the text is another one now.
 
+        Texts of one `step` are undone together, however late they come; without a number the pause between them decides.
         What makes no gear stays in the text, as its fault does; the last good design stays too. What cannot be written there
         at all is a fault, too.
         """
@@ -86,21 +88,22 @@ class Workbench:
         except GearcadError as error:
             self.fault = Fault(str(error), next(iter(given), ""), written=False)
             return False
-        return self.write(text, " ".join(given))
+        return self.write(text, " ".join(given), step)
 
-    def write(self, text: str, place: str = "") -> bool:
+    def write(self, text: str, place: str = "", step: int | None = None) -> bool:
         """Take another text, as a step that can be undone; whether it is another one.
 
-        What comes from the same `place` as the last text, within a pause of typing, goes on with that step.
+        What comes from the same `place` as the last text, in the same `step` or within a pause of typing, goes on with that step.
         """
         other, now = text != self.text, self._clock()
         if other:
-            going_on = bool(place and self._back) and place == self._place and now - self._typed <= _PAUSE
+            in_time = now - self._typed <= _PAUSE if step is None else step == self._step
+            going_on = bool(place and self._back) and place == self._place and in_time
             if not going_on:
                 self._back = [*self._back[1 - _MOST_STEPS :], self.text]
                 self.former = self.tables
             self._forth.clear()
-            self._place, self._typed = place, now
+            self._place, self._step, self._typed = place, step, now
         self._take(text)
         return other
 

@@ -69,6 +69,17 @@ def test_a_pause_or_another_field_begins_a_step(bench: Workbench, clock: Clock, 
     assert (bench.tables["pinion"]["teeth"], bench.tables["wheel"]["teeth"]) == (17, 24)
 
 
+def test_numbered_steps_are_undone_as_they_were_typed(bench: Workbench, clock: Clock) -> None:
+    """However late they come, or how soon one after the other."""
+    for step, seconds, typed in ((1, 0.0, "17"), (1, 5.0, "18"), (2, 5.1, "19")):
+        clock.now = seconds
+        bench.change({"pinion.teeth": typed}, step)
+    bench.undo()
+    assert bench.tables["pinion"]["teeth"] == 18
+    bench.undo()
+    assert bench.text == SPEC
+
+
 def test_after_undo_typing_begins_a_step(bench: Workbench) -> None:
     bench.change({"pinion.teeth": "17"})
     bench.undo()

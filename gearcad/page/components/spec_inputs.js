@@ -1,9 +1,11 @@
 // The inputs of a spec: what the schema says of each key makes a field. What is typed is sent as text; what is wrong with it
-// comes back as the line that the command line prints, and is shown at its field. One change is on its way at a time: what is
-// typed meanwhile waits, so that no server lags behind a key that is held down.
+// comes back as the line that the command line prints, and is shown at its field. Changes have numbers, and the server answers
+// with the last number it has heard: nothing is lost, applied twice or out of order, however slow the server is. One change is on
+// its way at a time: what is typed meanwhile waits, so that no server lags behind a key that is held down.
 import { toRaw } from "vue";
 
-const PATIENCE = 3000; // ms until a change that nobody answers is taken for lost
+const PATIENCE = 3000; // ms after which a change without an answer is sent again
+const PAUSE = 1000; // ms without a key after which typing is another step to undo
 const PHONE = "(max-width: 640px)";
 
 // One field. Its part of the page stays as it is while all that it is given does.
@@ -11,8 +13,8 @@ const SpecField = {
   template: `
     <div :data-key="field.key" class="field" :class="{ changed, wrong: !!fault, given: given !== undefined }">
       <label :for="'in-' + field.key" :title="field.words"><span>{{ field.words }}</span><i v-if="field.symbol">{{ field.symbol }}</i></label>
-      <select v-if="field.choices.length" :id="'in-' + field.key" :value="given ?? ''" :disabled="readonly"
-              :aria-invalid="!!fault" @focus="form.focused = field" @change="form.send(field.key, $event.target.value)">
+      <select v-if="field.choices.length" :id="'in-' + field.key" :value="draft ?? given ?? ''" :disabled="readonly"
+              :aria-invalid="!!fault" @focus="form.focused = field" @change="form.type(field.key, $event.target.value)" @blur="form.leave(field.key)">
         <option value="">{{ used ?? "" }}</option>
         <option v-if="given && !field.choices.includes(given)">{{ given }}</option>
         <option v-for="word in field.choices" :key="word" :value="word">{{ word }}</option>
@@ -102,8 +104,10 @@ export default {
     },
   },
   created() {
-    this.waiting = null; // a change that is on its way, and since when
-    this.queue = {};
+    [this.queue, this.sent, this.number] = [[], [], 0]; // changes that wait, those on their way, and the number of the last
+    this.typing = { key: "", at: 0, step: 0 };
+    this.left = new Set(); // keys of fields that were left before their change was answered
+    this.later = []; // arrow keys that wait until the step before them is undone
   },
   mounted() {
     this.phone = window.matchMedia(PHONE);
@@ -117,15 +121,17 @@ export default {
     this.phone.removeEventListener("change", this.turned);
     window.removeEventListener("keydown", this.shortcut);
     window.removeEventListener("gear-focus", this.led);
-    clearTimeout(this.waiting);
+    clearTimeout(this.patience);
   },
   methods: {
-    show({ reveal, ...state }) {
+    show({ reveal, heard, ...state }) {
       const former = this.fault?.key;
       for (const each of Object.values(state)) Object.freeze(each); // so that Vue does not watch everything in it
       Object.assign(this, state);
-      this.answered();
-      if (reveal) this.drafts = {};
+      this.hear(heard);
+      for (const key of Object.keys(this.drafts))
+        if (!this.pending(key) && (reveal || (this.left.has(key) && this.focused?.key !== key))) this.forget(key, reveal);
+      if (!this.undoing()) for (const step of this.later.splice(0)) step();
       const key = this.fault?.key && this.fault.key !== former ? this.fault.key : reveal ? this.changed[0] : null;
       if (key) this.$nextTick(() => this.reveal(key, !this.focused));
     },
@@ -162,10 +168,17 @@ export default {
       this.drafts[key] = text;
       this.send(key, text);
     },
-    // What could not be written into the spec is only here.
+    // Nothing typed may arrive after a button that is pressed next.
     leave(key) {
       this.focused = null;
-      if (!(this.fault?.key === key && !this.fault.written)) delete this.drafts[key];
+      this.flush(true);
+      if (this.pending(key)) this.left.add(key);
+      else this.forget(key);
+    },
+    // Let go of what was typed, but for what could not be written into the spec: that is only here.
+    forget(key, all = false) {
+      this.left.delete(key);
+      if (all || !(this.fault?.key === key && !this.fault.written)) delete this.drafts[key];
     },
     out(key) {
       delete this.drafts[key];
@@ -179,7 +192,8 @@ export default {
       } else if (event.key === "Escape") event.target.blur();
       else if (field.number && (event.key === "ArrowUp" || event.key === "ArrowDown")) {
         event.preventDefault();
-        this.step(field, event.key === "ArrowUp" ? 1 : -1, event);
+        const step = () => this.step(field, (event.key === "ArrowUp" ? 1 : -1) * (event.shiftKey ? 10 : 1));
+        this.undoing() ? this.later.push(step) : step();
       }
     },
     next(event) {
@@ -188,32 +202,49 @@ export default {
       all[at]?.focus();
       if (all[at]?.select) all[at].select();
     },
-    step(field, sign, event) {
-      const text = (event.target.value || event.target.placeholder).replace(",", ".").replace("−", "-");
+    step(field, times) {
+      const text = String((this.drafts[field.key] ?? this.given[field.key]) || (this.used[field.key] ?? "")).replace(",", ".").replace("−", "-");
       const value = Number(text);
       if (text.trim() === "" || Number.isNaN(value) || this.readonly) return;
       const typed = (text.split(".")[1] ?? "").length;
       const digits = field.whole ? 0 : typed || (Math.abs(value) < 10 ? 1 : 0);
-      const stepped = (value + sign * 10 ** -digits * (event.shiftKey ? 10 : 1)).toFixed(digits);
+      const stepped = (value + times * 10 ** -digits).toFixed(digits);
       this.type(field.key, Number(stepped) === 0 ? stepped.replace("-", "") : stepped);
     },
     send(key, text) {
-      this.queue[key] = text;
-      if (this.waiting === null) this.flush();
-    },
-    flush() {
-      const [key] = Object.keys(this.queue);
-      if (key === undefined) return;
-      const text = this.queue[key];
-      delete this.queue[key];
-      clearTimeout(this.waiting);
-      this.waiting = setTimeout(() => this.answered(), PATIENCE);
-      this.$emit("typed", { key, text });
-    },
-    answered() {
-      clearTimeout(this.waiting);
-      this.waiting = null;
+      const now = performance.now(), typing = this.typing, last = this.queue.at(-1);
+      if (key !== typing.key || now - typing.at > PAUSE) typing.step++;
+      Object.assign(typing, { key, at: now });
+      if (last?.key === key && last.step === typing.step) last.text = text;
+      else this.queue.push({ key, text, step: typing.step });
       this.flush();
+    },
+    undo(forth) {
+      this.typing.key = "";
+      this.queue.push({ forth });
+      this.flush();
+    },
+    flush(all = false) {
+      while (this.queue.length && (all || !this.sent.length)) {
+        this.sent.push({ ...this.queue.shift(), number: ++this.number });
+        this.emit(this.sent.at(-1));
+      }
+      clearTimeout(this.patience);
+      if (this.sent.length) this.patience = setTimeout(() => (this.sent.forEach(this.emit), this.flush()), PATIENCE);
+    },
+    emit(change) {
+      this.$emit("forth" in change ? "step" : "typed", change);
+    },
+    // The server has the changes up to this number.
+    hear(number) {
+      this.sent = this.sent.filter((change) => change.number > number);
+      this.flush();
+    },
+    pending(key) {
+      return [...this.sent, ...this.queue].some((change) => change.key === key);
+    },
+    undoing() {
+      return [...this.sent, ...this.queue].some((change) => "forth" in change);
     },
     shortcut(event) {
       const typing = event.target.closest?.("input, textarea, select, [contenteditable=true]");
@@ -222,9 +253,7 @@ export default {
       if ((event.ctrlKey || event.metaKey) && !event.altKey && (key === "z" || key === "y")) {
         if (typing && !ours) return;
         event.preventDefault();
-        while (Object.keys(this.queue).length) this.flush(); // what was typed last is what is undone
-        this.drafts = {};
-        this.$emit("step", { forth: key === "y" || event.shiftKey });
+        this.undo(key === "y" || event.shiftKey);
       } else if (key === "/" && !typing) {
         event.preventDefault();
         this.$refs.search.focus();

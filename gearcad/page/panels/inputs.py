@@ -16,7 +16,7 @@ __all__ = ["InputsPanel"]
 class InputsPanel:
     """Follows the workbench itself, not the last good design: what is wrong must be seen where it was typed."""
 
-    def __init__(self, changed: Callable[[str, str], None], step: Callable[[bool], None], words: Words) -> None:
+    def __init__(self, changed: Callable[[str, str, int], None], step: Callable[[bool], None], words: Words) -> None:
         self._words = words
         own = {
             "inputs": words["inputs of the spec"],

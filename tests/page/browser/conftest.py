@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -22,12 +23,18 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def address(folder: Path) -> Iterator[str]:
-    """Of the page of a pair that holds."""
+def served(folder: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """The server of the page of a pair that holds, and its address."""
     server, at = serve(folder / "reducer-21-43.toml", told=folder / TOLD)
-    yield at
+    yield server, at
     server.terminate()
     server.wait(20)
+
+
+@pytest.fixture(scope="session")
+def address(served: tuple[subprocess.Popen[str], str]) -> str:
+    """The address of the page."""
+    return served[1]
 
 
 @pytest.fixture(scope="session")

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
+
+import pytest
 
 SHIFT = "pinion.profile_shift"
 
@@ -40,6 +47,69 @@ def test_by_the_keyboard_alone(tab: Any) -> None:
         tab.page.wait_for_selector(f'[data-key="{SHIFT}"].changed')
     keys.press("Escape")
     assert _focused(tab) == ""
+
+
+@contextmanager
+def _asleep(server: subprocess.Popen[str]) -> Iterator[None]:
+    """A server that answers nothing meanwhile."""
+    os.kill(server.pid, signal.SIGSTOP)
+    try:
+        yield
+    finally:
+        os.kill(server.pid, signal.SIGCONT)
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="stops the server")
+def test_a_slow_server_overtakes_no_key(tab: Any, served: tuple[subprocess.Popen[str], str]) -> None:
+    """Steps to undo are those of the typing, not of the answers; arrow keys go on from what an undo leaves."""
+    keys, was = tab.page.keyboard, tab.field(SHIFT).input_value()
+    tab.field(SHIFT).select_text()
+    keys.type("0.3")
+    with _asleep(served[0]):
+        for key in ("ArrowUp", "ArrowUp", "Shift+ArrowUp", "ArrowDown"):
+            keys.press(key)
+        tab.page.wait_for_timeout(PAUSE)
+        keys.press("ArrowDown")
+        _has(tab, SHIFT, "1.3")
+        keys.press("Control+z")
+        keys.press("ArrowUp")
+        keys.press("ArrowUp")
+    _has(tab, SHIFT, "1.6")
+    for value in ("1.4", was):
+        keys.press("Control+z")
+        _has(tab, SHIFT, value)
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="stops the server")
+def test_what_is_typed_comes_before_what_is_pressed_next(tab: Any, served: tuple[subprocess.Popen[str], str]) -> None:
+    keys, was = tab.page.keyboard, tab.field(SHIFT).input_value()
+    tab.field("pinion.teeth").fill("22")
+    tab.page.wait_for_selector("button[aria-label=undo]:enabled")
+    tab.field(SHIFT).select_text()
+    with _asleep(served[0]):
+        keys.type("0.25")
+        keys.press("Tab")
+        _has(tab, SHIFT, "0.25")
+        keys.press("Shift+Tab")
+        keys.press("ArrowUp")
+        _has(tab, SHIFT, "0.26")
+        tab.page.get_by_role("button", name="undo").click()
+    _has(tab, SHIFT, was)
+    _has(tab, "pinion.teeth", "22")
+
+
+def test_a_change_that_is_lost_is_sent_again(tab: Any) -> None:
+    """As where a connection ends; the field waits 3 s for an answer, here less."""
+    tab.page.evaluate("""() => {
+        const [later, emit, lost] = [window.setTimeout, window.socket.emit.bind(window.socket), []];
+        window.setTimeout = (call, ms, ...rest) => later(call, ms === 3000 ? 300 : ms, ...rest);
+        window.socket.emit = (...message) => JSON.stringify(message).includes("0.31") && lost.push(1) === 1 || emit(...message);
+    }""")
+    tab.field(SHIFT).fill("0.31")
+    tab.page.wait_for_selector(f'[data-key="{SHIFT}"].changed')
+    tab.field(SHIFT).press("ArrowUp")
+    tab.page.click(".left .q-tab:nth-child(2)")
+    tab.page.wait_for_function("[...document.querySelectorAll('.cm-line')].some(line => /= 0.32/.test(line.textContent))")
 
 
 def test_what_is_half_typed_stays(tab: Any) -> None:
