@@ -12,7 +12,7 @@ from gearcad.errors import GeometryError, ParameterError
 from gearcad.per_gear import PerGear
 from gearcad.ranges import DENSITY, MODULUS, POISSON_RATIO, STRENGTH, Range
 from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
+from gearcad.schema import AssumedNumber, AssumedText, Words, require_fields
 
 __all__ = [
     "STEEL_MODULUS",
@@ -124,10 +124,10 @@ class Material:
     sigma_B. Raises ParameterError, and GeometryError for a group or a quality that is not that of the name.
     """
 
-    name: Annotated[str, Words("material")] = "steel"
-    youngs_modulus: Annotated[float, MODULUS, Words("Young's modulus", "E")] = STEEL_MODULUS
-    poisson_ratio: Annotated[float, POISSON_RATIO, Words("Poisson's ratio", "ν")] = 0.3
-    density: Annotated[float, DENSITY, Words("density", "ρ")] = 7850.0
+    name: Annotated[str, Words("material")] = AssumedText("steel")
+    youngs_modulus: Annotated[float, MODULUS, Words("Young's modulus", "E")] = AssumedNumber(STEEL_MODULUS)
+    poisson_ratio: Annotated[float, POISSON_RATIO, Words("Poisson's ratio", "ν")] = AssumedNumber(0.3)
+    density: Annotated[float, DENSITY, Words("density", "ρ")] = AssumedNumber(7850.0)
     yield_strength: Annotated[float | None, STRENGTH, Words("yield strength", "σ_y")] = None
     contact_limit: Annotated[Limit, STRENGTH, Words("given limit of contact pressure")] = None
     root_limit: Annotated[Limit, STRENGTH, Words("given limit of local root stress")] = None

@@ -13,8 +13,9 @@ from functools import cache, cached_property
 from types import MappingProxyType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
 
-from gearcad.errors import ParameterError, as_choice, plain_numbers, require_name
+from gearcad.errors import ParameterError, as_choice, format_number, plain_numbers, require_name
 from gearcad.ranges import Choice, Member, Range, Whole
+from gearcad.reprs import is_assumed, is_usual
 from gearcad.symbols import Symbol
 
 if TYPE_CHECKING:
@@ -24,15 +25,19 @@ __all__ = [
     "ELSEWHERE",
     "AssumedCount",
     "AssumedNumber",
+    "AssumedText",
     "FieldSchema",
     "InPlaceOf",
     "NamedPart",
     "Words",
+    "assumed_values",
     "is_assumed",
+    "is_usual",
     "parts_of",
     "require_fields",
     "schema_of",
     "symbols_of",
+    "with_assumed",
 ]
 
 Permitted = Range | Whole | Choice | Member
@@ -43,9 +48,11 @@ ELSEWHERE = "written elsewhere"
 
 
 class AssumedNumber(float):
-    """A number that is the default of a field: documents mark it as assumed, since nobody gave it.
+    """A number that is the default of a field and stands for what the program cannot know, such as a material or a load.
 
-    `dataclasses.replace` hands it on as it is. A number of the same size that somebody gives is no AssumedNumber.
+    Documents mark it as assumed, since nobody gave it. `dataclasses.replace` hands it on as it is. A number of the same size
+    that somebody gives is no AssumedNumber. Defaults of the shape of a gear, which are made so, and of how the program computes
+    are plain numbers.
     """
 
     __slots__ = ()
@@ -61,13 +68,37 @@ class AssumedCount(int):
     assumed = True
 
 
-def is_assumed(value: Any) -> bool:
-    """Return whether a value of a field is its default, which nobody gave.
+class AssumedText(str):
+    """A text that is the default of a field, as AssumedNumber."""
 
-    >>> is_assumed(AssumedCount(6)), is_assumed(6)
-    (True, False)
+    __slots__ = ()
+
+    assumed = True
+
+
+def assumed_values(inputs: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield all values in `inputs` that nobody gave, under keys such as "load.application_factor".
+
+    `inputs` is a value, a dataclass of them, or a tuple, list or mapping of these; `key` is its own key.
     """
-    return getattr(value, "assumed", False)
+    if is_assumed(inputs):
+        yield key, inputs
+        return
+    if is_dataclass(inputs) and not isinstance(inputs, type):
+        parts: Mapping[Any, Any] = {each.name: getattr(inputs, each.name) for each in fields(inputs)}
+    elif isinstance(inputs, Mapping):
+        parts = inputs
+    elif isinstance(inputs, tuple | list):
+        parts = getattr(inputs, "_asdict", lambda: dict(enumerate(inputs, 1)))()
+    else:
+        return
+    for name, value in parts.items():
+        yield from assumed_values(value, f"{key}.{name}" if key else str(name))
+
+
+def with_assumed(document: dict[str, Any]) -> dict[str, Any]:
+    """Return a document with a list "assumed" of all values in it that nobody gave: "load.application_factor = 1"."""
+    return document | {"assumed": [f"{key} = {format_number(value)}" for key, value in assumed_values(document)]}
 
 
 class Words(NamedTuple):

@@ -9,13 +9,14 @@ from typing import Any
 from gearcad.check.result import CheckResult
 from gearcad.contact.shared.extremes import Extreme
 from gearcad.material import materials_document
+from gearcad.schema import with_assumed
 
 __all__ = ["check_document", "reported_document"]
 
 
 def check_document(result: CheckResult) -> dict[str, Any]:
     """Everything of a check under the names of check.json."""
-    return {
+    document = {
         "kind": "check",
         "model": result.model.value,
         "load": asdict(result.load),
@@ -45,6 +46,7 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "passed": result.passed,
         "verdict": result.verdict,
     }
+    return with_assumed(document)
 
 
 def reported_document(result: CheckResult) -> dict[str, Any]:

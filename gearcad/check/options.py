@@ -16,7 +16,7 @@ from gearcad.material import STEEL_MODULUS
 from gearcad.per_gear import PerGear
 from gearcad.ranges import BAND, LENGTH, MODULUS, TORQUE, Choice, Member, Range, Whole
 from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
+from gearcad.schema import AssumedNumber, Words, require_fields
 
 __all__ = ["CheckOptions", "Model"]
 
@@ -71,7 +71,7 @@ class CheckOptions:
     wheel_inner_diameter: Annotated[float | None, LENGTH, Words("diameter where the wheel is held")] = None
     pinion_support: Annotated[str, Member(Hold), Words("what holds the pinion there")] = "auto"
     wheel_support: Annotated[str, Member(Hold), Words("what holds the wheel there")] = "auto"
-    shaft_modulus: Annotated[float, MODULUS, Words("modulus of an elastic shaft", "E")] = STEEL_MODULUS
+    shaft_modulus: Annotated[float, MODULUS, Words("modulus of an elastic shaft", "E")] = AssumedNumber(STEEL_MODULUS)
     pinion_shaft_bore: Annotated[float, _SHAFT_BORE, Words("bore of the pinion's elastic shaft")] = 0.0
     wheel_shaft_bore: Annotated[float, _SHAFT_BORE, Words("bore of the wheel's elastic shaft")] = 0.0
     torques: Annotated[tuple[float, ...], _TORQUES, Words("torques of the sweep, on the pinion", "T_1")] = ()

@@ -12,6 +12,7 @@ from gearcad.designs.csv_cells import cell_text, write_found_rows
 from gearcad.designs.pair_text import toml_text
 from gearcad.geometry import ISO53_A
 from gearcad.material import Grade, Material, grade_of
+from gearcad.schema import is_usual
 from gearcad.sizing import SizedPair, SizeTask, Sizing
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ def _given(prefix: str, instance: DataclassInstance, usual: DataclassInstance | 
     found = {}
     for each in fields(instance):
         value, default = getattr(instance, each.name), each.default if usual is None else getattr(usual, each.name)
-        if value is not None and (default is MISSING or value != default):
+        if value is not None and (default is MISSING or not is_usual(value, default)):
             found[prefix + each.name] = value
     return found
 

@@ -16,6 +16,7 @@ from gearcad.material import Materials
 from gearcad.planetary.materials import mesh_material, stage_material
 from gearcad.planetary.mesh_loads import FactorSource, MeshLoad, mesh_loads, stage_loads
 from gearcad.planetary.power import PowerFlow, power_flow
+from gearcad.schema import is_assumed
 
 __all__ = ["MeshPairs"]
 
@@ -99,7 +100,8 @@ class MeshPairs:
             return
         factor = load.mesh_load_factor
         yield f"The load is that of one of {train.planets} planets, on the pinion; its speed is that against the carrier."
-        product = f"K_A {load.application_factor:g} times K_gamma {factor.value:g} ({_SOURCES[factor.source]})"
+        assumed = " (assumed)" if is_assumed(load.application_factor) else ""
+        product = f"K_A {load.application_factor:g}{assumed} times K_gamma {factor.value:g} ({_SOURCES[factor.source]})"
         yield f"application_factor is {product}."
         if not train.stepped:
             yield f"Teeth of {mesh.rim.name} bend both ways in every turn: of a root limit for teeth that bend one way"

@@ -16,7 +16,7 @@ from gearcad.geometry import Gear
 from gearcad.geometry.derived import is_given
 from gearcad.material import Material
 from gearcad.per_gear import PerGear
-from gearcad.schema import schema_of
+from gearcad.schema import is_usual, schema_of
 
 __all__ = ["pair_text", "toml_text"]
 
@@ -57,7 +57,7 @@ def _materials(design: PairDesign) -> dict[str, Material]:
 
 
 def _values(instance: Any, keys: Any, always: Sequence[str] = ()) -> Iterator[tuple[str, Any]]:
-    """The fields under flattened keys, without those that are derived, or that have their default."""
+    """The fields under flattened keys, without those that are derived, or that say no more than their default."""
     for key in keys:
         *parts, name = key.split(".")
         owner = reduce(lambda of, part: getattr(of, part, None), parts, instance)
@@ -67,7 +67,7 @@ def _values(instance: Any, keys: Any, always: Sequence[str] = ()) -> Iterator[tu
         if is_dataclass(value) or value is None or not (isinstance(value, str | Enum | tuple) or is_given(value)):
             continue
         opposed = key == "double_helix.offset" and isinstance(instance, Gear) and instance.double_helix.present
-        if key in always or opposed or value != _default(owner, name):
+        if key in always or opposed or not is_usual(value, _default(owner, name)):
             yield key, value
 
 

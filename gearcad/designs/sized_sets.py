@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gearcad.designs.csv_cells import cell_text, write_found_rows
 from gearcad.designs.found_sets import set_keys
 from gearcad.designs.pair_text import toml_text
+from gearcad.schema import is_usual
 from gearcad.sizing.sized_set import SizedSet, SizedSets
 
 if TYPE_CHECKING:
@@ -40,8 +41,12 @@ def sized_keys(sized: SizedSet) -> dict[str, dict[str, Any]]:
 
 def _given(instance: DataclassInstance) -> dict[str, Any]:
     """The fields that differ from their defaults."""
-    values = ((each.name, getattr(instance, each.name), each.default) for each in fields(instance))
-    return {name: value for name, value, usual in values if value is not None and (usual is MISSING or value != usual)}
+    values = ((each, getattr(instance, each.name)) for each in fields(instance))
+    return {
+        each.name: value
+        for each, value in values
+        if value is not None and (each.default is MISSING or not is_usual(value, each.default))
+    }
 
 
 def write_sized_sets(result: SizedSets, path: Path) -> None:

@@ -15,7 +15,7 @@ from gearcad.per_gear import PerGear
 from gearcad.ranges import DAMPING, DURATION, INERTIA, SAMPLING, SPEED, STIFFNESS, Choice, Member, Range, Whole
 from gearcad.rating.options import RatingOptions
 from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
+from gearcad.schema import AssumedNumber, Words, require_fields
 
 __all__ = ["OF_PAIRS", "OF_TRAINS_OF_PAIRS", "DynamicsOptions", "PairModel"]
 
@@ -111,7 +111,7 @@ class DynamicsOptions:
     stiffness: Annotated[str, Words("method of the mesh stiffness"), OF_PAIRS, OF_TRAINS_OF_PAIRS] = AUTO
     damping_ratio: Annotated[
         float, Range("", 0.0, 1.0, ends="()"), Words("damping ratio of the pair", "ζ"), OF_PAIRS, OF_TRAINS_OF_PAIRS
-    ] = 0.07
+    ] = AssumedNumber(0.07)
     pinion_inertia: Annotated[float | None, INERTIA, Words("inertia of the pinion", "J_1"), OF_PAIRS] = None
     wheel_inertia: Annotated[float | None, INERTIA, Words("inertia of the wheel", "J_2"), OF_PAIRS] = None
     pinion_bearing_stiffness: Annotated[float | None, STIFFNESS, Words("stiffness of the pinion's bearings"), OF_PAIRS] = None

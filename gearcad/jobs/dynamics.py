@@ -38,6 +38,7 @@ from gearcad.mounting import Mounting
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Agenda, Progress
+from gearcad.schema import with_assumed
 from gearcad.version import __version__
 
 __all__ = ["Dynamics", "Study", "dynamics", "specs_of"]
@@ -79,7 +80,7 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
 
     def document(self, result: Study) -> dict[str, Any]:
         """What dynamics.json holds: everything but the long arrays."""
-        return {"kind": "dynamics", "name": result.name, "gearcad": __version__, **result.to_dict()}
+        return with_assumed({"kind": "dynamics", "name": result.name, "gearcad": __version__, **result.to_dict()})
 
     def notices(self, result: Study) -> Sequence[Notice]:
         return result.notices

@@ -19,6 +19,7 @@ from gearcad.notice import Notice
 from gearcad.output import json_text
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.progress import Progress
+from gearcad.schema import with_assumed
 from gearcad.version import __version__
 
 __all__ = ["Planetary", "Studied", "planetary"]
@@ -62,7 +63,8 @@ class Planetary(Job[PlanetaryDesign, Studied]):
 
     def document(self, result: Studied) -> dict[str, Any]:
         """What planetary.json holds."""
-        return {"kind": self.verb, "name": result.design.name, "gearcad": __version__, **study_document(result.study)}
+        head = {"kind": self.verb, "name": result.design.name, "gearcad": __version__}
+        return with_assumed(head | study_document(result.study))
 
     def notices(self, result: Studied) -> Sequence[Notice]:
         return result.study.notices

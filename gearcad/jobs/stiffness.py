@@ -18,6 +18,7 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.notice import Notice
 from gearcad.progress import Expected, Progress
+from gearcad.schema import with_assumed
 from gearcad.stiffness.compare import compare_methods, expected_methods
 from gearcad.stiffness.comparison import StiffnessComparison
 from gearcad.stiffness.curves import curves_csv
@@ -73,7 +74,8 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
 
     def document(self, result: StiffnessComparison) -> dict[str, Any]:
         """What stiffness.json holds: N/µm, per face width N/(mm·µm), degrees, µm."""
-        return {"kind": "stiffness", "name": result.pair.name, "gearcad": __version__, **result.to_dict(self.fourier)}
+        head = {"kind": "stiffness", "name": result.pair.name, "gearcad": __version__}
+        return with_assumed(head | result.to_dict(self.fourier))
 
     def notices(self, result: StiffnessComparison) -> Sequence[Notice]:
         return result.notices

@@ -76,6 +76,7 @@ class PowerFlow:
             "losses": dict(self.losses),
             "efficiency": self.efficiency,
             "efficiency_back": self.efficiency_back,
+            "mesh_efficiency": self.load.mesh_efficiency,
             "mesh_efficiency_source": "assumed" if is_assumed(self.load.mesh_efficiency) else "given",
             "self_locking": None if is_assumed(self.load.mesh_efficiency) else self.self_locking,
             "rolling_power": self.rolling_power,

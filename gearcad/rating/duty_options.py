@@ -39,16 +39,18 @@ class DutyOptions:
 
     life: Annotated[float | None, Range("h", 1e-6, 1e8), Words("life in operation", "L_h")] = None
     load_cycles: Annotated[Both | None, Range("", 1.0, 1e15), Words("load cycles of a flank", "N_L")] = None
-    contacts_per_turn: Annotated[Both, Range("", 1e-3, 1000.0), Words("contacts of a flank per turn")] = 1.0
+    contacts_per_turn: Annotated[Both, Range("", 1e-3, 1000.0), Words("contacts of a flank per turn")] = AssumedNumber(1.0)
     spectrum: Annotated[
         tuple[tuple[float, ...], ...] | None,
         Words("load spectrum", "", "ISO 6336-6"),
     ] = None
-    mean_stress_factor: Annotated[Both, Range("", 0.1, 2.0), Words("mean stress influence factor", "Y_M", "ISO 6336-3")] = 1.0
+    mean_stress_factor: Annotated[Both, Range("", 0.1, 2.0), Words("mean stress influence factor", "Y_M", "ISO 6336-3")] = (
+        AssumedNumber(1.0)
+    )
     pitting_permitted: Annotated[bool, Words("whether some pitting is permitted", "", "ISO 6336-2")] = False
     long_life_factor: Annotated[
         float, Range("", 0.85, 1.0), Words("life factor at 10^10 load cycles", "Z_NT", "ISO 6336-2, -3")
-    ] = 0.85
+    ] = AssumedNumber(0.85)
     required_safety_flank: Annotated[float, _SAFETY, Words("required safety of the flank", "S_Hmin", "ISO 6336-2")] = (
         AssumedNumber(1.0)
     )

@@ -11,7 +11,7 @@ from gearcad.designs.keys import BESIDE, FIELDS, Fields
 from gearcad.errors import format_number
 from gearcad.geometry import Rack
 from gearcad.material import Material
-from gearcad.schema import is_assumed, symbols_of
+from gearcad.schema import is_assumed, is_usual, symbols_of
 from gearcad.sheet.blocks import ABSENT, Row, Section, Sheet, block, flattened
 from gearcad.sheet.gears import gear_section, rack_section
 from gearcad.sheet.pairs import pair_section
@@ -78,7 +78,7 @@ def _shown_of(table: str, values: Mapping[str, Any]) -> dict[str, Any]:
     if table != "rating" or not there:
         return there
     usual = asdict(BESIDE["rating"]())
-    return {key: value for key, value in there.items() if key in _OF_EVERY_RATING or value != usual[key]}
+    return {key: value for key, value in there.items() if key in _OF_EVERY_RATING or not is_usual(value, usual[key])}
 
 
 def _title(design: Design, document: Mapping[str, Any]) -> str:
@@ -98,12 +98,11 @@ def _title(design: Design, document: Mapping[str, Any]) -> str:
 def _given(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if is_assumed(value):
-        return f"{format_number(value)} (assumed)"
     if isinstance(value, tuple):
         if isinstance(value[0], tuple):
             from gearcad.designs.cells import nested_text
 
             return nested_text(value)
         return " ... ".join(map(format_number, value))
-    return value if isinstance(value, str) else format_number(value)
+    text = value if isinstance(value, str) else format_number(value)
+    return f"{text} (assumed)" if is_assumed(value) else text

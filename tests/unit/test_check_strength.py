@@ -18,26 +18,19 @@ from gearcad.check.comparison import ComparisonRole, Subject, verdict
 from gearcad.check.document import check_document
 from gearcad.check.result import CheckResult
 from gearcad.check.strength import strength_comparisons
-from gearcad.designs import PairDesign, PlanetaryDesign
+from gearcad.designs import PairDesign
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.treatment import material_text
 from gearcad.drawing.words import Language, Words
-from gearcad.jobs.drawn import drawn_gears
 from gearcad.jobs.rate import Rate
 from gearcad.jobs.rate_columns import rate_columns
 from gearcad.output import json_text
 from gearcad.page.panels.strength import strength_figures
-from gearcad.planetary import TrainLoad
-from gearcad.planetary.power import power_flow
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import Part
 from gearcad.report import report_html
-from gearcad.report.planetary.loads import power_rows
-from gearcad.report.strength.tables import option_rows
-from gearcad.schema import is_assumed, schema_of
-from gearcad.sheet import sheet_of
-from gearcad.shipped import templates
+from gearcad.schema import schema_of
 from gearcad.verdict import Verdict
 
 EXACT = 1e-12
@@ -257,63 +250,6 @@ def test_a_check_tells_that_scuffing_could_not_be_judged() -> None:
     assert found.strength is Verdict.PASSED
     assert {each.quantity[:5] for each in found.comparisons if each.quantity.startswith(("S_int", "S_B"))} == {"S_int", "S_B, "}
     assert strong(small_check(), replace(judged, required_safety_scuffing=90.0)).strength is Verdict.FAILED
-
-
-ASSUMED = {
-    "rating": [name for name, field in schema_of(RatingOptions).items() if is_assumed(field.default)],
-    "load": [name for name, field in schema_of(Load).items() if is_assumed(field.default)],
-}
-"""Keys whose defaults are marked, as the schema has them."""
-
-
-@pytest.mark.parametrize(("table", "key"), [(table, key) for table, keys in ASSUMED.items() for key in keys])
-def test_a_default_that_nobody_gave_is_marked_everywhere(tmp_path: Path, table: str, key: str) -> None:
-    spec, text = tmp_path / "asked.toml", asked_spec(("quality",))
-    default = schema_of(RatingOptions if table == "rating" else Load)[key].default
-    for given in (False, True):
-        spec.write_text(text.replace(f"[{table}]\n", f"[{table}]\n{key} = {default}\n") if given else text, encoding="utf-8")
-        design = read(spec)
-        assert isinstance(design, PairDesign)
-        rating = Rate(report=False).run(design)
-        said = [each for each in rating.to_dict()["assumed"] if each.startswith(f"{key} = ")]
-        assert len(said) == (not given)
-        rows = [row for section in sheet_of(design).sections for each in section.blocks for row in each.rows]
-        shown = [text for row in rows if row.key == f"{table}.{key}" for text in row.texts]
-        assert all(text.endswith("(assumed)") is not given for text in shown)
-        assert shown or key.startswith("required_safety") or key == "mesh_load_factor", "the data sheet shows it"
-        if (symbol := {"application_factor": "K_A", "mesh_load_factor": "K_gamma"}.get(key)) is not None:
-            assert rating.to_dict()["sources"][symbol] == ("given" if given else "assumed")
-        if key == "accuracy_grade":
-            assert [each.grade for each in drawn_gears(design)] == ([6, 6] if given else [None, None])
-            options = option_rows(rating.options)
-            grades = [row.values[0] for row in options if row.words == "accuracy grade"]
-            assert grades == ["6" if given else "6 (assumed)"]
-
-
-def test_changed_options_keep_what_was_assumed() -> None:
-    changed = replace(RatingOptions(), life=100.0)
-    assert is_assumed(changed.accuracy_grade) and not changed.asks_strength
-    assert not is_assumed(RatingOptions(accuracy_grade=6).accuracy_grade)
-    assert RatingOptions(required_safety_root=1.4).asks_strength
-    assert RatingOptions(required_safety_root=1.4) == RatingOptions()
-
-
-@pytest.mark.parametrize("given", [False, True])
-def test_an_efficiency_that_nobody_gave_is_no_result(given: bool) -> None:
-    design = read(templates() / "planetary-24-21-66.toml")
-    assert isinstance(design, PlanetaryDesign)
-    train, load = design.train, TrainLoad(torque=100.0, speed=1000.0)
-    if given:
-        load = replace(load, mesh_efficiency=1.0)
-    flow = power_flow(train, load)
-    rows, document = power_rows(train, flow), flow.to_dict()
-    assert document["mesh_efficiency_source"] == ("given" if given else "assumed")
-    assert document["self_locking"] is (False if given else None)
-    words = " ".join(f"{row.words} {row.source}" for row in rows)
-    assert ("assumed" in words) is not given
-    assert ("efficiency of a mesh, given" in words) is given
-    assert ("not self-locking" in words) is given
-    assert ("whether it is self-locking is not known" in words) is not given
 
 
 def test_a_sheet_names_no_grade_of_iso_6336_as_a_material() -> None:

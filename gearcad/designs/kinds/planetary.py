@@ -32,7 +32,7 @@ __all__ = ["PlanetaryDesign"]
 _OF_TRAINS = {each.name for each in fields(PlanetaryTrain)}
 _REQUIRED = ("planets", "input", "output")
 
-_TAKEN = ("kind", "name", "gearcad", "materials", "drawings", SPEEDS, MAIN, *BESIDE)
+_TAKEN = ("kind", "name", "gearcad", "materials", "drawings", "assumed", SPEEDS, MAIN, *BESIDE)
 """What a document has beside its gears."""
 
 

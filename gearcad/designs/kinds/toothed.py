@@ -17,7 +17,7 @@ from gearcad.errors import SpecError, format_number, shown
 from gearcad.geometry import GearPair, RackPair
 from gearcad.material import Material
 from gearcad.per_gear import PerGear
-from gearcad.schema import parts_of
+from gearcad.schema import parts_of, with_assumed
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -51,7 +51,10 @@ class ToothedDesign(Design):
         return None
 
     def to_dict(self) -> dict[str, Any]:
-        """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
+        """The document of `data.json`: inputs and derived properties under their field names (mm, degrees).
+
+        "assumed" has the inputs that nobody gave, such as "load.application_factor = 1".
+        """
         document = super().to_dict()
         for table in BESIDE:
             value = getattr(self, table, None)
@@ -61,7 +64,8 @@ class ToothedDesign(Design):
                 document["materials"] = {name: asdict(material) for name, material in value.items()}
             elif value is not None:
                 document[table] = _plain(value)
-        return document | drawing_documents(self.drawing, self.drawings)
+        document |= drawing_documents(self.drawing, self.drawings)
+        return with_assumed(document)
 
 
 def _plain(options: DataclassInstance) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from gearcad.dynamics.trains.document import train_document
 from gearcad.dynamics.trains.members import BESIDE_PAIR, Mesh
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.errors import InputError, ParameterError, SpecError, as_choice, format_number, shown
-from gearcad.schema import parts_of, schema_of
+from gearcad.schema import parts_of, schema_of, with_assumed
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -96,7 +96,7 @@ class TrainDesign(Design):
         document = super().to_dict() | train_document(self.train) | {"dynamics": options}
         if self.other_models:
             document["train"]["model"] = [each.value for each in self.models]
-        return document
+        return with_assumed(document)
 
 
 @dataclass(frozen=True)

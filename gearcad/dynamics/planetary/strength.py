@@ -19,6 +19,7 @@ from gearcad.rating.strength import Part, PartStrength, StrengthRating, rate_str
 from gearcad.rating.strength.called import called
 from gearcad.rating.strength.part import told
 from gearcad.reprs import Pictured
+from gearcad.schema import is_assumed
 from gearcad.verdict import NOT_ASKED_WORDS, Verdict, strength_verdict
 
 __all__ = ["GearStrength", "LeastSafety", "MeshFactors", "TrainStrength", "asks_strength", "train_strength"]
@@ -283,10 +284,10 @@ def _of_mesh(load: MeshLoad, factors: MeshFactors, options: RatingOptions) -> Ra
         if factors.dynamic is None:
             raise ParameterError("K_v", None, f"must be known: {factors.unknown}")
         options = replace(options, dynamic_factor=factors.dynamic)
-    own, usual = dict[str, Any](), RatingOptions()
-    if options.contacts_per_turn == usual.contacts_per_turn:
+    own = dict[str, Any]()
+    if is_assumed(options.contacts_per_turn):
         own["contacts_per_turn"] = tuple(map(float, load.contacts))
-    if options.mean_stress_factor == usual.mean_stress_factor:
+    if is_assumed(options.mean_stress_factor):
         own["mean_stress_factor"] = tuple(factors.mean_stress)
     return replace(options, mesh_load_factor=load.mesh_load_factor.value, **own)
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from gearcad.errors import InputError
+from gearcad.errors import InputError, format_number
 from gearcad.geometry import GearPair, RackPair
+from gearcad.material import Material
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.factors import to_verify
@@ -13,7 +14,7 @@ from gearcad.rating.factors.life import endurance_cycles
 from gearcad.rating.strength.part import Part, PartStrength
 from gearcad.rating.strength.root import notch_strength
 from gearcad.rating.strength.task import StrengthTask
-from gearcad.schema import is_assumed
+from gearcad.schema import assumed_values, is_assumed, schema_of
 
 __all__ = ["assumed_of", "notices_of", "verify_of"]
 
@@ -40,17 +41,35 @@ def assumed_of(task: StrengthTask) -> Iterator[str]:
 
 
 def _defaults(task: StrengthTask) -> Iterator[str]:
-    """Yield the defaults that a rating goes by and that nobody gave; a grade only where a gear has none of its own."""
-    options, gears = task.options, [gear for gear in task.pair_gears if gear.accuracy_grade is None]
-    if gears and is_assumed(options.accuracy_grade):
-        yield f"accuracy_grade = {options.accuracy_grade} of {options.accuracy.value}"
-    for name in ("required_safety_flank", "required_safety_root"):
-        if is_assumed(value := getattr(options, name)):
-            yield f"{name} = {value:g}"
-    if is_assumed(options.mesh_load_factor):
-        yield f"mesh_load_factor = {options.mesh_load_factor:g}"
+    """Yield the defaults that a rating goes by and that nobody gave: of [rating], of the load and of the materials."""
+    options = task.options
+    for key, _ in assumed_values(options):
+        if _counts(task, key):
+            of = f" of {options.accuracy.value}" if key == "accuracy_grade" else ""
+            yield f"{key} = {getattr(options, key):g}{of}"
     if is_assumed(task.load.application_factor) and not options.bins:
         yield f"application_factor = {task.load.application_factor:g}"
+    found: dict[str, list[str]] = {}
+    for role, material in task.materials.items():
+        said = ", ".join(_constant(material, key) for key, _ in assumed_values(material) if key != "name")
+        found.setdefault(said, []).append(task.nominal.names.pick(role))
+    yield from (f"{said} of {' and '.join(names)}" for said, names in found.items() if said)
+
+
+def _constant(material: Material, key: str) -> str:
+    """A property of a material with its key and unit."""
+    unit = schema_of(Material)[key].symbol.unit
+    return f"material.{key} = {format_number(getattr(material, key))}{f' {unit}' if unit else ''}"
+
+
+def _counts(task: StrengthTask, key: str) -> bool:
+    """Whether an option plays a part: the grade where a gear has none of its own, cycles where any are counted."""
+    if key == "accuracy_grade":
+        return any(gear.accuracy_grade is None for gear in task.pair_gears)
+    if key in ("contacts_per_turn", "long_life_factor"):
+        cycles = any(each is not None for each in task.duty.cycles)
+        return cycles and not (key == "contacts_per_turn" and task.options.load_cycles is not None)
+    return True
 
 
 def verify_of(task: StrengthTask) -> Iterator[str]:

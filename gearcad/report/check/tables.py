@@ -10,7 +10,7 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
 from gearcad.material import Material, Materials, by_gear
 from gearcad.mounting import Mounting
-from gearcad.schema import symbols_of
+from gearcad.schema import is_assumed, symbols_of
 from gearcad.symbols import Symbol
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class Row(NamedTuple):
 def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[Row]:
     """What describes the gears: their fields `keys`, and the modifications of their flanks."""
     gears = (pair.pinion, pair.wheel)
-    values = [_flat(gear.to_dict() | {"modification": gear.modification.in_use}) for gear in gears]
+    values = [_flat(gear.to_dict() | {"modification": gear.flank_form.in_use}) for gear in gears]
     written = symbols_of(Gear) | symbols.GEAR
     present = [key for key in written if key.startswith("modification.") and any(key in gear for gear in values)]
     return [_row(written[key], *(gear.get(key) for gear in values)) for key in (*keys.split(), *present)]
@@ -90,8 +90,10 @@ def _text(value: Any) -> str:
     if isinstance(value, tuple | list):
         return " to ".join(_text(each) for each in value)
     if isinstance(value, bool) or not isinstance(value, int | float):
-        return "-" if value is None else str(value)
-    return f"{value:.6g}" if abs(value) > _ROUNDING else "0"
+        text = "-" if value is None else str(value)
+    else:
+        text = f"{value:.6g}" if abs(value) > _ROUNDING else "0"
+    return f"{text} (assumed)" if is_assumed(value) else text
 
 
 def _flat(document: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

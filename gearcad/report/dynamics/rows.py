@@ -6,6 +6,7 @@ from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.trains.six_dof import PairOnBearings
 from gearcad.plots.paper import short
 from gearcad.report.check.tables import Row
+from gearcad.schema import is_assumed
 
 __all__ = ["contact_rows", "pair_dynamics_rows"]
 
@@ -16,14 +17,14 @@ def pair_dynamics_rows(study: PairStudy) -> list[Row]:
     """Inertias, mesh stiffness, damping, backlash and resonance of a pair by itself."""
     cycle, of = study.cycle, study.study
     mesh, modes = of.train.meshes[0], of.modes
-    row = modes.rigid
+    row, ratio = modes.rigid, of.options.damping_ratio
     rows = [
         Row("moment of inertia", "J", tuple(map(short, study.inertias)), "kg·m²", ""),
         Row("torque on the pinion", "T_1", (short(cycle.torque),), "N·m", ""),
         Row("force along the line of action, at rest", "F_bt", (short(float(of.up.static_forces[0])),), "N", ""),
         Row("mesh stiffness, mean secant", "k", (short(cycle.mean),), "N/µm", study.method),
         Row("mesh stiffness, mean tangent", "k", (short(cycle.tangent_mean),), "N/µm", "that of small vibrations"),
-        Row("damping ratio of the pair", "ζ", (short(of.options.damping_ratio),), "", ""),
+        Row("damping ratio of the pair", "ζ", (short(ratio),), "", "assumed" if is_assumed(ratio) else "given"),
         Row("damping of the mesh", "c", (short(float(of.system.mesh_damping[0])),), "N·s/m", "2 ζ √(k m)"),
         Row("backlash along the line of action", "", (_NONE if mesh.backlash is None else short(mesh.backlash),), "µm", ""),
     ]

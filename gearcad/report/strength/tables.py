@@ -14,7 +14,7 @@ from gearcad.plots.paper import short
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import INFINITE, Part, StrengthRating
 from gearcad.report.check.tables import Row
-from gearcad.schema import is_assumed, symbols_of
+from gearcad.schema import is_assumed, is_usual, symbols_of
 from gearcad.sheet.strength import LONGEST_LIFE, Quantity, factor_quantities, safety_quantities
 from gearcad.symbols import Symbol
 
@@ -59,12 +59,12 @@ def option_rows(options: RatingOptions) -> list[Row]:
         Row(
             written[each.name].words,
             written[each.name].symbol,
-            (f"{_listed(value)} (assumed)" if is_assumed(value) else _listed(value),),
+            (_listed(value),),
             written[each.name].unit,
             written[each.name].source,
         )
         for each in fields(options)
-        if (value := getattr(options, each.name)) != each.default or each.name in always
+        if not is_usual(value := getattr(options, each.name), each.default) or each.name in always
         if each.name != "spectrum"
     ]
 
@@ -167,5 +167,7 @@ def _text(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, int | float):
-        return INFINITE if math.isinf(value) else short(value) if value else "0"
-    return str(value)
+        text = INFINITE if math.isinf(value) else short(value) if value else "0"
+    else:
+        text = str(value)
+    return f"{text} (assumed)" if is_assumed(value) else text
