@@ -89,6 +89,10 @@ GEAR = {
     "thickness_limits.between_balls_least": Symbol("M_dK", "mm", "", "between two balls, least"),
     "thickness_limits.between_pins_greatest": Symbol("M_dR", "mm", "", "between two pins, greatest"),
     "thickness_limits.between_pins_least": Symbol("M_dR", "mm", "", "between two pins, least"),
+    "modification.tip_relief_transition_source": Symbol("", "", "", "tip relief, transition from"),
+    "modification.tip_relief_rounding": Symbol("w", "µm", "", "tip relief, rounding at its start"),
+    "modification.root_relief_transition_source": Symbol("", "", "", "root relief, transition from"),
+    "modification.root_relief_rounding": Symbol("w", "µm", "", "root relief, rounding at its start"),
 }
 
 PAIR = {

@@ -116,7 +116,7 @@ class Gear(GearData):
     @cached_property
     def flank_form(self) -> FlankForm:
         """The modified flanks: how far they are taken back from the exact involute, and where."""
-        return FlankForm.of(self.modification, self.profile, self.half_width, self.helix_angle)
+        return FlankForm.of(self.modification, self.profile, self.half_width, self.helix_angle, self.normal_module)
 
     @property
     def undercut(self) -> bool:
@@ -232,7 +232,7 @@ class Gear(GearData):
         """Inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
         parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix", "body")}
         parts["body"]["hub_side"] = self.body.hub_side.value
-        parts["modification"] = self.modification.to_dict()
+        parts["modification"] = self.flank_form.to_dict()
         inputs = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in parts}
         names = (*_DERIVED, *(_OF_RINGS if self.internal else _OF_EXTERNAL))
         derived = {name: getattr(self, name) for name in names}

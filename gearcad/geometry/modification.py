@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from enum import Enum
+from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, Any
 
@@ -24,23 +25,40 @@ from gearcad.ranges import Range
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 
-__all__ = ["FlankForm", "FlankModification", "ReliefShape", "check_flanks"]
+__all__ = [
+    "FlankForm",
+    "FlankModification",
+    "ReliefShape",
+    "ReliefTransition",
+    "TransitionSource",
+    "check_flanks",
+    "longest_transition",
+]
 
 
 _RELIEFS = ("tip_relief", "root_relief", "end_relief")
+_PROFILE_RELIEFS = ("tip_relief", "root_relief")
+_SETTINGS = ("_length", "_shape", "_transition")
+"""What fields end in that describe a relief beside its amount."""
 
 _AMOUNT = Range("µm", -1000, 1000)
 _RELIEF = Range("µm", 0, 1000)
 _LENGTH = Range("mm", 0, None)
 
 _LEAST_LENGTH = 1e-3
-"""Least length (mm) of a relief."""
+"""Least length (mm) of a relief, and of a transition that is given and not 0."""
+
+_ASSUMED_TRANSITION = 0.1
+"""Transition (normal modules of roll) from flank to linear relief where none is given: an assumption, not measured."""
 
 _LEAST_LAND = 1e-3
 """Least width (mm) of what modifications leave of a tip land."""
 
 _ONE = 3e-7
 """Breaks closer than this (mm) are one: a solid cannot tell them apart, and no depth changes by what would be seen."""
+
+_NOTHING = 1e-300
+"""Share of a length in place of 0 that is divided by."""
 
 _ROUNDING = 1e-9
 """Overlap (mm) in a root that comes to a point which is rounding."""
@@ -52,10 +70,47 @@ class ReliefShape(Enum):
     LINEAR = "linear"
     PARABOLIC = "parabolic"
 
-    def grown(self, share: Floats) -> Floats:
-        """0 before the start, 1 at the end, at shares (...) of its length."""
+    def grown(self, share: Floats, transition: float | Floats = 0.0) -> Floats:
+        """Return 0 before the start and 1 at the end, at shares (...) of its length.
+
+        A parabola rounds the start of the linear one over `transition`, a share of the length; it has no part in the other.
+        """
         inside: Floats = np.maximum(share, 0.0)
-        return inside if self is ReliefShape.LINEAR else inside**2
+        if self is ReliefShape.PARABOLIC:
+            return inside**2
+        rounded = (share + transition / 2) ** 2 / np.maximum(2 * transition, _NOTHING)
+        return np.where(np.abs(share) < transition / 2, rounded, inside)
+
+
+class TransitionSource(Enum):
+    """Where the transition of a linear relief comes from; SHORTENED is the assumed one cut to what fits the flank."""
+
+    GIVEN = "given"
+    ASSUMED = "assumed"
+    SHORTENED = "shortened"
+
+
+@dataclass(frozen=True)
+class ReliefTransition:
+    """The rounded start of a linear relief: `onset`, its `length` t (mm of roll) half before and half after that, and `slope`.
+
+    The slope (mm per mm of roll, above 0) is that of the depth of the relief behind the transition.
+    """
+
+    onset: float
+    length: float
+    slope: float
+    source: TransitionSource
+
+    @property
+    def rounding(self) -> float:
+        """Return w (mm), what the transition takes off at the onset: C_a t/(8 l_a)."""
+        return self.slope * self.length / 8
+
+
+def longest_transition(length: Any, roll: float) -> Any:
+    """Return the longest transition (mm of roll) of a relief of that length on a flank of that length of roll."""
+    return 2 * np.minimum(length, roll - length)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,15 +124,19 @@ class FlankModification:
     C_beta_II at both ends, nothing `end_relief_length` along the axis inside. `helix_angle_modification` C_H_beta over the
     face width: the sections turn about the middle one, positive for a steeper helix (right hand on a spur gear).
     `twist` S_alpha is the change of the profile slope from z = 0 to the other end.
+    A linear relief of tip or root starts with a parabola over `tip_relief_transition`, `root_relief_transition` (mm of roll),
+    half of it before its start; None assumes 0.1 m_n, or what fits; 0 is a kink. Amount and length stay.
     Raises ParameterError for one value, GeometryError for a relief without a length, and from `Gear` for what does not fit it.
     """
 
     tip_relief: Annotated[float, _RELIEF, Words("tip relief", "C_αa", "6.2")] = 0.0
     tip_relief_length: Annotated[float, _LENGTH, Words("tip relief, length of roll", "L_Cαa", "6.2")] = 0.0
     tip_relief_shape: Annotated[ReliefShape, Words("tip relief, shape", "", "6.2")] = ReliefShape.LINEAR
+    tip_relief_transition: Annotated[float | None, _LENGTH, Words("tip relief, transition of roll", "t")] = None
     root_relief: Annotated[float, _RELIEF, Words("root relief", "C_αf", "6.2")] = 0.0
     root_relief_length: Annotated[float, _LENGTH, Words("root relief, length of roll", "L_Cαf", "6.2")] = 0.0
     root_relief_shape: Annotated[ReliefShape, Words("root relief, shape", "", "6.2")] = ReliefShape.LINEAR
+    root_relief_transition: Annotated[float | None, _LENGTH, Words("root relief, transition of roll", "t")] = None
     profile_crowning: Annotated[float, _AMOUNT, Words("profile crowning", "C_α", "6.2")] = 0.0
     pressure_angle_modification: Annotated[float, _AMOUNT, Words("pressure angle modification", "C_Hα", "6.2")] = 0.0
     lead_crowning: Annotated[float, _AMOUNT, Words("lead crowning", "C_β", "6.3")] = 0.0
@@ -96,6 +155,13 @@ class FlankModification:
             if getattr(self, name) and length < _LEAST_LENGTH:
                 permitted = f"must be at least {_LEAST_LENGTH} mm for a {name} above 0 µm"
                 raise GeometryError(f"{name}_length", length, permitted, "mm")
+        for name in _PROFILE_RELIEFS:
+            given = getattr(self, f"{name}_transition")
+            if given and getattr(self, f"{name}_shape") is ReliefShape.PARABOLIC:
+                permitted = f"must be left out: a parabolic {name} starts without a kink"
+                raise GeometryError(f"{name}_transition", given, permitted, "mm")
+            if given and given < _LEAST_LENGTH:
+                raise GeometryError(f"{name}_transition", given, f"must be 0 or at least {_LEAST_LENGTH} mm", "mm")
 
     @property
     def present(self) -> bool:
@@ -120,8 +186,9 @@ class FlankModification:
     @property
     def in_use(self) -> dict[str, Any]:
         """The fields that do something, shapes as words: amounts that are not 0, and what belongs to them."""
-        idle = [name for name in _RELIEFS if not getattr(self, name)]
-        return {name: value for name, value in self.to_dict().items() if value and not name.startswith(tuple(idle))}
+        idle = tuple(name for name in _RELIEFS if not getattr(self, name))
+        used = {name: value for name, value in self.to_dict().items() if not name.startswith(idle)}
+        return {name: value for name, value in used.items() if value or (value is not None and name.endswith("_transition"))}
 
     def check_lengths(self, roll: float, face_width: float) -> None:
         """Raise GeometryError for lengths that do not fit a flank of that length of roll and width (mm)."""
@@ -148,13 +215,16 @@ class FlankForm:
     width: float
     base_radius: float
     hand: int
+    module: float
 
     @classmethod
-    def of(cls, modification: FlankModification, profile: ToothProfile, face_width: float, helix_angle: float) -> FlankForm:
-        """That of teeth of this profile; face width in mm, helix angle in degrees."""
+    def of(
+        cls, modification: FlankModification, profile: ToothProfile, face_width: float, helix_angle: float, module: float
+    ) -> FlankForm:
+        """That of teeth of this profile; face width and normal module in mm, helix angle in degrees."""
         base, side = profile.base_diameter, -1 if profile.internal else 1
         first, last = (side * tangent_length(end, base) for end in (profile.form_diameter, profile.tip_form_diameter))
-        return cls(modification, first, last, face_width, base / 2, -1 if helix_angle < 0 else 1)
+        return cls(modification, first, last, face_width, base / 2, -1 if helix_angle < 0 else 1, module)
 
     def depth(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
         """How far (mm) the left or right flank is taken back at roll lengths and heights z (mm), in the shape to which both
@@ -164,10 +234,11 @@ class FlankForm:
         roll, z = np.clip(lengths, self.first, self.last), np.clip(heights, 0.0, self.width)
         up, along = (roll - self.first) / (self.last - self.first), z / self.width
         amount = np.zeros(np.broadcast_shapes(np.shape(roll), np.shape(z)))
-        if of.tip_relief:
-            amount += of.tip_relief * of.tip_relief_shape.grown(1 - (self.last - roll) / of.tip_relief_length)
-        if of.root_relief:
-            amount += of.root_relief * of.root_relief_shape.grown(1 - (roll - self.first) / of.root_relief_length)
+        for name, to_end in (("tip_relief", self.last - roll), ("root_relief", roll - self.first)):
+            if most := getattr(of, name):
+                length, transition = getattr(of, f"{name}_length"), self.transitions.get(name)
+                share = transition.length / length if transition else 0.0
+                amount += most * getattr(of, f"{name}_shape").grown(1 - to_end / length, share)
         if of.end_relief:
             to_end = np.minimum(z, self.width - z)
             amount += of.end_relief * of.end_relief_shape.grown(1 - to_end / of.end_relief_length)
@@ -184,14 +255,59 @@ class FlankForm:
         """
         return self.depth(lengths, heights, left=left) / self.base_radius * (-1 if left else 1)
 
+    @cached_property
+    def transitions(self) -> dict[str, ReliefTransition]:
+        """The transitions of the linear reliefs that start on the flank, by `tip_relief` and `root_relief`."""
+        of, found, roll = self.modification, dict[str, ReliefTransition](), self.last - self.first
+        for name in _PROFILE_RELIEFS:
+            amount, length = getattr(of, name), getattr(of, f"{name}_length")
+            if not amount or roll - length < _ONE or getattr(of, f"{name}_shape") is not ReliefShape.LINEAR:
+                continue
+            transition, source = getattr(of, f"{name}_transition"), TransitionSource.GIVEN
+            if transition is None:
+                transition, source = _ASSUMED_TRANSITION * self.module, TransitionSource.ASSUMED
+                if transition > (longest := float(longest_transition(length, roll))):
+                    transition, source = longest, TransitionSource.SHORTENED
+            found[name] = ReliefTransition(self._starts[name], transition, amount / 1000 / length, source)
+        return found
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all fields of the modification and what `in_use` adds to them, None where there is no transition."""
+        added = {f"{name}_{what}": None for name in _PROFILE_RELIEFS for what in ("transition_source", "rounding")}
+        return self.modification.to_dict() | added | self.in_use
+
+    @property
+    def in_use(self) -> dict[str, Any]:
+        """Return the fields that do something, as of the modification, with the transitions that are used and their sources.
+
+        The rounding w at the start of a relief is in µm.
+        """
+        used = self.modification.in_use
+        for name, of in self.transitions.items():
+            used[f"{name}_transition"] = of.length
+            used[f"{name}_transition_source"] = of.source.value
+            used[f"{name}_rounding"] = 1000 * of.rounding
+        return used
+
+    @property
+    def relief_starts(self) -> tuple[float, ...]:
+        """Return the roll lengths (mm) inside the flank where reliefs start: the middle of a transition, where there is one."""
+        return _inside(list(self._starts.values()), self.first, self.last)
+
+    @property
+    def _starts(self) -> dict[str, float]:
+        """The same of each relief that takes something off, wherever it starts."""
+        of = self.modification
+        starts = {"tip_relief": self.last - of.tip_relief_length, "root_relief": self.first + of.root_relief_length}
+        return {name: start for name, start in starts.items() if getattr(of, name)}
+
     @property
     def roll_breaks(self) -> tuple[float, ...]:
-        """Roll lengths (mm) inside the flank where the depth is not smooth: the starts of the reliefs."""
-        of, found = self.modification, []
-        if of.tip_relief:
-            found.append(self.last - of.tip_relief_length)
-        if of.root_relief:
-            found.append(self.first + of.root_relief_length)
+        """Roll lengths (mm) inside the flank where the depth is not smooth: ends of transitions, else starts of reliefs."""
+        found = []
+        for name, start in self._starts.items():
+            half = self.transitions[name].length / 2 if name in self.transitions else 0.0
+            found += [start - half, start + half]
         return _inside(found, self.first, self.last)
 
     @property
@@ -206,10 +322,17 @@ def check_flanks(form: FlankForm, profile: ToothProfile) -> None:
     """Raise GeometryError for modifications that do not fit their teeth: lengths beyond the flanks, no tip or no space left."""
     amounts = form.modification
     amounts.check_lengths(form.last - form.first, form.width)
+    for name, of in form.transitions.items():
+        most = float(longest_transition(getattr(amounts, f"{name}_length"), form.last - form.first))
+        if of.length > most:
+            permitted = (
+                f"must be at most {at_most(most)} mm: its halves fit between the {name}'s start and the ends of the flank"
+            )
+            raise GeometryError(f"{name}_transition", of.length, permitted, "mm")
     if not amounts.present:
         return
     largest = max(
-        (name for name in amounts.in_use if not name.endswith(("_length", "_shape"))),
+        (name for name in amounts.in_use if not name.endswith(_SETTINGS)),
         key=lambda name: abs(getattr(amounts, name)),
     )
     heights = np.unique([*np.linspace(0, form.width, 33), *form.height_breaks])

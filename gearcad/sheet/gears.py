@@ -110,7 +110,7 @@ def _in_use(gear: Gear) -> dict[str, Any]:
 
     Modifications that do something, a diametral pitch that was given, and that some gauges are for spur rings.
     """
-    shown = {"modification": gear.modification.in_use} | _given_pitch(gear)
+    shown = {"modification": gear.flank_form.in_use} | _given_pitch(gear)
     return shown | (_OF_SPUR_RINGS if gear.internal and gear.helix_angle else {})
 
 

@@ -124,7 +124,8 @@ def test_fillets_without_a_root_land_go_on_meeting() -> None:
 
 
 def test_sharp_corners_turn_with_their_flanks() -> None:
-    gear = modified(Gear(**_PLAIN | {"helix_angle": 15.0, "cutter": ShaperCutter(tip_radius=0.0)}))
+    kinks = {"tip_relief_transition": 0.0, "root_relief_transition": 0.0}
+    gear = modified(Gear(**_PLAIN | {"helix_angle": 15.0, "cutter": ShaperCutter(tip_radius=0.0)}), **kinks)
     solid = gear_solid(gear)
     assert _valid_and_closed(solid)
     points = _points(solid)

@@ -138,6 +138,7 @@ def test_reliefs_that_meet_in_one_line() -> None:
     plain = GEARS["spur"]
     flank = plain.flank_form.last - plain.flank_form.first
     lengths = {"tip_relief_length": flank / 2, "root_relief_length": flank / 2, "end_relief_length": plain.face_width / 2}
+    lengths |= {"tip_relief_transition": 0.0, "root_relief_transition": 0.0}
     gear = modified(plain, "tip_relief", "root_relief", "end_relief", **lengths)
     solid = gear_solid(gear)
     assert _valid_and_closed(solid)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from gearcad import FlankModification, Gear, GearPair, Mounting, ReliefShape
+from support.modified import relieved
 
 __all__ = ["distance_in_space", "gap_along_action", "middle_height", "pinion_points", "taken_back", "wheel_points"]
 
@@ -49,8 +50,8 @@ def taken_back(gear: Gear, lengths: Floats, heights: Floats) -> Floats:
     lengths, heights = np.broadcast_arrays(np.clip(lengths, first, last), np.clip(heights, 0, gear.face_width))
     middle, half = (first + last) / 2, (last - first) / 2
     centre, side = gear.face_width / 2, gear.face_width / 2
-    amount = _relief(of.tip_relief, of.tip_relief_length, of.tip_relief_shape, last - lengths)
-    amount = amount + _relief(of.root_relief, of.root_relief_length, of.root_relief_shape, lengths - first)
+    amount = relieved(gear, "tip", lengths - last + of.tip_relief_length)
+    amount = amount + relieved(gear, "root", first + of.root_relief_length - lengths)
     for from_end in (heights, gear.face_width - heights):
         amount = amount + _relief(of.end_relief, of.end_relief_length, of.end_relief_shape, from_end)
     amount = amount + of.profile_crowning * ((lengths - middle) / half) ** 2

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gearcad import Gear
 
-__all__ = ["depth_off", "folded", "removed_volume", "roll_ends", "specified", "unturned"]
+__all__ = ["depth_off", "folded", "relieved", "removed_volume", "roll_ends", "specified", "transition", "unturned"]
 
 Floats = NDArray[np.float64]
 
@@ -28,6 +28,27 @@ def roll_ends(gear: Gear) -> tuple[float, float]:
     return float(first), float(last)
 
 
+def transition(gear: Gear, end: str) -> float:
+    """Return the transition (mm of roll) at the start of a linear "tip" or "root" relief: given, or 0.1 m_n where that fits."""
+    m, (first, last) = gear.modification, roll_ends(gear)
+    given, length = getattr(m, f"{end}_relief_transition"), getattr(m, f"{end}_relief_length")
+    return min(0.1 * gear.normal_module, 2 * length, 2 * (last - first - length)) if given is None else given
+
+
+def relieved(gear: Gear, end: str, past: Floats) -> Floats:
+    """Return how much (µm) a relief takes off at roll lengths `past` its start (mm): nothing, a parabola, a line."""
+    m = gear.modification
+    amount, length = getattr(m, f"{end}_relief"), getattr(m, f"{end}_relief_length")
+    if not amount:
+        return 0.0 * past
+    if getattr(m, f"{end}_relief_shape").value == "parabolic":
+        return np.asarray(amount * (np.clip(past, 0, None) / length) ** 2)
+    t = transition(gear, end)
+    # The slope of the depth rises evenly from 0 to amount/length.
+    grown = np.clip(past + t / 2, 0, t)
+    return np.asarray(amount / length * ((grown**2 / (2 * t) if t else 0.0) + np.clip(past - t / 2, 0, None)))
+
+
 def specified(gear: Gear, radius: Floats, z: Floats, left: NDArray[np.bool_] | bool) -> Floats:
     """Depth (mm) asked for at a radius and a height: what `gear.modification` says, one line per modification.
 
@@ -40,14 +61,12 @@ def specified(gear: Gear, radius: Floats, z: Floats, left: NDArray[np.bool_] | b
     length, width = last - first, gear.face_width
     middle = roll - (first + last) / 2
     off = z - width / 2
-    tip_share = np.clip((roll - last) / m.tip_relief_length + 1, 0, None) if m.tip_relief else 0.0 * roll
-    root_share = np.clip((first - roll) / m.root_relief_length + 1, 0, None) if m.root_relief else 0.0 * roll
     end_share = np.clip((np.abs(off) - width / 2) / m.end_relief_length + 1, 0, None) if m.end_relief else 0.0 * off
     powers = {"linear": 1, "parabolic": 2}
     steeper = 1.0 if gear.helix_angle >= 0 else -1.0  # the hand
     micrometres = (
-        m.tip_relief * tip_share ** powers[m.tip_relief_shape.value]
-        + m.root_relief * root_share ** powers[m.root_relief_shape.value]
+        relieved(gear, "tip", roll - last + m.tip_relief_length)
+        + relieved(gear, "root", first - roll + m.root_relief_length)
         + m.end_relief * end_share ** powers[m.end_relief_shape.value]
         + m.profile_crowning * (middle / (length / 2)) ** 2
         + m.lead_crowning * (off / (width / 2)) ** 2
@@ -103,7 +122,8 @@ def removed_volume(gear: Gear) -> float:
     side = -1 if gear.internal else 1
     face = side * (gear.tip_diameter / 2 - gear.body.end_chamfer * slope)
     ends = [0.0, m.end_relief_length if m.end_relief else 0.0]
-    rolls = [last - m.tip_relief_length, first + m.root_relief_length]
+    starts = (("tip", last - m.tip_relief_length), ("root", first + m.root_relief_length))
+    rolls = [start + side * transition(gear, end) / 2 for end, start in starts for side in (-1, 0, 1)]
     circles = (gear.root_diameter, gear.form_diameter, gear.tip_form_diameter, gear.tip_diameter)
     radii = [*(side * circle / 2 for circle in circles), *(face + side * z * slope for z in ends)]
     low, high = sorted((radii[0], radii[3]))

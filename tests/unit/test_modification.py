@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -109,12 +110,73 @@ def test_starts_of_reliefs_are_breaks() -> None:
         tip_relief=1, tip_relief_length=2.0, root_relief=1, root_relief_length=1.5, end_relief=1, end_relief_length=3.0
     )
     form = replace(GEAR, modification=modification).flank_form
-    assert form.roll_breaks == pytest.approx((FIRST + 1.5, LAST - 2.0))
+    assert form.roll_breaks == pytest.approx((FIRST + 1.375, FIRST + 1.625, LAST - 2.125, LAST - 1.875))
     assert form.height_breaks == pytest.approx((3.0, 13.0))
+    kinks = replace(modification, tip_relief_transition=0.0, root_relief_shape=ReliefShape.PARABOLIC)
+    assert replace(GEAR, modification=kinks).flank_form.roll_breaks == pytest.approx((FIRST + 1.5, LAST - 2.0))
     halves = replace(modification, end_relief_length=8.0, tip_relief_length=ROLL, root_relief_length=ROLL)
     form = replace(GEAR, modification=halves).flank_form
     assert form.height_breaks == pytest.approx((8.0,))
     assert form.roll_breaks == ()
+
+
+# Transitions of linear reliefs
+
+
+def test_a_transition_rounds_the_start_and_leaves_amount_and_length() -> None:
+    """C_a t/(8 l_a) at the onset: 0.675 µm of 18 over 1 mm with 0.3 mm; nothing half before it, and the line half behind."""
+    amounts = {"tip_relief": 18.0, "tip_relief_length": 1.0, "tip_relief_transition": 0.3}
+    onset = LAST - 1.0
+    assert depth(onset, 4.0, **amounts) == pytest.approx(0.675, abs=1e-9)
+    assert depth(LAST, 4.0, **amounts) == pytest.approx(18.0, abs=1e-9)
+    assert depth(onset - 0.15, 4.0, **amounts) == pytest.approx(0.0, abs=1e-9)
+    assert depth(onset + 0.15, 4.0, **amounts) == pytest.approx(18 * 0.15, abs=1e-9)
+    assert depth(onset + 0.075, 4.0, **amounts) == pytest.approx(18 * 0.225**2 / 0.6, abs=1e-9)
+    root = {"root_relief": 18.0, "root_relief_length": 1.0, "root_relief_transition": 0.3}
+    assert depth(FIRST + 1.0, 4.0, **root) == pytest.approx(0.675, abs=1e-9)
+    assert depth(FIRST, 4.0, **root) == pytest.approx(18.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("amounts", "length", "source"),
+    [
+        ({"tip_relief_length": 1.0}, 0.25, "assumed"),
+        ({"tip_relief_length": 0.05}, 0.1, "shortened"),
+        ({"tip_relief_length": ROLL - 0.03}, 0.06, "shortened"),
+        ({"tip_relief_length": 1.0, "tip_relief_transition": 0.7}, 0.7, "given"),
+        ({"tip_relief_length": 1.0, "tip_relief_transition": 0.0}, 0.0, "given"),
+    ],
+)
+def test_documents_have_the_transition_that_is_used(amounts: dict[str, Any], length: float, source: str) -> None:
+    """0.1 m_n where nobody gave one, or twice what is left of the flank on the shorter side of the onset."""
+    gear = replace(GEAR, modification=FlankModification(tip_relief=16.0, **amounts))
+    used = gear.to_dict()["modification"]
+    assert used["tip_relief_transition"] == pytest.approx(length)
+    assert used["tip_relief_transition_source"] == source
+    assert used["tip_relief_rounding"] == pytest.approx(16.0 * length / 8 / amounts["tip_relief_length"])
+
+
+def test_a_relief_without_a_kink_has_no_transition() -> None:
+    for amounts in ({"tip_relief_length": ROLL}, {"tip_relief_length": 1.0, "tip_relief_shape": "parabolic"}):
+        gear = replace(GEAR, modification=FlankModification(tip_relief=16.0, **amounts))
+        assert not gear.flank_form.transitions
+        assert gear.to_dict()["modification"]["tip_relief_transition"] is None
+
+
+@pytest.mark.parametrize(
+    ("amounts", "message"),
+    [
+        ({"tip_relief_transition": 2.1}, "modification.tip_relief_transition = 2.1 mm: must be at most 2 mm: its halves fit"),
+        ({"tip_relief_transition": 1e-4}, "tip_relief_transition = 0.0001 mm: must be 0 or at least 0.001 mm"),
+        (
+            {"tip_relief_transition": 0.2, "tip_relief_shape": "parabolic"},
+            "tip_relief_transition = 0.2 mm: must be left out: a parabolic tip_relief starts without a kink",
+        ),
+    ],
+)
+def test_transitions_that_do_not_fit_are_refused(amounts: dict[str, Any], message: str) -> None:
+    with pytest.raises(GeometryError, match=re.escape(message)):
+        replace(GEAR, modification=FlankModification(tip_relief=16.0, tip_relief_length=1.0, **amounts))
 
 
 # What gears with other angles really have

@@ -157,13 +157,13 @@ def test_profile_and_helix_diagrams_are_the_depths_of_the_flank(kind: str, teeth
 
 
 def test_a_tip_relief_by_hand() -> None:
-    """Nothing 1.5 mm of roll below the tip, 20 µm at it; so the table says."""
+    """Nothing 1.5 mm of roll below the tip, 20 µm at it; so the table says, and what the root relief's transition takes off."""
     gear = modified("profile")
     profile = profile_depths(gear)
     assert profile is not None
     roll = math.sqrt(gear.tip_form_diameter**2 - gear.base_diameter**2) / 2 - 1.5
     begin = math.hypot(gear.base_diameter, 2 * roll)
-    assert profile.series[0].at_places == pytest.approx([10.0, 0.0, 0.0, 20.0], abs=1e-9)
+    assert profile.series[0].at_places == pytest.approx([10.0, 10 * 0.2 / 8, 0.0, 20.0], abs=1e-9)
     (figure,) = modification_figures(DrawnGear(role="gear", gear=gear), Draughting(Words.of(Language.SWEDISH)))
     words = [text.words for text in figure.texts]
     assert f"{begin:.3f}".replace(".", ",") in words and "20,0" in words

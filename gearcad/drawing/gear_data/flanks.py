@@ -11,6 +11,7 @@ from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.treatment import material_text, treatment_text
 from gearcad.geometry import FlankModification, Gear, Rack, ReliefShape
 from gearcad.geometry.double_helix import HALF_PITCH
+from gearcad.geometry.modification import TransitionSource
 from gearcad.geometry.tooling import corner_radius, shaped
 from gearcad.schema import symbols_of
 
@@ -30,9 +31,9 @@ def roughness_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
 
 
 def modification_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
-    """The amount of each, and the length of a relief; where there are some, that they stand in a diagram."""
-    used = gear.modification.in_use
-    for name in (name for name in used if not name.endswith(("_length", "_shape"))):
+    """The amount of each, the length of a relief and its transition; where there are some, that they stand in a diagram."""
+    used, transitions = gear.modification.in_use, gear.flank_form.transitions
+    for name in (name for name in used if not name.endswith(("_length", "_shape", "_transition"))):
         text, numbers = f"{write.words.shortest(used[name], 2)} µm", {f"modification.{name}": used[name]}
         if (length := used.get(f"{name}_length")) is not None:
             text += f" / {write.words.shortest(length, 3)} mm"
@@ -40,6 +41,11 @@ def modification_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
             if used[f"{name}_shape"] == ReliefShape.PARABOLIC.value:
                 text += f", {write.word('parabolic')}"
         yield write.text(name, text, _SYMBOLS[name].symbol, numbers)
+        if (transition := transitions.get(name)) is not None:
+            text = f"{write.words.shortest(transition.length, 3)} mm"
+            if transition.source is not TransitionSource.GIVEN:
+                text += f" ({write.word(transition.source.value)})"
+            yield write.text(f"{name}_transition", text, "t", {f"modification.{name}_transition": transition.length})
     if used:
         yield write.text("modifications", write.word("see_diagram"))
 

@@ -61,7 +61,7 @@ def profile_depths(gear: Gear) -> Depths | None:
         return None
     middle = (form.first + form.last) / 2
     centre = [middle] if form.modification.profile_crowning else []
-    places = np.array(sorted({form.first, *form.roll_breaks, *centre, form.last}))
+    places = np.array(sorted({form.first, *form.relief_starts, *centre, form.last}))
     heights = {"profile_middle": form.width / 2}
     if form.modification.twist:
         heights = {"profile_start": 0.0, **heights, "profile_end": form.width}
@@ -71,7 +71,7 @@ def profile_depths(gear: Gear) -> Depths | None:
         result: Floats = 1000 * (form.depth(rolls, z) - along)
         return result
 
-    fine = _fine(places)
+    fine = _fine(np.union1d(places, form.roll_breaks))
     series = tuple(Series(key, depth(places, z), depth(fine, z)) for key, z in heights.items())
     return Depths(places, fine, series, 2 * np.hypot(form.base_radius, places))
 
