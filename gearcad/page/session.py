@@ -133,9 +133,9 @@ class Session:
         self.bench.change(given, step)
         self.follow()
 
-    def written(self, text: str) -> None:
-        """Somebody typed into the text."""
-        self.bench.write(text, TEXT)
+    def written(self, text: str, step: int) -> None:
+        """Take what was typed into the text, as part of a step."""
+        self.bench.write(text, TEXT, step)
         self.follow()
 
     def opened(self, text: str, name: str) -> None:

@@ -93,7 +93,7 @@ class Workbench:
     def write(self, text: str, place: str = "", step: int | None = None) -> bool:
         """Take another text, as a step that can be undone; whether it is another one.
 
-        What comes from the same `place` as the last text, in the same `step` or within a pause of typing, goes on with that step.
+        What comes from the same `place` as the last text, in the same `step` or soon after it, goes on with that step.
         """
         other, now = text != self.text, self._clock()
         if other:

@@ -1,11 +1,9 @@
 // The inputs of a spec: what the schema says of each key makes a field. What is typed is sent as text; what is wrong with it
-// comes back as the line that the command line prints, and is shown at its field. Changes have numbers, and the server answers
-// with the last number it has heard: nothing is lost, applied twice or out of order, however slow the server is. One change is on
-// its way at a time: what is typed meanwhile waits, so that no server lags behind a key that is held down.
+// comes back as the line that the command line prints, and is shown at its field. One change is on its way at a time: what is
+// typed meanwhile waits, so that no server lags behind a key that is held down.
 import { toRaw } from "vue";
+import { Changes, PAUSE } from "gear-changes";
 
-const PATIENCE = 3000; // ms after which a change without an answer is sent again
-const PAUSE = 1000; // ms without a key after which typing is another step to undo
 const PHONE = "(max-width: 640px)";
 
 // One field. Its part of the page stays as it is while all that it is given does.
@@ -104,7 +102,8 @@ export default {
     },
   },
   created() {
-    [this.queue, this.sent, this.number] = [[], [], 0]; // changes that wait, those on their way, and the number of the last
+    this.changes = new Changes((change) => this.$emit("forth" in change ? "step" : "typed", change));
+    this.queue = []; // changes that wait
     this.typing = { key: "", at: 0, step: 0 };
     this.left = new Set(); // keys of fields that were left before their change was answered
     this.later = []; // arrow keys that wait until the step before them is undone
@@ -121,7 +120,7 @@ export default {
     this.phone.removeEventListener("change", this.turned);
     window.removeEventListener("keydown", this.shortcut);
     window.removeEventListener("gear-focus", this.led);
-    clearTimeout(this.patience);
+    this.changes.end();
   },
   methods: {
     show({ reveal, heard, ...state }) {
@@ -225,26 +224,17 @@ export default {
       this.flush();
     },
     flush(all = false) {
-      while (this.queue.length && (all || !this.sent.length)) {
-        this.sent.push({ ...this.queue.shift(), number: ++this.number });
-        this.emit(this.sent.at(-1));
-      }
-      clearTimeout(this.patience);
-      if (this.sent.length) this.patience = setTimeout(() => (this.sent.forEach(this.emit), this.flush()), PATIENCE);
+      while (this.queue.length && (all || !this.changes.sent.length)) this.changes.send(this.queue.shift());
     },
-    emit(change) {
-      this.$emit("forth" in change ? "step" : "typed", change);
-    },
-    // The server has the changes up to this number.
     hear(number) {
-      this.sent = this.sent.filter((change) => change.number > number);
+      this.changes.hear(number);
       this.flush();
     },
     pending(key) {
-      return [...this.sent, ...this.queue].some((change) => change.key === key);
+      return [...this.changes.sent, ...this.queue].some((change) => change.key === key);
     },
     undoing() {
-      return [...this.sent, ...this.queue].some((change) => "forth" in change);
+      return [...this.changes.sent, ...this.queue].some((change) => "forth" in change);
     },
     shortcut(event) {
       const typing = event.target.closest?.("input, textarea, select, [contenteditable=true]");

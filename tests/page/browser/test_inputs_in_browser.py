@@ -162,6 +162,28 @@ def test_the_text_follows_and_is_followed(tab: Any) -> None:
     _has(tab, "pinion.teeth", "23")
 
 
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="stops the server")
+def test_a_slow_server_overtakes_no_key_of_the_text(tab: Any, served: tuple[subprocess.Popen[str], str]) -> None:
+    """What is wrong is told while one types on, and an undo leaves what is typed after it."""
+    keys = tab.page.keyboard
+    tab.page.click(".left .q-tab:nth-child(2)")
+    line = tab.page.locator(".cm-line").filter(has_text="teeth = 21")
+    line.click()
+    keys.press("Home")
+    with _asleep(served[0]):
+        keys.type("? ab")
+    for letter in "cdefghijklmnopqrstuvwxyz":
+        keys.type(letter)
+        tab.page.wait_for_timeout(5)
+    tab.page.wait_for_selector(".cm-line.wrong-line")
+    assert line.inner_text().startswith("? abcdefghijklmnopqrstuvwxyzteeth = 21")
+    with _asleep(served[0]):
+        keys.press("Control+z")
+        keys.type("   ")
+    tab.page.wait_for_selector(".cm-line.wrong-line", state="detached")
+    assert line.text_content().startswith("   teeth = 21")
+
+
 def test_the_design_is_moved_in_its_shift_diagram(tab: Any) -> None:
     was = tab.field(SHIFT).input_value()
     tab.page.click(".left .q-tab:nth-child(3)")

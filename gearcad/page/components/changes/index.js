@@ -1,0 +1,28 @@
+// Changes on their way to the server. Each has a number, and the server answers with the last number it has heard, so that none is
+// lost, applied twice or out of order, however slow the server or the connection is.
+const PATIENCE = 3000; // ms after which a change without an answer is sent again
+
+export const PAUSE = 1000; // ms without a key after which typing is another step to undo
+
+export class Changes {
+  constructor(emit) {
+    [this.emit, this.sent, this.number] = [emit, [], 0];
+  }
+  send(change) {
+    this.sent.push({ ...change, number: ++this.number });
+    this.emit(this.sent.at(-1));
+    this.wait();
+  }
+  // The server has the changes up to this number.
+  hear(number) {
+    this.sent = this.sent.filter((change) => change.number > number);
+    this.wait();
+  }
+  wait() {
+    this.end();
+    if (this.sent.length) this.timer = setTimeout(() => (this.sent.forEach((change) => this.emit(change)), this.wait()), PATIENCE);
+  }
+  end() {
+    clearTimeout(this.timer);
+  }
+}
