@@ -42,14 +42,14 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
     Writes pairs.csv, a design table for `gearcad batch`; best.toml, the spec of the first; front.csv and front.png, variants
     that none is both lighter and safer than; and size.json. Lists of numbers have commas, ranges are FIRST:LAST:STEP.
 
-    With --planetary sets of planets for the ratio, torque and speed of the input: tooth numbers as `gearcad planetary --ratio`
-    finds them, then the module of ISO 54 and the face width that just have the safeties, lightest first; writes sets.csv,
-    best.toml and size.json. --wheel-material is that of rings.
+    With --planetary sets of planets for the ratio, the --input-torque or --output-torque and the speed of the input: tooth
+    numbers as `gearcad planetary --ratio` finds them, then the module of ISO 54 and the face width that just have the safeties,
+    lightest first; writes sets.csv, best.toml and size.json. --wheel-material is that of rings.
 
     \b
     gearcad size --torque 302 --ratio 1.5 --life 20000 --material "Eh MQ" --speed 1500
     gearcad size --power 5 --speed 400 --ratio 4 --life 5000 --material "Eh MQ" --application-factor 1.25 --by quiet
-    gearcad size --planetary --torque 300 --speed 1500 --ratio 5.2 --life 20000 --material "Eh MQ"
+    gearcad size --planetary --input-torque 300 --speed 1500 --ratio 5.2 --life 20000 --material "Eh MQ"
     """
     from gearcad.jobs.sizes import write_sizing
     from gearcad.output import json_text

@@ -22,7 +22,7 @@ __all__ = ["ends_of", "load_of", "material_of", "modules_of", "rating_of", "size
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
-    ("--torque", {"type": float, "metavar": "NM", "help": "On the pinion; or --power, of which it follows."}),
+    ("--torque", {"type": float, "metavar": "NM", "help": "Pairs: on the pinion; or --power, of which it follows."}),
     ("--power", {"type": float, "metavar": "KW", "help": "In place of the torque, at the speed."}),
     ("--speed", {"type": float, "metavar": "RPM", "help": "Of the pinion."}),
     ("--ratio", {"type": float, "metavar": "U", "help": "Teeth of the wheel over those of the pinion, 1 to 20."}),
@@ -146,8 +146,8 @@ def load_of(given: Mapping[str, Any]) -> Load:
         require_number("speed", speed, "rpm", above=0)
         require_number("power", power, "kW", above=0)
         torque = power * _KILOWATTS / speed
-    factor = given["application_factor"]
-    return Load(torque=torque, speed=speed, application_factor=1.0 if factor is None else factor)
+    factor = {} if given["application_factor"] is None else {"application_factor": given["application_factor"]}
+    return Load(torque=torque, speed=speed, **factor)
 
 
 def material_of(option: str, name: str, hardness: float | None) -> Material:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from gearcad.cli.job import echo_warnings
 from gearcad.cli.progress import job_progress
 from gearcad.errors import ParameterError, SolverError, as_choice
 
@@ -26,6 +27,8 @@ _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
         {"metavar": "TYPES", "help": "Sets: A sun and ring, B stepped planets, C two suns, D two rings.  [default: A]"},
     ),
     ("--planets", {"metavar": "N[:N]", "help": "Sets: how many planets.  [default: 3:5]"}),
+    ("--input-torque", {"type": float, "metavar": "NM", "help": "Sets: on the input; --torque is its old name."}),
+    ("--output-torque", {"type": float, "metavar": "NM", "help": "Sets: on the output."}),
     ("--ring-teeth", {"metavar": "Z[:Z]", "help": "Sets: of rings.  [default: 30:200]"}),
     ("--fixed", {"metavar": "MEMBER", "help": "Sets: sun, ring, carrier, sun_2 or ring_2; so for --in and --out."}),
     ("--in", {"metavar": "MEMBER", "help": "Sets: the input."}),
@@ -57,7 +60,7 @@ def set_options(command: Command) -> Command:
     """The options of planetary sets."""
     for name, how in reversed(_OPTIONS):
         command = click.option(name, name.lstrip("-").replace("-", "_"), **how)(command)
-    text = "Planetary sets in place of pairs; torque and speed of the input."
+    text = "Planetary sets in place of pairs; speed of the input."
     return click.option("--planetary", is_flag=True, help=text)(command)
 
 
@@ -88,6 +91,7 @@ def size_planetary(given: Mapping[str, Any], count: int, output: Path | None, *,
         return
     click.echo("\n".join(_table(result)))
     if not quiet:
+        echo_warnings(task.notices, err=True)
         click.echo("\n".join(_remarks(result)), err=True)
     click.echo("".join(f"{file}\n" for file in files), nl=False)
 
@@ -119,10 +123,19 @@ def _task(given: Mapping[str, Any]) -> SetSizeTask:
         others["width_ratio"] = max(values_of("width_ratio", given["width_ratio"]))
     if given["module"] is not None or given["second_series"]:
         others["modules"] = modules_of("0.5:50" if given["module"] is None else given["module"], second=given["second_series"])
-    load = load_of(given)
+    torques: dict[str, Any] = {name: given[name] for name in ("input_torque", "output_torque") if given[name] is not None}
+    if len(torques) > 1 or (torques and (given["torque"] is not None or given["power"] is not None)):
+        name, value = torques.popitem()
+        permitted = "must be the only one of --input-torque, --output-torque, --power and --torque"
+        raise ParameterError(name, value, permitted, "N·m")
+    if not torques and given["torque"] is None and given["power"] is None:
+        raise ParameterError("input_torque", None, "must be given, in N·m, or --output-torque, or --power in kW")
+    load = load_of({**given, "torque": 1.0} if torques else given)
+    if not torques:
+        torques = {"torque" if given["power"] is None else "input_torque": load.torque}
     return SetSizeTask(
         sets=SearchTask(ratio=given["ratio"], module=1.0, **fields),
-        torque=load.torque,
+        **torques,
         speed=load.speed,
         application_factor=load.application_factor,
         material=material_of("material", given["material"], given["hardness"]),

@@ -53,7 +53,7 @@ def write_sized_sets(result: SizedSets, path: Path) -> None:
     """Write the design table of all that was found, lightest first."""
     rows = [dict(_cells(each)) for each in result.found]
     task = result.task
-    wanted = f"{task.torque:g} N·m on the input at {task.speed:g} rpm / i = {task.sets.ratio:g}"
+    wanted = f"{task.torque_words} at {task.speed:g} rpm / i = {task.sets.ratio:g}"
     write_found_rows(rows, f"Planetary sets for {wanted}; lightest first. Next: gearcad batch {path.name}", path)
 
 

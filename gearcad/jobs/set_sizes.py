@@ -30,7 +30,7 @@ def _comments(result: SizedSets, best: SizedSet) -> Iterator[str]:
     """What the lightest is for, and what it has."""
     task = result.task
     life = "the endurance limit" if task.rating.life is None else f"{task.rating.life:g} h"
-    yield f"{task.torque:g} N·m on the input at {task.speed:g} rpm, i = {task.sets.ratio:g}, {life}: the lightest found"
+    yield f"{task.torque_words} at {task.speed:g} rpm, i = {task.sets.ratio:g}, {life}: the lightest found"
     flank, root = (best.least[part] for part in (Part.FLANK, Part.ROOT))
     safeties = f"S_H {flank:.3f}, S_F {root:.3f}"
     yield f"{best.mass:.3g} kg without bores, {safeties}; no backlash yet: planetary.tooth_thinning gives it"

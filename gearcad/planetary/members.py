@@ -83,14 +83,16 @@ class Carrier(NamedPart):
     """What holds the pins on which the planets turn.
 
     `support_stiffness`, `torsional_stiffness`, `mass`, `inertia` and `run_out` (of its bearing) as of a Central; without mass
-    and inertia there are no dynamics. `pin_stiffness` (N/µm) of one pin with its bearing, None is rigid. `pin_errors` (µm), one
-    a planet (none: 0), tangential: positive in the direction in which the first central pushes the planet. `planet_mass` (kg)
-    and `planet_inertia` (kg·m²) of one planet: None takes those of its solid. Raises ParameterError.
+    and inertia there are no dynamics. `pin_diameter` (mm) of the pins, None takes the bores of the planets. `pin_stiffness`
+    (N/µm) of one pin with its bearing, None is rigid. `pin_errors` (µm), one a planet (none: 0), tangential: positive in the
+    direction in which the first central pushes the planet. `planet_mass` (kg) and `planet_inertia` (kg·m²) of one planet: None
+    takes those of its solid. Raises ParameterError.
     """
 
     name: str = "carrier"
     support_stiffness: Annotated[float | None, _SUPPORT, Words("stiffness of its bearing")] = None
     torsional_stiffness: Annotated[float | None, TORSIONAL_STIFFNESS, Words("torsional stiffness of what holds it")] = None
+    pin_diameter: Annotated[float | None, Range("mm", 0.0, 1e5, ends="(]"), Words("diameter of the pins")] = None
     pin_stiffness: Annotated[float | None, STIFFNESS, Words("stiffness of a pin and its bearing")] = None
     pin_errors: Annotated[tuple[float, ...], DEVIATION, Words("tangential errors of the pins")] = ()
     mass: Annotated[float | None, _MASS, Words("mass", "m")] = None

@@ -73,7 +73,7 @@ def drive_of(train: TrainData, load: TrainLoad | None = None) -> Drive:
     if train.fixed is None:
         return Drive()
     speed = math.copysign(1.0, load.speed) if load and load.speed else 1.0
-    power = math.copysign(1.0, load.torque) if load and load.torque else 1.0
+    power = math.copysign(1.0, load.given_torque) if load and load.given_torque else 1.0
     moving = speeds(train, {train.input: speed}).members
     a, b, c = train.members
     i0, member = train.basic_ratio, shafts_of(train)[train.input].member

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from gearcad.per_gear import PerGear
@@ -15,7 +15,7 @@ from gearcad.planetary.speeds import Speeds, speeds
 from gearcad.planetary.train_data import TrainData
 from gearcad.schema import is_assumed
 
-__all__ = ["PowerFlow", "efficiency", "power_flow"]
+__all__ = ["PowerFlow", "efficiency", "lossless_flow", "power_flow"]
 
 _WATT = math.pi / 30
 """N·m times rpm."""
@@ -88,9 +88,9 @@ class PowerFlow:
 def power_flow(train: TrainData, load: TrainLoad, given_speeds: Mapping[str, float] | None = None) -> PowerFlow:
     """The flow of power through a train that runs at `load`, with the second speed (rpm) that a differential needs.
 
-    The torque of `load` is positive where the output gives power away: from outside it then acts against the output's
-    motion, so it has the other sign than the output's speed. At rest the motion is what a positive speed of the input
-    would bring. A differential shares torque as a set with a fixed member does; its speeds decide which way power goes.
+    The torque of `load` is positive where the input takes power and the output gives it away: from outside it then acts along
+    the input's motion, or against the output's. At rest the motion is what a positive speed of the input would bring. A
+    differential shares torque as a set with a fixed member does; its speeds decide which way power goes.
     Raises ParameterError where speeds are missing or too many, SolverError where the train locks itself against the load.
     """
     given = dict(given_speeds or {})
@@ -98,8 +98,9 @@ def power_flow(train: TrainData, load: TrainLoad, given_speeds: Mapping[str, flo
     signs = actual.members
     if not any(signs.values()):
         signs = speeds(train, {**given, train.input: 1.0}).members
-    torque = -math.copysign(load.torque, load.torque * (signs[train.output] or 1.0))
-    found = _balance(train, signs, train.output, torque, load.mesh_efficiency, given)
+    at, way = (train.input, 1.0) if load.on_input else (train.output, -1.0)
+    torque = way * math.copysign(load.given_torque, load.given_torque * (signs[at] or 1.0))
+    found = _balance(train, signs, at, torque, load.mesh_efficiency, given)
     rolling = rolling_power(train, found.members, signs)
     entering = sum(max(found.members[name] * signs[name], 0.0) for name in found.members)
     powers = {name: value * actual.members[name] * _WATT + 0.0 for name, value in found.torques.items()}
@@ -116,6 +117,14 @@ def power_flow(train: TrainData, load: TrainLoad, given_speeds: Mapping[str, flo
         rolling_power=abs(rolling_power(train, found.members, actual.members)) * _WATT,
         rolling_ratio=abs(rolling) / entering if entering else None,
     )
+
+
+def lossless_flow(train: TrainData, load: TrainLoad, given_speeds: Mapping[str, float] | None = None) -> PowerFlow:
+    """Return the flow of power without losses under the torque that `load` gives the output; raises as `power_flow`."""
+    if load.on_input:
+        torque = power_flow(train, load, given_speeds).torques[train.output]
+        load = replace(load, input_torque=None, output_torque=math.copysign(torque, load.given_torque))
+    return power_flow(train, replace(load, mesh_efficiency=1.0), given_speeds)
 
 
 def efficiency(train: TrainData, mesh_efficiency: float, *, back: bool = False) -> float:

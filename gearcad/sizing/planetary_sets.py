@@ -101,8 +101,9 @@ def made(task: SetSizeTask, candidate: Candidate, module: float, width: float) -
         diameter=candidate.diameter * module / candidate.task.module,
     )
     train = _train(own, f"{candidate.name}-m{module:g}-b{width:g}")
+    key, torque = task.given_torque
     load = TrainLoad(
-        torque=task.torque * abs(candidate.ratio),
+        **{key: torque},
         speed=task.speed,
         application_factor=task.application_factor,
         mesh_load_factor=task.factor(candidate.planets),

@@ -96,7 +96,8 @@ class SizedSets:
         return {
             "kind": "planetary sizes",
             "ratio": self.task.sets.ratio,
-            "torque": self.task.torque,
+            "torque": self.task.given_torque[1],
+            "torque_of": self.task.given_torque[0].removesuffix("_torque"),
             "speed": self.task.speed,
             "found": [each.to_dict() for each in self.found],
             "assumed": list(self.assumed),

@@ -1,4 +1,4 @@
-"""A plain carrier for planets with bores: pins that fill them, between two plates beyond everything that turns there."""
+"""A plain carrier for planets with bores: pins through them, between two plates beyond everything that turns there."""
 
 from __future__ import annotations
 
@@ -48,7 +48,10 @@ def carrier_plan(layout: TrainLayout) -> CarrierPlan:
         if not rim.body.gear.body.bore:
             permitted = "must be above 0 mm: the pins of the carrier go through it"
             raise GeometryError(f"{rim.body.key}.body.bore", 0.0, permitted, "mm")
-    diameter = min(rim.body.gear.body.bore for rim in rims)
+    bore, given = min(rim.body.gear.body.bore for rim in rims), layout.train.carrier.pin_diameter
+    if given is not None and given > bore:
+        raise GeometryError("carrier.pin_diameter", given, f"must be at most {bore:g} mm, the bore of the planets", "mm")
+    diameter = bore if given is None else given
     distance, half = float(layout.train.centre_distance), (0.5 + _RIM) * diameter
     radii = max(distance - half, 0.0), distance + half
     extents = [each.extent for each in chain(layout.centrals, rims)]

@@ -130,7 +130,7 @@ def test_what_is_not_given_is_named_and_the_rest_is_there() -> None:
     assert {part: why for part, why in study.why_not.items() if why == speed}.keys() == {
         "speeds", "power", "loads", "sharing", "forces", "rating", "running", "campbell"
     }  # fmt: skip
-    assert "load.torque" in study.why_not["torsion"]
+    assert "load.output_torque" in study.why_not["torsion"]
     assert study.stiffness is not None and all(mesh.nominal for mesh in study.stiffness.values())
     assert set(study.why_not) <= set(PARTS)
     told = {notice.text: notice.where for notice in study.notices if notice.code == "not-computed"}
@@ -269,7 +269,7 @@ def test_rows_of_a_table_have_the_figures(tmp_path: Path) -> None:
     with (tmp_path / "out" / "columns.csv").open(encoding="utf-8", newline="") as file:
         told = {row["column"]: (row["symbol"], row["unit"], row["of"]) for row in csv.DictReader(file)}
     assert told["planetary.members.carrier.torque"] == ("T", "N·m", "carrier")
-    assert told["load.torque"] == ("T", "N·m", "")
+    assert told["load.output_torque"] == ("T", "N·m", "")
     assert told["planetary.frequency_1"] == ("f_1", "Hz", "") if "planetary.frequency_1" in told else True
     unknown = [name for name, (symbol, unit, _) in told.items() if name.startswith("planetary.") and not (symbol or unit)]
     assert "planetary.ratio" not in unknown and "planetary.mesh_load_factor" not in unknown

@@ -21,6 +21,7 @@ from gearcad.errors import InputError, ParameterError
 from gearcad.geometry import Gear
 from gearcad.material import Material
 from gearcad.meshing.options import MeshOptions
+from gearcad.notice import Notice
 from gearcad.per_gear import Role
 from gearcad.planetary import Carrier, PairStage, PlanetaryTrain, TrainLoad
 from gearcad.planetary.materials import TrainMaterial
@@ -99,6 +100,11 @@ class PlanetaryDesign(ToothedDesign):
         """The gears, and the train that they make."""
         return {**self.gears, MAIN: self.train}
 
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """Those of the gears, the train and the load."""
+        return (*super().notices, *(self.load.notices if self.load is not None else ()))
+
     def pair_name(self, name: str) -> str:
         """What the design of a mesh or stage is called."""
         return f"{self.name}-{name}"
@@ -111,7 +117,8 @@ class PlanetaryDesign(ToothedDesign):
     def loaded(self, why: str) -> TrainLoad:
         """Its load. Raises ParameterError where there is none, that ends with why it is needed."""
         if self.load is None:
-            raise ParameterError("load.torque", None, f"must be given, in N·m on {self.train.output}: {why}")
+            permitted = f"must be given, in N·m on {self.train.output}, or load.input_torque, on {self.train.input}: {why}"
+            raise ParameterError("load.output_torque", None, permitted)
         return self.load
 
     def to_dict(self) -> dict[str, Any]:

@@ -39,7 +39,7 @@ from gearcad.errors import ParameterError, require_number
 from gearcad.notice import Notice, texts
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.planetary.phases import drive_of, mesh_phases
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.power import lossless_flow
 
 __all__ = ["PlanetaryResponse", "planetary_response"]
 
@@ -236,8 +236,7 @@ def _means(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness]) -> tup
 
 def _torques(train: PlanetaryTrain, load: TrainLoad, given_speeds: Mapping[str, float] | None) -> Mapping[str, float]:
     """On the members of the set (N·m), with K_A, which balance as those with losses would not."""
-    lossless = replace(load, torque=load.torque * load.application_factor, mesh_efficiency=1.0)
-    return power_flow(train, lossless, given_speeds).set_torques
+    return lossless_flow(train, load.times(load.application_factor), given_speeds).set_torques
 
 
 def _forces(train: PlanetaryTrain, torques: Mapping[str, float]) -> dict[str, float]:

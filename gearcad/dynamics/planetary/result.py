@@ -98,7 +98,7 @@ class PlanetaryStudy(Pictured):
     @property
     def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it: of the meshes, of its parts, and what could not be had."""
-        found = [*self.train.notices]
+        found = [*self.train.notices, *(self.load.notices if self.load is not None else ())]
         for mesh in (self.stiffness or {}).values():
             found += mesh.notices
         for part in (self.sharing, self.torsion, self.running, self.modes, self.campbell, self.response, self.rating):

@@ -21,7 +21,8 @@ from gearcad.dynamics.planetary.springs import SpringKind, TrainSprings, springs
 from gearcad.errors import GeometryError, ParameterError, SolverError
 from gearcad.notice import Notice
 from gearcad.planetary import PlanetaryTrain, TrainLoad
-from gearcad.planetary.power import PowerFlow, power_flow
+from gearcad.planetary.load import torque_key
+from gearcad.planetary.power import PowerFlow, lossless_flow
 from gearcad.planetary.shafts import shafts_of
 
 __all__ = ["State", "TrainStatics", "planar_notices", "train_statics"]
@@ -140,9 +141,10 @@ def train_statics(
     Input and what else is not the output are held against turning. Raises ParameterError without torque or with the wrong
     number of errors, GeometryError where nothing carries what stages push across the axis.
     """
-    if not load.torque:
-        raise ParameterError("torque", load.torque, "must not be 0: without load no flanks are pressed together", "N·m")
-    flow = power_flow(train, replace(load, mesh_efficiency=1.0), given_speeds)
+    if not load.given_torque:
+        permitted = "must not be 0: without load no flanks are pressed together"
+        raise ParameterError(torque_key(load), load.given_torque, permitted, "N·m")
+    flow = lossless_flow(train, load, given_speeds)
     sense = 1 if flow.set_torques[train.centrals[0].name] > 0 else -1
     output = shafts_of(train)[train.output].member
     a, b = (_given(stiffness, mesh.name) for mesh in train.meshes)

@@ -177,12 +177,13 @@ def _there(part: Part | None) -> Part:
 
 def _loaded(train: PlanetaryTrain, load: TrainLoad | None) -> TrainLoad:
     if load is None:
-        raise ParameterError("load.torque", None, f"must be given, in N·m on {train.output}")
+        permitted = f"must be given, in N·m on {train.output}, or load.input_torque, on {train.input}"
+        raise ParameterError("load.output_torque", None, permitted)
     return load
 
 
 def _carries(load: TrainLoad | None) -> bool:
-    return load is not None and bool(load.torque)
+    return load is not None and bool(load.given_torque)
 
 
 def _speeds(
