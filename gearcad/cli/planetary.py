@@ -172,5 +172,5 @@ def _frequency_lines(study: PlanetaryStudy) -> Iterator[str]:
         yield f"{'resonances':<22}{met or 'none'} rpm of {study.train.input}, up to {study.campbell.highest_speed:.6g}{few}"
     if study.response is not None:
         factor, mesh, speed = study.response.greatest
-        lasts = "" if study.response.greatest_lasts else ", of a motion that does not last: what comes instead may be greater"
+        lasts = "" if study.response.greatest_lasts else ", of a motion that does not last: greater loads can follow"
         yield f"{'dynamic load factor':<22}at most {factor:.4g}, of {mesh} at {speed:.5g} rpm of {study.train.input}{lasts}"

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.mode_trains import MASSES, TRAINS, on_springs
+from support.transient import integrate
 
 from gearcad.cli.planetary import _frequency_lines
 from gearcad.dynamics.options import DynamicsOptions
@@ -65,15 +66,19 @@ def _respond(train: PlanetaryTrain, speeds: int, start: float, end: float) -> Pl
     return planetary_response(train, LOAD, _stiffness(train), train_masses(train), options)
 
 
+UNREPEATED = 36_312.5
+"""rpm at which the motion of three planets out of phase is quasi-periodic: each planet in turn has the greatest load."""
+
+
 @pytest.fixture(scope="module")
-def unstable() -> PlanetaryResponse:
-    """Three planets out of phase, about a speed at which the motion with parted flanks does not last."""
+def unrepeated() -> PlanetaryResponse:
+    """Three planets out of phase, about that speed."""
     return _respond(_train((25, 20, -65), (0.2, 0.2, -0.6), 3), 9, 34_500.0, 37_500.0)
 
 
 @pytest.fixture(scope="module")
 def folded() -> PlanetaryResponse:
-    """Four planets, every second of which does the same, about such a speed."""
+    """Four planets, every second of which does the same, where flanks part and loads jump."""
     return _respond(_train((22, 20, -62), (0.4, 0.3, -1.0), 4), 9, 36_500.0, 42_000.0)
 
 
@@ -98,40 +103,65 @@ def test_at_a_speed_every_planet_carries_its_own_force(steady: PlanetaryResponse
     assert one.system.stiffness * one.static.approach == pytest.approx(found.up.static_forces, rel=1e-6)
 
 
-@pytest.mark.parametrize("which", ["unstable", "folded"])
+@pytest.mark.long
+@pytest.mark.parametrize("which", ["unrepeated", "folded"])
 def test_at_a_speed_a_motion_lasts_where_the_chart_says_so(which: str, request: pytest.FixtureRequest) -> None:
+    """Loads are those of the chart where its motion in time repeats."""
     found: PlanetaryResponse = request.getfixturevalue(which)
     stable = found.up.stable
-    assert 0 < stable.sum() < len(stable)
+    assert stable.all() == (which == "folded") and stable.any()
     rows = [*np.flatnonzero(~stable)[:3], *np.flatnonzero(stable)[::7]]
     for row in rows:
         one = found.at(float(found.speeds[row]))
         assert bool(one.stable[0]) == stable[row]
-        most = one.spring_forces()[0].max(axis=0) / found.up.static_forces
-        assert most == pytest.approx(found.up.factors[row], rel=0.02)
+        if stable[row]:
+            most = one.spring_forces()[0].max(axis=0) / found.up.static_forces
+            assert most == pytest.approx(found.up.factors[row], rel=0.02)
 
 
-# ---------------------------------------------------------------------- motions that do not last
+# ---------------------------------------------------------------------- motions that do not repeat
 
 
-def test_nothing_grows_without_bound_where_flanks_part(unstable: PlanetaryResponse) -> None:
-    (notice,) = [each for each in unstable.notices if each.code == "unstable"]
-    assert "without bound" not in notice.text
-    assert "does not last" in notice.text and "not computed, and can be greater" in notice.text
+@pytest.mark.long
+def test_loads_of_a_motion_that_does_not_repeat_are_those_of_an_integration_by_events(unrepeated: PlanetaryResponse) -> None:
+    """From rest by DOP853, its steps ending where flanks part; it leaves out jumps of the errors, worth 6e-4 of the load."""
+    frequency = 2 * np.pi * unrepeated.tooth_frequency * UNREPEATED
+    settled, last = (teeth * 2 * np.pi / frequency for teeth in (100, 150))
+    motion = integrate(
+        unrepeated.system,
+        unrepeated.excitation,
+        frequency,
+        last,
+        times=np.linspace(settled, last, 15_001),
+        tolerance=1e-5,
+    )
+    true = np.abs(motion.spring_forces).max(axis=0) / unrepeated.up.static_forces
+    row = int(np.abs(unrepeated.speeds - UNREPEATED).argmin())
+    assert unrepeated.speeds[row] == pytest.approx(UNREPEATED, rel=1e-5)
+    assert unrepeated.up.factors[row] == pytest.approx(true, rel=3e-3)
+
+
+@pytest.mark.long
+def test_a_motion_that_does_not_repeat_is_told(unrepeated: PlanetaryResponse) -> None:
+    (notice,) = [each for each in unrepeated.notices if each.code == "unstable"]
+    assert "the motion in time does not repeat" in notice.text and "a longer one can show a greater load" in notice.text
+    assert not unrepeated.greatest_lasts
 
 
 @pytest.mark.usefixtures("no_pictures")
-def test_a_greatest_factor_that_does_not_last_is_marked(unstable: PlanetaryResponse) -> None:
+def test_a_greatest_factor_that_does_not_last_is_marked(steady: PlanetaryResponse) -> None:
     """In the document, on the screen and in the report."""
-    row = int(unstable.up.factors.max(axis=1).argmax())
-    assert not unstable.up.stable[row] and not unstable.greatest_lasts
-    document = unstable.to_dict()
+    row = int(steady.up.factors.max(axis=1).argmax())
+    stable = np.arange(len(steady.speeds)) != row
+    found = replace(steady, over=replace(steady.over, up=replace(steady.up, stable=stable)))
+    assert not found.greatest_lasts
+    document = found.to_dict()
     assert document["greatest"]["lasts"] is False and document["stable"][row] is False
-    study = replace(study_planetary(unstable.train), response=unstable)
+    study = replace(study_planetary(found.train), response=found)
     (line,) = [line for line in _frequency_lines(study) if line.startswith("dynamic load factor")]
-    assert line.endswith("of a motion that does not last: what comes instead may be greater")
+    assert line.endswith("of a motion that does not last: greater loads can follow")
     (section,) = [each for each in sections_of_vibration(study) if each.title == "Loads over speed"]
-    assert "That motion does not last" in " ".join(section.words)
+    assert "That motion does not last: greater loads can follow" in " ".join(section.words)
 
 
 def test_a_greatest_factor_that_lasts_is_not_marked(steady: PlanetaryResponse) -> None:

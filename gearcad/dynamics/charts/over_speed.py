@@ -29,7 +29,7 @@ from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.floquet import UNSTABLE, growth
 from gearcad.dynamics.response.linear import periodic_response
-from gearcad.dynamics.response.notices import instability, parting
+from gearcad.dynamics.response.notices import Unstable, instability, parting
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.response.resolved import Motions
 from gearcad.dynamics.trains.system import System
@@ -139,7 +139,8 @@ def over_speed(
     share(1.0)
     if branch is not None:
         sides = [_together(told, stable, branch, direction) for direction in (Direction.UP, Direction.DOWN)]
-    charts = [_chart(linear, each, lasting, method_b, parting=excitation.parting) for each, lasting, _ in sides]
+    told_unstable = Unstable.IN_TIME if runs is not None else Unstable.PARTING if excitation.parting else Unstable.LINEAR
+    charts = [_chart(linear, each, lasting, method_b, told_unstable) for each, lasting, _ in sides]
     return OverSpeed(
         excitation=excitation,
         up=charts[0],
@@ -165,7 +166,7 @@ def _by_runs(
     reason = runs.reason(int(np.isin(frequencies, told.frequencies[flagged]).sum()))
     if not reason:
         try:
-            both = [runs.run(direction) for direction in (Direction.UP, Direction.DOWN)]
+            both = runs.both
             if branch is not None and all(_same(runs, run, branch, frequencies) for run in both):
                 return [], None, ()
             wanted = _speeds_of(runs, both, frequencies, told.frequencies[~flagged])
@@ -175,20 +176,18 @@ def _by_runs(
             parting_there = runs.parts(contact)
             sides, shown = list[_Side](), np.zeros(len(contact.frequencies), bool)
             for run in both:
-                found, by_time = runs.told(run, contact, parting_there)
+                found, by_time, repeats = runs.told(run, contact, parting_there)
                 jumps = _run_jumps(runs, run)
-                sides.append(
-                    (found, np.ones(len(by_time), bool), jumps[(jumps >= frequencies[0]) & (jumps <= frequencies[-1])])
-                )
+                sides.append((found, repeats, jumps[(jumps >= frequencies[0]) & (jumps <= frequencies[-1])]))
                 shown |= by_time
             return sides, runs, in_time(contact.frequencies, shown)
         except SolverError as error:
             reason = str(error)
     empty = without_values(told, np.flatnonzero(flagged))
-    return [(empty, stable, np.zeros(0))], runs, (no_value(told.frequencies, flagged, reason),)
+    return [(empty, stable | flagged, np.zeros(0))], runs, (no_value(told.frequencies, flagged, reason),)
 
 
-def _speeds_of(runs: TimeRuns, both: list[TimeRun], frequencies: Floats, contact: Floats) -> Floats:
+def _speeds_of(runs: TimeRuns, both: tuple[TimeRun, TimeRun], frequencies: Floats, contact: Floats) -> Floats:
     """Return those asked for, those of motions in `contact` and the rungs at which flanks part in a run (1/s)."""
     nonlinear = np.any([run.nonlinear for run in both], axis=0)
     near = runs.rungs[nonlinear & (runs.rungs > frequencies[0]) & (runs.rungs < frequencies[-1])]
@@ -276,7 +275,7 @@ def _together(told: Told, stable: Bools, branch: Parted, direction: Direction) -
     return joined.at(order), np.concatenate([stable[outside], lasting])[order], jumps
 
 
-def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFactor | None, *, parting: bool) -> KvChart:
+def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFactor | None, unstable: Unstable) -> KvChart:
     return chart_of(
         curves.system,
         curves.static,
@@ -286,7 +285,7 @@ def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFact
         orders_per_tooth=curves.excitation.orders[0],
         method_b=method_b,
         stable=stable,
-        notices=(*instability(told.frequencies, stable, parting=parting), *left_out(curves, told)),
+        notices=(*instability(told.frequencies, stable, unstable), *left_out(curves, told)),
     )
 
 

@@ -6,7 +6,7 @@ SI units, frequencies are circular tooth frequencies of the first mesh (1/s).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -46,6 +46,9 @@ _SETTLES = 0.7
 _SAME, _MOST_HOLDS = 2e-4, 12
 """Relative difference of loads in two stretches of a motion that has settled; stretches after which none does repeat."""
 
+_UNSETTLED_TEETH = 512
+"""Teeth over which the loads of a motion are counted that does not repeat."""
+
 _LOOP, _TERM = 40e-9, 13e-9
 """Seconds that a step takes: for itself, and for each mode of each mesh. Measured on one core."""
 
@@ -69,6 +72,15 @@ class TimeRun(NamedTuple):
     most: Floats
     nonlinear: Bools
     states: tuple[_State | None, ...]
+
+
+class _Stay(NamedTuple):
+    """A `motion` at one frequency with `per` steps to a common period, its end, and whether its loads `repeat`."""
+
+    end: _State
+    motion: Motion
+    per: int
+    repeats: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,8 +134,12 @@ class TimeRuns:
             return ""
         return f"with so little damping, or so long a common period, the runs in time would take about {seconds:.0f} s"
 
-    def run(self, direction: Direction) -> TimeRun:
-        """Through all rungs. Raises SolverError."""
+    @cached_property
+    def both(self) -> tuple[TimeRun, TimeRun]:
+        """Runs up and down through all rungs. Raises SolverError."""
+        return self._run(Direction.UP), self._run(Direction.DOWN)
+
+    def _run(self, direction: Direction) -> TimeRun:
         told, flagged = self.contact
         order = range(len(self.rungs)) if direction is Direction.UP else range(len(self.rungs) - 1, -1, -1)
         most, nonlinear = np.array(told.most), np.zeros(len(self.rungs), bool)
@@ -134,7 +150,7 @@ class TimeRuns:
                 before = k
                 continue
             begin = state or self._in_contact(float(self.rungs[before]), flagged=bool(flagged[before]))
-            state, motion, _ = self._go(begin, float(self.rungs[k]), sampled=False)
+            state, motion, *_ = self._go(begin, float(self.rungs[k]), sampled=False)
             touching = bool((motion.trough[1] > 0).all())
             if touching and not flagged[k]:
                 state = None
@@ -143,21 +159,22 @@ class TimeRuns:
             before = k
         return TimeRun(direction, most, nonlinear, tuple(states))
 
-    def told(self, run: TimeRun, contact: Told, flagged: Bools) -> tuple[Told, Bools]:
-        """Return loads (s,) in contact, or in time where the run has these or at those `flagged`; and which are in time."""
+    def told(self, run: TimeRun, contact: Told, flagged: Bools) -> tuple[Told, Bools, Bools]:
+        """Return loads (s,) in contact, or in time where the run has these or at those `flagged`; which are in time; and which
+        are of a motion that repeats."""
         rows, parts = np.arange(len(contact.frequencies)), list[Told]()
-        in_time = np.zeros(len(rows), bool)
+        in_time, repeats = np.zeros(len(rows), bool), np.ones(len(rows), bool)
         for i, frequency in enumerate(contact.frequencies.tolist()):
             begin = self._before(run, frequency)
             if begin is None and not flagged[i]:
                 continue
             begin = begin or self._in_contact(*self._beside(run, frequency))
-            _, motion, samples = self._go(begin, frequency, sampled=True)
-            if begin.frequency != frequency and not flagged[i] and (motion.trough[1] > 0).all():
+            stay = self._go(begin, frequency, sampled=True)
+            if begin.frequency != frequency and not flagged[i] and (stay.motion.trough[1] > 0).all():
                 continue
-            parts.append(self._extremes(motion, frequency, samples))
-            rows[i], in_time[i] = len(contact.frequencies) + len(parts) - 1, True
-        return (Told.joined(contact, *parts).at(rows) if parts else contact), in_time
+            parts.append(self._extremes(stay.motion, frequency, stay.per))
+            rows[i], in_time[i], repeats[i] = len(contact.frequencies) + len(parts) - 1, True, stay.repeats
+        return (Told.joined(contact, *parts).at(rows) if parts else contact), in_time, repeats
 
     def _place(self, run: TimeRun, frequency: float) -> int:
         """The rung that the run passes last before a frequency, or at it."""
@@ -196,8 +213,8 @@ class TimeRuns:
         per = max(_PER_TOOTH * most, math.ceil(per_wave * waves))
         return per, max(_LEAST_PERIODS, math.ceil(_TEETH / most))
 
-    def _go(self, begin: _State, frequency: float, *, sampled: bool) -> tuple[_State, Motion, int]:
-        """From a state to a frequency (1/s), settled there; how many samples a common period has."""
+    def _go(self, begin: _State, frequency: float, *, sampled: bool) -> _Stay:
+        """From a state to a frequency (1/s), settled there if it does; a longer stretch of it if it does not."""
         per, _ = self._steps(frequency)
         settle, hold = self._counts(frequency)
         common = [self.excitation.fundamental * each / (2 * math.pi) for each in (begin.frequency, frequency)]
@@ -213,16 +230,21 @@ class TimeRuns:
             # Whole periods: each stretch begins at the phase of the one before.
             motion = self.moving.run(steady, step, hold, stride=int(sampled), ends=(1, hold + 1), start=start)
             if before is not None and np.allclose(motion.crest[1], before, rtol=_SAME, atol=0.0):
-                break
+                return _Stay(_State(frequency, motion.end, turns), motion, per, True)
             before = motion.crest[1]
             start = self.moving.run(steady, step, -(-settle // per) * per, start=motion.end).end
-        return _State(frequency, motion.end, turns), motion, per
+        if sampled:
+            hold = max(hold, math.ceil(_UNSETTLED_TEETH / max(self.excitation.orders)) * per)
+            motion = self.moving.run(steady, step, hold, stride=1, ends=(1, hold + 1), start=start)
+        return _Stay(_State(frequency, motion.end, turns), motion, per, False)
 
     def response(self, frequency: float, orders: int) -> PeriodicResponse:
-        """What the run up shows at one frequency (1/s), by its orders of the common period."""
-        run = self.run(Direction.UP)
+        """What the run up shows at one frequency (1/s), by its orders of the common period.
+
+        Where its motion does not repeat, the periodic motion next to it, which is not stable."""
+        run = self.both[0]
         begin = self._before(run, frequency) or self._in_contact(*self._beside(run, frequency))
-        end, motion, per = self._go(begin, frequency, sampled=True)
+        end, motion, per, repeats = self._go(begin, frequency, sampled=True)
         periods = (len(motion.approach) - 1) // per
         spectrum = np.fft.rfft(motion.approach[:-1], axis=0, norm="forward")[::periods]
         shift = 2j * math.pi * end.turns * np.arange(len(spectrum))[:, None]
@@ -230,7 +252,8 @@ class TimeRuns:
         curves = SpeedCurves(self.linear.system, self.excitation, self.linear.harmonics, self.linear.idle)
         balance, omega = curves.balance(orders), np.array([self.excitation.fundamental * frequency])
         (found,) = balance.solve(omega, known[None])
-        return curves.response(found if found.solved.all() else balance.motions(omega, known[None]))
+        response = curves.response(found if found.solved.all() else balance.motions(omega, known[None]))
+        return replace(response, stable=np.array([repeats]))
 
     def _extremes(self, motion: Motion, frequency: float, per: int) -> Told:
         """Of the samples of a motion that has settled."""

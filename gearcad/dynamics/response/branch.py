@@ -19,7 +19,7 @@ from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.flexibility import at_orders, both_sides, told_by
 from gearcad.dynamics.response.floquet import UNSTABLE, growth
 from gearcad.dynamics.response.linear import checked_frequencies, harmonic_orders, periodic_response
-from gearcad.dynamics.response.notices import instability
+from gearcad.dynamics.response.notices import Unstable, instability
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import ParameterError, SolverError, as_choice
@@ -118,7 +118,7 @@ class Branch:
             travel_coefficients=outputs.travels,
             stable=stable,
             jumps=np.zeros(0) if jumps is None else jumps,
-            notices=instability(frequencies, stable, parting=self.excitation.parting),
+            notices=instability(frequencies, stable, Unstable.PARTING if self.excitation.parting else Unstable.LINEAR),
         )
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from enum import Enum
+
 import numpy as np
 
 from gearcad.arrays import Bools, Floats
 from gearcad.notice import Notice
 
-__all__ = ["frequency_ranges", "instability", "parting", "runs"]
+__all__ = ["Unstable", "frequency_ranges", "instability", "parting", "runs"]
 
 
 def runs(speeds: Floats, marked: Bools) -> list[Floats]:
@@ -21,19 +23,25 @@ def frequency_ranges(frequencies: Floats, marked: Bools) -> str:
     return ", ".join(f"{part[0]:g} to {part[-1]:g}" for part in runs(frequencies, marked))
 
 
-def instability(frequencies: Floats, stable: Bools, *, parting: bool = False) -> tuple[Notice, ...]:
-    """That motions do not last at some of the tooth frequencies (s,) in 1/s: without bound, unless flanks are `parting`."""
+class Unstable(Enum):
+    """What a motion that does not last was found by; the values are what to say of it."""
+
+    LINEAR = "parametric instability: vibrations grow without bound {where}; the periodic motion that is given does not last"
+    PARTING = (
+        "the periodic motion does not last {where}: what comes instead is not computed, and can be greater than what is given"
+    )
+    IN_TIME = (
+        "the motion in time does not repeat {where}: what is given there is the greatest load of a long stretch, "
+        "and a longer one can show a greater load"
+    )
+
+
+def instability(frequencies: Floats, stable: Bools, unstable: Unstable = Unstable.LINEAR) -> tuple[Notice, ...]:
+    """Return a notice that motions do not last at some of the tooth frequencies (s,) in 1/s."""
     if stable.all():
         return ()
     ranges = [f"{part[0]:g}" if len(part) == 1 else f"{part[0]:g} to {part[-1]:g}" for part in runs(frequencies, ~stable)]
-    where = f"at tooth frequencies (1/s) {', '.join(ranges)}"
-    text = (
-        f"the periodic motion does not last {where}: what comes instead is not computed, and can be greater than what is given"
-        if parting
-        else f"parametric instability: vibrations grow without bound {where}; "
-        "what is given there is a periodic motion that does not last"
-    )
-    return (Notice("unstable", text),)
+    return (Notice("unstable", unstable.value.format(where=f"at tooth frequencies (1/s) {', '.join(ranges)}")),)
 
 
 def parting(frequencies: Floats, apart: Bools) -> Notice:
