@@ -227,10 +227,13 @@ def test_marks_keep_off_each_other_and_the_outline() -> None:
         assert not ((low < points) & (points < high)).all(axis=-1).any()
 
 
-def test_edges_of_chamfers_that_would_run_into_others_are_left_out() -> None:
-    for scale, edges, circles in ((2.0, 3, 3), (1.0, 3, 2), (0.5, 1, 2)):  # 1.5 mm of chamfer, 0.87 mm of radius; the hub
-        gear = Gear(teeth=30, normal_module=2.5, face_width=25.0, body=BODY)
+def test_edges_of_chamfers_that_would_run_into_others_are_thin() -> None:
+    """Chamfers of 1.5 mm, 0.87 mm of radius: edges are seen from 0.4 mm of paper on, thick from 1 mm on."""
+    gear = Gear(teeth=30, normal_module=2.5, face_width=25.0, body=BODY)
+    for scale, edges, circles in ((2.0, (3, 0), (3, 0)), (1.0, (3, 0), (2, 1)), (0.5, (1, 2), (2, 1)), (0.2, (1, 0), (2, 0))):
+        pens = (Pen.OUTLINE, Pen.THIN)
         lines = [each for each in half_section(gear, Along.of(gear, scale)).shapes if isinstance(each, Line)]
-        assert sum(each.start[0] == each.end[0] for each in lines) == edges
-        thick = [each for each in end_face(gear, scale).shapes if isinstance(each, Circle) and each.pen is Pen.OUTLINE]
-        assert len(thick) == circles
+        upright = [each.pen for each in lines if each.start[0] == each.end[0]]
+        assert tuple(upright.count(pen) for pen in pens) == edges, scale
+        rings = [each.pen for each in end_face(gear, scale).shapes if isinstance(each, Circle)]
+        assert tuple(rings.count(pen) for pen in pens) == circles, scale

@@ -75,6 +75,15 @@ def test_both_sides_of_a_ring_are_cut_and_its_teeth_are_not_hatched() -> None:
     assert centre == {0.0, 38.75, round(SCALE * abs(RING.reference_diameter) / 2, 9)}
 
 
+@pytest.mark.parametrize("count", [4, 6, 7, 8, 12, 24])
+def test_the_ring_round_the_enlarged_tooth_is_off_the_bolt_holes(count: int) -> None:
+    body = Body(rim_diameter=240.0, bolt_circle=222.0, bolt_holes=count, bolt_diameter=9.0)
+    gear = Gear(teeth=-70, normal_module=2.8, face_width=14.0, profile_shift=-1.2025, body=body)
+    ring = next(iter(of_kind(next(iter(detail_mark(demands(gear)[0], Figure(()), SCALE))), Circle)))
+    apart = min(math.dist(ring.centre, place) for place in hole_places(Meridian(gear, SCALE)))
+    assert apart > ring.radius + SCALE * 9.0 / 2
+
+
 def test_a_chamfer_deeper_than_the_teeth_cuts_the_root() -> None:
     ring = Gear(teeth=-60, normal_module=1.0, face_width=20.0, body=Body(rim_diameter=90.0, end_chamfer=4.0))
     hatchings = of_kind(full_section(Meridian(ring, 1.0)), Hatching)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from gearcad.drawing.gear_views.section import BEYOND_AXIS, LEAST_APART
+from gearcad.drawing.gear_views.section import BEYOND_AXIS, chamfer_pen
 from gearcad.drawing.marks import centre_cross
 from gearcad.drawing.shapes import Circle, Figure, Pen, Polyline, Shape
 from gearcad.geometry import Body, Gear
@@ -20,9 +20,10 @@ def end_face(gear: Gear, scale: float, *, front: bool = True) -> Figure:
     body, reach = gear.body, scale * gear.tip_diameter / 2 + BEYOND_AXIS
     hub = body.hub_ends[front]
     tip, chamfered = gear.tip_diameter / 2, EndCone.of(gear).face_radius
-    edge = [chamfered] if scale * (tip - chamfered) >= LEAST_APART else []  # of the chamfer, infinite where there is none
-    seen = [tip, *edge, *([body.hub_diameter / 2] if hub else [])]
+    pen = chamfer_pen(scale * (tip - chamfered))  # the radius is infinite where there is no chamfer
+    seen = [tip, *([body.hub_diameter / 2] if hub else [])]
     shapes: list[Shape] = [
+        *(Circle((0.0, 0.0), scale * chamfered, each) for each in (pen,) if each is not None),
         *(Circle((0.0, 0.0), scale * radius) for radius in seen),
         Circle((0.0, 0.0), scale * gear.reference_diameter / 2, Pen.CENTRE),
         *opening(body, scale),

@@ -66,12 +66,8 @@ def root_lines(gear: Gear) -> list[tuple[float, float]]:
     return [(low + back, high - back) for low, high in strips(gear)]
 
 
-def edges(gear: Gear, least: float = 0.0) -> list[Corner]:
-    """Edges round the axis between the outermost end faces, as one sees them from outside: height, and largest radius there.
-
-    Those where chamfers of less than `least` (mm) meet the tip cylinder are left out.
-    """
-    tip, corners = gear.tip_diameter / 2, contour(gear, gear.tip_diameter / 2, 0.0)
+def edges(gear: Gear) -> list[Corner]:
+    """Edges round the axis between the outermost end faces, as one sees them from outside: height, and largest radius there."""
+    corners = contour(gear, gear.tip_diameter / 2, 0.0)
     largest = {z: max(radius for each, radius in corners if each == z) for z in sorted({z for z, _ in corners})}
-    narrow = 0.0 < float(EndCone.of(gear).setback(tip)) < least
-    return [(z, radius) for z, radius in list(largest.items())[1:-1] if not (narrow and radius == tip)]
+    return list(largest.items())[1:-1]

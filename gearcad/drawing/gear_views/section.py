@@ -10,14 +10,15 @@ from gearcad.drawing.gear_views.hand import flank_directions
 from gearcad.drawing.gear_views.meridian import contour, edges, opening_radius, overall, root_lines
 from gearcad.drawing.shapes import Figure, Hatching, Line, Pen, Polyline, Shape, Vertex
 from gearcad.geometry import Gear
+from gearcad.solids.cone import EndCone
 
-__all__ = ["BEYOND_AXIS", "BEYOND_PITCH", "LEAST_APART", "half_section"]
+__all__ = ["BEYOND_AXIS", "BEYOND_PITCH", "chamfer_pen", "half_section"]
 
 BEYOND_AXIS, BEYOND_PITCH = 6.0, 3.0
 """How far the axis and the reference line reach beyond what they belong to (mm of paper)."""
 
-LEAST_APART = 1.0
-"""Edges of chamfers that are nearer to others would run into them (mm of paper; ISO 128-2)."""
+_THICK_APART, _LEAST_APART = 1.0, 0.4
+"""Edges of chamfers nearer to others are thin, so that they do not run into them; or are left out (mm of paper; ISO 128-2)."""
 
 _HATCH, _FINEST_HATCH, _STROKES = 2.5, 0.7, 4
 """Distance of hatching lines, the least of it, and how many lines a narrow part should have at least."""
@@ -36,11 +37,28 @@ def half_section(gear: Gear, along: Along) -> Figure:
         hatching(gear, along),
         silhouette,
         *cut_lines(gear, along),
-        *(along.line((z, -radius), (z, 0.0)) for z, radius in edges(gear, LEAST_APART / along.scale)),
+        *_seen_edges(gear, along),
         *(along.line(*ends, Pen.CENTRE, beyond=BEYOND_PITCH) for ends in pitch_lines),
         along.line((low, 0.0), (high, 0.0), Pen.CENTRE, beyond=BEYOND_AXIS),
     ]
     return Figure(tuple(shapes)) + flank_directions(gear, along)
+
+
+def chamfer_pen(apart: float) -> Pen | None:
+    """Return the pen for an edge of a chamfer that is so far (mm of paper) from the next edge; None if it is left out."""
+    if apart < _LEAST_APART:
+        return None
+    return Pen.OUTLINE if apart >= _THICK_APART else Pen.THIN
+
+
+def _seen_edges(gear: Gear, along: Along) -> Iterator[Line]:
+    """Yield the edges of end faces, grooves and chamfers in the half that is seen from outside."""
+    tip = gear.tip_diameter / 2
+    back = along.scale * float(EndCone.of(gear).setback(tip))
+    for z, radius in edges(gear):
+        pen = chamfer_pen(back) if back and radius == tip else Pen.OUTLINE
+        if pen is not None:
+            yield along.line((z, -radius), (z, 0.0), pen)
 
 
 def cut_lines(gear: Gear, along: Along) -> Iterator[Line]:

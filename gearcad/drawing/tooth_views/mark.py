@@ -39,10 +39,25 @@ def _of_gear(gear: Gear, scale: float) -> Iterator[tuple[Point, float, Point]]:
     """Middle and radius of rings, and the way from there to the letter: off the teeth."""
     tip, root = (scale * abs(diameter) / 2 for diameter in (gear.tip_diameter, gear.root_diameter))
     side = -1.0 if gear.internal else 1.0
-    for way in _ROUND:
+    for way in _ways(gear, (tip + root) / 2, _ring(tip, root) + scale * gear.body.bolt_diameter / 2, scale):
         out = math.cos(math.radians(way)), math.sin(math.radians(way))
         middle = (tip + root) / 2 * out[0], (tip + root) / 2 * out[1]
         yield middle, _ring(tip, root), (side * out[0], side * out[1])
+
+
+def _ways(gear: Gear, middle: float, reach: float, scale: float) -> list[float]:
+    """Return the directions of teeth, those first whose ring, at radius `middle`, is not over a bolt hole (mm of paper)."""
+    count, circle = gear.body.bolt_holes, scale * gear.body.bolt_circle / 2
+    if not count:
+        return list(_ROUND)
+    step = 360.0 / count  # the first hole is above the axis
+
+    def overlap(way: float) -> float:
+        off = math.radians((way - 90.0 + step / 2) % step - step / 2)
+        return max(0.0, reach - math.hypot(circle - middle * math.cos(off), middle * math.sin(off)))
+
+    between = [90.0 + step * (math.floor((way - 90.0) / step) + 0.5) for way in _ROUND]
+    return sorted(dict.fromkeys((*_ROUND, *between)), key=overlap)
 
 
 def _of_rack(rack: Rack, view: Figure, scale: float) -> Iterator[tuple[Point, float, Point]]:
