@@ -16,8 +16,15 @@ _STARTER = "reducer"
 
 @click.command("open")
 @click.argument("spec", type=click.Path(path_type=Path), required=False)
-@click.option("--host", metavar="ADDRESS", help="Let others in at this address of the machine, who have the token.")
+@click.option("--host", metavar="ADDRESS", help="Listen at this address of the machine, for others who have the token.")
 @click.option("--port", type=click.IntRange(1, 65535), help="Where it listens.  [default: 8765, or the next that is free]")
+@click.option(
+    "--token",
+    metavar="TEXT",
+    envvar="GEARCAD_TOKEN",
+    show_envvar=True,
+    help="Token for scripts, at least 16 characters; only the variable is hidden from other accounts.  [default: a new one]",
+)
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
 @click.option("--time-limit", type=float, metavar="S", help="Longest time of one run, in seconds.  [default: 3600]")
 @click.option(
@@ -28,13 +35,15 @@ def open(
     spec: Path | None,
     host: str | None,
     port: int | None,
+    token: str | None,
     no_browser: bool,
     time_limit: float | None,
     memory_limit: float | None,
 ) -> None:
     """Open a page in the browser in which the gears move: every change of SPEC, or of a starter, is seen at once.
 
-    It listens at 127.0.0.1 only, unless --host lets others in, until Ctrl-C.
+    It listens at 127.0.0.1 only, unless --host is given, until Ctrl-C. Only a browser that has opened the address printed, with
+    its token, may read and save: the token becomes a cookie, and leaves the address.
     """
     from gearcad.designs.files import spec_text
     from gearcad.designs.starters import starter_text
@@ -49,4 +58,4 @@ def open(
         spec = Path(name)
     else:
         text = spec_text(spec)
-    serve(text, spec.stem, spec.parent, host=host, port=port, browser=not no_browser)
+    serve(text, spec.stem, spec.parent, host=host, port=port, browser=not no_browser, token=token)

@@ -1,15 +1,18 @@
-"""Who may ask: only the page itself, at the address at which it was opened, and with `--host` whoever has the token."""
+"""Access to the server of the page: requests of the page itself, at its own address, by a browser that has had the token."""
 
 from __future__ import annotations
 
 import hmac
+import re
 from collections.abc import Awaitable, Callable, Collection, MutableMapping
 from html import escape
 from http.cookies import CookieError, SimpleCookie
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-__all__ = ["TOKEN", "Access"]
+from gearcad.errors import ParameterError
+
+__all__ = ["TOKEN", "Access", "require_token"]
 
 Scope = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[Any]]
@@ -17,24 +20,34 @@ Send = Callable[[Any], Awaitable[None]]
 App = Callable[[Scope, Receive, Send], Awaitable[None]]
 
 TOKEN = "token"
-"""Its name in the address."""
+"""Name of the token in the address."""
 
-_REFUSED = b"not from here: open the address that gearcad printed\n"
+_PERMITTED = re.compile(r"[A-Za-z0-9_-]{16,128}")
+"""Tokens that an address and a cookie hold as they are, too long to be guessed."""
+
+_REFUSED = b"refused: open the address that gearcad printed, which has the token\n"
+
+
+def require_token(token: str) -> None:
+    """Raise ParameterError for a token of a user's that is short, or has other characters than addresses hold."""
+    if not _PERMITTED.fullmatch(token):
+        raise ParameterError("token", token, "must be 16 to 128 letters of A to Z or a to z, digits, - and _")
 
 
 class Access:
-    """Answers 403 to a request for another host (a name that was made to lead here), or from another site's page.
+    """An application that answers 403 to other hosts (a name that was made to lead here), other sites and whoever has no token.
 
-    With a `token`, also to one without it: it comes once in the address, from there on as a cookie of this server, for which
-    the browser is sent on to the same address without it, so that neither history nor the page nor a link has it.
+    The token comes once in the address. The answer sets a cookie of this server, and sends the browser on to the same
+    address without the token, so that neither history nor the page nor a link has it. `single_use` is a second token for one
+    such request: the browser is started with it, and other accounts of the machine see how processes were started.
     """
 
-    def __init__(self, app: App, hosts: Collection[str], token: str | None = None) -> None:
-        self._app, self._hosts, self._token = app, frozenset(hosts), token
+    def __init__(self, app: App, hosts: Collection[str], token: str, single_use: str = "") -> None:
+        self._app, self._hosts, self._token, self._single_use = app, frozenset(hosts), token, single_use
         self._origins = frozenset(f"http://{host}" for host in hosts)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let through what may pass."""
+        """Pass a permitted request on, and refuse all others."""
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return
@@ -42,15 +55,15 @@ class Access:
         asked = dict(parse_qsl(scope.get("query_string", b"").decode("latin-1")))
         if not self._is_ours(headers):
             await _refuse(scope, send)
-        elif self._token and scope["type"] == "http" and scope["path"] == "/" and self._is_token(asked.pop(TOKEN, "")):
+        elif scope["type"] == "http" and scope["path"] == "/" and self._opens(asked.pop(TOKEN, "")):
             await self._let_in(headers["host"], asked, send)
-        elif self._token and not self._in_cookie(headers):
+        elif not self._in_cookie(headers):
             await _refuse(scope, send)
         else:
             await self._app(scope, receive, send)
 
     def _is_ours(self, headers: dict[str, str]) -> bool:
-        """Whether it is for this server, from a page of it, or from whoever opens the page by a link or by hand."""
+        """Return whether it is for this server, from a page of it, or from whoever opens the page by a link or by hand."""
         origin, host = headers.get("origin"), headers.get("host", "")
         if host not in self._hosts or (origin is not None and origin not in self._origins):
             return False
@@ -64,19 +77,28 @@ class Access:
         body = f'<!doctype html><title>gearcad</title><meta http-equiv="refresh" content="0;url={onwards}">'
         await _answer(send, 200, "text/html", body.encode(), (b"set-cookie", cookie.encode("latin-1")))
 
+    def _opens(self, text: str) -> bool:
+        """Return whether this is the token, or the one for a single use, which is used up then."""
+        if self._single_use and _equal(text, self._single_use):
+            self._single_use = ""
+            return True
+        return _equal(text, self._token)
+
     def _in_cookie(self, headers: dict[str, str]) -> bool:
         try:
             cookie = SimpleCookie(headers.get("cookie", "")).get(_cookie_of(headers.get("host", "")))
         except CookieError:
             return False
-        return self._is_token(cookie.value if cookie else "")
+        return _equal(cookie.value if cookie else "", self._token)
 
-    def _is_token(self, given: str) -> bool:
-        return self._token is not None and hmac.compare_digest(given.encode(), self._token.encode())
+
+def _equal(text: str, token: str) -> bool:
+    """Compare in a time that tells nothing of the token."""
+    return hmac.compare_digest(text.encode(), token.encode())
 
 
 def _cookie_of(host: str) -> str:
-    """Its name: a browser has one store of cookies for all ports of a host."""
+    """Return the name of the cookie: a browser has one store of cookies for all ports of a host."""
     return f"gearcad_{host.rpartition(':')[2]}"
 
 

@@ -1,4 +1,4 @@
-"""The server of the page: at 127.0.0.1 only, unless it is opened to others with a token."""
+"""The server of the page: at 127.0.0.1 only, unless another address is given, and for browsers that have had its token."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from gearcad.errors import ParameterError
-from gearcad.page.access import TOKEN, Access
+from gearcad.page.access import TOKEN, Access, require_token
 from gearcad.page.ending import ending
 from gearcad.page.fences import Fences
 from gearcad.page.terminal import Lines
@@ -20,7 +20,7 @@ from gearcad.page.terminal import Lines
 __all__ = ["LOCAL", "PORT", "serve"]
 
 LOCAL = "127.0.0.1"
-"""Where nobody else can ask."""
+"""Address that no other machine reaches; other accounts of this one do."""
 
 PORT = 8765
 """Where the page listens, unless that is taken: then at the next that is free."""
@@ -42,6 +42,9 @@ _LARGEST_MESSAGE = 1 << 20
 _WAITING = 128
 """Connections that nobody has accepted yet."""
 
+_RANDOM = 32
+"""Random bytes of a token."""
+
 _TURN = 5e-4
 """Seconds that a thread may compute while another waits: what is found is sent at once, whatever else is being found."""
 
@@ -49,12 +52,17 @@ _GRACE = 1
 """Seconds that answers have to end when the server does."""
 
 
-def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | None, browser: bool) -> None:
+def serve(
+    text: str, name: str, folder: Path, *, host: str | None, port: int | None, browser: bool, token: str | None = None
+) -> None:
     """Serve the page of a spec's text until Ctrl-C; files that it names are seen from `folder`.
 
-    At `host` others may ask, who have the token in the address that is printed. Raises ParameterError where nothing can listen,
-    or NiceGUI is missing, SpecError for a text that makes nothing. The process ends with the server.
+    The page is for who has the `token` (None: a new one) in the address that is printed, also from other machines at `host`.
+    Raises ParameterError for a token that is too short, where nothing can listen, or NiceGUI is missing, SpecError for a text
+    that makes nothing. The process ends with the server.
     """
+    token = secrets.token_urlsafe(_RANDOM) if token is None else token
+    require_token(token)
     try:
         from nicegui import app, core, ui
     except ImportError as error:
@@ -74,9 +82,8 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
     taken: dict[str, Any] = {"fd": held.fileno()} if hasattr(socket, "AF_UNIX") else {}
     if not taken:  # Windows, where no socket can be handed on
         held.close()
-    token = None if host is None else secrets.token_urlsafe(32)
     hosts = {f"{each}:{port}" for each in (host or LOCAL, "localhost")}
-    address = f"http://{host or LOCAL}:{port}/{f'?{TOKEN}={token}' if token else ''}"
+    address, single_use = f"http://{host or LOCAL}:{port}/?{TOKEN}=", secrets.token_urlsafe(_RANDOM) if browser else ""
 
     @ui.page("/")
     def page() -> Response | None:
@@ -92,8 +99,8 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
     core.sio.eio.cors_allowed_origins = sorted(f"http://{each}" for each in hosts)
     add_routes(app)
     app.add_middleware(Fences)
-    app.add_middleware(Access, hosts=hosts, token=token)
-    app.on_startup(lambda: print(address, flush=True))
+    app.add_middleware(Access, hosts=hosts, token=token, single_use=single_use)
+    app.on_startup(lambda: print(address + token, flush=True))
     app.on_startup(threading.Thread(target=warm_up, args=(first.design,), daemon=True).start)
     app.on_shutdown(Session.leave_all)
     app.on_shutdown(close_all_runs)
@@ -104,7 +111,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
             host=host or LOCAL,
             port=port,
             title=f"{name} - gearcad",
-            show=address if browser else False,
+            show=address + single_use if browser else False,
             dark=None,
             favicon="⚙",
             reload=False,

@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 from support.awaited import awaited
 
-from gearcad.page.access import Access
+from gearcad.errors import ParameterError
+from gearcad.page.access import Access, require_token
 from gearcad.page.fences import Fences
 
 HERE = "127.0.0.1:8765"
@@ -61,7 +62,8 @@ def ask(
     ],
 )
 def test_only_the_page_itself_may_ask(headers: dict[str, str], status: int) -> None:
-    app = Access(_app, {HERE, "localhost:8765"})
+    app = Access(_app, {HERE, "localhost:8765"}, TOKEN)
+    headers = headers | {"cookie": f"gearcad_8765={TOKEN}"}
     assert ask(app, headers)[0] == status
     assert ask(app, headers, kind="websocket")[0] == (200 if status == 200 else 1008)
 
@@ -82,6 +84,24 @@ def test_a_token_comes_once_in_the_address_then_as_a_cookie() -> None:
     assert ask(app, host | {"cookie": cookie})[0] == 200
     assert ask(app, host | {"cookie": cookie}, kind="websocket")[0] == 200
     assert ask(app, {"host": HERE, "origin": "http://evil.example", "cookie": cookie})[0] == 403
+
+
+def test_the_address_that_the_browser_is_started_with_opens_the_page_once() -> None:
+    """It stands in the list of processes, as long as the browser runs."""
+    app, host = Access(_app, {HERE}, TOKEN, "once" * 11), {"host": HERE}
+    assert ask(app, host, path="/x", query=f"token={'once' * 11}")[0] == 403
+    assert ask(app, host | {"origin": "http://evil.example"}, query=f"token={'once' * 11}")[0] == 403
+    status, headers, _ = ask(app, host, query=f"token={'once' * 11}")
+    assert (status, headers["set-cookie"].split(";")[0]) == (200, f"gearcad_8765={TOKEN}")
+    assert ask(app, host, query=f"token={'once' * 11}")[0] == 403
+    assert ask(app, host, query="token=")[0] == 403
+    assert ask(app, host, query=f"token={TOKEN}")[0] == 200
+
+
+@pytest.mark.parametrize("token", ["", "short", "with a blank, and long enough", "ünderstood-everywhere", "x" * 129, "a;b" * 9])
+def test_tokens_that_are_short_or_no_part_of_an_address_are_refused(token: str) -> None:
+    with pytest.raises(ParameterError, match=r"token = .*: must be 16 to 128 letters"):
+        require_token(token)
 
 
 def test_pages_run_their_own_scripts_only() -> None:

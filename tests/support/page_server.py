@@ -33,7 +33,10 @@ _POLL = 50
 def serve(
     spec: Path, *options: str, temporary: Path | None = None, told: Path | None = None
 ) -> tuple[subprocess.Popen[str], str]:
-    """A server of a spec at a port of its own, and its address; its temporary files are in a folder, errors in a file."""
+    """Start a server of a spec at a port of its own; return it and the address with its token that it prints.
+
+    Its temporary files are in a folder, errors in a file.
+    """
     command = [sys.executable, "-m", "gearcad", "open", str(spec), "--no-browser", *options]
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}  # NiceGUI looks
     if temporary is not None:
@@ -42,8 +45,13 @@ def serve(
         server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors, text=True, cwd=spec.parent, env=environment)
     assert server.stdout is not None
     address = server.stdout.readline().strip()
-    assert address.startswith("http://"), f"no address but {address!r}"
+    assert address.startswith("http://") and "/?token=" in address, f"no address but {address!r}"
     return server, address
+
+
+def without_token(address: str) -> str:
+    """The address of the page for who has its cookie."""
+    return address.partition("?")[0]
 
 
 @contextmanager
@@ -62,7 +70,7 @@ class Tab:
     """A tab that has the page, and what went wrong in it."""
 
     def __init__(self, page: Any, address: str) -> None:
-        self.page, self.address = page, address
+        self.page, self.address = page, without_token(address)
         self.errors: list[str] = []
         self._before: dict[str, str] = {}
         self.foreign: list[str] = []

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from support.designs import starter_specs
-from support.page_server import CHROMIUM, DESK, SPARING, TOLD, Tab, launched, serve
+from support.page_server import CHROMIUM, DESK, SPARING, TOLD, Tab, launched, serve, without_token
 
 
 @pytest.fixture(scope="session")
@@ -33,7 +33,7 @@ def served(folder: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
 
 @pytest.fixture(scope="session")
 def address(served: tuple[subprocess.Popen[str], str]) -> str:
-    """The address of the page."""
+    """The address of the page, with its token."""
     return served[1]
 
 
@@ -50,7 +50,8 @@ def browser() -> Iterator[Any]:
 def window(browser: Any, address: str) -> Any:
     """What tabs have in common: what was fetched once, and a process that has compiled it."""
     context = browser.new_context(viewport=DESK)
-    context.new_page().goto(f"{address}nothing")
+    context.request.get(address)
+    context.new_page().goto(f"{without_token(address)}nothing")
     return context
 
 
