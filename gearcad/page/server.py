@@ -8,6 +8,7 @@ import secrets
 import socket
 import sys
 import threading
+import webbrowser
 from pathlib import Path
 from typing import Any
 
@@ -102,6 +103,8 @@ def serve(
     app.add_middleware(Access, hosts=hosts, token=token, single_use=single_use)
     app.on_startup(lambda: print(address + token, flush=True))
     app.on_startup(threading.Thread(target=warm_up, args=(first.design,), daemon=True).start)
+    if browser:
+        app.on_startup(threading.Thread(target=webbrowser.open, args=(address + single_use,), daemon=True).start)
     app.on_shutdown(Session.leave_all)
     app.on_shutdown(close_all_runs)
     app.on_shutdown(close_aside)
@@ -111,7 +114,7 @@ def serve(
             host=host or LOCAL,
             port=port,
             title=f"{name} - gearcad",
-            show=address + single_use if browser else False,
+            show=False,
             dark=None,
             favicon="⚙",
             reload=False,

@@ -31,14 +31,15 @@ _POLL = 50
 
 
 def serve(
-    spec: Path, *options: str, temporary: Path | None = None, told: Path | None = None
+    spec: Path, *options: str, temporary: Path | None = None, told: Path | None = None, browser: str = ""
 ) -> tuple[subprocess.Popen[str], str]:
     """Start a server of a spec at a port of its own; return it and the address with its token that it prints.
 
-    Its temporary files are in a folder, errors in a file.
+    Its temporary files are in a folder, errors in a file. `browser` is a command that it starts with an address for %s.
     """
-    command = [sys.executable, "-m", "gearcad", "open", str(spec), "--no-browser", *options]
+    command = [sys.executable, "-m", "gearcad", "open", str(spec), *([] if browser else ["--no-browser"]), *options]
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}  # NiceGUI looks
+    environment["BROWSER"] = browser
     if temporary is not None:
         environment["TMPDIR"] = str(temporary)
     with (told or Path(os.devnull)).open("w", encoding="utf-8") as errors:

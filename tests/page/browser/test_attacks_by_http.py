@@ -14,6 +14,7 @@ from urllib.parse import parse_qs, urlsplit
 
 import pytest
 from support.page_server import serve, without_token
+from support.processes import wait_until
 
 from gearcad.designs.starters import starter_text
 from gearcad.page.links import pack
@@ -152,6 +153,23 @@ def test_scripts_give_a_token_of_their_own(folder: Path) -> None:
     try:
         assert printed.endswith("/?token=a-script-has-made-it")
         assert ask(printed)[0] == 200 and ask(without_token(printed))[0] == 403
+    finally:
+        server.terminate()
+        server.wait(20)
+
+
+def test_the_browser_is_started_with_an_address_for_one_use(folder: Path, tmp_path: Path) -> None:
+    started = tmp_path / "started"
+    started.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/new && mv {tmp_path}/new {tmp_path}/address\n')
+    started.chmod(0o700)
+    server, printed = serve(folder / "spur.toml", browser=f"{started} %s")
+    try:
+        wait_until((tmp_path / "address").exists, "the browser")
+        address, token = (tmp_path / "address").read_text().strip().split("?token=")
+        assert address == without_token(printed) and token not in printed
+        statuses = [ask(address, f"/?token={token}") for _ in range(2)]
+        assert [status for status, _, _ in statuses] == [200, 403]
+        assert statuses[0][1].split(";")[0] == cookie_of(printed)["Cookie"]
     finally:
         server.terminate()
         server.wait(20)
