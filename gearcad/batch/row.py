@@ -215,10 +215,14 @@ _INPUTS_ALONE = ("drawing", "drawings")
 """Parts of documents that hold nothing but inputs, which have columns where they are given."""
 
 
+_COURSES = ("specific_sliding_path",)
+"""Parts of documents that hold values at many places, which are too many for a line of a table."""
+
+
 def flat_document(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """The document's values under dotted keys; what pinion and wheel each have under their names; warnings have a column."""
     for key, value in document.items():
-        if not prefix and key in _INPUTS_ALONE:
+        if (not prefix and key in _INPUTS_ALONE) or key in _COURSES:
             continue
         if isinstance(value, dict):
             yield from flat_document(value, f"{prefix}{key}.")

@@ -31,7 +31,7 @@ from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
 from gearcad.dynamics.trains.half_waves import coarse_elements, fitted
 from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.modes import natural_modes
-from gearcad.dynamics.trains.parts import static_forces
+from gearcad.dynamics.trains.parts import require_pressed, static_forces
 from gearcad.dynamics.trains.six_dof import PairOnBearings
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train
@@ -96,6 +96,7 @@ def study_train(
             "meshes", 0, "must be one at least: without teeth nothing shakes a train; study_modes has its modes"
         )
     train = engaged(train, options)
+    require_pressed(train)
     options = (options or DynamicsOptions()).graded(RatingOptions())
     tell("modes")
     modes = natural_modes(train, count=options.frequencies)

@@ -8,7 +8,15 @@ from typing import NamedTuple
 from gearcad.geometry.involute import involute
 from gearcad.per_gear import PerGear
 
-__all__ = ["Backlash", "BacklashLimits", "backlash"]
+__all__ = ["Backlash", "BacklashLimits", "backlash", "settled"]
+
+_ROUNDING = 1e-12
+"""Of the numbers of which a difference is: what is left below that is rounding, and is told as 0."""
+
+
+def settled(difference: float, size: float) -> float:
+    """Return a difference of numbers of that size, 0 where rounding alone is left of it."""
+    return 0.0 if abs(difference) <= _ROUNDING * abs(size) else difference
 
 
 class Backlash(NamedTuple):

@@ -27,7 +27,15 @@ from gearcad.geometry.mating import (
     check_tolerance,
 )
 from gearcad.geometry.pair_data import PairData
-from gearcad.geometry.path import BaseTangent, ContactLineLengths, ContactZone, PathOfContact, SpecificSliding, sliding_along
+from gearcad.geometry.path import (
+    BaseTangent,
+    ContactLineLengths,
+    ContactZone,
+    PathOfContact,
+    SpecificSliding,
+    sliding_along,
+    sliding_document,
+)
 from gearcad.geometry.picture import pair_html
 from gearcad.geometry.pose import Pose, wheel_pose
 from gearcad.notice import Notice, texts
@@ -252,6 +260,7 @@ class GearPair(PairData):
             **{name: list(value) if isinstance(value, PerGear) else value for name, value in derived.items()},
             "path_of_contact": self.path_of_contact._asdict(),
             "specific_sliding": self.specific_sliding._asdict(),
+            "specific_sliding_path": sliding_document(self.usable_path, self.specific_sliding_at),
             "contact_line_lengths": self.contact_line_lengths._asdict(),
             **self._tolerated(),
             **({"interference_margins": margins._asdict()} if (margins := self.interference_margins) else {}),

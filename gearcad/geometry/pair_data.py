@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, NamedTuple
 
-from gearcad.geometry.backlash import Backlash, BacklashLimits, backlash
+from gearcad.geometry.backlash import Backlash, BacklashLimits, backlash, settled
 from gearcad.geometry.centre_distance_tolerance import centre_distance_allowance
 from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.geometry.gear import Gear
@@ -82,7 +82,12 @@ class PairData:
     @property
     def zero_backlash_shift_sum(self) -> float:
         """x_1 + x_2 that would mesh without backlash at this centre distance (no thinning)."""
-        return profile_shift_sum(**self._sizes, centre_distance=self.centre_distance)
+        return settled(profile_shift_sum(**self._sizes, centre_distance=self.centre_distance), self._modules)
+
+    @property
+    def _modules(self) -> float:
+        """The centre distance in normal modules."""
+        return self.centre_distance / self.pinion.normal_module
 
     @property
     def _sizes(self) -> dict[str, Any]:
@@ -130,7 +135,7 @@ class PairData:
         if self.internal:
             return 0.0
         change = (self.centre_distance - self.reference_centre_distance) / self.pinion.normal_module
-        return min(change - self.profile_shift_sum, 0.0)
+        return min(settled(change - self.profile_shift_sum, self._modules), 0.0)
 
     @property
     def tip_clearances(self) -> PerGear[float]:
@@ -152,7 +157,7 @@ class PairData:
 
     @cached_property
     def _nominal_backlash(self) -> Backlash:
-        return self._backlash()
+        return Backlash(*(settled(each, self.centre_distance) for each in self._backlash()))
 
     def _backlash(self, thicker: float = 0.0, farther: float = 0.0) -> Backlash:
         """That of teeth `thicker` by a share of half their tolerances, with axes `farther` apart (mm)."""

@@ -8,6 +8,7 @@ behind T1.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -26,6 +27,7 @@ __all__ = [
     "SpecificSliding",
     "farthest_centre_distance",
     "sliding_along",
+    "sliding_document",
 ]
 
 
@@ -69,6 +71,16 @@ def sliding_along(own: PerGear[Floats]) -> PerGear[Floats]:
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         return PerGear(1 - own.wheel / own.pinion, 1 - own.pinion / own.wheel)
+
+
+_SLIDING_PLACES = 21
+
+
+def sliding_document(path: tuple[float, float], sliding_at: Callable[[Floats], PerGear[Floats]]) -> dict[str, Any]:
+    """Return specific sliding at places along a usable `path` (mm from T1), for JSON; None where it is not limited."""
+    places = np.linspace(*path, _SLIDING_PLACES)
+    pinion, wheel = ([value if math.isfinite(value) else None for value in each.tolist()] for each in sliding_at(places))
+    return {"distance": places.tolist(), "pinion": pinion, "wheel": wheel}
 
 
 class ContactLineLengths(NamedTuple):

@@ -17,7 +17,14 @@ from gearcad.geometry.derived import derive
 from gearcad.geometry.helix import twist
 from gearcad.geometry.involute import tangent_length
 from gearcad.geometry.pair import ROUNDING
-from gearcad.geometry.path import ContactLineLengths, ContactZone, PathOfContact, SpecificSliding, sliding_along
+from gearcad.geometry.path import (
+    ContactLineLengths,
+    ContactZone,
+    PathOfContact,
+    SpecificSliding,
+    sliding_along,
+    sliding_document,
+)
 from gearcad.geometry.pose import RackPose
 from gearcad.geometry.rack_interference import RackPlace, cut_by_pinion, cut_by_rack
 from gearcad.geometry.rack_mating import check_rack_inputs, check_rack_mates, check_rack_mesh
@@ -218,6 +225,7 @@ class RackPair(RackPairData):
             "tip_clearances": self.tip_clearances._asdict(),
             "path_of_contact": self.path_of_contact._asdict(),
             "specific_sliding": self.specific_sliding._asdict(),
+            "specific_sliding_path": sliding_document(self.usable_path, self.specific_sliding_at),
             "contact_line_lengths": self.contact_line_lengths._asdict(),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],

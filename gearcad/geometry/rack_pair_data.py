@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
+from gearcad.geometry.backlash import settled
 from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.rack import Rack
@@ -85,7 +86,7 @@ class RackPairData:
     def circumferential_backlash(self) -> float:
         """j_wt along the pitch line: 2 tan alpha_t (H - r - x m_n) and both thinnings (transverse)."""
         tangent = math.tan(math.radians(self.pinion.transverse_pressure_angle))
-        return 2 * tangent * (self.mounting_distance - self.zero_backlash_distance)
+        return settled(2 * tangent * (self.mounting_distance - self.zero_backlash_distance), self.mounting_distance)
 
     @property
     def normal_backlash(self) -> float:

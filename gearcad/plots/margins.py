@@ -40,7 +40,9 @@ class FittedFigure(Figure):
         self.subplots_adjust(**_START)
 
     def draw(self, renderer: RendererBase) -> None:
-        """Draw it, with the margins that its texts need."""
+        """Draw it, with the margins that its texts need, and no axis over what is rounding alone."""
+        for axes in self.axes:
+            _widen_rounding(axes)
         measured = _tick_spaces(self)
         _fit(self, renderer)
         if _tick_spaces(self) != measured:  # other numbers stand along the axes
@@ -77,6 +79,25 @@ class _Room(NamedTuple):
     rows: range
     beside: Floats
     over: Floats
+
+
+_ROUNDING = 1e-9
+"""Of the greatest value along an axis: what differs by less is the same value, and its differences are rounding."""
+
+
+def _widen_rounding(axes: Axes) -> None:
+    """Let an axis along which all values are the same, but for rounding, show that value and not the rounding."""
+    for axis, limit in ((axes.xaxis, axes.set_xlim), (axes.yaxis, axes.set_ylim)):
+        first, last = sorted(axis.get_data_interval())
+        size, free = max(abs(first), abs(last)), axes.get_autoscalex_on() if axis is axes.xaxis else axes.get_autoscaley_on()
+        if not (free and axis.get_scale() == "linear" and 0 < last - first <= max(_ROUNDING * size, _NOTHING)):
+            continue
+        middle = 0.0 if size <= _NOTHING else (first + last) / 2
+        limit(middle - (abs(middle) / 20 or 1.0), middle + (abs(middle) / 20 or 1.0), auto=True)
+
+
+_NOTHING = 1e-12
+"""What is less is 0, in every unit that is drawn."""
 
 
 def _tick_spaces(figure: Figure) -> list[int]:

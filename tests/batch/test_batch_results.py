@@ -59,10 +59,10 @@ def spec_of(row: dict[str, str], path: Path) -> Path:
 
 
 def leaves(document: Any, key: str = "") -> Iterator[tuple[str, Any]]:
-    """Every number, text and truth of data.json but the warnings, as texts and as notices, and the three that head it."""
+    """Every number, text and truth of data.json but warnings, notices, assumed values, courses, and the three that head it."""
     if isinstance(document, dict):
         for name, value in document.items():
-            if name not in ("warnings", "notices"):
+            if name not in ("warnings", "notices", "assumed", "specific_sliding_path"):
                 yield from leaves(value, f"{key}.{name}" if key else name)
     elif isinstance(document, list | tuple):
         for name, value in zip(("pinion", "wheel"), document, strict=True):

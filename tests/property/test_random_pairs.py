@@ -20,6 +20,10 @@ TOUCH = 1e-7
 """In normal modules, along the working circle: what the search along curves and the touching turn leave."""
 
 
+NOISE = 1e-13
+"""In normal modules, of a centre distance in normal modules: what rounding leaves of a difference is less."""
+
+
 def check_pair(pair: GearPair, places: list[float]) -> None:
     m, half = pair.pinion.normal_module, pair.circumferential_backlash / 2
     radius = pair.working_pitch_diameters[1] / 2
@@ -60,3 +64,16 @@ def test_pairs_touch_where_the_backlash_says(inputs: dict[str, Any], places: lis
 @given(pair_inputs(), PLACES)
 def test_pairs_touch_where_the_backlash_says_long(inputs: dict[str, Any], places: list[float]) -> None:
     check_inputs(inputs, places)
+
+
+@settings(max_examples=40)
+@given(pair_inputs())
+def test_documents_have_no_rounding_in_the_place_of_zero(inputs: dict[str, Any]) -> None:
+    """At the centre distance without backlash its difference is 0, and so is that of the shift sums."""
+    try:
+        pair = build_pair({**inputs, "spread": None})
+    except InputError:
+        return
+    document = pair.to_dict()
+    for key in ("circumferential_backlash", "normal_backlash", "zero_backlash_shift_sum", "tip_alteration"):
+        assert document[key] == 0 or abs(document[key]) > NOISE * abs(pair.centre_distance) / pair.pinion.normal_module, key

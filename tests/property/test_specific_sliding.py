@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from gearcad import BasicRack, Gear, GearPair, Rack, RackPair, plots
+from gearcad import BasicRack, Gear, GearPair, Load, Material, Rack, RackPair, plots
 from gearcad.cli import main
+from gearcad.rating.strength import rate_strength
+from gearcad.report.strength.report import rate_html
 
 EXACT = 1e-9
 """Relative: the same velocities by two ways."""
@@ -89,6 +91,23 @@ def test_the_data_sheet_has_it(tmp_path: Path) -> None:
     told = json.loads(CliRunner().invoke(main, ["data", spec, "--json"]).stdout)["pair"]["specific_sliding"]
     assert "specific sliding at A, pinion" in shown and "ζ_A1" in shown
     assert told["greatest"] == max(abs(value) for key, value in told.items() if key != "greatest")
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_data_have_it_along_the_path(name: str) -> None:
+    pair = PAIRS[name]
+    document = pair.to_dict()
+    along, ends = document["specific_sliding_path"], document["specific_sliding"]
+    assert (along["distance"][0], along["distance"][-1]) == pair.usable_path
+    assert along["pinion"] == pytest.approx(list(pair.specific_sliding_at(along["distance"]).pinion), rel=EXACT)
+    assert (along["pinion"][0], along["wheel"][-1]) == pytest.approx((ends["pinion_A"], ends["wheel_E"]), rel=EXACT)
+
+
+def test_the_report_of_a_rating_draws_it() -> None:
+    page = rate_html(rate_strength(PAIRS["spur"], Material(), Load(torque=10.0)), "spur")
+    assert "Specific sliding along the path of contact" in page
+    greatest = PAIRS["spur"].specific_sliding.greatest
+    assert greatest is not None and f"The greatest is {greatest:.4g}" in page
 
 
 def test_it_is_drawn_along_the_path() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pickle
+import warnings
 from dataclasses import replace
 from typing import Any
 
@@ -12,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from support.trains import one_stage, random_trains, two_stages
 
+from gearcad.dynamics.train import study_train
 from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.modes import count_below, natural_modes
@@ -287,6 +289,16 @@ def test_what_makes_no_train(changes: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError) as error:
         _pair(**changes)
     assert str(error.value) == message
+
+
+def test_flanks_that_nothing_presses_are_refused_before_anything_is_solved() -> None:
+    train = _pair()
+    idle = replace(train, torques={}, meshes=(replace(train.meshes[0], preload=0.0),))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(InputError) as error:
+            study_train(idle)
+    assert "preload = 0 N: must be above 0 where no torque presses the flanks of this mesh" in str(error.value)
 
 
 def test_inertias_and_loops_that_make_no_train() -> None:

@@ -155,6 +155,19 @@ def test_a_proven_contact_pattern_halves_nothing_by_itself() -> None:
     assert factors(contact_pattern="proven", shaft_deflection=4.5).details["F_betax"] == 4.25
 
 
+@pytest.mark.parametrize("given", [0.0, 14.0, 25.0])
+def test_din_takes_the_given_misalignment_off_a_proven_contact_pattern(given: float) -> None:
+    """DIN 3990-11, 3.09: F_betax = |1.33 f_sh - f_ma|; without a given f_ma, and by ISO 6336-1 (53), f_Hbeta5 is taken off."""
+    proven: dict[str, Any] = {"contact_pattern": "proven", "shaft_deflection": 12.0}
+    own = factors(standard="DIN 3990:1987", manufacturing_misalignment=given, **proven)
+    found, load = own.details, own.details["F_m_b"]
+    assert found["F_betax"] == pytest.approx(max(abs(1.33 * 12.0 - given), found["F_betax_min"]), rel=EXACT)
+    effective = found["F_betax"] - found["y_beta"]
+    assert own.face_flank == pytest.approx(1 + effective * found["c_gamma_beta"] / (2 * load), rel=EXACT)
+    by_iso = factors(manufacturing_misalignment=given, **proven)
+    assert by_iso.details["F_betax"] == factors(**proven).details["F_betax"]
+
+
 def test_helix_modifications() -> None:
     """Crowning halves f_ma but leaves K_Fbeta as K_Hbeta; flanks that are crowned are told of where the options are not."""
     plain, crowned = factors(), factors(helix_modification="crowning")

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import warnings
+from io import BytesIO
 from pathlib import Path
 
 import matplotlib
@@ -14,6 +15,7 @@ from matplotlib.figure import Figure
 from gearcad import ParameterError, SpecError, symbols
 from gearcad.designs.keys import FIELDS
 from gearcad.plots import axis_label, plot_contours, plot_scatter, save_plot
+from gearcad.plots.paper import prepared
 from gearcad.plots.table_data import Column, Points, read_points
 
 HEADINGS = (
@@ -455,6 +457,7 @@ def test_drawing_needs_neither_a_screen_nor_pyplot(tmp_path: Path) -> None:
     code = f"""
 import sys
 from pathlib import Path
+from gearcad.plots.paper import prepared
 from gearcad.plots.table_data import Column, Points
 from gearcad.plots import plot_contours, save_plot
 assert "matplotlib" not in sys.modules
@@ -464,3 +467,19 @@ assert "matplotlib.pyplot" not in sys.modules
 """
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60, env={"PATH": "", "HOME": str(tmp_path)})
     assert (tmp_path / "a.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("values", "shown"),
+    [
+        ([5e-15, -3e-15, 4e-15], (-1.0, 1.0)),
+        ([1 + 5e-15, 1 - 3e-15, 1.0], (0.95, 1.05)),
+        ([1.0, 2.0, 3.0], (0.9, 3.1)),
+        ([1.0, 1 + 1e-7, 1.0], (1 - 5e-9, 1 + 1.05e-7)),
+    ],
+)
+def test_an_axis_does_not_show_rounding(values: list[float], shown: tuple[float, float]) -> None:
+    axes = prepared(None, "x", "y")
+    axes.plot([0, 1, 2], values)
+    axes.figure.savefig(BytesIO(), format="png")
+    assert axes.get_ylim() == pytest.approx(shown, rel=1e-12)

@@ -13,8 +13,9 @@ from gearcad.dynamics.trains.engaged_mesh import require_known
 from gearcad.dynamics.trains.graph import turning_pieces
 from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.train import Train, TrainModel
+from gearcad.errors import GeometryError
 
-__all__ = ["Parts", "parts_of", "pressing_forces", "static_forces"]
+__all__ = ["Parts", "parts_of", "pressing_forces", "require_pressed", "static_forces"]
 
 
 _NO_FORCE = 1e-9
@@ -74,6 +75,15 @@ def parts_of(train: Train) -> Parts:
 def static_forces(train: Train) -> Floats:
     """(m,) the mean force in every mesh (N), with torques and preloads at rest."""
     return np.abs(_mesh_forces(parts_of(train)))
+
+
+def require_pressed(train: Train) -> None:
+    """Raise GeometryError for a mesh whose flanks nothing presses: loads over speed refer to that force."""
+    forces = static_forces(train)
+    if forces.min() <= _NO_FORCE * forces.max():
+        mesh = train.meshes[int(forces.argmin())]
+        permitted = "must be above 0 where no torque presses the flanks of this mesh: K_v refers to that force"
+        raise GeometryError(f"{mesh.name}.preload", mesh.preload, permitted, "N")
 
 
 def pressing_forces(train: Train) -> Floats:

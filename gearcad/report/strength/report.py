@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 
 from gearcad.geometry import GearPair
+from gearcad.plots.pair import plot_sliding
 from gearcad.plots.strength import plot_flash, plot_life
 from gearcad.rating.strength import StrengthRating
 from gearcad.report.check.figures import Picture, pair_picture, picture_address
@@ -56,8 +57,23 @@ def rate_html(rating: StrengthRating, design_name: str) -> str:
 
 
 def _figures(rating: StrengthRating) -> list[Picture]:
-    """What flanks and roots bear over load cycles, where that is known, and the temperatures along the path of contact."""
+    """Specific sliding, what flanks and roots bear over load cycles, and temperatures along the path of contact."""
+    sliding = picture_address(partial(plot_sliding, rating.pair), "svg")
     found = [
+        Picture("Specific sliding along the path of contact", sliding, sentences("captions_rate.txt", "sliding", rating.pair)),
+        *_lives(rating),
+    ]
+    if (scuffing := rating.scuffing) is not None and scuffing.flash is not None:
+        address = picture_address(partial(plot_flash, scuffing), "svg")
+        found.append(
+            Picture("Temperature along the path of contact", address, sentences("captions_rate.txt", "flash", scuffing))
+        )
+    return found
+
+
+def _lives(rating: StrengthRating) -> list[Picture]:
+    """What flanks and roots bear over load cycles, where that is known."""
+    return [
         Picture(
             f"What the {part.value}s bear",
             picture_address(partial(plot_life, rating, part), "svg"),
@@ -66,9 +82,3 @@ def _figures(rating: StrengthRating) -> list[Picture]:
         for part, both in rating.parts.items()
         if any(each.resistance is not None for each in both)
     ]
-    if (scuffing := rating.scuffing) is not None and scuffing.flash is not None:
-        address = picture_address(partial(plot_flash, scuffing), "svg")
-        found.append(
-            Picture("Temperature along the path of contact", address, sentences("captions_rate.txt", "flash", scuffing))
-        )
-    return found
