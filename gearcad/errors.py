@@ -35,10 +35,15 @@ __all__ = [
     "require_number",
     "require_one_of",
     "require_whole",
+    "shortened",
     "shown",
+    "shown_path",
 ]
 
 Choice = TypeVar("Choice", bound=Enum)
+
+_LONGEST_PATH = 300
+"""Most characters of a path that a message has."""
 
 LONGEST_VALUE = 120
 """Most characters of a wrong value that a message repeats: it should stay one readable line."""
@@ -53,6 +58,20 @@ def shown(text: str, most: int = LONGEST_VALUE) -> str:
     """A name or a key of a user's as a message has it: printable, and cut short."""
     text = printable(text[: most + 1])  # cut before it grows, too
     return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
+def shortened(text: str, most: int) -> str:
+    """Return a text with at most `most` characters, printable: a longer one lacks its middle."""
+    if len(text) <= most and text.isprintable():
+        return text
+    text = printable(text if len(text) <= 2 * most else text[:most] + text[-most:])  # cut before it grows, too
+    end = most // 3
+    return text if len(text) <= most else f"{text[: most - end - 3]}...{text[-end:]}"
+
+
+def shown_path(path: object) -> str:
+    """Return a path as a message has it: printable, without its middle if it is very long."""
+    return shortened(str(path), _LONGEST_PATH)
 
 
 def format_number(value: object) -> str:

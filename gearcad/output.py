@@ -31,6 +31,7 @@ __all__ = [
     "json_text",
     "locked",
     "mark_folder",
+    "require_folder",
     "source_date",
     "staged_files",
     "unwritable",
@@ -101,6 +102,17 @@ def unwritable(folder: Path, error: OSError | UnicodeEncodeError) -> OutputError
         return OutputError("output", str(folder), f"cannot be written ({reason}); give another name, or set LC_ALL=C.UTF-8")
     reason = error.strerror or str(error)
     return OutputError("output", str(folder), f"cannot be written ({reason}); give a folder you may write to")
+
+
+def require_folder(folder: Path) -> None:
+    """Raise OutputError where files cannot be written into `folder`, or it cannot be made. Nothing is made for this."""
+    try:
+        there = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    except UNWRITABLE as error:
+        raise unwritable(folder, error) from error
+    for code, fits in ((errno.ENOTDIR, there.is_dir()), (errno.EACCES, os.access(there, os.W_OK | os.X_OK))):
+        if not fits:
+            raise unwritable(folder, OSError(code, os.strerror(code)))
 
 
 def mark_folder(folder: Path) -> None:

@@ -13,7 +13,7 @@ from typing import Any, NoReturn, TypeVar
 
 import click
 
-from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice, out_of_memory, printable, shown
+from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice, out_of_memory, printable, shortened, shown
 from gearcad.jobs import VERBS
 from gearcad.output import source_date
 
@@ -21,6 +21,9 @@ __all__ = ["Commands", "debug_option", "job_commands", "parse_choices", "require
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Choice = TypeVar("Choice", bound=Enum)
+
+_LONGEST_USAGE, _LONGEST_LINE = 300, 1000
+"""Most characters of a message on the use of a command, which has what was typed, and of any line of a message."""
 
 _LONGEST_FAULT = 500
 """Most characters that are shown of an error nobody foresaw."""
@@ -49,7 +52,7 @@ class Commands(click.Group):
             source_date()  # a date that is none is told before any work
             return super().invoke(ctx)
         except click.UsageError as error:
-            click.echo(f"Error: {printable(error.format_message())}", err=True)
+            click.echo(f"Error: {shortened(error.format_message(), _LONGEST_USAGE)}", err=True)
             ctx.exit(2)
         except (click.ClickException, click.Abort, click.exceptions.Exit):
             raise
@@ -63,7 +66,8 @@ class Commands(click.Group):
             if ctx.meta.get("gearcad.debug"):
                 raise
             if isinstance(error, GearcadError):
-                click.echo("".join(f"Error: {printable(line)}\n" for line in str(error).split("\n")), err=True, nl=False)
+                lines = (shortened(line, _LONGEST_LINE) for line in str(error).split("\n"))
+                click.echo("".join(f"Error: {line}\n" for line in lines), err=True, nl=False)
                 ctx.exit(1 if isinstance(error, SolverError) else 2)
             if isinstance(error, ModuleNotFoundError) and (error.name or "gearcad").partition(".")[0] != "gearcad":
                 click.echo(f"Error: {_missing(str(error.name))}", err=True)

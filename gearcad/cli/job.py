@@ -11,6 +11,7 @@ import click
 
 from gearcad.cli.progress import file_progress, job_progress
 from gearcad.notice import Notice, texts
+from gearcad.output import require_folder
 
 if TYPE_CHECKING:
     from gearcad.designs import Design
@@ -64,6 +65,7 @@ def perform_on(
 
     Warnings about the design that the result does not have itself follow on stderr.
     """
+    require_folder(folder_of(output, design.name))  # before a long job
     with job_progress(shown=not quiet, expected=None if quiet else job.expected(design)) as progress:
         result = job.run(design, progress)
     with file_progress(shown=not quiet and job.writes_long) as progress:

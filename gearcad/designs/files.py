@@ -10,7 +10,7 @@ from typing import Any
 from gearcad.designs.lines import explain_syntax, find_lines, nearest_line
 from gearcad.designs.named_files import find_named_files
 from gearcad.designs.suffixes import is_table_name
-from gearcad.errors import ParameterError, SpecError, format_number, printable, shown
+from gearcad.errors import ParameterError, SpecError, format_number, shown, shown_path
 from gearcad.output import file_bytes
 
 __all__ = ["Where", "read_tables", "require_sane_tables", "spec_text", "tables_of_text"]
@@ -31,7 +31,7 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
     """
     path, text = Path(path), spec_text(path)
     try:
-        return tables_of_text(text, printable(str(path)), path.parent)
+        return tables_of_text(text, shown_path(path), path.parent)
     except SpecError as error:
         if isinstance(error.__cause__, tomllib.TOMLDecodeError):
             _refuse_table(path)
@@ -40,7 +40,7 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
 
 def spec_text(path: Path | str) -> str:
     """The text of a spec. Raises SpecError."""
-    path, file = Path(path), printable(str(path))
+    path, file = Path(path), shown_path(path)
     try:
         return file_bytes(path).decode("utf-8-sig")
     except UnicodeEncodeError as error:
@@ -94,4 +94,15 @@ def require_sane_tables(content: Any, where: Where, key: str = "", depth: int = 
         for number, inner in enumerate(content):
             require_sane_tables(inner, where, f"{key}[{number}]" if isinstance(inner, Mapping) else key, depth + 1)
     elif isinstance(content, int) and abs(content) > _MOST_WHOLE:
+        if _is_text(key):
+            raise SpecError(f"{where(key)}: {ParameterError(key, content, 'must be a text, in quotation marks')}", key)
         raise SpecError(f"{where(key)}: {shown(key)}: must be a smaller number; this is {format_number(content)}", key)
+
+
+def _is_text(key: str) -> bool:
+    """Return whether a key of a spec takes texts only."""
+    from gearcad.designs.keys import FIELDS, field_of  # which import this module
+
+    table, _, own = key.partition(".")
+    field = field_of(table, own) if table in FIELDS else None
+    return own == "name" if field is None else field.text

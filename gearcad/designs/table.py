@@ -20,7 +20,7 @@ from gearcad.designs.reader import design_from_values
 from gearcad.designs.sheets import Record, Sheet, open_sheet
 from gearcad.designs.train_keys import general_key
 from gearcad.designs.trials import fault_alone, missing_faults, permitted_alone
-from gearcad.errors import ParameterError, SpecError, format_number, printable, shown
+from gearcad.errors import ParameterError, SpecError, format_number, printable, shown, shown_path
 
 __all__ = ["Row", "Table", "open_table"]
 
@@ -221,7 +221,7 @@ def _readable(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         hint = "give a design table, or make one with `gearcad new pairs`"
-        raise SpecError(f"{path}: cannot be read ({error.strerror or error}); {hint}") from error
+        raise SpecError(f"{shown_path(path)}: cannot be read ({error.strerror or error}); {hint}") from error
 
 
 def _filled(sheet: Sheet) -> Iterator[Record]:

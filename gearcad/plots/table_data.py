@@ -16,7 +16,7 @@ from gearcad import symbols
 from gearcad.designs.cells import plain_number, plain_text
 from gearcad.designs.columns import column_symbol
 from gearcad.designs.keys import KEYS
-from gearcad.errors import ParameterError, SpecError, format_number
+from gearcad.errors import ParameterError, SpecError, format_number, shown_path
 
 if TYPE_CHECKING:
     import numpy as np
@@ -92,10 +92,12 @@ def read_points(path: Path | str, x: str, y: str, *, colour: str | None = None, 
 def _opened(path: Path) -> Iterator[tuple[list[str], Iterator[list[str]]]]:
     """The headings and the other records of the file; whatever is wrong with it becomes a SpecError."""
     try:
+        if path.exists() and not path.is_file() and not path.is_dir():
+            raise SpecError(f"{shown_path(path)}: must be an ordinary file; {_WHAT}")
         with path.open(encoding="utf-8-sig", newline="") as file, opened_records(file, str(path)) as opened:
             yield opened
     except OSError as error:
-        raise SpecError(f"{path}: cannot be read ({error.strerror}); {_WHAT}") from error
+        raise SpecError(f"{shown_path(path)}: cannot be read ({error.strerror}); {_WHAT}") from error
     except UnicodeDecodeError as error:
         raise SpecError(f"{path}: is no table of results, for it is not CSV in UTF-8 ({error}); {_WHAT}") from error
 

@@ -10,10 +10,13 @@ import time
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from support.processes import PATIENCE, hear_interrupts, wait_until
 
 from gearcad import ParameterError, output
+from gearcad.cli import main
 from gearcad.designs.starters import starter_text
+from gearcad.jobs.mesh import Mesh
 from gearcad.output import MARK, json_text, locked, mark_folder, staged_files
 
 
@@ -143,6 +146,27 @@ def test_a_pipe_in_the_place_of_the_folder_is_refused(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(ParameterError, match=r"pipe': cannot be written \(Not a directory\)"), staged_files(tmp_path / "pipe"):
         raise AssertionError("no folder")
+
+
+@pytest.mark.parametrize("place", ["pipe", "pipe/below", "file/new/below"])
+def test_a_long_job_does_not_begin_where_nothing_can_be_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str
+) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "file").touch()
+    (tmp_path / "it.toml").write_text("[gear]\nteeth = 20\nnormal_module = 2\nface_width = 5\n")
+    monkeypatch.setattr(Mesh, "_run", None)
+    done = CliRunner().invoke(main, ["mesh", str(tmp_path / "it.toml"), "-o", str(tmp_path / place)])
+    said = f"Error: output = '{tmp_path / place}': cannot be written (Not a directory); give a folder you may write to\n"
+    assert (done.exit_code, done.stderr) == (2, said)
+
+
+@pytest.mark.parametrize("results", ["pipe", "/dev/zero"])
+def test_a_plot_of_what_is_no_file_is_refused(tmp_path: Path, results: str) -> None:
+    """It was read until memory ended, or waited for."""
+    os.mkfifo(tmp_path / "pipe")
+    done = CliRunner().invoke(main, ["plot", str(tmp_path / results), "--x", "a", "--y", "b"])
+    assert done.exit_code == 2 and "must be an ordinary file; give the results.csv" in done.stderr
 
 
 def test_large_files_are_not_read(tmp_path: Path) -> None:

@@ -87,6 +87,8 @@ def test_reading_a_hostile_table(folder: Path, text: str) -> None:
         ("material.contact_limit", [1.0, HUGE], "material.contact_limit: must be a smaller number; this is a number of 401"),
         ("check.torques", [HUGE], "check.torques: must be a smaller number; this is a number of 401 digits"),
         ("check.torques", [16**5000], "check.torques: must be a smaller number; this is a number of 6021 digits"),
+        ("pair.name", 10**19, "pair.name = 1e+19: must be a text, in quotation marks"),
+        ("drawing.title", 10**19, "drawing.title = 1e+19: must be a text, in quotation marks"),
         ("check.plane", [], 'check.plane = []: must be "strain" or "stress"'),
         ("check.convergence", {}, 'check.convergence = {}: must be "on" or "off"'),
         ("dynamics.tooth_errors", {}, 'dynamics.tooth_errors = {}: must be "on" or "off"'),
@@ -98,6 +100,34 @@ def test_what_no_gear_can_be(folder: Path, key: str, value: Any, said: str) -> N
     put(spec, tuple(key.split(".", 1)), value)
     result = run_politely("check", spec_file(folder, toml_text(spec)))
     assert result.exit_code == 2 and f": {said}" in result.stderr
+
+
+LONG = "x" * 5000
+LONGEST_LINE = 500
+"""Characters of an error line that hold a command, a wrong value and what is permitted."""
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [LONG],
+        ["new", LONG],
+        ["data", LONG],
+        ["data", f"{LONG}.toml"],
+        ["batch", f"{LONG}.csv"],
+        ["build", "spec.toml", f"--{LONG}"],
+        ["build", "spec.toml", "--chord-error", LONG],
+        ["build", "spec.toml", "--chord-error", "x " * 2500],
+        ["build", "spec.toml", "--format", LONG],
+        ["identify", "--teeth", LONG],
+        ["plot", f"{LONG}.csv", "--x", "a", "--y", "b"],
+        ["completion", LONG],
+    ],
+)
+def test_what_is_wrong_is_repeated_in_part_only(folder: Path, arguments: list[str]) -> None:
+    spec_file(folder, toml_text(FZG))
+    result = run_politely(*arguments)
+    assert result.exit_code == 2 and len(result.stderr) < LONGEST_LINE, len(result.stderr)
 
 
 @pytest.mark.parametrize(

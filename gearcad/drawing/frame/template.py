@@ -25,7 +25,7 @@ from gearcad.drawing.frame.sizes import (
 from gearcad.drawing.options import one_line
 from gearcad.drawing.shapes import Box
 from gearcad.drawing.words import Language, Words
-from gearcad.errors import ParameterError, SpecError, printable, shown
+from gearcad.errors import ParameterError, SpecError, printable, shown, shown_path
 from gearcad.output import file_bytes
 from gearcad.schema import require_fields, schema_of
 from gearcad.shipped import templates
@@ -105,7 +105,7 @@ def _read(file: str) -> dict[str, Any]:
     try:
         return tomllib.loads(file_bytes(Path(file)).decode("utf-8-sig"))
     except OSError as error:
-        raise SpecError(f"{printable(file)}: cannot be read ({error.strerror}); it is the template of [drawing]") from error
+        raise SpecError(f"{shown_path(file)}: cannot be read ({error.strerror}); it is the template of [drawing]") from error
     except (ValueError, RecursionError) as error:  # what is no TOML, no UTF-8, or no name of a file
         reason = " ".join(str(error).split()) or "too deep"
         raise SpecError(f"{printable(file)}: is not valid TOML: {shown(reason)}") from error
