@@ -6,6 +6,7 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.words import Words
 from gearcad.material import Material, MaterialGroup, grade_of
+from gearcad.schema import is_assumed
 
 __all__ = ["material_text", "treatment_text"]
 
@@ -19,16 +20,29 @@ _BRINELL = (
 )
 """Groups whose hardness ISO 6336-5 has in HBW, all others' in HV."""
 
+_IRON = _BRINELL[2:]
+"""Groups of cast iron: an unnamed material has their name."""
+
 _STEEL = Material().name
 """The name of a material that nobody named."""
 
 
 def material_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> str:
-    """As the sheet shall name it, else the name of the material, that which nobody gave in words; "" where nothing is known."""
+    """As the sheet shall name it, else the name of the material; "" where nothing is known.
+
+    Without a name it is what the group says, and steel is said to be assumed where there is no group either.
+    """
     if options.material is not None:
         return options.material
-    name = "" if drawn.material is None else drawn.material.name
-    return words["data.steel"] if name == _STEEL or grade_of(name) is not None else name
+    material = drawn.material
+    if material is None:
+        return ""
+    if not is_assumed(material.name) and material.name != _STEEL and grade_of(material.name) is None:
+        return material.name
+    if material.group in _IRON:
+        return words[f"data.group_{material.group.name.lower()}"]
+    unknown = material.group is None and is_assumed(material.name)
+    return f"{words['data.steel']} ({words['data.assumed']})" if unknown else words["data.steel"]
 
 
 def treatment_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> str:

@@ -85,8 +85,8 @@ class LoadFactorOptions:
     mesh_load_factor: Annotated[float, _FACTOR, Words("mesh load factor", "K_γ", "ISO 6336-1")] = AssumedNumber(1.0)
     helix_modification: Annotated[HelixModification, Words("helix modification", "B_1", "ISO 6336-1")] = HelixModification.NONE
     contact_pattern: Annotated[ContactPattern, Words("favourable contact pattern", "", "ISO 6336-1")] = ContactPattern.UNPROVEN
-    bearing_arrangement: Annotated[BearingArrangement, Words("place of the pinion", "K'", "ISO 6336-1, figure 13")] = (
-        BearingArrangement.BETWEEN_NEAR
+    bearing_arrangement: Annotated[BearingArrangement | None, Words("place of the pinion", "K'", "ISO 6336-1, figure 13")] = (
+        None
     )
     bearing_span: Annotated[float | None, LENGTH, Words("distance of the pinion's bearings", "l", "ISO 6336-1")] = None
     pinion_offset: Annotated[float, OFFSET, Words("pinion from between its bearings", "s", "ISO 6336-1")] = 0.0
@@ -104,6 +104,11 @@ class LoadFactorOptions:
     alpha_deviation_rule: Annotated[AlphaDeviation, Words("deviation that runs in", "y_α", "ISO 6336-1")] = (
         AlphaDeviation.LITERAL
     )
+
+    @property
+    def pinion_place(self) -> BearingArrangement:
+        """The `bearing_arrangement`, "a" where none is given."""
+        return self.bearing_arrangement or BearingArrangement.BETWEEN_NEAR
 
     def _check_load_factors(self) -> None:
         """Lists of both gears. Raises ParameterError."""

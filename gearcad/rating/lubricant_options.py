@@ -51,9 +51,14 @@ class LubricantOptions:
     oil_temperature: Annotated[float | None, Range("°C", -60.0, 250.0), Words("temperature of the oil", "θ_oil")] = None
     oil_density: Annotated[float | None, Range("kg/m³", 500.0, 2000.0), Words("density of the oil at 15 °C", "ρ_15")] = None
     oil_type: Annotated[OilType | None, Words("kind of oil", "X_L")] = None
-    lubrication: Annotated[Lubrication, Words("how oil comes to the teeth", "X_S")] = Lubrication.DIP
+    lubrication: Annotated[Lubrication | None, Words("how oil comes to the teeth", "X_S")] = None
     scuffing_stage: Annotated[int | None, Whole(1, 14), Words("FZG load stage of the oil, A/8.3/90", "", "ISO 14635-1")] = None
     relative_structure_factor: Annotated[float | None, Range("", 0.1, 3.0), Words("relative structure factor", "X_W")] = None
+
+    @property
+    def oil_supply(self) -> Lubrication:
+        """The `lubrication`, "dip" where none is given."""
+        return self.lubrication or Lubrication.DIP
 
     def _check_lubricant(self) -> None:
         """An oil of which something is given has a viscosity, which heat lowers. Raises ParameterError and GeometryError."""

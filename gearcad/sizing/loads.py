@@ -222,7 +222,7 @@ class ManyLoadFactors:
         bent: Numbers = 0.0
         if options.pinion_offset and options.bearing_span is not None and options.shaft_diameter is not None:
             shaft = options.shaft_diameter
-            place = arrangement_factor(options.bearing_arrangement, options.stiffening, d_1 / shaft)
+            place = arrangement_factor(options.pinion_place, options.stiffening, d_1 / shaft)
             bent = shaft_term(place, options.bearing_span, options.pinion_offset, d_1, shaft)
         compliance = helix_factors(options.helix_modification, options.standard).compliance
         return shaft_deflection(self._mean_load, self.nominal.width, d_1, shaft_term=bent, compliance=compliance)

@@ -118,7 +118,7 @@ def _temperature(task: SizeTask, nominal: NominalStresses, loads: ManyLoadFactor
         viscosity=oil.dynamic_viscosity,
         lubricant=oil.lubricant_factor,
         thermo_elastic=thermo_elastic_factor(task.materials),
-        lubrication=LUBRICATION[options.lubrication],
+        lubrication=LUBRICATION[options.oil_supply],
         mating=mating_factor(max(both(options.contacts_per_turn))),
         oil_temperature=oil.temperature,
     )

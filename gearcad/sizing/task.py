@@ -153,7 +153,7 @@ class SizeTask:
     def _check_shaft(self) -> None:
         """A pinion that is not in the middle between its bearings needs a shaft that is known."""
         options = self.rating
-        overhung = options.bearing_arrangement is BearingArrangement.OVERHUNG
+        overhung = options.pinion_place is BearingArrangement.OVERHUNG
         if overhung and not options.pinion_offset:
             raise ParameterError("pinion_offset", 0, 'must not be 0 mm for bearing_arrangement "c": how far it overhangs', "mm")
         for name in ("bearing_span", "shaft_diameter") if options.pinion_offset else ():

@@ -207,3 +207,16 @@ def test_loads_of_planetary_trains_are_marked(key: str) -> None:
         if key == "application_factor":
             comments = " ".join(MeshPairs(design=loaded).texts.values())
             assert ("K_A 1 (assumed)" in comments) is not given
+
+
+@pytest.mark.parametrize(("key", "value"), [("lubrication", "dip"), ("bearing_arrangement", "a")])
+def test_choices_that_nobody_made_are_told(key: str, value: str, tmp_path: Path) -> None:
+    """What a choice says of the machine is assumed where it is not made, and changes nothing else."""
+    shaft = "[rating]\nbearing_span = 100.0\npinion_offset = 10.0\nshaft_diameter = 50.0\nscuffing_stage = 12\n"
+    found = []
+    for given in ("", f"{key} = '{value}'\n"):
+        path = tmp_path / "it.toml"
+        path.write_text(spec([]).replace("[rating]\n", shaft + given), encoding="utf-8")
+        found.append(Rate(report=False).run(read(path)).to_dict())
+    assert [told(each["assumed"], "rating", key) for each in found] == [True, False]
+    assert found[0]["factors"] == found[1]["factors"] and found[0]["scuffing"]["flash"] == found[1]["scuffing"]["flash"]

@@ -257,5 +257,12 @@ def test_a_sheet_names_no_grade_of_iso_6336_as_a_material() -> None:
     gear = Gear(teeth=20, normal_module=2, face_width=20)
     drawn = DrawnGear(role="gear", gear=gear, material=Material(name="Eh MQ"))
     assert material_text(drawn, DrawingOptions(), words) == words["data.steel"]
+    for material, text in (
+        (Material(name="steel"), "steel"),
+        (Material(), "steel (assumed)"),
+        (Material(group="V"), "steel"),
+        (Material(name="GG MQ", hardness=200.0), "grey cast iron"),
+    ):
+        assert material_text(replace(drawn, material=material), DrawingOptions(), words) == text
     named = replace(drawn, material=Material(name="16MnCr5", group="Eh", quality="MQ"))
     assert material_text(named, DrawingOptions(), words) == "16MnCr5"

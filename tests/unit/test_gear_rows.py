@@ -229,7 +229,7 @@ def test_materials_are_named_in_every_language(language):
 
 def test_names_that_nobody_gave_are_words_and_small_modules_are_said_in_them():
     rows = {row.key: row.text for row in gear_rows(replace(DRAWN[1], material=Material()), WORDS[Language.SWEDISH])}
-    assert (rows["mate"], rows["material"]) == ("17 / Pinjong", "stål")
+    assert (rows["mate"], rows["material"]) == ("17 / Pinjong", "stål (antagen)")
     small = DrawnGear(role="gear", gear=Gear(teeth=40, normal_module=0.3, face_width=5))
     said = {row.key: row.text for row in gear_rows(small, WORDS[Language.SWEDISH])}
     assert said["single_pitch"] == "— (normalmodul under 0,5 mm)"

@@ -19,7 +19,7 @@ def term_of(mesh: LoadedMesh) -> float:
     Raises ParameterError where the pinion is not there but its shaft is not given.
     """
     options, diameter = mesh.options, mesh.pair.pinion.reference_diameter
-    place = options.bearing_arrangement
+    place = options.pinion_place
     if not options.pinion_offset:
         if place is BearingArrangement.OVERHUNG:
             permitted = f'must not be 0 mm for bearing_arrangement "{place.value}": how far the pinion overhangs'
@@ -37,6 +37,8 @@ def term_of(mesh: LoadedMesh) -> float:
 def assumed_shaft(mesh: LoadedMesh) -> tuple[str, ...]:
     """What stands for a shaft that is not given."""
     options = mesh.options
+    if options.pinion_offset and options.bearing_arrangement is None:
+        return (f"bearing_arrangement = {options.pinion_place.value}: torque comes from the side of the nearer bearing",)
     if options.pinion_offset or options.bearing_span is not None:
         return ()
     return ("K_Hbeta: the pinion is in the middle between its bearings (s = 0), so f_sh is of the pinion alone",)
@@ -48,7 +50,7 @@ def shaft_notices(mesh: LoadedMesh) -> Iterator[Notice]:
     span, shaft, offset = options.bearing_span, options.shaft_diameter, abs(options.pinion_offset)
     if span is None or shaft is None or not offset:
         return
-    limit = offset_limit(options.bearing_arrangement)
+    limit = offset_limit(options.pinion_place)
     if offset > limit * span:
         text = f"f_sh is stated for s/l up to {limit:g}, here {offset / span:.3g}"
         yield Notice("shaft-offset", f"K_Hbeta: {text}")

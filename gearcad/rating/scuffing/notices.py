@@ -63,7 +63,7 @@ def uncertain(pair: GearPair, options: RatingOptions, integral: IntegralTemperat
         yield "X_W"
     if options.oil_type not in (None, OilType.MINERAL):
         yield "X_L"
-    if options.lubrication is not Lubrication.DIP:
+    if options.oil_supply is not Lubrication.DIP:
         yield "X_S"
     if max(both(options.contacts_per_turn)) != 1:
         yield "X_mp"

@@ -66,7 +66,8 @@ def scuffing(
     is none: `Scuffing.reason` says why. Raises ParameterError for an oil that is not known well enough.
     """
     oil = Oil.of(options)
-    assumed = [*oil.assumed, *_assumed(pair, materials)]
+    supply = () if options.lubrication is not None else (f"lubrication = {options.oil_supply.value}",)
+    assumed = [*oil.assumed, *supply, *_assumed(pair, materials)]
     if reason := _not_covered(pair, load):
         return Scuffing(oil=oil, assumed=tuple(assumed), reason=reason)
     integral, flash = _temperatures(SlidingMesh.of(pair, driver), pair, materials, load, load_factors, options, oil)
@@ -100,7 +101,7 @@ def _temperatures(
     relief = _reliefs(pair, mesh, outer, stiffness)
     roughness = sum(gear.flank_roughness or USUAL_ROUGHNESS for gear in pair.gears) / 2 / RZ_OVER_RA
     turning = math.pi * abs(load.speed) / 60_000
-    thermo_elastic, lubrication = thermo_elastic_factor(materials), LUBRICATION[options.lubrication]
+    thermo_elastic, lubrication = thermo_elastic_factor(materials), LUBRICATION[options.oil_supply]
     mating = mating_factor(max(both(options.contacts_per_turn)))
     integral = IntegralTemperature(
         mesh=mesh,
