@@ -9,6 +9,7 @@ from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.contact.shared.loaded import Cycle
+from gearcad.contact.shared.relief_start import onsets
 from gearcad.geometry import Gear, GearPair
 from gearcad.notice import Notice
 from gearcad.rating.rim import RING_RIM_LIMIT
@@ -27,7 +28,7 @@ def common_notices(task: CheckTask, cycle: Cycle, summary: Summary) -> Iterator[
     yield from _few_teeth(task, cycle)
     yield from _bodies(task, cycle)
     yield from rim_notices(task, summary)
-    yield from _corners(cycle, summary)
+    yield from _corners(task, cycle, summary)
     yield from relief_start(task.pair)
 
 
@@ -116,12 +117,14 @@ def _rim_of(ring: Gear, radius: float) -> Iterator[Notice]:
         yield Notice("no-rim", text)
 
 
-def _corners(cycle: Cycle, summary: Summary) -> Iterator[Notice]:
+def _corners(task: CheckTask, cycle: Cycle, summary: Summary) -> Iterator[Notice]:
     if summary.corner_positions:
+        relieved = any(gear.modification.tip_relief for gear in task.pair.gears)
+        advice = "the tip relief given does not prevent it under this load" if relieved else "tip relief would avoid it"
         yield Notice(
             "corner-contact",
             f"a tip corner touches at {summary.corner_positions} of {len(cycle.positions)} positions: its pressure depends on "
-            "the mesh and is left out; tip relief would avoid it",
+            f"the mesh and is left out; {advice}",
         )
 
 
@@ -132,7 +135,7 @@ def relief_start(pair: GearPair) -> Iterator[Notice]:
     roles = []
     for role, flank in line.flanks.items():
         first, last = sorted(end.pick(role) for end in ends)
-        if any(first < kink < last for kink in flank.kinks):
+        if any(first < onset.roll < last for onset in onsets(flank)):
             roles.append(role.value)
     if roles:
         yield Notice(

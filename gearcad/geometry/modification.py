@@ -26,6 +26,8 @@ from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 
 __all__ = [
+    "ASSUMED_TRANSITION",
+    "LEAST_TRANSITION",
     "FlankForm",
     "FlankModification",
     "ReliefShape",
@@ -46,9 +48,12 @@ _RELIEF = Range("µm", 0, 1000)
 _LENGTH = Range("mm", 0, None)
 
 _LEAST_LENGTH = 1e-3
-"""Least length (mm) of a relief, and of a transition that is given and not 0."""
+"""Least length (mm) of a relief."""
 
-_ASSUMED_TRANSITION = 0.1
+LEAST_TRANSITION = 1e-3
+"""Least transition (mm of roll) that can be given, but for 0."""
+
+ASSUMED_TRANSITION = 0.1
 """Transition (normal modules of roll) from flank to linear relief where none is given: an assumption, not measured."""
 
 _LEAST_LAND = 1e-3
@@ -57,7 +62,7 @@ _LEAST_LAND = 1e-3
 _ONE = 3e-7
 """Breaks closer than this (mm) are one: a solid cannot tell them apart, and no depth changes by what would be seen."""
 
-_NOTHING = 1e-300
+_NOTHING = 1e-200
 """Share of a length in place of 0 that is divided by."""
 
 _ROUNDING = 1e-9
@@ -160,8 +165,8 @@ class FlankModification:
             if given and getattr(self, f"{name}_shape") is ReliefShape.PARABOLIC:
                 permitted = f"must be left out: a parabolic {name} starts without a kink"
                 raise GeometryError(f"{name}_transition", given, permitted, "mm")
-            if given and given < _LEAST_LENGTH:
-                raise GeometryError(f"{name}_transition", given, f"must be 0 or at least {_LEAST_LENGTH} mm", "mm")
+            if given and given < LEAST_TRANSITION:
+                raise GeometryError(f"{name}_transition", given, f"must be 0 or at least {LEAST_TRANSITION} mm", "mm")
 
     @property
     def present(self) -> bool:
@@ -265,7 +270,7 @@ class FlankForm:
                 continue
             transition, source = getattr(of, f"{name}_transition"), TransitionSource.GIVEN
             if transition is None:
-                transition, source = _ASSUMED_TRANSITION * self.module, TransitionSource.ASSUMED
+                transition, source = ASSUMED_TRANSITION * self.module, TransitionSource.ASSUMED
                 if transition > (longest := float(longest_transition(length, roll))):
                     transition, source = longest, TransitionSource.SHORTENED
             found[name] = ReliefTransition(self._starts[name], transition, amount / 1000 / length, source)

@@ -21,6 +21,7 @@ from gearcad.contact.plane.subsurface import greatest_von_mises, strip_stresses
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.complementarity import complementary
 from gearcad.contact.shared.line_of_action import LineOfAction, line_of_action, rigid_approach
+from gearcad.contact.shared.relief_start import onsets, rounded_kink_pressure
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating import LineContact, reduced_modulus
@@ -368,9 +369,11 @@ def test_tip_relief_is_added_to_the_gap() -> None:
 
     Of what has been taken back 20 µm, the point that now lies at a place comes from 20 µm of roll nearer to the root.
     """
-    line = line_of_action(modified(RELIEF))
+    line = line_of_action(modified(replace(RELIEF, tip_relief_transition=0.0)))
     pinion, wheel = line.flanks
-    assert pinion.even == pytest.approx((pinion.first, pinion.last - 1.2))
+    assert pinion.even == (pinion.first, pinion.last)
+    parabolic = line_of_action(modified(replace(RELIEF, tip_relief_shape=ReliefShape.PARABOLIC)))
+    assert parabolic.flanks.pinion.even == pytest.approx((pinion.first, pinion.last - 1.2))
     lengths = np.array([pinion.last - 2.0, pinion.last - 1.2, pinion.last - 0.6, pinion.last])
     assert pinion.form.depth(lengths, 5.0) == pytest.approx([0, 0, 0.010, 0.020], abs=1e-12)
     slope = 0.020 / 1.2
@@ -463,10 +466,34 @@ SMALL = BodyModel(teeth=3)
 def test_modified_flanks_press_as_cylinders_of_their_own_curvature(modification: FlankModification) -> None:
     """Crowning makes the flanks rounder by per cents; Hertz's pressure at the nearest place is still found within 1 %."""
     cycle = PlaneCycle.run(plane_pair(modified(modification), STEEL, body=SMALL), 30.0, 12)
-    contacts = [contact for _, contact in cycle.interior_contacts]
+    contacts = [contact for _, contact in cycle.interior_contacts if contact.two_cylinders]
     assert len(contacts) >= 6
     for contact in contacts:
         assert contact.peak_pressure == pytest.approx(contact.hertz_pressure, rel=0.01)
+
+
+def test_cells_at_the_start_of_a_relief_are_narrow_and_tell_its_pressure() -> None:
+    """With the kink in the middle of the contact the pressure is that of the closed form under the load that is carried."""
+    relief = FlankModification(tip_relief=18.0, tip_relief_length=1.5, tip_relief_transition=0.1)
+    model = plane_pair(modified(relief), STEEL, body=SMALL)
+    (onset,) = onsets(model.line.flanks.pinion)
+    radius = onset.roll * (model.line.whole - onset.roll) / model.line.whole
+    stretch = model.line.flanks.pinion.base_radius / onset.roll
+    lengths = onset.roll + np.linspace(0, radius * onset.slope / 2 * stretch, 5)
+    found = [
+        contact
+        for angle in model.roll_angle(lengths).tolist()
+        for contact in PlaneCycle(model, 30.0).contacts_at(angle)
+        if contact.start_pressures.pinion > 0
+    ]
+    worst = max(found, key=lambda contact: contact.start_pressures.pinion)
+    assert worst.pair.cells.width <= onset.length / 8 and not worst.interior
+    closed = rounded_kink_pressure(worst.force, radius, onset.slope, onset.length, model.modulus)
+    assert worst.start_pressures.pinion == pytest.approx(closed, rel=0.01)
+    assert all(math.isnan(contact.start_pressures.wheel) for contact in found)
+    kink = replace(relief, tip_relief_transition=0.0)
+    sharp = PlaneCycle(plane_pair(modified(kink), STEEL, body=SMALL), 30.0).contacts_at(float(model.roll_angle(lengths)[2]))
+    assert all(math.isnan(contact.start_pressures.pinion) for contact in sharp)
 
 
 def test_flanks_too_hollow_to_touch_inside_have_no_reduced_radius() -> None:

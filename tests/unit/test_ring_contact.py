@@ -110,7 +110,7 @@ def test_flanks_face_each_other_between_their_ends() -> None:
 
 
 def test_tip_relief_of_a_ring_opens_the_gap_at_its_tip() -> None:
-    relief = FlankModification(tip_relief=20.0, tip_relief_length=1.5)
+    relief = FlankModification(tip_relief=20.0, tip_relief_length=1.5, tip_relief_transition=0.0)
     line = line_of_action(replace(PAIR, wheel=replace(RING, modification=relief)))
     first = PAIR.path_of_contact.A
     for beyond, depth in ((0.0, 0.020), (0.75, 0.010), (1.5, 0.0), (4.0, 0.0)):

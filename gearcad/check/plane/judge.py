@@ -36,9 +36,10 @@ def compare_plane(
 def _hertz(cycle: PlaneCycle, summary: PlaneSummary) -> Iterator[Comparison]:
     """Peak pressure and half width against two cylinders under the load carried, where they are furthest apart.
 
-    Contacts too wide for two cylinders are left out; where there are no others the comparison is for information.
+    Contacts too wide for two cylinders, or beside a parabolic relief, are left out; where there are no others the
+    comparison is for information.
     """
-    every = list(cycle.interior_contacts)
+    every = [found for found in cycle.interior_contacts if found[1].two_cylinders]
     narrow = [found for found in every if not conformal(found[1])]
     contacts, compared = (every, beside) if every and not narrow else (narrow, agrees)
     source = "Hertz: two cylinders of the flanks' curvature under the load that this pair of teeth carries"
@@ -47,7 +48,8 @@ def _hertz(cycle: PlaneCycle, summary: PlaneSummary) -> Iterator[Comparison]:
         ("half width of contact", attrgetter("half_width"), attrgetter("hertz_half_width"), _HALF_WIDTH, "mm"),
     ):
         if not contacts:
-            yield compared(words, None, None, tolerance, unit, source, reason=summary.missing["contact_pressure"])
+            reason = summary.missing.get("contact_pressure", "all contacts are on parabolic reliefs, whose curvature changes")
+            yield compared(words, None, None, tolerance, unit, source, reason=reason)
             continue
         found = [(farness(computed(contact), reference(contact)), position, contact) for position, contact in contacts]
         _, position, contact = max(found, key=itemgetter(0))

@@ -50,7 +50,7 @@ class PlaneCheck(CheckResult):
     @property
     def hertz_deviation(self) -> float | None:
         """The greatest deviation of a peak pressure from Hertz's; None if all contacts are near the ends of the flanks."""
-        contacts = [contact for _, contact in self.cycle.interior_contacts]
+        contacts = [contact for _, contact in self.cycle.interior_contacts if contact.two_cylinders]
         return max((abs(contact.peak_pressure / contact.hertz_pressure - 1) for contact in contacts), default=None)
 
     def _as_method(self, mounting: Mounting) -> StiffnessMethod:

@@ -51,7 +51,7 @@ def _missing(cycle: PlaneCycle, inside: bool, below: bool) -> dict[str, str]:
     if not inside:
         reason = (
             f"at none of {len(cycle.every)} positions is a contact with a tenth of the load more than {INTERIOR:g} half widths "
-            "away from the ends of both flanks and their reliefs"
+            "away from the ends of both flanks and the starts of their linear reliefs"
         )
         return dict.fromkeys(_PRESSURES, reason)
     return {} if below else dict.fromkeys(_PRESSURES[1:3], "no point of the elements lies near enough to the contact")
@@ -63,7 +63,8 @@ def _at_pitch(contact: PlanePairContact | None) -> AtPitchPoint:
         return AtPitchPoint(0.0, reason="the pair of teeth at the pitch point does not touch")
     if not contact.interior:
         return AtPitchPoint(
-            contact.share, reason=f"the pitch point lies within {INTERIOR:g} half widths of an end of a flank, or of a relief"
+            contact.share,
+            reason=f"the pitch point lies within {INTERIOR:g} half widths of an end of a flank, or of the start of a relief",
         )
     if math.isnan(contact.half_width):
         return AtPitchPoint(contact.share, reason="the pressures at the pitch point have no width to tell")

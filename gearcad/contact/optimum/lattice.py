@@ -55,6 +55,11 @@ class Remembered:
         """Places that were worked out."""
         return len(self._known)
 
+    @property
+    def places(self) -> Wholes:
+        """Those places (v, n)."""
+        return np.array([np.frombuffer(key, np.int64) for key in self._known])
+
     def __call__(self, places: Wholes) -> Floats:
         keys = [place.tobytes() for place in places]
         new = {key: row for row, key in enumerate(keys) if key not in self._known}

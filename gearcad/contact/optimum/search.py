@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.optimum.lattice import Goal, Lattice, Remembered
 from gearcad.contact.optimum.variants import Condition, Outcomes, Variants
-from gearcad.contact.solid.contact_lines import gaps
-from gearcad.contact.solid.line_contact import solve_lines
-from gearcad.geometry import GearPair
 
 __all__ = ["Found", "Search", "conditions"]
 
@@ -97,7 +94,8 @@ class Found:
 class Search:
     """Variants between `low` and `high` (6,) under a torque (N·m).
 
-    `plain` is what becomes of the flanks without reliefs and crowning, their helix angle made up for a misalignment.
+    `plain` is what becomes of the flanks without reliefs and crowning, their helix angle made up for a misalignment;
+    `surveyed` are places that were solved roughly before.
     """
 
     variants: Variants
@@ -106,6 +104,7 @@ class Search:
     high: Floats
     start: Floats
     plain: Outcomes
+    surveyed: Remembered | None = field(default=None, repr=False)
 
     @property
     def deflection(self) -> float:
@@ -128,13 +127,24 @@ class Search:
             found = self._settled(bound, places)
             if found.bounded:
                 break
-        if not found.edges_free and found.bounded:
-            found = self._worth_its_price(found, places)
-        return replace(found, tried=self._rough.count + self._full.count)
+        return replace(self._worth_its_price(found, places), tried=self._rough.count + self._full.count)
+
+    def closer(self, angles: Floats) -> Search:
+        """Return the search at further positions, at roll angles (deg); places that its survey solved are kept."""
+        variants = replace(self.variants, more=(*self.variants.more, *angles.tolist()))
+        return replace(self, variants=variants, surveyed=self._rough)
+
+    def again(self, found: Found, bound: float) -> Found:
+        """Return the proposal for another bound (MPa), from `found` and the best places of the survey on."""
+        places = self._rough.places
+        settled = self._worth_its_price(self._settled(bound, places, first=found), places)
+        return replace(settled, tried=found.tried + self._full.count)
 
     def _worth_its_price(self, found: Found, places: Wholes) -> Found:
         """The proposal that leaves the edges of tips free, if it is worth that; else the one with contact there."""
-        strict = self._settled(found.bound, places, edges=False)
+        if found.edges_free or not found.bounded:
+            return found
+        strict = self._settled(found.bound, places, edges=False, first=found)
         worth = strict.peak_to_peak <= self.dearest(found.peak_to_peak)
         return strict if strict.bounded and strict.edges_free and worth else found
 
@@ -144,19 +154,26 @@ class Search:
 
     def scores(self, found: Outcomes, bound: float, *, edges: bool) -> Floats:
         """What is to be least (v,): peak to peak of the transmission error in µm, and what broken bounds cost."""
-        over = np.maximum(found.pressures / bound - 1, 0.0)
-        cost = _OVER_PRESSURE * over + _ON_EDGE[0 if edges else 1] * found.edge_shares
-        return np.nan_to_num(found.peak_to_peak + self.deflection * cost, nan=_NEVER, posinf=_NEVER)
+        on_edge = self.deflection * _ON_EDGE[0 if edges else 1] * found.edge_shares
+        over = self.price(found.pressures, bound)
+        return np.nan_to_num(found.peak_to_peak + over + on_edge, nan=_NEVER, posinf=_NEVER)
+
+    def price(self, pressures: Any, bound: float) -> Any:
+        """Return what (µm) pressures (MPa) above the bound cost."""
+        return self.deflection * _OVER_PRESSURE * np.maximum(pressures / bound - 1, 0.0)
 
     def _survey(self, bound: float) -> Wholes:
         """Places (v, 6) all over, the most of them where variants are good."""
         return self._lattice.survey(self._goal(self._rough, bound, edges=True), _GENERATIONS, _nearest(self.start))
 
-    def _settled(self, bound: float, places: Wholes, *, edges: bool = True) -> Found:
-        """The proposal to which the best of the places lead."""
+    def _settled(self, bound: float, places: Wholes, *, edges: bool = True, first: Found | None = None) -> Found:
+        """The proposal to which the best of the places lead, and that which was found `first`."""
         lattice, goal = self._lattice, self._goal(self._full, bound, edges=edges)
         rough = self._goal(self._rough, bound, edges=edges)
-        ends = lattice.descend(goal, lattice.best_apart(places, rough.at(places), _STARTS))
+        starts = lattice.best_apart(places, rough.at(places), _STARTS)
+        if first is not None:
+            starts = np.unique(np.vstack([_nearest(first.amounts), starts]), axis=0)
+        ends = lattice.descend(goal, starts)
         values = goal.at(ends)
         while True:
             best = ends[values.argmin()]
@@ -197,16 +214,11 @@ class Search:
 
     @cached_property
     def _rough(self) -> Remembered:
+        if self.surveyed is not None:
+            return self.surveyed
         full, condition = self.variants, Condition(self.torque)
         variants = replace(full, count=full.count // _ROUGH, at_ends=full.at_ends // _ROUGH)
         return Remembered(lambda places: variants.outcomes(_amounts(places), condition).figures)
-
-    def peak_to_peak(self, pair: GearPair, condition: Condition) -> float:
-        """Of the transmission error (µm) of a pair with any modifications, the contact solved in full. Raises SolverError."""
-        variants, mounting = self.variants, condition.mounted(self.variants.roomy.mounting)
-        force, helix = variants.force(condition.torque), variants.roomy.helix
-        solved = [solve_lines(given, gaps(given.lines, pair, mounting, helix), force).approach for given in variants.positions]
-        return float(np.ptp(solved)) / math.cos(helix) * 1000
 
 
 def _nearest(amounts: Floats) -> Wholes:

@@ -17,10 +17,12 @@ from gearcad.contact.optimum.side_by_side import press
 from gearcad.contact.shared.line_of_action import TransverseFlank
 from gearcad.contact.shared.loaded import INTERIOR
 from gearcad.contact.shared.loaded_left import gears_loaded_left
-from gearcad.contact.solid.contact_lines import along_tangent, line_gap, places_beside
+from gearcad.contact.shared.relief_start import Onset, onsets, start_distance
+from gearcad.contact.solid.contact_lines import line_gap, places_beside
 from gearcad.contact.solid.line_contact import Responses, half_widths, plain_widths
 from gearcad.contact.solid.pair import SolidPair
 from gearcad.geometry import FlankForm, GearPair, ReliefShape
+from gearcad.geometry.modification import ASSUMED_TRANSITION, LEAST_TRANSITION, longest_transition
 from gearcad.mounting import Mounting
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.hertz import peak_pressure
@@ -109,11 +111,25 @@ class Outcomes:
 
 def with_amounts(pair: GearPair, amounts: Floats, shape: ReliefShape) -> GearPair:
     """The pair with the amounts (6,) of a variant. Raises GeometryError where they do not fit the gears."""
-    pinion, wheel = (
-        replace(gear, modification=replace(gear.modification, **_given(amounts, role), tip_relief_shape=shape))
-        for role, gear in pair.gears.items()
-    )
-    return replace(pair, pinion=pinion, wheel=wheel)
+    gears = []
+    for role, gear in pair.gears.items():
+        given = _given(amounts, role)
+        form, length = gear.flank_form, given.get("tip_relief_length", 0.0)
+        transition = fitting_transition(form, shape, length)
+        changed = replace(gear.modification, **given, tip_relief_shape=shape, tip_relief_transition=transition)
+        gears.append(replace(gear, modification=changed))
+    return replace(pair, pinion=gears[0], wheel=gears[1])
+
+
+def fitting_transition(form: FlankForm, shape: ReliefShape, length: float) -> float | None:
+    """Return the transition (mm of roll) that was given for a tip relief, or as much of it as fits one of that length."""
+    given = form.modification.tip_relief_transition
+    if given is None or shape is ReliefShape.PARABOLIC:
+        return None
+    if not length:
+        return given
+    longest = float(longest_transition(length, form.last - form.first))
+    return min(given, longest) if given and longest > LEAST_TRANSITION else 0.0
 
 
 def _given(amounts: Floats, role: Role) -> dict[str, Any]:
@@ -139,7 +155,7 @@ class _Flanks:
         form = self.form
         along = np.clip(heights, 0.0, form.width) / form.width
         left = form.last - np.clip(lengths, form.first, form.last)
-        amount = self.relief * self.shape.grown(1 - left / self.length)
+        amount = self.relief * self.shape.grown(1 - left / self.length, self.transition / self.length)
         amount = amount + (self.crowning * (2 * along - 1) ** 2 - self.helix * (along - 0.5) * form.hand)
         result: Floats = amount / 1000
         return result + form.depth(lengths, heights) if form.modification.present else result
@@ -148,20 +164,36 @@ class _Flanks:
         """How far (v, n) the flank lies behind these places (mm): what stands there comes from further down."""
         return self.depth(lengths - self.depth(lengths, heights), heights)
 
-    def kink_distance(self, lengths: Floats) -> Floats:
-        """Return distances (v, n) in mm along the tangent from roll lengths (n,) to the nearest start of a linear relief."""
-        onset = self.form.last - self.length
-        varied = (self.relief > 0) & (onset > self.form.first) & (self.shape is ReliefShape.LINEAR)
-        nearest = np.where(varied, along_tangent(self.form.base_radius, onset, lengths), math.inf)
-        for kink in TransverseFlank(self.form, 0.0).kinks:
-            nearest = np.minimum(nearest, along_tangent(self.form.base_radius, kink, lengths))
+    @property
+    def transition(self) -> Floats:
+        """Return the transitions (v, 1) in mm of roll of the linear reliefs, as `FlankForm.transitions`; 0 of others."""
+        form = self.form
+        wanted = form.modification.tip_relief_transition
+        longest = longest_transition(self.length, form.last - form.first)
+        fitting = np.minimum(ASSUMED_TRANSITION * form.module if wanted is None else wanted, longest)
+        return np.where((self.relief > 0) & (longest > 0), fitting, 0.0) * (self.shape is ReliefShape.LINEAR)
+
+    def start_distance(self, lengths: Floats, curvature: Floats) -> Floats:
+        """Return distances (v, n) in mm from contacts at roll lengths (n,) to the nearest transition, as `start_distance`.
+
+        `curvature` (n,) in 1/mm is that of the exact flanks.
+        """
+        base, starts = self.form.base_radius, self.form.last - self.length
+        nearest = np.full((len(self.relief), len(lengths)), math.inf)
+        if self.shape is ReliefShape.LINEAR:
+            stretch = base / np.maximum(starts, _SHORT)
+            own: Onset[Floats] = Onset(starts, self.transition / stretch, self.relief / 1000 / self.length * stretch, 1)
+            varied = (self.relief > 0) & (starts > self.form.first)
+            nearest = np.where(varied, start_distance(base, own, lengths, 1 / curvature), math.inf)
+        for onset in onsets(TransverseFlank(self.form, 0.0)):
+            nearest = np.minimum(nearest, start_distance(base, onset, lengths, 1 / curvature))
         return nearest
 
 
 @dataclass(frozen=True)
 class Variants:
     """Variants of the flanks of a solid pair, at `count` positions over a base pitch, and as many as `at_ends` more where a tip
-    comes into contact, and where one leaves it; what varies replaces the pair's own.
+    comes into contact, and where one leaves it, and at `more` roll angles (deg); what varies replaces the pair's own.
 
     `roomy` is a model of the same bodies with modifications as large as any variant's, so that its cells suffice for all.
     """
@@ -171,6 +203,7 @@ class Variants:
     count: int
     torque: float
     at_ends: int = 0
+    more: tuple[float, ...] = ()
 
     @cached_property
     def plain(self) -> GearPair:
@@ -190,7 +223,8 @@ class Variants:
         outside = np.linspace(*_ENDS, self.at_ends) * pitch
         ends = np.concatenate([pair.path_of_contact.A - outside, pair.path_of_contact.E + outside])
         along = (ends - pair.path_of_contact.C + pitch / 2) % pitch - pitch / 2
-        return np.sort(np.concatenate([self.roomy.roll_angles(self.count), np.degrees(along / self.roomy.base_radius)]))
+        angles = (self.roomy.roll_angles(self.count), np.degrees(along / self.roomy.base_radius), self.more)
+        return np.unique(np.concatenate(angles))
 
     @cached_property
     def _matrices(self) -> tuple[Floats, ...]:
@@ -260,8 +294,8 @@ class Variants:
         )
         # Beside edges the cells' own half widths decide, the lesser ones: between few positions it counts rather too much.
         inside = np.minimum(to_edge, self.roomy.width / 2 - np.abs(across)) > INTERIOR * widths
-        reach = INTERIOR * plain_widths(widths, radii, curvature, self.roomy.helix)
+        reach = INTERIOR * plain_widths(given, curvature, self.roomy.helix, forces)
         for role, flanks in self._flanks(amounts).items():
             lengths = np.concatenate([line.places.pick(role)[0] for line in given.lines])
-            inside = inside & (flanks.kink_distance(lengths) > reach)
+            inside = inside & (flanks.start_distance(lengths, curvature) > reach)
         return np.where(inside, pressures, 0.0).max(axis=1), np.where(on_edge, forces, 0.0).sum(axis=1) / force

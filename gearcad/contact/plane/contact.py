@@ -47,6 +47,12 @@ class ContactPair:
     added_curvature: float = 0.0
 
     @property
+    def plain_radius(self) -> float:
+        """Reduced radius of curvature (mm) of the two involutes."""
+        pinion, wheel = self.lengths
+        return pinion * wheel / (pinion + wheel)
+
+    @property
     def radius(self) -> float:
         """Reduced radius of curvature (mm); infinite where one flank is hollower than the other is round."""
         pinion, wheel = self.lengths

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
 
 from gearcad.contact.plane.contact import ContactCells, ContactPair
 from gearcad.contact.shared.line_of_action import LineOfAction, facing_gap, facing_pairs, overlap
+from gearcad.contact.shared.relief_start import onsets, start_distance
+from gearcad.per_gear import PerGear
 
 __all__ = ["contact_pairs", "touching_teeth"]
 
 
 _FEWEST = 6
 """Cells of a pair of flanks, however narrow its window."""
+
+_OF_TRANSITION, _MOST = 8, 800
+"""Cells over the transition of a linear relief that lies in the window, and the most cells of a pair of flanks."""
 
 _BEND = 0.01
 """Distance (mm per mm of normal module) over which the curvature of a gap is taken."""
@@ -61,7 +67,7 @@ def _contact_pair(
     radius = touching.pinion * touching.wheel / line.whole
     reach = span(tooth, radius)
     first, last = max(low, middle - reach), min(high, middle + reach)
-    finest = max(2 * reach / cells, least_width)
+    finest = max(min(2 * reach / cells, _of_transition(line, touching, radius, reach)), 2 * reach / _MOST, least_width)
     count = max(round((last - first) / finest), _FEWEST)
     width = (last - first) / count
     place = np.linspace(first + width / 2, last - width / 2, count)
@@ -70,6 +76,16 @@ def _contact_pair(
     gap = gap + width**2 / 24 / radius
     added = 0.0 if line.exact else _curvature(line, tooth, pinion_length, middle) - 1 / radius
     return ContactPair(tooth, touching, ContactCells(place, width, facing, gap), added)
+
+
+def _of_transition(line: LineOfAction, touching: PerGear[float], radius: float, reach: float) -> float:
+    """Return the width (mm) of cells that the transitions within `reach` of a contact ask for; infinite without one."""
+    finest = math.inf
+    for flank, length in zip(line.flanks, touching, strict=True):
+        for onset in onsets(flank):
+            if onset.length and start_distance(flank.base_radius, onset, np.array(length), radius) < reach:
+                finest = min(finest, onset.length / _OF_TRANSITION)
+    return finest
 
 
 def _curvature(line: LineOfAction, tooth: int, pinion_length: float, place: float) -> float:

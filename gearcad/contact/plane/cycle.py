@@ -13,20 +13,27 @@ from gearcad.contact.plane.contact import ContactPair, ContactSolution
 from gearcad.contact.plane.pair import PlanePair
 from gearcad.contact.plane.root import ToothLoad, seen_from
 from gearcad.contact.shared.engaged import TOOTH_ORDER
+from gearcad.contact.shared.line_of_action import overlap
 from gearcad.contact.shared.loaded import FAIR, INTERIOR, LoadedCycle, LoadedPosition, PairContact, RootStress
+from gearcad.contact.shared.relief_start import onsets, start_distance
 from gearcad.meshing.section.outline import Side
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.hertz import half_width_by_curvature
 
 __all__ = ["PlaneCycle", "PlanePairContact", "PlanePosition", "root_loads"]
 
+_RESOLVED = 4
+"""Cells over a transition with which its pressure is right within 0.25 %."""
+
 
 @dataclass(frozen=True)
 class PlanePairContact(PairContact):
     """One pair of flanks in contact: what it carries, and the comparison with two cylinders under the same load.
 
-    Pressures in MPa, half widths in mm, `force` in N per mm. `interior` is False where the edge of a flank is near. `bent`
-    (1/mm) is what the flanks' relative curvature gains there as the bodies give way.
+    Pressures in MPa, half widths in mm, `force` in N per mm. `interior` is False where the edge of a flank or the start of a
+    linear relief is near. `even_distance` (mm) is that from a parabolic relief, `start_distances` those from the transitions of
+    each gear's linear reliefs; `sound` is False where cells are too wide for these, or the end of a flank lies in the contact.
+    `bent` (1/mm) is what the flanks' relative curvature gains there as the bodies give way.
     """
 
     pair: ContactPair
@@ -36,6 +43,8 @@ class PlanePairContact(PairContact):
     modulus: float
     edge_distance: float
     even_distance: float
+    start_distances: PerGear[float]
+    sound: bool
     bent: float
 
     @property
@@ -69,9 +78,24 @@ class PlanePairContact(PairContact):
         return 2 * self.force / (math.pi * self.hertz_half_width)
 
     @property
+    def _reach(self) -> float:
+        """Distance (mm) from edges and starts of reliefs beyond which a contact is that of two cylinders."""
+        return INTERIOR * half_width_by_curvature(self.force, 1 / self.pair.plain_radius, self.modulus)
+
+    @property
     def interior(self) -> bool:
-        """True where the ends of both flanks, and their tip and root reliefs, are some half widths away."""
-        return self.even_distance > INTERIOR * self.hertz_half_width
+        """True where the ends of both flanks and the starts of their linear reliefs are some half widths away."""
+        return min(self.edge_distance, *self.start_distances) > self._reach
+
+    @property
+    def two_cylinders(self) -> bool:
+        """True where no parabolic relief is near either, along which the curvature changes."""
+        return self.interior and self.even_distance > INTERIOR * self.hertz_half_width
+
+    @property
+    def start_pressures(self) -> PerGear[float]:
+        """Return the greatest cell pressures (MPa) at the starts of each gear's linear reliefs, NaN where none is told."""
+        return self.start_distances.map(lambda to: self.peak_pressure if self.sound and to < self._reach else math.nan)
 
     @property
     def interior_pressure(self) -> float | None:
@@ -173,6 +197,8 @@ def _contacts(model: PlanePair, solution: ContactSolution) -> tuple[PlanePairCon
             model.modulus,
             _distance(model, pair, even=False),
             _distance(model, pair, even=True),
+            _start_distances(model, pair),
+            _sound(model, pair, pressures),
             _bent(model, loaded, place),
         )
         for place, (pair, pressures, force) in enumerate(loaded)
@@ -208,3 +234,21 @@ def _distance(model: PlanePair, pair: ContactPair, *, even: bool) -> float:
         first, last = flank.even if even else (flank.first, flank.last)
         distances += (flank.along_tangent(length, last), -flank.along_tangent(length, first))
     return min(distances)
+
+
+def _start_distances(model: PlanePair, pair: ContactPair) -> PerGear[float]:
+    """How far (mm along the tangent) the nearest transition of a linear relief of each gear is, as `start_distance`."""
+    found = []
+    for flank, length in zip(model.line.flanks, pair.lengths, strict=True):
+        every = (start_distance(flank.base_radius, of, np.array(length), pair.plain_radius) for of in onsets(flank))
+        found.append(min(map(float, every), default=math.inf))
+    return PerGear(*found)
+
+
+def _sound(model: PlanePair, pair: ContactPair, pressures: Floats) -> bool:
+    """Whether cells are narrow enough for all transitions of linear reliefs, and the contact ends before the flanks do."""
+    cells, (low, high) = pair.cells, overlap(model.line, pair.lengths.pinion)
+    pressed = cells.place[pressures > 0]
+    shortest = min((onset.length for flank in model.line.flanks for onset in onsets(flank)), default=math.inf)
+    narrow = cells.width <= shortest / _RESOLVED
+    return bool(narrow and low + cells.width < pressed.min() and pressed.max() < high - cells.width)

@@ -71,22 +71,16 @@ class TransverseFlank:
 
     @property
     def even(self) -> tuple[float, float]:
-        """Where the root relief ends and the tip relief begins."""
-        relieved = self.form.modification
-        return (
-            self.first + relieved.root_relief_length if relieved.root_relief else self.first,
-            self.last - relieved.tip_relief_length if relieved.tip_relief else self.last,
+        """Where a parabolic root relief ends and a parabolic tip relief begins: beyond, the curvature is another."""
+        of = self.form.modification
+        root, tip = (
+            amount and form is ReliefShape.PARABOLIC
+            for amount, form in ((of.root_relief, of.root_relief_shape), (of.tip_relief, of.tip_relief_shape))
         )
-
-    @property
-    def kinks(self) -> tuple[float, ...]:
-        """Roll lengths (mm) inside the flank where a linear relief begins: exact flanks have no finite pressure there."""
-        of, found = self.form.modification, []
-        if of.tip_relief and of.tip_relief_shape is ReliefShape.LINEAR:
-            found.append(self.last - of.tip_relief_length)
-        if of.root_relief and of.root_relief_shape is ReliefShape.LINEAR:
-            found.append(self.first + of.root_relief_length)
-        return tuple(each for each in found if self.first < each < self.last)
+        return (
+            self.first + of.root_relief_length if root else self.first,
+            self.last - of.tip_relief_length if tip else self.last,
+        )
 
     def depth(self, lengths: Floats) -> Floats:
         """How far (mm) along the line of action the flank lies behind the points of the involute at roll lengths.

@@ -11,6 +11,7 @@ import numpy as np
 from gearcad.arrays import Bools, Floats
 from gearcad.contact.shared.loaded import PairContact
 from gearcad.contact.solid.contact_lines import ContactLine
+from gearcad.per_gear import PerGear
 
 __all__ = ["SolidPairContact"]
 
@@ -20,7 +21,8 @@ class SolidPairContact(PairContact):
     """One pair of teeth in contact, `force` (N): per cell of its line (n,) forces in N, half widths in mm, pressures in MPa.
 
     `margin` (n,) in mm is by how much a cell is further than INTERIOR half widths of the plain flanks from all edges of both
-    flanks and from the starts of linear reliefs: where it is not positive the pressure depends on these.
+    flanks and from the transitions of linear reliefs: where it is not positive the pressure depends on these. `start_pressures`
+    are the greatest (MPa) at the starts of each gear's linear reliefs, NaN where none is told.
     """
 
     line: ContactLine
@@ -29,6 +31,7 @@ class SolidPairContact(PairContact):
     pressures: Floats
     radii: Floats
     margin: Floats
+    start_pressures: PerGear[float]
     force: float
     share: float
 

@@ -9,13 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.arrays import Bools, Floats
 from gearcad.contact.shared.line_of_action import LEAST_LENGTH, LineOfAction
 from gearcad.contact.shared.loaded_left import gears_loaded_left
+from gearcad.contact.shared.relief_start import onsets, start_distance
 from gearcad.contact.solid.places import Places, SolidFlank
 from gearcad.geometry import Gear, GearPair
 from gearcad.mounting import Mounting
@@ -24,13 +25,14 @@ from gearcad.per_gear import PerGear
 __all__ = [
     "ContactLine",
     "Gaps",
-    "along_tangent",
     "contact_lines",
     "gaps",
-    "kink_distance",
     "line_gap",
     "near_path",
+    "overlap_of",
     "places_beside",
+    "start_distances",
+    "turned_back",
 ]
 
 
@@ -101,7 +103,7 @@ def contact_lines(
     for tooth in range(-reach, reach + 1):
         start = pinion_length + tooth * line.pitch
         nominal = start + middle * slope
-        if not _overlap(line, nominal).usable.any():
+        if not overlap_of(line, nominal).usable.any():
             continue
         usable, (one, other, aside, gap, distance) = _facing(line, nominal)
         here = usable & (gap < farthest_gap)
@@ -139,7 +141,7 @@ class _Overlap(NamedTuple):
     usable: Bools
 
 
-def _overlap(line: LineOfAction, nominal: Floats) -> _Overlap:
+def overlap_of(line: LineOfAction, nominal: Floats) -> _Overlap:
     """That of flanks that touch at places (n,) of the line of action (mm from T1)."""
     one, other = line.flanks
     bent, touching = _bent(line), PerGear(nominal, line.whole - nominal)
@@ -156,7 +158,7 @@ def _facing(line: LineOfAction, nominal: Floats) -> tuple[Bools, tuple[Floats, F
     Last, how far inside the ends of both flanks that is.
     """
     one, other = line.flanks
-    (first, second), low, high, usable = _overlap(line, nominal)
+    (first, second), low, high, usable = overlap_of(line, nominal)
     aside = np.clip(0.0, low, high)
     lengths, behind = one.facing(first, aside)
     wheel_lengths, wheel_behind = other.facing(second, -aside)
@@ -181,19 +183,18 @@ def near_path(line: LineOfAction, farthest_gap: float) -> float:
     return float(np.ptp(nominal[usable & (gap < farthest_gap)]))
 
 
-def kink_distance(line: ContactLine, action: LineOfAction) -> Floats:
-    """Distances (n,) in mm along the tangent from the cells to the nearest start of a linear relief; infinite without one."""
-    nearest = np.full(line.across.shape, math.inf)
+def start_distances(line: ContactLine, action: LineOfAction) -> PerGear[Floats]:
+    """Return distances (n,) in mm along the tangent from the cells to the transitions of each flank, as `start_distance`.
+
+    Infinite without a linear relief.
+    """
+    found = []
     for flank, (lengths, _) in zip(action.flanks, line.places, strict=True):
-        for kink in flank.kinks:
-            nearest = np.minimum(nearest, along_tangent(flank.base_radius, kink, lengths))
-    return nearest
-
-
-def along_tangent(base_radius: float, kink: Any, lengths: Floats) -> Floats:
-    """Return distances in mm along the flank between a place, or a column of them, and others; all at roll lengths (mm)."""
-    result: Floats = np.abs((kink**2 - lengths**2) / (2 * base_radius))
-    return result
+        nearest = np.full(line.across.shape, math.inf)
+        for onset in onsets(flank):
+            nearest = np.minimum(nearest, start_distance(flank.base_radius, onset, lengths, 1 / line.curvature))
+        found.append(nearest)
+    return PerGear(*found)
 
 
 class Gaps(NamedTuple):
@@ -232,9 +233,14 @@ def line_gap(
     transverse = line.gap + here - slope**2 / (2 * curvature)
     if line.tooth == 0:
         transverse = transverse - mounting.pitch_error / 1000
+    return transverse * math.cos(helix) + turned_back(line, pair, mounting, helix), 1 / (curvature * math.cos(helix))
+
+
+def turned_back(line: ContactLine, pair: GearPair, mounting: Mounting, helix: float) -> Floats:
+    """Return what a misalignment in the plane of action adds to the gap (n,) of the cells along the normal, in mm."""
     turn = mounting.misalignment / 1000 / pair.common_width.width
-    turned = turn * (line.across * math.cos(helix) - line.places.wheel[0] * math.sin(helix))
-    return transverse * math.cos(helix) + turned, 1 / (curvature * math.cos(helix))
+    result: Floats = turn * (line.across * math.cos(helix) - line.places.wheel[0] * math.sin(helix))
+    return result
 
 
 def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list[PerGear[Places]]:

@@ -8,11 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Bools, Floats
 from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.contact.shared.loaded import FAIR, INTERIOR, LoadedCycle, LoadedPosition, RootStress
 from gearcad.contact.solid.contact import SolidPairContact
-from gearcad.contact.solid.contact_lines import kink_distance
+from gearcad.contact.solid.contact_lines import start_distances
 from gearcad.contact.solid.flank import SolidCompliance, ToothForces
 from gearcad.contact.solid.line_contact import LineSolution, plain_widths
 from gearcad.contact.solid.pair import SolidPair
@@ -175,15 +175,27 @@ def _greatest(fillet: SolidFillet, stresses: list[Floats], sign: int) -> SolidRo
 
 
 def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidPairContact, ...]:
-    given = solution.given
-    total = solution.forces.sum()
+    given, starts = solution.given, solution.starts
+    total, sound = solution.forces.sum(), np.zeros(given.cells, bool)
+    if starts is not None:
+        sound[starts.cells] = starts.sound
     parts = (solution.forces, solution.half_widths, solution.pressures, solution.gaps.radii)
+    plain = plain_widths(given, np.concatenate([line.curvature for line in given.lines]), model.helix, solution.forces)
+    every = (given.split(part) for part in (*parts, plain, sound))
     found = []
-    for line, forces, widths, pressures, radii in zip(given.lines, *(given.split(part) for part in parts), strict=True):
+    for line, forces, widths, pressures, radii, reach, told in zip(given.lines, *every, strict=True):
         if forces.sum() > 0:
             to_end = model.width / 2 - np.abs(line.across)
-            distance = np.minimum(np.minimum(line.edge_distance, to_end), kink_distance(line, model.line))
-            margin = distance - INTERIOR * plain_widths(widths, radii, line.curvature, model.helix)
+            to_starts = start_distances(line, model.line)
+            distance = np.minimum(np.minimum(line.edge_distance, to_end), np.minimum(*to_starts))
+            margin = distance - INTERIOR * reach
+            beside = told & (to_end > INTERIOR * reach) & (forces > 0)
+            at_start = PerGear(*(_greatest_of(pressures, beside & (to < INTERIOR * reach)) for to in to_starts))
             force, share = float(forces.sum()), float(forces.sum() / total)
-            found.append(SolidPairContact(line, forces, widths, pressures, radii, margin, force, share))
+            found.append(SolidPairContact(line, forces, widths, pressures, radii, margin, at_start, force, share))
     return tuple(found)
+
+
+def _greatest_of(values: Floats, here: Bools) -> float:
+    """Return the greatest of values (n,) at some places (n,), NaN if there are none."""
+    return float(values[here].max()) if here.any() else math.nan

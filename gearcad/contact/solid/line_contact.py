@@ -14,7 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats
+from gearcad.arrays import Bools, Floats, Wholes
 from gearcad.contact.shared.complementarity import complementary
 from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.contact.solid.contact_lines import ContactLine, Gaps
@@ -23,7 +23,16 @@ from gearcad.errors import SolverError
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.hertz import half_width, peak_pressure
 
-__all__ = ["LineSolution", "Responses", "half_widths", "plain_widths", "responses", "solve_lines"]
+__all__ = [
+    "LineSolution",
+    "Responses",
+    "StartCells",
+    "evened_loads",
+    "half_widths",
+    "plain_widths",
+    "responses",
+    "solve_lines",
+]
 
 
 OWN_DISTANCE = math.exp(-0.5) / 2
@@ -35,6 +44,11 @@ _LEAST = 1e-3
 _ROUNDS = 60
 _SETTLED = 1e-9
 """Rounds of fitting the ellipses to the loads, and the relative error of half widths at which they have settled."""
+
+_EVENED = (1, 2, 4, 8)
+"""Half widths of an even load over which loads are evened out, in turn until the contact settles: where a few cells carry all,
+their own half widths are as many times greater.
+"""
 
 _SHARES, _DECREASE = (1.0, 0.5, 0.25), 0.1
 """Shares of Newton's step that are tried, and the share of the decrease it promises that one must reach: with shorter ones it
@@ -135,7 +149,7 @@ def _smooth(lines: tuple[ContactLine, ...], body: SolidCompliance, role: Role) -
 class LineSolution:
     """Forces (n,) in N of the cells, the approach along the normal (mm), and the pinion's and the wheel's parts of it.
 
-    `rigid` (mm) is what of the approach needs no load.
+    `rigid` (mm) is what of the approach needs no load, `starts` are the cells beside the start of a linear relief.
     """
 
     given: Responses
@@ -144,16 +158,37 @@ class LineSolution:
     approach: float
     rigid: float
     parts: PerGear[float]
+    starts: StartCells | None = None
 
     @property
     def half_widths(self) -> Floats:
-        """Hertz half width (n,) in mm of each cell."""
-        return half_widths(self.given, self.gaps.radii, self.forces)
+        """Half width (n,) in mm of each cell, Hertz's but for those beside the start of a linear relief."""
+        result = half_widths(self.given, self.gaps.radii, self.forces)
+        if self.starts is not None:
+            result[self.starts.cells] = self.starts.half_widths
+        return result
 
     @property
     def pressures(self) -> Floats:
-        """Greatest pressure (n,) in MPa across each cell, Hertz's."""
-        return peak_pressure(self.forces / self.given.lengths, self.gaps.radii, self.given.modulus)
+        """Greatest pressure (n,) in MPa across each cell, Hertz's but for those beside the start of a linear relief."""
+        result = peak_pressure(self.forces / self.given.lengths, self.gaps.radii, self.given.modulus)
+        if self.starts is not None:
+            result[self.starts.cells] = np.where(self.forces[self.starts.cells] > 0, self.starts.peaks, 0.0)
+        return result
+
+
+@dataclass(frozen=True)
+class StartCells:
+    """Cells (k,) beside the start of a linear relief: half widths in mm, greatest pressures in MPa.
+
+    `sound` is False where these are not to be told: the transition is too short for the places of a contact, or the end of a
+    flank lies in it.
+    """
+
+    cells: Wholes
+    half_widths: Floats
+    peaks: Floats
+    sound: Bools
 
 
 def half_widths(given: Responses, radii: Floats, forces: Floats) -> Floats:
@@ -161,30 +196,36 @@ def half_widths(given: Responses, radii: Floats, forces: Floats) -> Floats:
     return half_width(forces / given.lengths, radii, given.modulus)
 
 
-def plain_widths(widths: Floats, radii: Floats, curvature: Floats, helix: float) -> Floats:
-    """Return the half widths in mm of cells as they would be on exact flanks: a bend of the depth narrows them.
+def plain_widths(given: Responses, curvature: Floats, helix: float, forces: Floats) -> Floats:
+    """Return Hertz's half widths in mm of cells on exact flanks, whose `curvature` (1/mm) is that in the transverse section.
 
-    `curvature` (1/mm) is that of the exact flanks in the transverse section, `helix` (rad) is on the base cylinder.
+    `helix` (rad) is on the base cylinder, `forces` in N.
     """
-    result: Floats = widths * np.sqrt(np.maximum(1.0, 1 / (curvature * math.cos(helix) * radii)))
+    return half_widths(given, 1 / (curvature * math.cos(helix)), forces)
+
+
+def evened_loads(given: Responses, gap: Gaps, forces: Floats) -> Floats:
+    """Return the loads per length (n,) in N/mm that decide how wide cells are: forces (n,) in N, evened out along the lines."""
+    even = forces.sum() * given.lengths / given.lengths.sum()
+    spread = _spread(given, half_widths(given, gap.radii, even))
+    result: Floats = spread @ np.maximum(forces, _LEAST * even) / given.lengths
     return result
 
 
-def solve_lines(given: Responses, gap: Gaps, force: float) -> LineSolution:
-    """Press the gears together with the normal force `force` (N). Raises SolverError.
+def solve_lines(given: Responses, gap: Gaps, force: float, like: Floats | None = None) -> LineSolution:
+    """Press the gears together with the normal force `force` (N), from forces (n,) `like` those sought. Raises SolverError.
 
     Newton's rule on the logarithms of the half widths: each cell's width must be that of Hertz for the load that it then
     carries. Steps are shortened until the residual falls; the cells that carry change with the widths.
     """
-    problem = _Widths(given, gap, force, given.both, force * given.lengths / given.lengths.sum())
-    state = problem.at(half_widths(given, gap.radii, problem.even), np.ones(given.cells, bool))
-    for count in range(_ROUNDS):
+    for times in _EVENED:
+        problem = _Widths(given, gap, force, given.both, force * given.lengths / given.lengths.sum(), times)
+        state = problem.settled(problem.even if like is None else like)
         if state.error < _SETTLED:
             break
-        state = problem.better(state, _PARTS[count % len(_PARTS)])
     else:
         raise SolverError(
-            f"the widths of the contact did not settle within {_ROUNDS} rounds (half width {state.widths.max():.3g} mm, "
+            f"the widths of the contact did not settle (half width {state.widths.max():.3g} mm, "
             f"off by {100 * state.error:.2g} %): reduce load.torque or mounting.misalignment, or raise check.refinement"
         )
     forces = state.forces
@@ -217,18 +258,31 @@ class _State:
 
 @dataclass(frozen=True)
 class _Widths:
-    """The equation for the half widths of all cells; `smooth` (n, n) in mm/N, `even` (n,) the even load in N."""
+    """The equation for the half widths of all cells; `smooth` (n, n) in mm/N, `even` (n,) the even load in N, loads evened out
+    over so many `times` its half widths.
+    """
 
     given: Responses
     gap: Gaps
     force: float
     smooth: Floats
     even: Floats
+    times: int = 1
 
     @cached_property
     def spread(self) -> Floats:
         """Weights (n, n) that even out forces along the lines."""
-        return _spread(self.given, half_widths(self.given, self.gap.radii, self.even))
+        return _spread(self.given, self.times * half_widths(self.given, self.gap.radii, self.even))
+
+    def settled(self, like: Floats) -> _State:
+        """Return the state after the last round, from the widths of forces (n,) in N on."""
+        evened = self.spread @ np.maximum(like, _LEAST * self.even)
+        state = self.at(half_widths(self.given, self.gap.radii, evened), like > 0)
+        for count in range(_ROUNDS):
+            if state.error < _SETTLED:
+                break
+            state = self.better(state, _PARTS[count % len(_PARTS)])
+        return state
 
     def at(self, widths: Floats, start: Bools) -> _State:
         """Solve the contact for given half widths (n,) in mm, from the cells that carry at the `start` (n,)."""
@@ -259,11 +313,11 @@ class _Widths:
         moved = np.zeros((count + 1, cells))
         moved[:count] = -(self.given.half_space_slopes(state.widths) * state.forces)[carry]
         changed = np.zeros((cells, cells))
-        changed[carry] = np.linalg.solve(system, moved)[:count]
-        changed[state.forces <= _LEAST * self.even] = 0.0
         evened = self.spread @ np.maximum(state.forces, _LEAST * self.even)
-        slopes = (self.spread @ changed) / (2 * evened[:, None])
         try:
+            changed[carry] = np.linalg.solve(system, moved)[:count]
+            changed[state.forces <= _LEAST * self.even] = 0.0
+            slopes = (self.spread @ changed) / (2 * evened[:, None])
             return np.asarray(np.linalg.solve(np.eye(cells) - slopes, state.residual), float)
         except np.linalg.LinAlgError:
             return state.residual

@@ -19,6 +19,7 @@ from gearcad.contact.solid.contact_lines import contact_lines, gaps, near_path
 from gearcad.contact.solid.cost import KEPT, LEFT, BodyCost, body_cost
 from gearcad.contact.solid.flank import SolidCompliance, solid_compliance
 from gearcad.contact.solid.line_contact import LineSolution, Responses, responses, solve_lines
+from gearcad.contact.solid.relief_start import press_starts
 from gearcad.contact.solid.root import SolidFillets, solid_fillets
 from gearcad.errors import GeometryError, SolverError
 from gearcad.geometry import Gear, GearPair
@@ -198,6 +199,7 @@ class SolidPair(FlexiblePair[SolidCompliance]):
             given = self.responses(roll_angle, farthest, single=single)
             gap = gaps(given.lines, self.pair, self.mounting, self.helix)
             found = solve_lines(given, gap, force * self.width / math.cos(self.helix))
+            found = press_starts(self.pair, self.line, self.mounting, self.helix, found)
             if found.approach - found.rigid + self._deviation < farthest * math.cos(self.helix):
                 self._require_in_range(found, torque)
                 return found

@@ -1,0 +1,200 @@
+"""The contact where a linear relief starts: a cylinder whose flank turns away by a small angle over a short transition.
+
+In the half-plane p = E*/2 sum a_k sin(k f) presses bodies with the slope h' = sum a_k cos(k f) of their gap on [c - b, c + b],
+u = c + b cos f, where a_0 = 0 and the load q = pi E* b a_1/4 (Johnson, Contact Mechanics, 2.7, by Chebyshev's polynomials).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Generic, NamedTuple, TypeVar
+
+import numpy as np
+
+from gearcad.arrays import Bools, Floats
+from gearcad.contact.shared.line_of_action import TransverseFlank
+from gearcad.rating.hertz import half_width
+
+__all__ = ["GapCurve", "Onset", "Pressed", "onsets", "press", "rounded_kink_pressure", "start_distance"]
+
+
+Size = TypeVar("Size", float, Floats)
+
+_OF_TRANSITION, _OF_WIDTH, _MOST_NODES = 8, 48, 4096
+"""Places of a contact: so many over a transition, at least so many over the width, and no more than the most."""
+
+_ROUNDS, _SETTLED = 60, 1e-10
+"""Newton steps for middle and half width of a contact, and the last one over the half width."""
+
+_PLACES, _POSITIONS, _HALVINGS = 401, 201, 60
+"""Places in a contact, positions of the kink in it, and halvings of its width in the closed form."""
+
+
+# ---------------------------------------------------------------------- which places are beside a start
+
+
+class Onset(NamedTuple, Generic[Size]):
+    """The start of a linear relief on a flank: `roll` (mm), `length` t_s of its transition and `slope` D along the tangent.
+
+    The slope is in mm per mm; `sense` is 1 where the relief is on the side of the tip, -1 on that of the root.
+    """
+
+    roll: Size
+    length: Size
+    slope: Size
+    sense: int
+
+
+def onsets(flank: TransverseFlank) -> tuple[Onset[float], ...]:
+    """Return the starts of the linear reliefs of a flank."""
+    found = []
+    for name, of in flank.form.transitions.items():
+        # Along the tangent, roll grows by r_b/rho for each mm.
+        stretch = abs(flank.base_radius / of.onset)
+        found.append(Onset(of.onset, of.length / stretch, of.slope * stretch, 1 if name == "tip_relief" else -1))
+    return tuple(found)
+
+
+def start_distance(base_radius: float, onset: Onset[Any], lengths: Floats, radii: Any) -> Any:
+    """Return how far (mm along the tangent) contacts are from the transition of an onset, below 0 where they may be on it.
+
+    A contact that exact involutes have at roll `lengths`, of reduced `radii` (mm), stays at the kink until R D behind it.
+    All of `onset` and `radii` may be arrays that broadcast.
+    """
+    past = onset.sense * (lengths**2 - onset.roll**2) / (2 * base_radius)
+    return np.maximum(-past, past - radii * onset.slope) - onset.length / 2
+
+
+# ---------------------------------------------------------------------- closed form: a cylinder with a rounded kink
+
+
+def rounded_kink_pressure(load: float, radius: float, slope: float, length: float, modulus: float) -> float:
+    """Return the greatest pressure (MPa) as a contact rolls over a kink that is rounded by a parabola.
+
+    `load` q in N/mm, reduced `radius` R in mm, `slope` D in mm per mm, `length` t_s of the rounding in mm, `modulus` E* in MPa.
+    With the kink at b cos f0: p = E* b sin f/(2R) + E* D/(2 pi t_s) (G(s2) - G(s1)), where G(s) = (s - u) L(u, s) -
+    sqrt(b^2 - u^2) arccos(s/b) and L = ln|sin((f + f0)/2)/sin((f - f0)/2)| is a sharp kink's.
+    """
+    reach = float(half_width(load, radius, modulus)) + length
+    kinks = np.linspace(-reach, reach, _POSITIONS)[:, None]
+    low, high = np.zeros_like(kinks), np.full_like(kinks, reach)
+    for _ in range(_HALVINGS):
+        b = (low + high) / 2
+        more = _load(b, kinks, radius, slope, length, modulus) > load
+        low, high = np.where(more, low, b), np.where(more, b, high)
+    u = b * np.cos(np.linspace(0.0, math.pi, _PLACES + 2)[1:-1])
+    first, last = (np.clip(kinks + side * length / 2, -b, b) for side in (-1, 1))
+    bent = (_summed(last, u, b) - _summed(first, u, b)) * slope / (2 * math.pi * length)
+    return float((modulus * (np.sqrt(b**2 - u**2) / (2 * radius) + bent)).max())
+
+
+def _load(b: Floats, kink: Floats, radius: float, slope: float, length: float, modulus: float) -> Floats:
+    """Return q = pi E* b^2/(4R) + E* D/(2 t_s) times the integral of sqrt(b^2 - s^2) over the rounding."""
+    first, last = (np.clip(kink + side * length / 2, -b, b) for side in (-1, 1))
+    of_last, of_first = ((s * np.sqrt(b**2 - s**2) + b**2 * np.arcsin(s / b)) / 2 for s in (last, first))
+    result: Floats = modulus * (math.pi * b**2 / (4 * radius) + slope / (2 * length) * (of_last - of_first))
+    return result
+
+
+def _summed(s: Floats, u: Floats, b: Floats) -> Floats:
+    """Return G at s for places u in a contact of half width b."""
+    f, f0 = np.arccos(u / b), np.arccos(s / b)
+    ratio = np.abs(np.sin((f + f0) / 2)) / np.maximum(np.abs(np.sin((f - f0) / 2)), np.finfo(float).tiny)
+    result: Floats = (s - u) * np.log(np.maximum(ratio, np.finfo(float).tiny)) - np.sqrt(b**2 - u**2) * f0
+    return result
+
+
+# ---------------------------------------------------------------------- any convex gap
+
+
+class GapCurve(NamedTuple):
+    """A gap (n, m) in mm at places along the tangent, its slope and its curvature (1/mm)."""
+
+    gap: Floats
+    slope: Floats
+    curvature: Floats
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """Contacts (n,) of half-planes: `middle` and `half_widths` in mm, greatest pressures `peaks` in MPa.
+
+    `own` (mm) is the distance at which a line load q moves a half-plane as far as the contact gives way beyond its least gap,
+    `least` (mm): exp(-(d - least) pi E*/(2q)). `settled` is False where no contact was found, `resolved` also where
+    a transition is too short for the places.
+    """
+
+    middle: Floats
+    half_widths: Floats
+    peaks: Floats
+    own: Floats
+    least: Floats
+    settled: Bools
+    resolved: Bools
+
+
+def press(
+    curve: Callable[[Floats], GapCurve], loads: Floats, modulus: float, start: tuple[Floats, Floats], shortest: float
+) -> Pressed:
+    """Press half-planes together whose gaps at places (n, m) are those of `curve`, with line loads (n,) in N/mm.
+
+    `start` are middles and half widths (n,) to begin with, `shortest` is the length (mm) of the shortest transition.
+    """
+    from scipy.fft import dct, dst
+
+    middle, half = (np.array(each, float) for each in start)
+    wanted = max(_OF_WIDTH, math.ceil(_OF_TRANSITION * math.pi * float(half.max()) / shortest))
+    count = 1 << math.ceil(math.log2(min(wanted, _MOST_NODES)))
+    cosine = np.cos((np.arange(count) + 0.5) * math.pi / count)
+    settled = np.zeros(len(half), bool)
+    for _ in range(_ROUNDS):
+        of = curve(middle[:, None] + half[:, None] * cosine)
+        even, leaning = of.slope.mean(axis=1), (of.slope * cosine).mean(axis=1)
+        bend, bent, across = ((of.curvature * weight).mean(axis=1) for weight in (1.0, cosine, cosine**2))
+        # The mean slope must vanish, and pi E* b/2 times the mean of h' cos f be the load.
+        short = 2 * loads / (math.pi * modulus) - half * leaning
+        by_middle, by_half = half * bent, leaning + half * across
+        determinant = bend * by_half - bent * by_middle
+        to_middle = (-even * by_half - bent * short) / determinant
+        to_half = (bend * short + even * by_middle) / determinant
+        middle = middle + np.clip(to_middle, -half, half)
+        step = np.clip(to_half, -half / 2, half)
+        half = half + step
+        settled = np.maximum(np.abs(to_middle), np.abs(to_half)) < _SETTLED * half
+        if settled.all():
+            break
+    of = curve(middle[:, None] + half[:, None] * cosine)
+    terms = dct(of.slope, type=2, axis=1) / count
+    pressures = modulus / 4 * dst(np.c_[terms[:, 1:], np.zeros(len(terms))], type=3, axis=1)
+    approach = of.gap.mean(axis=1) - 2 * loads / (math.pi * modulus) * np.log(half / 2)
+    least = _least_of(curve, middle, half)
+    own = np.exp(-(approach - least) * math.pi * modulus / (2 * loads))
+    resolved = settled & (_OF_TRANSITION * math.pi * half <= 2 * count * shortest)
+    return Pressed(middle, half, _tops(pressures), own, least, settled, resolved)
+
+
+def _least_of(curve: Callable[[Floats], GapCurve], middle: Floats, half: Floats) -> Floats:
+    """Return the least gaps (n,) in mm: where a convex gap has no slope."""
+    low, high = middle - half, middle + half
+    place = middle
+    for _ in range(_HALVINGS):
+        of = curve(place[:, None])
+        slope, bend = of.slope[:, 0], of.curvature[:, 0]
+        low, high = np.where(slope < 0, place, low), np.where(slope > 0, place, high)
+        newton = place - slope / np.maximum(bend, np.finfo(float).tiny)
+        place, before = np.where((newton > low) & (newton < high), newton, (low + high) / 2), place
+        if float(np.abs(place - before).max()) < _SETTLED:
+            break
+    return curve(place[:, None]).gap[:, 0]
+
+
+def _tops(values: Floats) -> Floats:
+    """Return the greatest (n,) of values (n, m), by a parabola through the greatest and those beside it."""
+    at = np.clip(values.argmax(axis=1), 1, values.shape[1] - 2)
+    before, here, after = (np.take_along_axis(values, (at + step)[:, None], 1)[:, 0] for step in (-1, 0, 1))
+    bend = before - 2 * here + after
+    rise = (before - after) ** 2 / np.where(bend < 0, -8 * bend, np.inf)
+    result: Floats = here + rise
+    return result
