@@ -49,7 +49,7 @@ class Gear(GearData):
     `normal_module`, or `normal_diametral_pitch` (1/inch), is given and the other derived (see `Derived`).
     `helix_angle` is signed: right hand positive. `profile_shift` x and `tip_alteration` k are coefficients of the
     normal module; `tooth_thinning` is the reduction of the normal tooth thickness (mm), or follows from `tooth_allowance`
-    ("cd25" of DIN 3967) as its mean. `tip_diameter` and
+    ("cd25" of DIN 3967) as its mean; beside a thinning a series alone ("25") gives the tolerance. `tip_diameter` and
     `root_diameter` may be given, else they are derived, and read as numbers either way (see `Derived`): a given tip
     circle wins over k, a given root circle prescribes the depth of the tool, which then follows from the gear.
     An internal gear has the signs of ISO 21771: teeth and all diameters are negative, and x > 0 makes its teeth thicker (KHK

@@ -141,9 +141,9 @@ class GearData:
     @cached_property
     def thickness_allowance(self) -> ToothAllowance | None:
         """A_sne and A_sni of `tooth_allowance`; None without one, whose thinning is exact."""
-        return (
-            None if self.tooth_allowance is None else tooth_thickness_allowance(self.tooth_allowance, self.reference_diameter)
-        )
+        if self.tooth_allowance is None:
+            return None
+        return tooth_thickness_allowance(self.tooth_allowance, self.reference_diameter, self.tooth_thinning)
 
     @property
     def transverse_tooth_thickness(self) -> float:

@@ -12,7 +12,7 @@ from gearcad.geometry.derived import derive, is_given
 __all__ = ["THINNING_OR_ALLOWANCE", "ToothAllowance", "derive_thinning", "require_allowance", "tooth_thickness_allowance"]
 
 THINNING_OR_ALLOWANCE = ("tooth_thinning", "tooth_allowance")
-"""Fields of a gear of which one at the most is given."""
+"""Fields of a gear that say how thick its teeth are: one of them, or a thinning and a series of DIN 3967 without its letter."""
 
 
 class _Toothed(Protocol):
@@ -78,22 +78,25 @@ _TOLERANCES = {
 }
 """T_sn of each series."""
 
-_NAME = re.compile(f"({'|'.join(_UPPER)})({'|'.join(map(str, _TOLERANCES))})")
+_NAME = re.compile(f"({'|'.join(_UPPER)})?({'|'.join(map(str, _TOLERANCES))})")
 
 
 def require_allowance(name: object, parameter: str = "tooth_allowance") -> None:
-    """Raise ParameterError unless `name` is a letter and a series of DIN 3967, as in "cd25"."""
+    """Raise ParameterError unless `name` is a letter and a series of DIN 3967, as in "cd25", or a series alone."""
     if isinstance(name, str) and _NAME.fullmatch(name):
         return
     plain = "".join(name.split()).lower() if isinstance(name, str) else ""
     meant = f' (write "{plain}")' if _NAME.fullmatch(plain) else ""
-    letters = 'a letter a to h (ab, bc and cd too) and a series 21 to 30 of DIN 3967, such as "cd25"'
+    letters = (
+        'a letter a to h (ab, bc and cd too) and a series 21 to 30 of DIN 3967, such as "cd25"; or, beside tooth_thinning, "25"'
+    )
     raise ParameterError(parameter, name, f"must be {letters}{meant}")
 
 
-def tooth_thickness_allowance(name: str, reference_diameter: float) -> ToothAllowance:
+def tooth_thickness_allowance(name: str, reference_diameter: float, thinning: float = 0.0) -> ToothAllowance:
     """The allowances of "cd25" and its like at a reference diameter d (mm; a ring's may be negative, as ISO 21771 has it).
 
+    A series alone, as "25", has its tolerance with the `thinning` (mm) in the middle.
     Raises ParameterError for another name, and beyond 10,000 mm.
 
     >>> tooth_thickness_allowance("cd25", 82.0)
@@ -102,12 +105,16 @@ def tooth_thickness_allowance(name: str, reference_diameter: float) -> ToothAllo
     require_allowance(name)
     require_number("reference_diameter", reference_diameter, "mm", at_least=-_LARGEST, at_most=_LARGEST)
     place = bisect_left(_UP_TO, abs(reference_diameter) * (1 - _ROUNDING))
-    upper = 0.0 - _UPPER[name[:-2]][place]
-    return ToothAllowance(upper, upper - _TOLERANCES[int(name[-2:])][place])
+    letter, tolerance = name[:-2], _TOLERANCES[int(name[-2:])][place]
+    upper = 0.0 - _UPPER[letter][place] if letter else round(tolerance / 2 - 1000 * thinning, 9)
+    return ToothAllowance(upper, upper - tolerance)
 
 
 def derive_thinning(gear: _Toothed) -> None:
-    """Let the thinning be the mean of the allowance, without one 0. Raises GeometryError where both are given."""
+    """Let the thinning be the mean of the allowance, without one 0.
+
+    Raises GeometryError where both are given, and where a series without a letter has no thinning that makes room for it.
+    """
     name = gear.tooth_allowance
     if name is None:
         derive(gear, "tooth_thinning", 0.0)
@@ -115,6 +122,13 @@ def derive_thinning(gear: _Toothed) -> None:
     if abs(gear.reference_diameter) > _LARGEST:
         permitted = f"must be left out, and tooth_thinning given: DIN 3967 ends at a reference diameter of {_LARGEST:g} mm"
         raise GeometryError("tooth_allowance", name, permitted)
+    if len(name) == 2:
+        derive(gear, "tooth_thinning", 0.0)
+        if (thick := tooth_thickness_allowance(name, gear.reference_diameter, gear.tooth_thinning).upper) > 0:
+            least = gear.tooth_thinning + thick / 1000
+            permitted = f'must have a letter, as in "cd{name}", or tooth_thinning of at least {least:g} mm beside it'
+            raise GeometryError("tooth_allowance", name, permitted)
+        return
     mean = tooth_thickness_allowance(name, gear.reference_diameter).mean_thinning
     if is_given(gear.tooth_thinning):
         permitted = f"must be left out where tooth_thinning is given ({gear.tooth_thinning:g} mm): it has a mean of {mean:g} mm"

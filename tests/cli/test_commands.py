@@ -249,7 +249,7 @@ WRONG = {
         "pair.centre_distance = 79 mm: must be at least 79.646",
     ),
     "tool tip too round": (
-        [("tooth_thinning = 0.08", "")],
+        [("tooth_thinning = 0.08", ""), ('tooth_allowance = "25"', "")],
         "pinion.rack.root_radius = 0.48: must be at most 0.4719 (full radius) for dedendum 1.25, pressure angle 20 deg",
     ),
     "pointed teeth": (

@@ -18,6 +18,7 @@ from gearcad import Body, Gear, GearPair, Rack, RackPair
 from gearcad.designs import read_spec
 from gearcad.drawing.assembled.hiding import Where, pieces
 from gearcad.drawing.files import sheet_document, write_dxf
+from gearcad.drawing.gear_data import gear_notices
 from gearcad.drawing.layout import View
 from gearcad.drawing.options import DrawingOptions, PartDrawing, Projection, SheetSize
 from gearcad.drawing.pair_views import pair_face, pair_section
@@ -30,6 +31,7 @@ from gearcad.drawing.subject import DrawnGear, DrawnPair, DrawnTrain
 from gearcad.drawing.train_views import TrainPlan, train_face, train_section
 from gearcad.drawing.words import Draughting, Language, Words
 from gearcad.errors import ParameterError
+from gearcad.jobs.drawn import drawn_gears
 from gearcad.planetary import Central, PlanetaryTrain, Rim
 from gearcad.shipped import templates
 
@@ -289,9 +291,19 @@ def test_a_centre_distance_has_its_limits_and_backlash_its_extremes() -> None:
 
 
 def test_without_limits_the_sheet_says_so() -> None:
-    for name in ("fzg-c", "rack", "planetary-alm"):
+    assert "no-limits" in [notice.code for notice in drawn(type("Design", (), {"name": "pair", "pair": external()})).notices]
+    for name in ("rack", "planetary-alm"):
         assert "no-limits" in [notice.code for notice in sheet_of(name).notices]
     assert "— (not for racks)" in [text.words for text in sheet_of("rack").figure.texts]
+
+
+@pytest.mark.parametrize("name", ["spur", "reducer-21-43", "volvo-13-44", "fzg-c", "ring-22-70", "double-23-81"])
+def test_sheets_of_starters_have_limits(name: str) -> None:
+    """Of tooth thickness and its gauges, and of the centre distance."""
+    design = starter(name)
+    codes = {notice.code for each in drawn_gears(design) for notice in gear_notices(each)}
+    assert "no-thickness-limits" not in codes
+    assert name == "spur" or design.pair.centre_distance_tolerance == "js7"
 
 
 def test_parts_are_called_as_their_own_sheets_are() -> None:

@@ -22,9 +22,11 @@ _, VOLVO = starter_text("volvo")
 _, SPUR = starter_text("spur")
 
 BASE_KEYS = (
-    "pair.normal_module pair.helix_angle pair.centre_distance "
-    "pinion.teeth pinion.profile_shift pinion.face_width pinion.tooth_thinning pinion.rack.root_radius pinion.body.bore "
-    "wheel.teeth wheel.profile_shift wheel.face_width wheel.tooth_thinning wheel.rack.root_radius wheel.body.bore "
+    "pair.normal_module pair.helix_angle pair.centre_distance pair.centre_distance_tolerance "
+    "pinion.teeth pinion.profile_shift pinion.face_width pinion.tooth_thinning "
+    "pinion.tooth_allowance pinion.rack.root_radius pinion.body.bore "
+    "wheel.teeth wheel.profile_shift wheel.face_width wheel.tooth_thinning "
+    "wheel.tooth_allowance wheel.rack.root_radius wheel.body.bore "
     "material.name material.group material.youngs_modulus material.contact_limit material.root_limit load.torque"
 ).split()
 """What the reference pair's spec says, in its order."""
@@ -367,9 +369,9 @@ def test_a_wrong_sample_is_one_line(rows: int, seed: int, message: str) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("teeth = 13", "teeth = [13]", "line 29: pinion.teeth = [13]: must be a number or a text"),
-        ("teeth = 13", "teeth = true", "line 29: pinion.teeth = True: must be a number or a text"),
-        ("teeth = 13", "teth = 13", "line 29: pinion.teth: unknown key; did you mean teeth?"),
+        ("teeth = 13", "teeth = [13]", "line 30: pinion.teeth = [13]: must be a number or a text"),
+        ("teeth = 13", "teeth = true", "line 30: pinion.teeth = True: must be a number or a text"),
+        ("teeth = 13", "teth = 13", "line 30: pinion.teth: unknown key; did you mean teeth?"),
     ],
 )
 def test_a_spec_that_no_table_can_hold_is_refused(old: str, new: str, message: str, spec: Path) -> None:

@@ -73,11 +73,22 @@ def test_the_thinning_is_the_mean_of_the_allowance():
     assert eval(repr(gear)) == gear
 
 
+def test_a_series_without_a_letter_is_the_tolerance_of_a_thinning():
+    """The thinning stays what was given, and lies in the middle of the limits."""
+    gear = _gear(21, tooth_thinning=0.06, tooth_allowance="25")
+    assert (gear.tooth_thinning, gear.thickness_allowance) == (0.06, (-40.0, -80.0))
+    same = _gear(21, tooth_allowance="e25")
+    assert same.tooth_thinning == 0.06 and same.thickness_limits == gear.thickness_limits
+    assert eval(repr(gear)) == gear
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [
         ({"tooth_allowance": "CD 25"}, r'= \'CD 25\': must be a letter .* \(write "cd25"\)$'),
-        ({"tooth_allowance": "cd31"}, 'such as "cd25"$'),
+        ({"tooth_allowance": "cd31"}, 'such as "cd25"; or, beside tooth_thinning, "25"$'),
+        ({"tooth_allowance": "25"}, 'must have a letter, as in "cd25", or tooth_thinning of at least 0.02 mm beside it'),
+        ({"tooth_allowance": "25", "tooth_thinning": 0.019}, "tooth_thinning of at least 0.02 mm"),
         ({"tooth_allowance": "cd25", "tooth_thinning": 0.0}, r"must be left out where tooth_thinning is given \(0 mm\)"),
         ({"tooth_allowance": "cd25", "teeth": 2000, "normal_module": 6.0}, "DIN 3967 ends at a reference diameter of 10000 mm"),
         ({"tooth_allowance": "h30", "normal_module": 0.1}, "takes up to 0.2 mm off teeth that are 0.157079 mm thick"),
