@@ -167,7 +167,8 @@ main(sys.argv[2:])
 def run_limited(size: int, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
     """`gearcad batch` where no file can be larger than `size` bytes; workers inherit the limit."""
     command = [sys.executable, "-c", _LIMITED, str(size), "batch", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE)
+    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"}  # Python would leave parts of its own files
+    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, env=environment)
 
 
 def test_files_larger_than_the_system_permits_fail_their_rows(table: Path, tmp_path: Path) -> None:

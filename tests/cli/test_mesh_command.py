@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import meshio
@@ -225,3 +227,24 @@ def test_rows_of_a_table_are_meshed(here: Path) -> None:
     told = json.loads(Path("output/table/b/mesh.json").read_text(encoding="utf-8"))
     assert (rows[1]["mesh.elements"], rows[1]["mesh.passed"]) == (str(told["summary"]["elements"]), "true")
     assert int(rows[1]["mesh.elements"]) == 3 * int(rows[0]["mesh.elements"])
+
+
+LIMITED = """
+import resource, sys
+from gearcad.__main__ import run
+resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+run()
+"""
+
+
+@pytest.mark.parametrize("kind", ["med", "unv", "vtu", "inp"])
+def test_files_larger_than_the_system_permits_leave_nothing(tmp_path: Path, kind: str) -> None:
+    """gmsh and VTK crash then, or write a part of the file and say nothing; the lines of HDF5 are its own."""
+    (tmp_path / "it.toml").write_text(GEAR)
+    # Without -B Python would leave parts of its own files.
+    command = [sys.executable, "-B", "-c", LIMITED, *f"mesh it.toml --what sector --element tri6 --format {kind} --quiet".split()]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    said = [line for line in done.stderr.splitlines() if line.startswith("Error: ")]
+    assert done.returncode in (1, 2) and said and "Traceback" not in done.stderr, done.stderr
+    assert any(words in said[0] for words in ("could not write", "cannot be written", "killed its process")), said
+    assert [path.name for path in tmp_path.iterdir()] == ["it.toml"]

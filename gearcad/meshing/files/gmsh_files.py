@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,6 +19,10 @@ from gearcad.meshing.gmsh_library import load_gmsh
 __all__ = ["write_with_gmsh"]
 
 
+_END_OF_UNV = b"    -1\n"
+"""Line that ends each part of a universal file."""
+
+
 def write_with_gmsh(mesh: ElementMesh, path: Path) -> None:
     """Write what the suffix of `path` says. Parts are groups of elements, sides groups of their own elements after those.
 
@@ -31,6 +36,14 @@ def write_with_gmsh(mesh: ElementMesh, path: Path) -> None:
             gmsh.write(str(path))
         except Exception as error:  # gmsh raises nothing finer
             raise SolverError(f"gmsh could not write {path.name}: {error}") from error
+    if path.suffix == ".unv" and not _ends_with(path, _END_OF_UNV):  # gmsh does not look at what it writes
+        raise SolverError(f"gmsh could not write all of {path.name}: the disk is full, or larger files are not permitted")
+
+
+def _ends_with(path: Path, end: bytes) -> bool:
+    with path.open("rb") as file:
+        file.seek(-min(len(end), path.stat().st_size), os.SEEK_END)
+        return file.read() == end
 
 
 @contextmanager
