@@ -242,7 +242,8 @@ def test_files_larger_than_the_system_permits_leave_nothing(tmp_path: Path, kind
     """gmsh and VTK crash then, or write a part of the file and say nothing; the lines of HDF5 are its own."""
     (tmp_path / "it.toml").write_text(GEAR)
     # Without -B Python would leave parts of its own files.
-    command = [sys.executable, "-B", "-c", LIMITED, *f"mesh it.toml --what sector --element tri6 --format {kind} --quiet".split()]
+    options = f"--what sector --element tri6 --format {kind} --quiet".split()
+    command = [sys.executable, "-B", "-c", LIMITED, "mesh", "it.toml", *options]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     said = [line for line in done.stderr.splitlines() if line.startswith("Error: ")]
     assert done.returncode in (1, 2) and said and "Traceback" not in done.stderr, done.stderr
