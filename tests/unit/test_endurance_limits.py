@@ -45,6 +45,37 @@ def test_limits_of_grades(name: str, hardness: float | None, contact: float, roo
     assert name in found.contact_source
 
 
+LINES = """
+St: 110-210 110-210 110-210: 1 190 1 190 1.52 250: 0.455 69 0.455 69 0.386 147
+St (cast): 140-210 140-210 140-210: 0.986 131 0.986 131 1.143 237: 0.313 62 0.313 62 0.254 137
+GTS: 135-250 135-250 175-250: 1.371 143 1.371 143 1.333 267: 0.345 77 0.345 77 0.403 128
+GGG: 175-300 175-300 200-300: 1.434 211 1.434 211 1.5 250: 0.35 119 0.35 119 0.38 134
+GG: 150-240 150-240 175-275: 1.033 132 1.033 132 1.465 122: 0.256 8 0.256 8 0.2 53
+V: 200-360 200-360 200-390: 1.313 188 1.313 373 2.213 260: 0.423 104 0.425 187 0.358 231
+V (cast carbon): 130-215 130-215 130-215: 0.831 300 0.831 300 0.951 345: 0.224 117 0.224 117 0.286 167
+V (cast): 200-360 200-360 200-360: 1.276 298 1.276 298 1.35 356: 0.364 161 0.364 161 0.356 186
+Eh: 600-800 660-800 660-800: 0 1300 0 1500 0 1650: 0 312 0 425 0 525
+NT: 650-900 650-900 650-900: 0 1125 0 1250 0 1450: 0 270 0 420 0 468
+NV: 450-650 450-650 450-650: 0 788 0 998 0 1217: 0 258 0 363 0 432
+"""
+"""ISO 6336-5:2016, table 1: hardness of ML, MQ and ME; A and B of the contact, and of the root, of each. Groups of one line."""
+
+
+@pytest.mark.parametrize("row", LINES.strip().splitlines(), ids=lambda row: row.split(":")[0])
+def test_lines_hold_over_their_ranges_and_no_further(row: str) -> None:
+    group, ranges, contact, root = (part.split() for part in row.split(":"))
+    for place, (quality, both) in enumerate(zip(("ML", "MQ", "ME"), ranges, strict=True)):
+        name, (least, most) = f"{' '.join(group)} {quality}", (float(end) for end in both.split("-"))
+        for hardness in (least, most):
+            found = endurance_limits(Material(name=name, hardness=hardness))
+            lines = [[float(each) for each in line[2 * place : 2 * place + 2]] for line in (contact, root)]
+            expected = [slope * hardness + constant for slope, constant in lines]
+            assert [found.contact, found.root] == pytest.approx(expected, rel=1e-12)
+        for hardness in (least - 0.1, most + 0.1):
+            with pytest.raises(ParameterError, match=rf"must be from {least:g} to {most:g} H"):
+                endurance_limits(Material(name=name, hardness=hardness))
+
+
 def test_names_stand_for_grades() -> None:
     assert [grade_of(str(grade)) for grade in GRADES] == GRADES
     assert [grade_of(name) for name in ("steel", "Eh", "eh MQ", "Eh MX", "EhMQ", "MQ Eh", "18CrNiMo7-6 Eh MQ")] == [None] * 7

@@ -15,6 +15,7 @@ from gearcad.dynamics.tooth_springs.event_exact import (
     MotionOutcome,
     Spring,
     Zone,
+    _zero,
     accelerated,
     advanced,
     next_turn,
@@ -94,6 +95,19 @@ def test_next_turn_is_the_first_zero_of_the_acceleration(name: str, v: float) ->
         for turns in range(3):
             at = advanced(spring, y, v, turn + turns * step)
             assert abs(accelerated(spring, *at)) < ROUNDING * start
+
+
+@pytest.mark.parametrize("y", [-4e-4, 4e-4])
+@pytest.mark.parametrize("name", SPRINGS)
+def test_zeros_are_found_from_both_sides_of_rest(name: str, y: float) -> None:
+    """Levels and drifts are chosen so that the zero is at two fifths of the bracket."""
+    spring, v, share, end = SPRINGS[name], 4.0, 0.6, 5e-5
+    at_y, at_v = advanced(spring, y, v, 0.4 * end)
+    for drift in (0.7, -0.7):
+        level = drift * 0.4 * end + share * (at_y - y)
+        assert _zero(spring, y, v, drift, share, level, 0.0, end, 0) == pytest.approx(0.4 * end, rel=1e-9)
+    if abs(accelerated(spring, y, v)) > 1:
+        assert _zero(spring, y, v, -share * at_v, share, 0.0, 0.0, end, 1) == pytest.approx(0.4 * end, rel=1e-9)
 
 
 # ---------------------------------------------------------------------- contact and loss of it

@@ -106,6 +106,18 @@ def test_method_c() -> None:
         dynamic_factor_c(216.8, s, 1.4, 2)
 
 
+K_1 = {3: (2.1, 1.9), 4: (3.9, 3.5), 5: (7.5, 6.7), 6: (14.9, 13.3), 7: (26.8, 23.9), 8: (39.1, 34.8), 9: (52.8, 47.0)}
+K_1 |= {10: (76.6, 68.2), 11: (102.6, 91.4), 12: (146.3, 130.3)}
+"""ISO 6336-1:2006, table 4: K_1 of spur and helical gears by grades of accuracy."""
+
+
+@pytest.mark.parametrize("grade", K_1)
+def test_grades_of_method_c(grade: int) -> None:
+    for overlap_ratio, k_1, k_2 in ((0.0, K_1[grade][0], 0.0193), (1.0, K_1[grade][1], 0.0087)):
+        factor = dynamic_factor_c(250.0, 4.0, overlap_ratio, grade)
+        assert factor == pytest.approx(1 + (k_1 / 250 + k_2) * 4.0, rel=EXACT)
+
+
 def test_method_c_is_worse_with_speed_and_grade_and_better_with_load() -> None:
     measure, load = np.r_[np.linspace(0, 2.9, 300), np.linspace(3.01, 9, 50)], np.linspace(20, 900, 100)[:, None]
     grades = np.array([dynamic_factor_c(load, measure, 0.4, grade) for grade in range(3, 13)])

@@ -22,6 +22,36 @@ DIN_3967 = [  # two public transcriptions
     ("h21", 10_000, 0, -40),
 ]
 
+DIN_3967_TABLE_1 = """
+10: 100 85 70 58 48 40 33 22 10 5 0
+50: 135 110 95 75 65 54 44 30 14 7 0
+125: 180 150 125 105 85 70 60 40 19 9 0
+280: 250 200 170 140 115 95 80 56 26 12 0
+560: 330 280 230 190 155 130 110 75 35 17 0
+1000: 450 370 310 260 210 175 145 100 48 22 0
+1600: 600 500 420 340 290 240 200 135 64 30 0
+2500: 820 680 560 460 390 320 270 180 85 41 0
+4000: 1100 920 760 620 520 430 360 250 115 56 0
+6300: 1500 1250 1020 840 700 580 480 330 155 75 0
+10000: 2000 1650 1350 1150 940 780 640 450 210 100 0
+"""
+"""Up to a reference diameter: -A_sne of a, ab, b, bc, c, cd, d, e, f, g and h."""
+
+DIN_3967_TABLE_2 = """
+10: 3 5 8 12 20 30 50 80 130 200
+50: 5 8 12 20 30 50 80 130 200 300
+125: 6 10 16 25 40 60 100 160 250 400
+280: 8 12 20 30 50 80 130 200 300 500
+560: 10 16 25 40 60 100 160 250 400 600
+1000: 12 20 30 50 80 130 200 300 500 800
+1600: 16 25 40 60 100 160 250 400 600 1000
+2500: 20 30 50 80 130 200 300 500 800 1300
+4000: 25 40 60 100 160 250 400 600 1000 1600
+6300: 30 50 80 130 200 300 500 800 1300 2000
+10000: 40 60 100 160 250 400 600 1000 1600 2400
+"""
+"""Up to a reference diameter: T_sn of the series 21 to 30, each the next number of R 5 or R 10 after the one before."""
+
 ISO_286 = [  # full public tables; 60 M6 is the worked example of ISO 286-1
     *[("H7", 40, 25, 0), ("g6", 40, -9, -25), ("f7", 40, -25, -50), ("k6", 40, 18, 2), ("n6", 40, 33, 17), ("p6", 40, 42, 26)],
     *[("h6", 40, 0, -16), ("H7", 25, 21, 0), ("g6", 25, -7, -20), ("H7", 10, 15, 0), ("g6", 6, -4, -12), ("H8", 6, 18, 0)],
@@ -33,6 +63,20 @@ ISO_286 = [  # full public tables; 60 M6 is the worked example of ISO 286-1
 @pytest.mark.parametrize(("name", "diameter", "upper", "lower"), DIN_3967)
 def test_allowances_of_din_3967(name, diameter, upper, lower):
     assert tooth_thickness_allowance(name, diameter) == (upper, lower)
+
+
+def test_tables_of_din_3967():
+    """All of them, typed by diameters; the module has them by letters and series."""
+    upper, widths = (
+        [[float(number) for number in line.replace(":", "").split()] for line in table.strip().splitlines()]
+        for table in (DIN_3967_TABLE_1, DIN_3967_TABLE_2)
+    )
+    for (most, *allowances), (_, *tolerances) in zip(upper, widths, strict=True):
+        letters = "a ab b bc c cd d e f g h".split()
+        found = [tooth_thickness_allowance(f"{letter}21", most) for letter in letters]
+        assert [-each.upper for each in found] == allowances
+        found = [tooth_thickness_allowance(f"h{series}", most) for series in range(21, 31)]
+        assert [each.tolerance for each in found] == tolerances
 
 
 @pytest.mark.parametrize(("tolerance_class", "size", "upper", "lower"), ISO_286)
