@@ -10,6 +10,7 @@ from gearcad import symbols
 from gearcad.dynamics.planetary.strength import TrainStrength
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.strength import Part, StrengthRating
+from gearcad.schema import is_assumed
 from gearcad.sheet.blocks import ABSENT, Row, Section, block
 from gearcad.symbols import Symbol
 
@@ -163,4 +164,5 @@ def _text(value: Any) -> str:
     if not isinstance(value, float):
         return str(value)
     text = f"{value:.4g}"
-    return f"{float(text):.0f}" if "e+" in text and abs(value) < _WHOLE else text
+    text = f"{float(text):.0f}" if "e+" in text and abs(value) < _WHOLE else text
+    return f"{text} (assumed)" if is_assumed(value) else text

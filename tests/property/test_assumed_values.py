@@ -20,6 +20,10 @@ from gearcad.jobs.drawn import drawn_gears
 from gearcad.jobs.rate import Rate
 from gearcad.mounting import Mounting
 from gearcad.page.last import of_last
+from gearcad.page.panels.figures import shown_figures
+from gearcad.page.panels.sheet import sheet_figures
+from gearcad.page.panels.strength import strength_figures
+from gearcad.page.words import Language, Words
 from gearcad.planetary import TrainLoad
 from gearcad.planetary.power import power_flow
 from gearcad.rating import RatingOptions
@@ -220,3 +224,14 @@ def test_choices_that_nobody_made_are_told(key: str, value: str, tmp_path: Path)
         found.append(Rate(report=False).run(read(path)).to_dict())
     assert [told(each["assumed"], "rating", key) for each in found] == [True, False]
     assert found[0]["factors"] == found[1]["factors"] and found[0]["scuffing"]["flash"] == found[1]["scuffing"]["flash"]
+
+
+@pytest.mark.parametrize("given", [False, True])
+def test_the_page_shows_the_marks(tmp_path: Path, given: bool) -> None:
+    """In its words, and as values that a browser can have: its encoder takes no numbers of other classes."""
+    orjson = pytest.importorskip("orjson")
+    design = made(tmp_path, ASSUMED if given else [])
+    for language, word in zip(Language, ("assumed", "angenommen"), strict=True):
+        for found in (sheet_figures(design), strength_figures(design)):
+            shown = orjson.dumps(shown_figures(found, Words.of(language), kept=found)).decode()
+            assert (f"({word})" in shown) is not given

@@ -32,8 +32,13 @@ def title_in(words: Words, title: str) -> str:
     return _WORDS.sub(lambda found: words[found[0]] if found[0] in _KINDS else found[0], title)
 
 
+_ASSUMED = " (assumed)"
+
+
 def value_in(words: Words, text: str) -> str:
     """A value as shown."""
+    if text.endswith(_ASSUMED):
+        return f"{value_in(words, text.removesuffix(_ASSUMED))} ({words['assumed']})"
     return words[text] if text in _VALUES else text
 
 
