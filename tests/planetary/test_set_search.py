@@ -9,12 +9,17 @@ import numpy as np
 import pytest
 from support.tooth_loops import loops
 
+from gearcad import Gear
 from gearcad.errors import ParameterError
+from gearcad.geometry.internal_mating import internal_tips
+from gearcad.geometry.pair_data import PairData
 from gearcad.planetary.fitting import SetTeeth
 from gearcad.planetary.mesh import SetType
 from gearcad.planetary.power import efficiency
 from gearcad.planetary.search import SearchTask, search
+from gearcad.planetary.search.conditions import _tip_margin
 from gearcad.planetary.search.grid import grids
+from gearcad.planetary.search.sizes import MeshSizes
 
 A, B, C, D = SetType
 
@@ -150,6 +155,24 @@ def test_nothing_found_says_what_is_nearest() -> None:
     (below,) = result.nearest
     assert below == pytest.approx(1 + 59 / 17, rel=1e-12)
     assert min(search(SearchTask(ratio=-5.2, module=2.0)).nearest) > 1
+
+
+@pytest.mark.parametrize(
+    ("rim", "ring", "helix_angle", "shifts"),
+    [(30, 60, 0.0, (0.25, -0.25)), (36, 43, 0.0, (0.1, 0.0)), (36, 43, 20.0, (0.2, -0.1)), (40, 50, 10.0, (0.1, 0.1))],
+)
+def test_tips_beside_the_mesh_have_the_margin_of_the_pair(
+    rim: int, ring: int, helix_angle: float, shifts: tuple[float, float]
+) -> None:
+    """Many pairs by arrays, and one by its profiles: the same distance along the ring's tip circle, also where tips foul."""
+    given = {"normal_module": 2.0, "face_width": 20.0, "helix_angle": helix_angle}
+    planet, wheel = (Gear(teeth=z, profile_shift=x, **given) for z, x in zip((rim, -ring), shifts, strict=True))
+    mesh = MeshSizes(central=np.array([-ring]), rim=np.array([rim]), module=2.0, helix_angle=math.radians(helix_angle))
+    distance = mesh.distance_for(sum(shifts))
+    tips = tuple(np.array([abs(gear.tip_diameter) / 2]) for gear in (planet, wheel))
+    found = _tip_margin(mesh, distance, tips, tuple(np.array([x]) for x in shifts)) * tips[1]
+    pair = internal_tips(PairData(pinion=planet, wheel=wheel, centre_distance=-float(distance[0])))
+    assert found == pytest.approx(pair.trochoid_margin, abs=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,7 @@ from gearcad.contact.shared.chain import Cuts
 from gearcad.contact.solid.body import SolidBody, SolidSector, assemble_body
 from gearcad.contact.solid.flank import solid_compliance
 from gearcad.contact.solid.hexahedra import lame
+from gearcad.contact.solid.root import _between
 from gearcad.errors import SolverError
 from gearcad.meshing.section import MeshSizes
 from gearcad.meshing.section.outline import Side
@@ -324,3 +325,13 @@ def test_a_free_bore_is_that_of_the_body_in_full(mesh: SweptMesh, sector: SolidS
     polar = [body.sector.cut_turn.T @ each for each in moved]
     for one, other in pairwise(polar):
         assert np.abs(one[body.sector.ahead] - other[body.sector.behind]).max() < EXACT * np.abs(reference).max()
+
+
+def test_places_between_rows_reach_both_ends() -> None:
+    """Four steps to each interval, of the cubic through the rows: x, x^2 and x^3 stay what they are, up to the last row."""
+    rows = np.array([-1.0, 0.0, 1.5, 2.0, 4.0])
+    weights = _between(rows)
+    places = np.interp(np.arange(17) / 4, np.arange(5), rows)
+    for power in range(4):
+        np.testing.assert_allclose(weights @ rows**power, places**power, atol=1e-12)
+    np.testing.assert_array_equal(_between(np.array([2.0])), [[1.0]])

@@ -15,7 +15,7 @@ from gearcad import BasicRack, Gear, GearPair, Load, Mounting
 from gearcad.designs import PairDesign, design_from_tables
 from gearcad.designs.loaded_pairs import pair_specs
 from gearcad.dynamics import DynamicsOptions, Inertia, Mesh, Shaft, Train
-from gearcad.dynamics.engagement import engaged
+from gearcad.dynamics.engagement import _in_range, engaged
 from gearcad.dynamics.excitation.sources import train_excitation
 from gearcad.dynamics.pair_result import PairStudy
 from gearcad.dynamics.train import study_train
@@ -191,6 +191,16 @@ def test_a_train_that_is_held_finds_forces_and_stiffness_together() -> None:
     assert error is not None and error.line is not None
     lag = error.line.height + course.cycle.force / course.cycle.tangent_stiffness
     assert course.cycle.mean_of(lag) == pytest.approx(1e6 * force / k, rel=MEANS)
+
+
+def test_torques_beyond_their_range_by_rounding_are_its_ends() -> None:
+    """Forces of a train are the solution of equations; a pair can be looked at under 1e-9 to 1e9 N·m."""
+    mesh = one(gears()).meshes[0]
+    for torque, permitted in ((50.0, 50.0), (-1e9 * (1 + 1e-12), -1e9), (1e-9 * (1 - 1e-12), 1e-9)):
+        assert _in_range(mesh, torque) == permitted
+    for torque in (1.001e9, -0.999e-9):
+        with pytest.raises(ParameterError, match=r"torques = .* its pair can be looked at under 1e-09 to 1e\+09 N·m"):
+            _in_range(mesh, torque)
 
 
 def test_a_mesh_without_load_is_refused() -> None:
