@@ -17,6 +17,7 @@ from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.charts.kv import kv_chart
 from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
 from gearcad.dynamics.charts.speed_curves import LEFT_OUT, SpeedCurves
+from gearcad.dynamics.charts.time_runs import TimeRuns
 from gearcad.dynamics.excitation.deviations import TransmissionError
 from gearcad.dynamics.excitation.mesh_curves import CurveStiffness, square_stiffness
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
@@ -273,6 +274,14 @@ def test_no_loads_where_runs_in_time_would_take_too_long() -> None:
     assert not known.all() and found.up.factors[known].max() < 3
     assert any(notice.code == "no-value" for notice in found.notices)
     assert None in found.up.to_dict()["kv"]["mesh"]
+
+
+def test_time_that_runs_would_take_grows_with_the_speeds_between() -> None:
+    """As many speeds between the rungs as there are rungs where flanks part take as long as those."""
+    runs = TimeRuns(SpeedCurves(oscillator(2e-6), cosine(0.1, backlash=math.inf)), cosine(0.1, backlash=math.inf), 1.1)
+    count = int(runs.contact[1].sum())
+    alone, twice = (float(runs.reason(more).split(" about ")[1].removesuffix(" s")) for more in (0, count))
+    assert count > 10 and twice == pytest.approx(2 * alone, rel=1e-3)
 
 
 # ---------------------------------------------------------------------- one speed, no mesh
