@@ -24,6 +24,7 @@ from gearcad.drawing.frame import (
     title_values,
 )
 from gearcad.drawing.frame.fitting import CLOSEST
+from gearcad.drawing.frame.notes import notes
 from gearcad.drawing.frame.sizes import VALUES
 from gearcad.drawing.options import DrawingOptions, Projection, Revision, SheetSize
 from gearcad.drawing.shapes import Box, Figure, Occupied, Pen, Text, text_width
@@ -414,3 +415,12 @@ def test_words_say_the_same_in_all_languages_with_letters_that_the_font_has() ->
     for labels in (english, *others):
         assert all(text.strip() == text and text for text in labels.values())
         assert {letter for text in labels.values() for letter in text if not has_glyph(letter)} == set()
+
+
+def test_notes_stand_on_the_corner_that_they_are_moved_to() -> None:
+    """The last note has its baseline at (0, 0), the first is above it; what they hold is not moved by their number."""
+    one, two = (notes(["an edge", "a size"][:count], SHIPPED) for count in (1, 2))
+    places = [[shape.at for shape in each.figure.shapes if isinstance(shape, Text)] for each in (one, two)]
+    assert places[0] == [(0.0, 0.0)]
+    assert min(places[1]) == (0.0, 0.0) and max(places[1])[1] > SHIPPED.notes.text
+    assert notes([], SHIPPED).empty

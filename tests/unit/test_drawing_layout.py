@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from gearcad.drawing.layout import Fixed, View, Views, arranged, dressed
+from gearcad.drawing.layout.places import Room
 from gearcad.drawing.marks import Characteristic, Side, frame_leader, leader, linear_dimension, tolerance_frame
 from gearcad.drawing.options import SCALES, Projection, SheetSize
 from gearcad.drawing.shapes import Anchor, Box, Dimension, Figure, Hatching, Line, Occupied, Pen, Point, Polyline, Shape, Text
@@ -257,3 +258,17 @@ def test_lines_that_would_look_doubled_are_better_avoided(up: float, along: floa
             for start, end in (((0.0, 0.0), (20.0, 0.0)), ((along, up), (along + 20.0, up)))
         )
         assert Occupied(Figure.of(standing)).crossings(Figure.of(line)) == doubled
+
+
+def test_views_have_the_air_around_them_that_a_room_asks_for() -> None:
+    """Two views of 40 and 30 mm, 10 mm apart and 5 mm from the edges, need 90 mm, beside a taken box as well."""
+    views = (Box(-20.0, -10.0, 20.0, 10.0), Box(0.0, -10.0, 30.0, 10.0))
+    assert Room(Box(0.0, 0.0, 89.9, 30.0)).places([views]) is None
+    assert Room(Box(0.0, 0.0, 90.0, 29.9)).places([views]) is None
+    found = Room(Box(100.0, 0.0, 190.0, 30.0)).places([views])
+    assert found is not None
+    np.testing.assert_allclose(found[0], [(125.0, 15.0), (155.0, 15.0)], atol=1e-9)
+    behind = Room(Box(0.0, 0.0, 100.0, 30.0), taken=(Box(0.0, 0.0, 10.0, 30.0),)).places([views])
+    assert behind is not None
+    np.testing.assert_allclose(behind[0], [(35.0, 15.0), (65.0, 15.0)], atol=1e-9)
+    assert Room(Box(0.0, 0.0, 99.9, 30.0), taken=(Box(0.0, 0.0, 10.0, 30.0),)).places([views]) is None
