@@ -10,7 +10,18 @@ from typing import Any
 
 from gearcad.verdict import Verdict
 
-__all__ = ["Comparison", "ComparisonRole", "Subject", "agrees", "at_least", "at_most", "beside", "beside_required", "verdict"]
+__all__ = [
+    "Comparison",
+    "ComparisonRole",
+    "Subject",
+    "agrees",
+    "at_least",
+    "at_most",
+    "beside",
+    "beside_limit",
+    "beside_required",
+    "verdict",
+]
 
 
 class ComparisonRole(Enum):
@@ -148,6 +159,14 @@ def at_least(quantity: str, computed: float | None, limit: float, source: str, n
     """A gate of strength: a safety and the least one that is permitted."""
     gate, strength = ComparisonRole.GATE, Subject.STRENGTH
     return Comparison(quantity, computed, limit, None, "", source, note, reason, role=gate, subject=strength, least=True)
+
+
+def beside_limit(
+    quantity: str, computed: float | None, limit: float | None, unit: str, source: str, note: str = "", reason: str = ""
+) -> Comparison:
+    """Information on strength: a local stress beside a limit that is not its own, None where there is none."""
+    information, strength = ComparisonRole.INFORMATION, Subject.STRENGTH
+    return Comparison(quantity, computed, limit, None, unit, source, note, reason, role=information, subject=strength)
 
 
 def beside_required(

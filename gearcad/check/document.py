@@ -37,6 +37,7 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "strength_rating": {key: value for key, value in result.safeties.rating.to_dict().items() if key != "nominal"},
         "safeties": result.safeties.to_dict(),
         "convergence": [each.to_dict() for each in result.convergence],
+        "relief_starts": [start.to_dict() for start in result.relief_starts],
         "comparisons": [comparison.to_dict() for comparison in result.comparisons],
         "explanations": result.explanations.to_dict(),
         "warnings": list(result.warnings),

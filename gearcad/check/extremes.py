@@ -10,7 +10,7 @@ from gearcad.contact.shared.loaded import LoadedPosition
 from gearcad.contact.solid.cycle import SolidPosition
 from gearcad.per_gear import PerGear, Role
 
-__all__ = ["PLANE", "PRESSURE", "ROOTS", "SOLID", "STRESSES", "Extremes"]
+__all__ = ["ERRORS", "PLANE", "PRESSURE", "ROOTS", "SOLID", "STRESSES", "Extremes"]
 
 _Position: TypeAlias = LoadedPosition[Any]
 _Quantities: TypeAlias = tuple[Quantity[_Position], ...]
@@ -39,9 +39,12 @@ ROOTS: _Quantities = PerGear.each(_tension)
 PRESSURE: Quantity[_Position] = Quantity("contact_pressure", lambda position: position.contact_pressure)
 STRESSES: _Quantities = (*ROOTS, PRESSURE)
 
-_COURSES: _Quantities = (
+ERRORS: _Quantities = (
     Quantity("transmission_error_max", lambda position: position.transmission_error, swing=True),
     Quantity("transmission_error_min", lambda position: position.transmission_error, least=True, swing=True),
+)
+_COURSES: _Quantities = (
+    *ERRORS,
     Quantity("mesh_stiffness_max", lambda position: position.stiffness, swing=True),
     Quantity("mesh_stiffness_min", lambda position: position.stiffness, least=True, swing=True),
 )

@@ -7,14 +7,12 @@ from collections.abc import Iterator
 from gearcad.check.rim import rim_notices
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
-from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.contact.shared.loaded import Cycle
-from gearcad.contact.shared.relief_start import onsets
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear
 from gearcad.notice import Notice
 from gearcad.rating.rim import RING_RIM_LIMIT
 
-__all__ = ["common_notices", "elastic_end", "relief_start"]
+__all__ = ["common_notices", "elastic_end"]
 
 _ABSURD = 0.03
 """Stress over modulus above which strains are no longer small."""
@@ -29,7 +27,6 @@ def common_notices(task: CheckTask, cycle: Cycle, summary: Summary) -> Iterator[
     yield from _bodies(task, cycle)
     yield from rim_notices(task, summary)
     yield from _corners(task, cycle, summary)
-    yield from relief_start(task.pair)
 
 
 _STEEL, _METAL = 206000.0, 40000.0
@@ -125,24 +122,4 @@ def _corners(task: CheckTask, cycle: Cycle, summary: Summary) -> Iterator[Notice
             "corner-contact",
             f"a tip corner touches at {summary.corner_positions} of {len(cycle.positions)} positions: its pressure depends on "
             f"the mesh and is left out; {advice}",
-        )
-
-
-def relief_start(pair: GearPair) -> Iterator[Notice]:
-    """Yield a notice if a linear relief of the pair begins where its flanks carry: the pressure there is not judged."""
-    line = line_of_action(pair)
-    ends = [line.lengths(end) for end in pair.usable_path]
-    roles = []
-    for role, flank in line.flanks.items():
-        first, last = sorted(end.pick(role) for end in ends)
-        if any(first < onset.roll < last for onset in onsets(flank)):
-            roles.append(role.value)
-    if roles:
-        yield Notice(
-            "relief-start",
-            f"linear relief of {' and '.join(roles)} begins where the flanks carry: the contact pressure told is that more "
-            "than three half widths of the contact away from the ends of the flanks and the start of the relief; at the start "
-            "itself a sharp bend has no finite pressure, and a real flank has a rounded transition, which is not given, so the "
-            "local pressure there is not judged; use the parabolic shape (tip_relief_shape, root_relief_shape), or treat the "
-            "pressure there as unknown",
         )

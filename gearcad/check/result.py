@@ -15,6 +15,7 @@ from gearcad.check.explanation import Explanations
 from gearcad.check.load_share import LoadShare
 from gearcad.check.notices import elastic_end
 from gearcad.check.options import CheckOptions, Model
+from gearcad.check.relief_start import ReliefStart
 from gearcad.check.stiffness import StiffnessMethods, stiffness_methods
 from gearcad.check.strength import CheckStrength
 from gearcad.check.summary import Summary, root_peaks
@@ -54,6 +55,7 @@ class CheckResult(Pictured, ABC):
     convergence: tuple[Convergence, ...]
     comparisons: tuple[Comparison, ...]
     notices: tuple[Notice, ...]
+    relief_starts: tuple[ReliefStart, ...] = ()
 
     model: ClassVar[Model]
 

@@ -25,7 +25,7 @@ _TO_THE_RIGHT = (2, 3, 5, 6)
 _WORDS = (
     "ok, FAILED: gates, which decide. in band, OUTSIDE: information; how far it may be from ISO 6336 is set in [check] "
     "(root_band, stiffness_band, contact_band) and decides nothing. reached, BELOW: safeties by finite elements beside those "
-    "required: the standard's decide."
+    "required: the standard's decide. below, ABOVE: the local pressure where a linear relief starts, beside the contact limit."
 )
 
 
@@ -64,6 +64,8 @@ def _row(of: Comparison) -> _Line:
     """A comparison; a limit is told by how much of it is used up."""
     gate = of.role is ComparisonRole.GATE
     good, bad = ("ok", "FAILED") if gate else ("reached", "BELOW") if of.least else ("in band", "OUTSIDE")
+    if not gate and of.tolerance is None and not of.least:
+        good, bad = "below", "ABOVE"
     word = good if of.passed else bad if gate or of.evaluated else "-"
     if of.deviation is None:
         deviation = "-"

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
-import numpy as np
-
-from gearcad.check.notices import relief_start
-from gearcad.check.solid.summary import worst_place
-from gearcad.contact.optimum.search import Found
+from gearcad.check.extremes import SOLID
+from gearcad.check.options import Model
+from gearcad.check.relief_start import start_notice
 from gearcad.contact.optimum.variants import Condition
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.designs import PairDesign
 from gearcad.errors import ParameterError
 from gearcad.geometry import GearPair
 from gearcad.notice import Notice, texts
-from gearcad.per_gear import Role
 from gearcad.reprs import Pictured
 
 __all__ = ["SUFFIX", "CycleFigures", "Proposal", "Robustness"]
@@ -25,13 +22,11 @@ __all__ = ["SUFFIX", "CycleFigures", "Proposal", "Robustness"]
 SUFFIX = "-modified"
 """What the name of a modified design ends in."""
 
-_BESIDE = 1.01
-"""Share of the bound from which on a pressure, solved in full, is worth a warning."""
-
-
 @dataclass(frozen=True, kw_only=True)
 class CycleFigures:
-    """What a mesh cycle comes to: transmission error in µm, stresses in MPa, and at how many positions a tip's edge carries."""
+    """What a check says of a mesh cycle: transmission error in µm, stresses in MPa, and at how many positions a tip's edge
+    carries.
+    """
 
     transmission_error_peak_to_peak: float
     transmission_error_harmonics: tuple[float, float, float]
@@ -43,19 +38,18 @@ class CycleFigures:
 
     @classmethod
     def of(cls, cycle: SolidCycle) -> CycleFigures:
-        """Those of a cycle. Raises ParameterError where no place of contact is away from edges."""
-        worst = worst_place(cycle)
-        if worst is None:
+        """Those of a cycle with the extremes of a check. Raises ParameterError where all contact is beside edges."""
+        extremes = {quantity.name: found.value for quantity in SOLID if (found := cycle.extreme(quantity)) is not None}
+        if "contact_pressure" not in extremes:
             permitted = "must leave a place of contact away from the edges of the flanks: beside them no pressure is told"
             raise ParameterError("torque", cycle.torque, permitted, "N·m")
         first, second, third = cycle.harmonics[:3].tolist()
-        pinion, wheel = (cycle.worst_position(role).tension.pick(role).stress for role in Role)
         return cls(
-            transmission_error_peak_to_peak=float(np.ptp(cycle.values("transmission_error"))),
+            transmission_error_peak_to_peak=extremes["transmission_error_max"] - extremes["transmission_error_min"],
             transmission_error_harmonics=(first, second, third),
-            contact_pressure=worst.of(worst.contact.pressures),
-            root_tension_pinion=pinion,
-            root_tension_wheel=wheel,
+            contact_pressure=extremes["contact_pressure"],
+            root_tension_pinion=extremes["root_tension_pinion"],
+            root_tension_wheel=extremes["root_tension_wheel"],
             face_load_factor=cycle.face_load_factor,
             edge_positions=cycle.edge_positions,
         )
@@ -75,12 +69,17 @@ class Robustness(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Proposal(Pictured):
-    """Modifications for a design at a torque (N·m on the pinion), and what they do; `pair` is the design's with them."""
+    """Modifications for a design at a torque (N·m on the pinion), and what they do; `pair` is the design's with them.
+
+    `bound` (MPa) is that of the contact pressure. All figures are those that a check of solid bodies finds.
+    """
+
+    model: ClassVar[Model] = Model.SOLID
 
     design: PairDesign
     pair: GearPair
     torque: float
-    found: Found
+    bound: float
     variants: int
     before: CycleFigures
     after: CycleFigures
@@ -115,8 +114,8 @@ class Proposal(Pictured):
     @property
     def notices(self) -> tuple[Notice, ...]:
         """What an engineer should know before making this."""
-        after, bound, found = self.after, self.found.bound, []
-        if not self.found.bounded or after.contact_pressure > _BESIDE * bound:
+        after, bound, found = self.after, self.bound, []
+        if after.contact_pressure > bound:
             text = f"the contact pressure is {after.contact_pressure:.0f} MPa, above the bound of {bound:.0f} MPa"
             found.append(Notice("pressure-above-bound", text))
         if after.edge_positions:
@@ -128,7 +127,7 @@ class Proposal(Pictured):
         if after.transmission_error_peak_to_peak > self.before.transmission_error_peak_to_peak:
             text = "the transmission error is not less than it was: the flanks as they are break the bounds"
             found.append(Notice("transmission-error-not-less", text))
-        found.extend(relief_start(self.pair))
+        found.extend(start_notice(self.pair))
         return tuple(found)
 
     @property
@@ -139,8 +138,9 @@ class Proposal(Pictured):
     def to_dict(self) -> dict[str, Any]:
         """The proposal under the names of its document."""
         return {
+            "model": self.model.value,
             "torque": self.torque,
-            "pressure_bound": self.found.bound,
+            "pressure_bound": self.bound,
             "variants": self.variants,
             "changes": self.changes,
             "before": asdict(self.before),

@@ -13,17 +13,19 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Load, Material, check
-from gearcad.check.comparison import Comparison
-from gearcad.check.notices import relief_start
+from gearcad.check.comparison import Comparison, ComparisonRole, Subject, verdict
+from gearcad.check.document import check_document
 from gearcad.check.options import CheckOptions
 from gearcad.check.plane.summary import PlaneSummary, summarise_plane
+from gearcad.check.relief_start import relief_starts, start_comparisons, start_notice, start_notices
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
 from gearcad.geometry import ReliefShape
-from gearcad.per_gear import PerGear
+from gearcad.per_gear import PerGear, Role
+from gearcad.verdict import Verdict
 
 TORQUE = 12.7
 TRIAL = 0.015
@@ -249,16 +251,43 @@ def relieved(shape: ReliefShape, **given: float) -> GearPair:
     return GearPair(pinion=gears[0], wheel=gears[1])
 
 
-@pytest.mark.parametrize("model", ["2d", "3d"])
-def test_the_start_of_a_linear_relief_is_told_as_not_judged(model: str) -> None:
-    pair = relieved(ReliefShape.LINEAR, tip_relief=20.0, tip_relief_length=4.0)
+@pytest.mark.parametrize("model", ["2d", pytest.param("3d", marks=pytest.mark.long)])
+def test_the_pressure_at_the_start_of_a_linear_relief_is_told_and_is_no_gate(model: str) -> None:
+    """It is above the pressure away from there; above the contact limit it is a caution, and no strength fails for it."""
+    pair = relieved(ReliefShape.LINEAR, tip_relief=30.0, tip_relief_length=3.0)
     options = CheckOptions(convergence="off", positions=12, body_teeth=3)
-    found = check(pair, Load(torque=150.0), model=model, check=options)
+    steel = Material(name="steel")
+    found = check(pair, Load(torque=150.0), material=steel, model=model, check=options)
+    rows = [each for each in found.comparisons if "start of the relief" in each.quantity]
+    assert [start.role for start in found.relief_starts] == list(Role) and len(rows) == 2
+    for start, row in zip(found.relief_starts, rows, strict=True):
+        assert start.pressure is not None and start.half is not None and start.twice is not None
+        assert start.half > start.pressure > start.twice
+        ((_, transition, along),) = start.reliefs
+        assert (transition.length, transition.source.value) == (pytest.approx(0.3), "assumed")
+        flank = pair.gears.pick(start.role).flank_form
+        assert along == pytest.approx(0.3 * (flank.last - 3.0) / flank.base_radius)
+        assert row.role is ComparisonRole.INFORMATION and row.computed == start.pressure and not row.evaluated
+    worst = max(start.pressure or 0.0 for start in found.relief_starts)
+    away = found.summary.contact_pressure
+    assert away is not None and worst > away
     texts = [notice.text for notice in found.notices if notice.code == "relief-start"]
-    assert len(texts) == 1
-    assert "local pressure there is not judged" in texts[0]
-    assert "pinion and wheel" in texts[0]
-    assert not list(relief_start(relieved(ReliefShape.PARABOLIC, tip_relief=20.0, tip_relief_length=4.0)))
+    assert len(texts) == 2 and all("(assumed)" in text and "tip_relief_transition" in text for text in texts)
+    limit = replace(steel, contact_limit=(away + worst) / 2)
+    task = replace(found.task, material=limit)
+    texts = [notice.text for notice in start_notices(task, found.relief_starts)]
+    assert any("above the contact limit" in text and "a caution, no failure" in text for text in texts)
+    exceeded = [row for row in start_comparisons(task, found.relief_starts) if row.evaluated and not row.passed]
+    assert exceeded and verdict(exceeded, Subject.STRENGTH) is Verdict.NOT_JUDGED
+
+
+def test_a_kink_has_no_pressure_at_its_start() -> None:
+    pair = relieved(ReliefShape.LINEAR, tip_relief=30.0, tip_relief_length=3.0, tip_relief_transition=0.0)
+    found = check(pair, Load(torque=150.0), check=CheckOptions(convergence="off", positions=12, body_teeth=3))
+    assert [start.pressure for start in found.relief_starts] == [None, None]
+    assert all("unbounded" in notice.text for notice in found.notices if notice.code == "relief-start")
+    assert check_document(found)["relief_starts"][0]["reason"].startswith("unbounded")
+    assert not relief_starts(replace(found.cycle, model=found.cycle.model.with_flanks(relieved(ReliefShape.PARABOLIC))))
 
 
 def test_a_root_relief_that_begins_below_the_path_of_contact_is_not_told() -> None:
@@ -271,6 +300,6 @@ def test_a_root_relief_that_begins_below_the_path_of_contact_is_not_told() -> No
         pair = relieved(ReliefShape.LINEAR)
         relief = FlankModification(root_relief=10.0, root_relief_length=share * unused)
         pair = replace(pair, pinion=replace(pair.pinion, modification=relief))
-        notices = list(relief_start(pair))
+        notices = list(start_notice(pair))
         assert len(notices) == told
-        assert all("linear relief of pinion begins" in notice.text for notice in notices)
+        assert all("root relief of the pinion" in notice.text for notice in notices)

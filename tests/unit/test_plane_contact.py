@@ -479,7 +479,7 @@ def test_cells_at_the_start_of_a_relief_are_narrow_and_tell_its_pressure() -> No
     (onset,) = onsets(model.line.flanks.pinion)
     radius = onset.roll * (model.line.whole - onset.roll) / model.line.whole
     stretch = model.line.flanks.pinion.base_radius / onset.roll
-    lengths = onset.roll + np.linspace(0, radius * onset.slope / 2 * stretch, 5)
+    lengths = onset.roll + np.linspace(0, radius * onset.slope * stretch, 25)
     found = [
         contact
         for angle in model.roll_angle(lengths).tolist()
@@ -492,7 +492,7 @@ def test_cells_at_the_start_of_a_relief_are_narrow_and_tell_its_pressure() -> No
     assert worst.start_pressures.pinion == pytest.approx(closed, rel=0.01)
     assert all(math.isnan(contact.start_pressures.wheel) for contact in found)
     kink = replace(relief, tip_relief_transition=0.0)
-    sharp = PlaneCycle(plane_pair(modified(kink), STEEL, body=SMALL), 30.0).contacts_at(float(model.roll_angle(lengths)[2]))
+    sharp = PlaneCycle(plane_pair(modified(kink), STEEL, body=SMALL), 30.0).contacts_at(float(model.roll_angle(lengths)[6]))
     assert all(math.isnan(contact.start_pressures.pinion) for contact in sharp)
 
 

@@ -272,6 +272,7 @@ def test_an_edge_counts_where_it_carries(forces: tuple[float, ...], edge: bool) 
         radii=np.ones(3),
         margin=np.ones(3),
         start_pressures=PerGear(math.nan, math.nan),
+        edge_pressure=0.0,
         force=float(loads.sum()),
         share=1.0,
     )

@@ -11,6 +11,7 @@ from gearcad.check.options import Model
 from gearcad.check.plane.judge import compare_plane
 from gearcad.check.plane.result import PlaneCheck
 from gearcad.check.plane.summary import summarise_plane
+from gearcad.check.relief_start import relief_starts, start_comparisons, start_notices
 from gearcad.check.sweep import sweep_points
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
@@ -59,16 +60,18 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     model = plane_model(task)
     cycle = PlaneCycle.run(model, task.torque, task.options.positions_of(Model.PLANE)).searched(PLANE)
     summary = summarise_plane(cycle, model.single_stiffness(task.torque))
+    starts = relief_starts(cycle)
     tell("convergence")
     convergence = three_meshes(_refined(task, cycle)) if task.options.refines else ()
     tell("torque sweep")
     sweep = sweep_points(cycle, task.torques)
     tell("rating")
-    comparisons = compare_plane(task, cycle, summary, convergence)
+    comparisons = (*compare_plane(task, cycle, summary, convergence), *start_comparisons(task, starts))
     notices = (
         *common_notices(task, cycle, summary),
         *plane_notices(task),
         *wide_contacts(cycle),
+        *start_notices(task, starts),
     )
     return PlaneCheck(
         task=task,
@@ -78,6 +81,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
         convergence=convergence,
         comparisons=comparisons,
         notices=notices,
+        relief_starts=starts,
     )
 
 

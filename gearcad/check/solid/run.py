@@ -9,6 +9,7 @@ from gearcad.check.convergence import SOLID_FACTORS, three_solid_meshes
 from gearcad.check.extremes import SOLID
 from gearcad.check.notices import common_notices
 from gearcad.check.options import Model
+from gearcad.check.relief_start import relief_starts, start_comparisons, start_notices
 from gearcad.check.solid.expected import BODIES, COARSER, CYCLE, FINER, RATING, SWEEP, sizes_of
 from gearcad.check.solid.judge import compare_solid
 from gearcad.check.solid.pictures import tooth_stresses
@@ -42,13 +43,19 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     positions = task.options.positions_of(Model.SOLID)
     cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
     summary, stresses = summarise_solid(cycle, model.single_stiffness(task.torque)), tooth_stresses(cycle)
+    starts = relief_starts(cycle)
     model.let_go()
     agenda(SWEEP)
     sweep = sweep_points(cycle, task.torques)
     convergence = three_solid_meshes(_refined(task, cycle, agenda)) if task.options.refines else ()
     agenda(RATING)
-    comparisons = compare_solid(task, cycle, summary, convergence)
-    notices = (*common_notices(task, cycle, summary), *_edge_notices(cycle, summary), *wide_contacts(cycle))
+    comparisons = (*compare_solid(task, cycle, summary, convergence), *start_comparisons(task, starts))
+    notices = (
+        *common_notices(task, cycle, summary),
+        *_edge_notices(task, cycle, summary),
+        *wide_contacts(cycle),
+        *start_notices(task, starts),
+    )
     return SolidCheck(
         task=task,
         cycle=cycle,
@@ -58,6 +65,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         convergence=convergence,
         comparisons=comparisons,
         notices=notices,
+        relief_starts=starts,
     )
 
 
@@ -83,11 +91,13 @@ def _cycle(model: SolidPair, task: CheckTask) -> SolidCycle:
     return SolidCycle.run(model, task.torque, task.options.positions_of(Model.SOLID)).searched(SOLID)
 
 
-def _edge_notices(cycle: SolidCycle, summary: SolidSummary) -> Iterator[Notice]:
-    greatest = max(float(contact.pressures.max()) for _, contact in cycle.contacts)
+def _edge_notices(task: CheckTask, cycle: SolidCycle, summary: SolidSummary) -> Iterator[Notice]:
+    greatest = max(contact.edge_pressure for _, contact in cycle.contacts)
     if summary.contact_pressure is None or greatest >= _EDGE_RATIO * summary.contact_pressure:
+        modified = any(gear.modification.present for gear in task.pair.gears)
+        advice = "the modifications given do not prevent it" if modified else "reliefs and crowning would lower it"
         yield Notice(
             "edge-pressure",
             f"beside the edges of the flanks the pressure is up to {greatest:.0f} MPa, by Hertz's formula, which no edge fits; "
-            "it is left out of the verdict; reliefs and crowning would lower it",
+            f"it is left out of the verdict; {advice}",
         )

@@ -32,7 +32,7 @@ class PlanePairContact(PairContact):
 
     Pressures in MPa, half widths in mm, `force` in N per mm. `interior` is False where the edge of a flank or the start of a
     linear relief is near. `even_distance` (mm) is that from a parabolic relief, `start_distances` those from the transitions of
-    each gear's linear reliefs; `sound` is False where cells are too wide for these, or the end of a flank lies in the contact.
+    each gear's linear reliefs, `start_pressures` the greatest (MPa) near these, NaN where none is told.
     `bent` (1/mm) is what the flanks' relative curvature gains there as the bodies give way.
     """
 
@@ -44,7 +44,7 @@ class PlanePairContact(PairContact):
     edge_distance: float
     even_distance: float
     start_distances: PerGear[float]
-    sound: bool
+    start_pressures: PerGear[float]
     bent: float
 
     @property
@@ -78,24 +78,14 @@ class PlanePairContact(PairContact):
         return 2 * self.force / (math.pi * self.hertz_half_width)
 
     @property
-    def _reach(self) -> float:
-        """Distance (mm) from edges and starts of reliefs beyond which a contact is that of two cylinders."""
-        return INTERIOR * half_width_by_curvature(self.force, 1 / self.pair.plain_radius, self.modulus)
-
-    @property
     def interior(self) -> bool:
         """True where the ends of both flanks and the starts of their linear reliefs are some half widths away."""
-        return min(self.edge_distance, *self.start_distances) > self._reach
+        return min(self.edge_distance, *self.start_distances) > _reach(self.pair, self.force, self.modulus)
 
     @property
     def two_cylinders(self) -> bool:
         """True where no parabolic relief is near either, along which the curvature changes."""
         return self.interior and self.even_distance > INTERIOR * self.hertz_half_width
-
-    @property
-    def start_pressures(self) -> PerGear[float]:
-        """Return the greatest cell pressures (MPa) at the starts of each gear's linear reliefs, NaN where none is told."""
-        return self.start_distances.map(lambda to: self.peak_pressure if self.sound and to < self._reach else math.nan)
 
     @property
     def interior_pressure(self) -> float | None:
@@ -197,8 +187,8 @@ def _contacts(model: PlanePair, solution: ContactSolution) -> tuple[PlanePairCon
             model.modulus,
             _distance(model, pair, even=False),
             _distance(model, pair, even=True),
-            _start_distances(model, pair),
-            _sound(model, pair, pressures),
+            to_starts := _start_distances(model, pair),
+            _start_pressures(model, pair, pressures, to_starts),
             _bent(model, loaded, place),
         )
         for place, (pair, pressures, force) in enumerate(loaded)
@@ -245,10 +235,19 @@ def _start_distances(model: PlanePair, pair: ContactPair) -> PerGear[float]:
     return PerGear(*found)
 
 
-def _sound(model: PlanePair, pair: ContactPair, pressures: Floats) -> bool:
-    """Whether cells are narrow enough for all transitions of linear reliefs, and the contact ends before the flanks do."""
+def _reach(pair: ContactPair, force: float, modulus: float) -> float:
+    """Distance (mm) from edges and starts of reliefs beyond which a contact is that of two cylinders."""
+    return INTERIOR * half_width_by_curvature(force, 1 / pair.plain_radius, modulus)
+
+
+def _start_pressures(model: PlanePair, pair: ContactPair, pressures: Floats, to_starts: PerGear[float]) -> PerGear[float]:
+    """Greatest pressures (MPa) near the starts of each gear's reliefs; NaN where cells are too wide for a transition, or an end
+    of a flank lies in the contact.
+    """
     cells, (low, high) = pair.cells, overlap(model.line, pair.lengths.pinion)
     pressed = cells.place[pressures > 0]
     shortest = min((onset.length for flank in model.line.flanks for onset in onsets(flank)), default=math.inf)
     narrow = cells.width <= shortest / _RESOLVED
-    return bool(narrow and low + cells.width < pressed.min() and pressed.max() < high - cells.width)
+    sound = narrow and low + cells.width < pressed.min() and pressed.max() < high - cells.width
+    reach, peak = _reach(pair, float(pressures.sum() * cells.width), model.modulus), float(pressures.max())
+    return to_starts.map(lambda to: peak if sound and to < reach else math.nan)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -62,6 +62,10 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
     def repeats(self) -> bool:
         """True unless the middle pair of teeth stands proud."""
         return not self.line.proud
+
+    def with_flanks(self, pair: GearPair) -> PlanePair:
+        """Return the same bodies with other modifications of an otherwise equal pair, as it is mounted."""
+        return replace(self, pair=pair, line=line_of_action(pair, 1000 * self.line.proud), known=KnownContacts())
 
     @cached_property
     def fillets(self) -> PerGear[Fillets]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 import numpy as np
 
@@ -173,6 +173,10 @@ class FlexiblePair(EngagedPair, ABC, Generic[Body]):
     def wheel(self) -> Body:
         """The wheel's body."""
         return self.bodies.wheel
+
+    @abstractmethod
+    def with_flanks(self, pair: GearPair) -> Self:
+        """Return the same bodies with other modifications of an otherwise equal pair, as it is mounted."""
 
     @property
     @abstractmethod

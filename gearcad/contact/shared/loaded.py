@@ -53,6 +53,9 @@ class PairContact(ABC):
     share: float
     """Of the load that all pairs carry."""
 
+    start_pressures: PerGear[float]
+    """The greatest (MPa) at the starts of each gear's linear reliefs, NaN where none is told."""
+
     @property
     @abstractmethod
     def tooth(self) -> int:

@@ -14,10 +14,11 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import numpy as np
 
 from gearcad.arrays import Bools, Floats
-from gearcad.contact.shared.line_of_action import TransverseFlank
+from gearcad.contact.shared.line_of_action import LineOfAction, TransverseFlank
+from gearcad.per_gear import Role
 from gearcad.rating.hertz import half_width
 
-__all__ = ["GapCurve", "Onset", "Pressed", "onsets", "press", "rounded_kink_pressure", "start_distance"]
+__all__ = ["GapCurve", "Onset", "Pressed", "onsets", "press", "rounded_kink_pressure", "start_distance", "start_lengths"]
 
 
 Size = TypeVar("Size", float, Floats)
@@ -27,6 +28,9 @@ _OF_TRANSITION, _OF_WIDTH, _MOST_NODES = 8, 48, 4096
 
 _ROUNDS, _SETTLED = 60, 1e-10
 """Newton steps for middle and half width of a contact, and the last one over the half width."""
+
+_STEPS, _LEAST_TRANSITION, _MOST_STEPS = 6, 0.01, 24
+"""Steps over a transition (mm of roll, taken as no shorter) at which contacts are looked at, and the most of an onset."""
 
 _PLACES, _POSITIONS, _HALVINGS = 401, 201, 60
 """Places in a contact, positions of the kink in it, and halvings of its width in the closed form."""
@@ -65,6 +69,23 @@ def start_distance(base_radius: float, onset: Onset[Any], lengths: Floats, radii
     """
     past = onset.sense * (lengths**2 - onset.roll**2) / (2 * base_radius)
     return np.maximum(-past, past - radii * onset.slope) - onset.length / 2
+
+
+def start_lengths(line: LineOfAction) -> Floats:
+    """Return where contacts touch (n,) in mm from T1 as they pass the starts of linear reliefs, from onsets to R D/2 behind.
+
+    There the kink is in the middle of the contact. Steps are a sixth of the transition at the most.
+    """
+    found = [np.zeros(0)]
+    for role, flank in line.flanks.items():
+        for onset in onsets(flank):
+            stretch = abs(flank.base_radius / onset.roll)
+            radius = onset.roll * (line.whole - onset.roll) / line.whole
+            shift = onset.sense * radius * onset.slope / 2 * stretch
+            steps = min(_STEPS * abs(shift) / max(onset.length * stretch, _LEAST_TRANSITION), _MOST_STEPS)
+            rolls = onset.roll + np.linspace(0.0, shift, math.ceil(steps) + 1)
+            found.append(rolls if role is Role.PINION else line.whole - rolls)
+    return np.concatenate(found)
 
 
 # ---------------------------------------------------------------------- closed form: a cylinder with a rounded kink

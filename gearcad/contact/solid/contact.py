@@ -22,7 +22,8 @@ class SolidPairContact(PairContact):
 
     `margin` (n,) in mm is by how much a cell is further than INTERIOR half widths of the plain flanks from all edges of both
     flanks and from the transitions of linear reliefs: where it is not positive the pressure depends on these. `start_pressures`
-    are the greatest (MPa) at the starts of each gear's linear reliefs, NaN where none is told.
+    are the greatest (MPa) at the starts of each gear's linear reliefs, NaN where none is told; `edge_pressure` (MPa) is the
+    greatest beside edges of the flanks.
     """
 
     line: ContactLine
@@ -32,6 +33,7 @@ class SolidPairContact(PairContact):
     radii: Floats
     margin: Floats
     start_pressures: PerGear[float]
+    edge_pressure: float
     force: float
     share: float
 

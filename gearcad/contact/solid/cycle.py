@@ -191,8 +191,9 @@ def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidPairContac
             margin = distance - INTERIOR * reach
             beside = told & (to_end > INTERIOR * reach) & (forces > 0)
             at_start = PerGear(*(_greatest_of(pressures, beside & (to < INTERIOR * reach)) for to in to_starts))
+            edge = float(pressures[np.minimum(line.edge_distance, to_end) < INTERIOR * reach].max(initial=0.0))
             force, share = float(forces.sum()), float(forces.sum() / total)
-            found.append(SolidPairContact(line, forces, widths, pressures, radii, margin, at_start, force, share))
+            found.append(SolidPairContact(line, forces, widths, pressures, radii, margin, at_start, edge, force, share))
     return tuple(found)
 
 

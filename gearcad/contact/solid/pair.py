@@ -131,6 +131,10 @@ class SolidPair(FlexiblePair[SolidCompliance]):
         line = line_of_action(mounted)
         return replace(self, pair=mounted, mounting=mounting, line=line, known=known, solved=KnownSolutions())
 
+    def with_flanks(self, pair: GearPair) -> SolidPair:
+        """Return the same bodies with other modifications of an otherwise equal pair, as it is mounted."""
+        return replace(self, pair=pair, line=line_of_action(pair), solved=KnownSolutions())
+
     def let_go(self) -> None:
         """Keep no factors of the bodies: the next field of a tooth makes them again."""
         for body in self.bodies:
@@ -208,13 +212,14 @@ class SolidPair(FlexiblePair[SolidCompliance]):
     def _require_in_range(self, found: LineSolution, torque: float) -> None:
         """Raise SolverError where the contact is wider than a tooth is deep, or than its flanks are curved."""
         worst = int(np.argmax(np.where(found.forces > 0, found.half_widths, 0.0)))
-        half = float(found.half_widths[worst])
+        half, radius = float(found.half_widths[worst]), float(found.gaps.radii[worst])
         depth = min((gear.tip_diameter - gear.root_diameter) / 2 for gear in self.pair.gears)
-        for words, bound in (("the depth of the teeth", depth), ("the reduced radius there", float(found.gaps.radii[worst]))):
+        for words, bound in (("the depth of the teeth", depth), ("the reduced radius there", radius)):
             if half > bound:
                 raise SolverError(
                     f"the contact is outside the range of its model: its half width, {half:.3g} mm at {abs(torque):.4g} N·m, "
-                    f"is more than {words}, {bound:.3g} mm; reduce load.torque or mounting.misalignment"
+                    f"is more than {words}, {bound:.3g} mm; reduce load.torque or mounting.misalignment, or raise check.refinement, "
+                    "as coarse elements put too much on an edge"
                 )
 
     def farthest(self, torque: float) -> float:

@@ -79,7 +79,7 @@ class CheckSections(ABC, Generic[Checked]):
     def outside(self) -> list[ComparisonRow]:
         """Information outside its band."""
         found = (each for each in self.result.comparisons if each.role is ComparisonRole.INFORMATION)
-        return [_row(each) for each in found if each.evaluated and not each.passed and not each.least]
+        return [_row(each) for each in found if each.evaluated and not each.passed and each.tolerance is not None]
 
     @property
     def below(self) -> tuple[str, ...]:
@@ -190,7 +190,7 @@ def _row(comparison: Comparison) -> ComparisonRow:
     elif gate or not comparison.evaluated:
         word = "NOT PASSED" if gate else "not evaluated"
     else:
-        word = "below" if comparison.least else "outside the band"
+        word = "below" if comparison.least else "above" if comparison.tolerance is None else "outside the band"
     return ComparisonRow(
         quantity=comparison.quantity,
         computed=_number(comparison.computed),
