@@ -16,6 +16,8 @@ from support.responses import MOMENT, VARIATION, cosine, isolated, oscillator, t
 from support.transient import integrate
 
 from gearcad.dynamics.charts.kv import kv_chart
+from gearcad.dynamics.charts.parting import parted
+from gearcad.dynamics.charts.speed_curves import SpeedCurves
 from gearcad.dynamics.excitation.deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness, cycle_stiffness, square_stiffness
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation, cycle_excitation
@@ -412,3 +414,13 @@ def test_a_motion_far_from_where_the_search_began_is_another_one() -> None:
         (again,) = balance.solve(omega, start + beside)
         np.testing.assert_allclose(again.approach, found.approach, atol=1e-5)
         assert again.solved.tolist() == [near]
+
+
+def test_a_branch_goes_on_to_the_last_speed_where_flanks_still_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Flanks are said to part at 0.9 of the resonance alone, but do so at the end of the chart too: it is followed to there."""
+    monkeypatch.setattr("gearcad.dynamics.charts.parting.MOST_ROUNDS", 0)  # no speeds between: they take long
+    curves = SpeedCurves(oscillator(0.1), cosine(0.5, phase=180.0, backlash=math.inf))
+    speeds = np.array([0.5, 0.6, 0.75, 0.9, 0.95, 1.0, 1.05])
+    found = parted(curves, speeds, np.array([0.9]))
+    assert found.branch.frequencies[-1] == speeds[-1]
+    assert found.seen(Direction.UP)[0].least[-1].min() <= 0
