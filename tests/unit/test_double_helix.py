@@ -44,6 +44,13 @@ def test_two_halves_carry_what_their_pairs_do(offset: float) -> None:
     assert lengths.mean == pytest.approx(2 * half.contact_line_lengths.mean, rel=1e-12)
 
 
+@pytest.mark.parametrize("gap", [0.0, 10.0])
+def test_two_halves_need_a_fiftieth_of_the_module_beside_the_gap(gap: float) -> None:
+    assert _gear(width=gap + 0.0401, gap_width=gap).half_width == pytest.approx(0.02005, abs=1e-12)
+    with pytest.raises(InputError, match=rf"gap_width = {gap:g} mm: must be at most .* to leave two halves"):
+        _gear(width=gap + 0.0399, gap_width=gap)
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [
