@@ -13,7 +13,7 @@ from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.errors import GeometryError, ParameterError, as_choice
 from gearcad.jobs.data import Data
 from gearcad.jobs.job import Job, Writer
-from gearcad.jobs.products import products_of, require_bodies
+from gearcad.jobs.products import products_of, require_bodies, require_facets
 from gearcad.jobs.subject import Subject, as_design
 from gearcad.notice import Notice
 from gearcad.progress import Progress
@@ -77,6 +77,8 @@ class Build(Job[ToothedDesign, ToothedDesign]):
                 raise GeometryError(option, True, f"needs the format {' or '.join(kind.value for kind in needed)}: {where}")
         if any(kind.entry.of_bodies for kind in self.formats):
             require_bodies(design, self.options)
+        if set(self.formats).intersection(formats_minding("chord_error")):
+            require_facets(design, self.options)
         return design
 
     def document(self, result: ToothedDesign) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear
 from gearcad.solids import FileOptions
+from gearcad.solids.facets.tessellation import gear_chord_error
 from gearcad.solids.files.products import GearProduct, PairProduct
 from gearcad.solids.rim import require_rim
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
     from gearcad.solids.files.train_products import TrainProduct
 
-__all__ = ["AssemblyProduct", "PartProduct", "given_speeds", "products_of", "require_bodies"]
+__all__ = ["AssemblyProduct", "PartProduct", "given_speeds", "products_of", "require_bodies", "require_facets"]
 
 PartProduct: TypeAlias = "GearProduct | RackProduct"
 AssemblyProduct: TypeAlias = "PairProduct | RackPairProduct | TrainProduct"
@@ -61,6 +62,17 @@ def require_bodies(design: ToothedDesign, options: FileOptions) -> None:
         _require_body(name, gear)
     if design.kind is DesignKind.PLANETARY:
         _train_product(cast("PlanetaryDesign", design), options).require_room()
+
+
+def require_facets(design: ToothedDesign, options: FileOptions) -> None:
+    """Raise ParameterError for a chord error that the facets of some gear or rack cannot have, before any is made."""
+    for gear in design.gears.values():
+        gear_chord_error(gear, options.chord_error)
+    if design.kind in (DesignKind.RACK, DesignKind.RACK_PAIR):
+        from gearcad.solids.facets.rack_facets import rack_chord_error
+
+        part = cast("RackPairDesign", design).pair if design.kind is DesignKind.RACK_PAIR else cast("RackDesign", design)
+        rack_chord_error(part.rack, options.chord_error)
 
 
 def _require_body(name: str, gear: Gear) -> None:

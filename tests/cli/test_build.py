@@ -11,12 +11,12 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from gearcad import GeometryError, SolverError
+from gearcad import GeometryError, ParameterError, SolverError
 from gearcad.cli import main
 from gearcad.designs import read_spec
 from gearcad.designs.design import Design
-from gearcad.jobs.build import build
-from gearcad.solids import Format
+from gearcad.jobs.build import Build, build
+from gearcad.solids import FileOptions, Format
 from gearcad.solids.files import products
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -276,3 +276,15 @@ def test_a_ring_without_a_rim_is_drawn_but_has_no_body(tmp_path: Path) -> None:
         assert "gear.body.rim_diameter is missing: must be given, at least 129.634 mm" in line
         assert ".step" not in result.output and ".stl" not in result.output
         assert not (tmp_path / kind).exists()
+
+
+@pytest.mark.parametrize(("starter", "words"), [("volvo-13-44", "tip diameter of 127.656"), ("rack", "rack of")])
+def test_a_chord_error_that_one_part_cannot_have_is_refused_before_any_is_made(
+    monkeypatch: pytest.MonkeyPatch, starter: str, words: str
+) -> None:
+    """The pinion's facets took 10 s of CPU time before the wheel was refused."""
+    monkeypatch.setattr(Build, "write", None)
+    design = read_spec(TEMPLATES / f"{starter}.toml")
+    with pytest.raises(ParameterError, match=rf"chord_error = 1e-05 mm: must be at least .* for a {words}"):
+        build(design, "out", ["stl"], chord_error=1e-5)
+    assert Build(formats=["step"], options=FileOptions(chord_error=1e-5)).run(design) is design

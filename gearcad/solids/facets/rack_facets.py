@@ -9,17 +9,21 @@ from itertools import pairwise
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.errors import ParameterError, require_number
-from gearcad.geometry.limits import at_least
 from gearcad.geometry.rack import Rack
-from gearcad.solids.facets.tessellation import LEAST_CHORD_ERROR, MOST_CHORD_ERROR, Facets
+from gearcad.solids.facets.tessellation import Facets, permitted_chord_error
 from gearcad.solids.facets.tolerance import arc_step
 from gearcad.solids.rack_plan import Piece, RackPlan, RackSide, outline_pieces
 
-__all__ = ["tessellate_rack"]
+__all__ = ["rack_chord_error", "tessellate_rack"]
 
 Triangles = list[tuple[int, int, int]]
 Point = Sequence[float]
+
+
+def rack_chord_error(rack: Rack, chord_error: float) -> float:
+    """Return the chord error (mm) that facets of a rack have. Raises as `permitted_chord_error`."""
+    size = max(rack.length, rack.face_width, rack.total_height)
+    return permitted_chord_error(chord_error, size, "rack", rack.normal_module)
 
 
 def tessellate_rack(rack: Rack, chord_error: float = 0.005) -> Facets:
@@ -28,12 +32,7 @@ def tessellate_rack(rack: Rack, chord_error: float = 0.005) -> Facets:
     As a `Rack` lies: along x, teeth up (+y), z = 0 ... face width. Errors above 0.01 m_n are made that. Raises ParameterError
     for a chord error that is not positive, or below what the float32 of mesh files resolves.
     """
-    require_number("chord_error", chord_error, "mm", above=0)
-    size = max(rack.length, rack.face_width, rack.total_height)
-    if chord_error < (least := LEAST_CHORD_ERROR * size):
-        permitted = f"must be at least {at_least(least)} mm for a rack of {size:.6g} mm (single precision)"
-        raise ParameterError("chord_error", chord_error, permitted, "mm")
-    builder = _Builder(rack, min(chord_error, MOST_CHORD_ERROR * rack.normal_module))
+    builder = _Builder(rack, rack_chord_error(rack, chord_error))
     return Facets(builder.vertices, np.array(builder.faces(), np.int64))
 
 

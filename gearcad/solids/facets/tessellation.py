@@ -16,13 +16,13 @@ from gearcad.solids.facets.ring import RingBuilder
 from gearcad.solids.facets.sampling import tooth_grid
 from gearcad.solids.rim import require_rim
 
-__all__ = ["LEAST_CHORD_ERROR", "MOST_CHORD_ERROR", "Facets", "tessellate"]
+__all__ = ["Facets", "gear_chord_error", "permitted_chord_error", "tessellate"]
 
 
-LEAST_CHORD_ERROR = 2e-7
+_LEAST_CHORD_ERROR = 2e-7
 """Least chord error as a share of the tip diameter: mesh files hold float32, which steps by up to 6e-8 of it."""
 
-MOST_CHORD_ERROR = 0.01
+_MOST_CHORD_ERROR = 0.01
 """Coarsest chord error in normal modules, so that small teeth keep their shape; a tenth of the thinnest wall."""
 
 
@@ -44,6 +44,24 @@ class Facets:
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
 
 
+def permitted_chord_error(chord_error: float, size: float, words: str, module: float) -> float:
+    """Return the chord error (mm) for a part of a size (mm) and normal module: that asked for, at most 0.01 modules.
+
+    Raises ParameterError for one that is not positive, or below what the float32 of mesh files resolves.
+    """
+    require_number("chord_error", chord_error, "mm", above=0)
+    if chord_error < (least := _LEAST_CHORD_ERROR * size):
+        permitted = f"must be at least {at_least(least)} mm for a {words} of {size:.6g} mm (single precision)"
+        raise ParameterError("chord_error", chord_error, permitted, "mm")
+    return min(chord_error, _MOST_CHORD_ERROR * module)
+
+
+def gear_chord_error(gear: Gear, chord_error: float) -> float:
+    """Return the chord error (mm) that facets of a gear have. Raises as `permitted_chord_error`, and GeometryError."""
+    outside, words = (require_rim(gear), "rim diameter") if gear.internal else (gear.tip_diameter, "tip diameter")
+    return permitted_chord_error(chord_error, outside, words, gear.normal_module)
+
+
 def tessellate(gear: Gear, chord_error: float = 0.005) -> Facets:
     """Triangles of the whole gear with its flanks as modified, nowhere more than `chord_error` (mm) from the exact surface.
 
@@ -51,13 +69,7 @@ def tessellate(gear: Gear, chord_error: float = 0.005) -> Facets:
     shape. Raises ParameterError for a chord error that is not positive, or below what the float32 of mesh files resolves,
     GeometryError for a ring without a rim.
     """
-    require_number("chord_error", chord_error, "mm", above=0)
-    outside, words = (require_rim(gear), "rim") if gear.internal else (gear.tip_diameter, "tip")
-    least = LEAST_CHORD_ERROR * outside
-    if chord_error < least:
-        permitted = f"must be at least {at_least(least)} mm for a {words} diameter of {outside:.6g} mm (single precision)"
-        raise ParameterError("chord_error", chord_error, permitted, "mm")
-    error = min(chord_error, MOST_CHORD_ERROR * gear.normal_module)
+    error = gear_chord_error(gear, chord_error)
     if gear.double_helix.present:
         return Facets(*double_facets(gear, error))
     grid = tooth_grid(gear, error)
