@@ -17,7 +17,7 @@ from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.charts.kv import kv_chart
 from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
 from gearcad.dynamics.charts.speed_curves import LEFT_OUT, SpeedCurves
-from gearcad.dynamics.charts.time_runs import TimeRuns
+from gearcad.dynamics.charts.time_runs import TimeRuns, _start
 from gearcad.dynamics.excitation.deviations import TransmissionError
 from gearcad.dynamics.excitation.mesh_curves import CurveStiffness, square_stiffness
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
@@ -274,6 +274,16 @@ def test_no_loads_where_runs_in_time_would_take_too_long() -> None:
     assert not known.all() and found.up.factors[known].max() < 3
     assert any(notice.code == "no-value" for notice in found.notices)
     assert None in found.up.to_dict()["kv"]["mesh"]
+
+
+def test_runs_begin_with_the_linear_motion() -> None:
+    """Approach and its rate at phase 0, from the coefficients of the balance; orders beyond these are in the start too."""
+    curves = SpeedCurves(oscillator(0.1), cosine(0.2))
+    (motion,) = curves.balance(8).solve(np.array([0.7]))
+    start, coefficients = _start(curves, motion), motion.approach[0, :, 0]
+    twice = np.where(np.arange(len(coefficients)) == 0, 1, 2) * coefficients
+    assert start.coordinates == pytest.approx([twice.real.sum()], abs=1e-5)
+    assert start.rates == pytest.approx([(0.7j * np.arange(len(coefficients)) * twice).real.sum()], abs=1e-5)
 
 
 def test_time_that_runs_would_take_grows_with_the_speeds_between() -> None:
