@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -28,3 +30,17 @@ def test_every_name_is_there_and_no_other() -> None:
     assert set(gearcad.__all__) <= set(dir(gearcad))
     with pytest.raises(AttributeError, match=r"module 'gearcad' has no attribute 'Gaer'"):
         gearcad.Gaer  # noqa: B018
+
+
+MUTABLE = {"Run", "_Keeper", "_Trial", "Elimination", "_Rings"}
+"""A run of the page, and states of loops inside one function."""
+
+
+def test_dataclasses_are_frozen() -> None:
+    """Inputs and results are values: nothing changes one that another has been handed."""
+    found = set()
+    for path in Path(gearcad.__file__).parent.rglob("*.py"):
+        found |= set(
+            re.findall(r"@dataclass(?![^\n]*frozen=True)[^\n]*\n(?:@[^\n]*\n)*class (\w+)", path.read_text(encoding="utf-8"))
+        )
+    assert found == MUTABLE
