@@ -11,6 +11,7 @@ import numpy as np
 from gearcad.arrays import Bools, Floats
 from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.contact.shared.loaded import FAIR, INTERIOR, LoadedCycle, LoadedPosition, RootStress
+from gearcad.contact.shared.relief_start import onsets
 from gearcad.contact.solid.contact import SolidPairContact
 from gearcad.contact.solid.contact_lines import start_distances
 from gearcad.contact.solid.flank import SolidCompliance, ToothForces
@@ -181,6 +182,7 @@ def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidPairContac
         sound[starts.cells] = starts.sound
     parts = (solution.forces, solution.half_widths, solution.pressures, solution.gaps.radii)
     plain = plain_widths(given, np.concatenate([line.curvature for line in given.lines]), model.helix, solution.forces)
+    rounded = [all(onset.length for onset in onsets(flank)) for flank in model.line.flanks]
     every = (given.split(part) for part in (*parts, plain, sound))
     found = []
     for line, forces, widths, pressures, radii, reach, told in zip(given.lines, *every, strict=True):
@@ -190,7 +192,12 @@ def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidPairContac
             distance = np.minimum(np.minimum(line.edge_distance, to_end), np.minimum(*to_starts))
             margin = distance - INTERIOR * reach
             beside = told & (to_end > INTERIOR * reach) & (forces > 0)
-            at_start = PerGear(*(_greatest_of(pressures, beside & (to < INTERIOR * reach)) for to in to_starts))
+            at_start = PerGear(
+                *(
+                    _greatest_of(pressures, beside & (to < INTERIOR * reach)) if finite else math.nan
+                    for to, finite in zip(to_starts, rounded, strict=True)
+                )
+            )
             edge = float(pressures[np.minimum(line.edge_distance, to_end) < INTERIOR * reach].max(initial=0.0))
             force, share = float(forces.sum()), float(forces.sum() / total)
             found.append(SolidPairContact(line, forces, widths, pressures, radii, margin, at_start, edge, force, share))
