@@ -79,7 +79,8 @@ class AssumedText(str):
 def assumed_values(inputs: Any, key: str = "") -> Iterator[tuple[str, Any]]:
     """Yield all values in `inputs` that nobody gave, under keys such as "load.application_factor".
 
-    `inputs` is a value, a dataclass of them, or a tuple, list or mapping of these; `key` is its own key.
+    `inputs` is a value, a dataclass of them, or a tuple, list or mapping of these; `key` is its own key. Inner documents with a
+    list "assumed" of their own are left out.
     """
     if is_assumed(inputs):
         yield key, inputs
@@ -87,7 +88,7 @@ def assumed_values(inputs: Any, key: str = "") -> Iterator[tuple[str, Any]]:
     if is_dataclass(inputs) and not isinstance(inputs, type):
         parts: Mapping[Any, Any] = {each.name: getattr(inputs, each.name) for each in fields(inputs)}
     elif isinstance(inputs, Mapping):
-        parts = inputs
+        parts = {} if key and "assumed" in inputs else inputs
     elif isinstance(inputs, tuple | list):
         parts = getattr(inputs, "_asdict", lambda: dict(enumerate(inputs, 1)))()
     else:

@@ -90,7 +90,9 @@ def _widen_rounding(axes: Axes) -> None:
     for axis, limit in ((axes.xaxis, axes.set_xlim), (axes.yaxis, axes.set_ylim)):
         first, last = sorted(axis.get_data_interval())
         size, free = max(abs(first), abs(last)), axes.get_autoscalex_on() if axis is axes.xaxis else axes.get_autoscaley_on()
-        if not (free and axis.get_scale() == "linear" and 0 < last - first <= max(_ROUNDING * size, _NOTHING)):
+        if not (free and axis.get_scale() == "linear" and np.isfinite(size)):  # without data it ends at infinity
+            continue
+        if not 0 < last - first <= max(_ROUNDING * size, _NOTHING):
             continue
         middle = 0.0 if size <= _NOTHING else (first + last) / 2
         limit(middle - (abs(middle) / 20 or 1.0), middle + (abs(middle) / 20 or 1.0), auto=True)

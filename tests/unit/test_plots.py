@@ -475,11 +475,12 @@ assert "matplotlib.pyplot" not in sys.modules
         ([5e-15, -3e-15, 4e-15], (-1.0, 1.0)),
         ([1 + 5e-15, 1 - 3e-15, 1.0], (0.95, 1.05)),
         ([1.0, 2.0, 3.0], (0.9, 3.1)),
+        ([], (-0.055, 0.055)),
         ([1.0, 1 + 1e-7, 1.0], (1 - 5e-9, 1 + 1.05e-7)),
     ],
 )
 def test_an_axis_does_not_show_rounding(values: list[float], shown: tuple[float, float]) -> None:
     axes = prepared(None, "x", "y")
-    axes.plot([0, 1, 2], values)
+    axes.plot(range(len(values)), values)
     axes.figure.savefig(BytesIO(), format="png")
     assert axes.get_ylim() == pytest.approx(shown, rel=1e-12)
