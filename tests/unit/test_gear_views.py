@@ -11,6 +11,8 @@ import pytest
 
 from gearcad import Body, Gear
 from gearcad.drawing.gear_views import Along, end_face, face_view, half_section, section_view
+from gearcad.drawing.gear_views.section_sizes import SectionSizes
+from gearcad.drawing.gear_views.silhouette import Silhouette
 from gearcad.drawing.layout import dressed
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import Requirements
@@ -205,6 +207,24 @@ def test_groove_and_hubs_of_double_helical_gears_are_dimensioned() -> None:
         DrawnGear(role="gear", gear=replace(gear, double_helix=DoubleHelix(gap_width=8, gap_diameter=75.125))), DrawingOptions()
     )
     assert given.gap_diameter == Size(value=75.125, prefix="⌀")
+
+
+def test_every_place_of_a_chamfers_leader_is_outside_the_gear() -> None:
+    """Arrows end on one of the four chamfers, and come from beyond the tip circle and the end faces."""
+    outline = Silhouette(GEAR, Along.of(GEAR, SCALE))
+    requirements = Requirements.of(DrawnGear(role="gear", gear=GEAR), DrawingOptions())
+    places = list(SectionSizes(outline, requirements, Draughting(Words.of(Language.ENGLISH), SCALE)).end_chamfer())
+    arrows = [next(each for each in figure.shapes if isinstance(each, Line)) for figure in places]
+    left, right = -SCALE * 33 / 2, SCALE * (25 - 33 / 2)
+    tip, depth = SCALE * GEAR.tip_diameter / 2, SCALE * 1.5 * math.tan(math.radians(30))
+    for (x, y), (end_x, end_y) in ((each.start, each.end) for each in arrows):
+        assert min(abs(x - left), abs(x - right)) == pytest.approx(SCALE * 1.5 / 2)
+        assert abs(y) == pytest.approx(tip - depth / 2)
+        assert abs(end_y) > tip and end_y * y > 0
+        assert (end_x - x) * (x - (left + right) / 2) > 0
+    assert {(x > 0, y > 0) for x, y in (each.start for each in arrows)} == {
+        (a, b) for a in (True, False) for b in (True, False)
+    }
 
 
 def _cross(one: Line, other: Line) -> bool:
