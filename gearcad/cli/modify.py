@@ -98,9 +98,10 @@ def _lines(proposal: Proposal) -> list[str]:
     ]
     lines.append(f"{'':<42}{'before':>10}{'after':>10}")
     lines += [f"{words:<42}{one:>10.4g}{other:>10.4g} {unit}".rstrip() for words, unit, one, other in rows]
-    over = after.contact_pressure / proposal.found.bound - 1
-    beyond = f"; solved in full the proposal is {100 * over:.2g} % above it" if over > 0 else ""
-    lines.append(f"bound of the contact pressure: {proposal.found.bound:.4g} MPa{beyond}")
+    over = after.contact_pressure / proposal.bound - 1
+    beyond = f"; the proposal is {100 * over:.2g} % above it" if over > 0 else ""
+    lines.append(f"bound of the contact pressure: {proposal.bound:.4g} MPa{beyond}")
+    lines.append(f"figures of solid bodies, as gearcad check --model {proposal.model.value} has them")
     lines.append("transmission error, peak to peak, under other conditions")
     for each in proposal.robustness:
         of = each.condition

@@ -9,10 +9,11 @@ from typing import Any, NamedTuple, Unpack
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.check.extremes import ERRORS, PRESSURE, SOLID
 from gearcad.check.options import CheckOptions, Model
 from gearcad.contact.optimum.search import Found, Search, conditions
 from gearcad.contact.optimum.start import start_search
-from gearcad.contact.optimum.variants import AMOUNTS, with_amounts
+from gearcad.contact.optimum.variants import AMOUNTS, Condition, with_amounts
 from gearcad.contact.shared.loaded_left import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
@@ -36,6 +37,21 @@ _BODIES, _CYCLE, _SEARCH, _ROBUSTNESS = _STEPS = ("bodies of pinion and wheel", 
 
 _MORE_PRESSURE = 1.05
 """Share of the pressure of the plain flanks that a proposal may reach where the material's limit is out of reach."""
+
+_ROUNDS = 5
+_SEEN = 0.02
+"""Most rounds of a search, each at the positions that a check of the last proposal adds, and the share of the transmission
+error that the search may miss in the end: its lines have fewer cells.
+"""
+
+_BELOW = 0.999
+"""Share of the bound that a search aims at: less than its lattice and its pressures are exact."""
+
+_NEARBY = 6
+"""Most neighbours of a proposal that are checked, those that the search takes for the best."""
+
+_TURNS = 8
+"""Most positions that a check adds to a search."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,25 +83,23 @@ class Modify(Job[PairDesign, Proposal]):
         options, agenda = design.check or CheckOptions(), Agenda(progress, dict.fromkeys(_STEPS, 1.0))
         model = _model(design, pair, torque, options, agenda)
         agenda(_CYCLE)
-        before = SolidCycle.run(model, torque, options.positions_of(Model.SOLID))
+        count, limits = options.positions_of(Model.SOLID), self._limits(design.material or Material())
+        before = _checked(model, torque, count)
         agenda(_SEARCH)
-        count, limits = len(before.positions), self._limits(design.material or Material())
         shapes = ReliefShape if self.shape is None else (self.shape,)
-        tried = [_tried(model, torque, shape, limits, count, self.pressure is not None) for shape in shapes]
-        best = _best(tried, limits)
+        tried = [each for shape in shapes for each in _tried(model, torque, shape, limits, count, self.pressure is not None)]
+        best = _polished(model, _best(tried, limits), count)
         agenda(_ROBUSTNESS)
-        pairs = (model.pair, best.cycle.model.pair)
-        robustness = tuple(
-            Robustness(each, *(best.search.peak_to_peak(of, each) for of in pairs)) for each in conditions(torque)
-        )
+        models = (model, best.cycle.model)
+        robustness = tuple(Robustness(each, *(_swing(of, each, count) for of in models)) for each in conditions(torque))
         return Proposal(
             design=design,
             pair=with_amounts(pair, unmirrored(best.found.amounts, pair, torque), best.search.variants.shape),
             torque=torque,
-            found=best.found,
-            variants=sum(each.found.tried for each in tried),
+            bound=best.bound,
+            variants=sum(max(each.found.tried for each in [*tried, best] if each.shape is shape) for shape in shapes),
             before=CycleFigures.of(before),
-            after=CycleFigures.of(best.cycle),
+            after=best.figures,
             robustness=robustness,
         )
 
@@ -122,7 +136,7 @@ class Modify(Job[PairDesign, Proposal]):
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """The modifications, and what the mesh comes to without and with them."""
         changes = {key: value for key, value in document["changes"].items() if key != "pair.name"}
-        named = ("torque", "pressure_bound", "variants", "before", "after", "warnings")
+        named = ("model", "torque", "pressure_bound", "variants", "before", "after", "warnings")
         return {**{name: document[name] for name in named}, **changes}
 
 
@@ -164,30 +178,88 @@ def _model(design: PairDesign, pair: GearPair, torque: float, options: CheckOpti
 
 
 class _Tried(NamedTuple):
-    """A search, what it found, and the mesh cycle of that."""
+    """A search, what it found, and the mesh cycle of that with the figures of a check; `bound` (MPa) is that asked for."""
 
     search: Search
     found: Found
     cycle: SolidCycle
+    figures: CycleFigures
+    bound: float
 
     @property
-    def peak_to_peak(self) -> float:
-        """Of the transmission error (µm), solved in full."""
-        return CycleFigures.of(self.cycle).transmission_error_peak_to_peak
+    def shape(self) -> ReliefShape:
+        """Of the tip relief."""
+        return self.search.variants.shape
+
+    @property
+    def bounded(self) -> bool:
+        """Whether the pressure that a check finds keeps to the bound."""
+        return self.figures.contact_pressure <= self.bound
+
+    @property
+    def price(self) -> float:
+        """Transmission error, peak to peak (µm), and what a pressure above the bound costs."""
+        over = float(self.search.price(np.array(self.figures.contact_pressure), self.bound))
+        return self.figures.transmission_error_peak_to_peak + over
 
 
-def _tried(model: SolidPair, torque: float, shape: ReliefShape, limits: list[float], count: int, given: bool) -> _Tried:
-    """Search with one shape of the tip relief, and solve what is found in full at `count` positions."""
+def _tried(model: SolidPair, torque: float, shape: ReliefShape, limits: list[float], count: int, given: bool) -> list[_Tried]:
+    """Search with one shape of the tip relief: what it came to for the first bound that is kept, else for the last."""
     search = start_search(model, torque, shape)
-    bounds = limits if given else [*limits, _MORE_PRESSURE * float(search.plain.pressures[0])]
-    found = search.best(bounds)
-    cycle = _cycle(model, found, shape, torque, count)
-    over = CycleFigures.of(cycle).contact_pressure / found.bound
-    if found.bounded and over > 1:
-        # On finer lines, at more positions, there is more than the search saw: it has to stay so much lower.
-        found = replace(search.best([found.bound / over]), bound=found.bound)
-        cycle = _cycle(model, found, shape, torque, count)
-    return _Tried(search, found, cycle)
+    plain = _modified(model, search.start, shape, torque, count).extreme(PRESSURE)
+    seen = float(search.plain.pressures[0])
+    greatest = seen if plain is None else plain.value
+    bounds = limits if given else [*limits, _MORE_PRESSURE * greatest]
+    while True:
+        aims = [bound * seen / greatest for bound in bounds] if plain is not None else bounds
+        found = search.best(aims)
+        bounds = bounds[aims.index(found.bound) :]
+        every = _closer(model, search, found, bounds[0], count)
+        if len(bounds) == 1 or any(each.bounded for each in every):
+            return every
+        bounds = bounds[1:]
+
+
+def _closer(model: SolidPair, search: Search, found: Found, bound: float, count: int) -> list[_Tried]:
+    """Check proposals and search again, at the positions where their extremes are and for a pressure that the search sees."""
+    every: list[_Tried] = []
+    while True:
+        cycle = _modified(model, found.amounts, search.variants.shape, search.torque, count)
+        figures = CycleFigures.of(cycle)
+        every.append(_Tried(search, found, cycle, figures, bound))
+        missed = figures.transmission_error_peak_to_peak - found.peak_to_peak
+        close = missed <= _SEEN * figures.transmission_error_peak_to_peak
+        if len(every) == _ROUNDS or (close and (every[-1].bounded or not found.bounded)):
+            return every
+        search = search.closer(_turns(cycle))
+        seen = float(search.outcomes(found.amounts[None]).pressures[0]) / figures.contact_pressure
+        again = search.again(found, _BELOW * seen * bound)
+        if every[-1].bounded and np.array_equal(again.amounts, found.amounts):
+            return every
+        found = again
+
+
+def _polished(model: SolidPair, best: _Tried, count: int) -> _Tried:
+    """Return the best, by the figures of a check, of a proposal and those neighbours that the search takes for better."""
+    search = best.search.closer(_turns(best.cycle))
+    seen = float(search.outcomes(best.found.amounts[None]).pressures[0]) / best.figures.contact_pressure
+    for found in search.better(best.found, seen * best.bound, _NEARBY):
+        cycle = _modified(model, found.amounts, best.shape, search.torque, count)
+        other = _Tried(search, found, cycle, CycleFigures.of(cycle), best.bound)
+        if other.price < best.price and other.bounded >= best.bounded:
+            best = other
+    return best
+
+
+def _turns(cycle: SolidCycle) -> Floats:
+    """Return the roll angles (deg) where the transmission error turns nearest to its ends, and of the greatest pressure."""
+    angles, errors = cycle.course("roll_angle"), cycle.course("transmission_error")
+    up = np.diff(errors, append=errors[:1]) > 0
+    turns = np.flatnonzero(up != np.roll(up, 1))
+    inside = np.minimum(errors.max() - errors, errors - errors.min())
+    nearest = turns[np.argsort(inside[turns], kind="stable")][:_TURNS]
+    worst = cycle.extreme(PRESSURE)
+    return np.append(angles[nearest], [] if worst is None else worst.roll_angle)
 
 
 def _best(tried: list[_Tried], limits: list[float]) -> _Tried:
@@ -196,18 +268,30 @@ def _best(tried: list[_Tried], limits: list[float]) -> _Tried:
     """
 
     def missed(each: _Tried) -> tuple[bool, bool]:
-        return not each.found.bounded, each.found.bound not in limits
+        return not each.bounded, each.bound not in limits
 
     alike = [each for each in tried if missed(each) == min(map(missed, tried))]
-    least = min(alike, key=lambda each: each.peak_to_peak)
-    dearest = least.search.dearest(least.peak_to_peak)
-    free = [each for each in alike if each.found.edges_free and each.peak_to_peak <= dearest]
-    return min(free or [least], key=lambda each: each.peak_to_peak)
+    least = min(alike, key=lambda each: each.price)
+    dearest = least.search.dearest(least.price)
+    free = [each for each in alike if each.found.edges_free and each.price <= dearest]
+    return min(free or [least], key=lambda each: each.price)
 
 
-def _cycle(model: SolidPair, found: Found, shape: ReliefShape, torque: float, count: int) -> SolidCycle:
-    modified = model.remade(with_amounts(model.pair, found.amounts, shape), model.mounting)
-    return SolidCycle.run(modified, torque, count)
+def _modified(model: SolidPair, amounts: Floats, shape: ReliefShape, torque: float, count: int) -> SolidCycle:
+    """Return the mesh cycle of a pair with amounts (6,) in place of its own, as a check has it."""
+    return _checked(model.remade(with_amounts(model.pair, amounts, shape), model.mounting), torque, count)
+
+
+def _checked(model: SolidPair, torque: float, count: int) -> SolidCycle:
+    """Return the mesh cycle of a model at `count` positions and, as a check has it, where its extremes are."""
+    return SolidCycle.run(model, torque, count).searched(SOLID)
+
+
+def _swing(model: SolidPair, condition: Condition, count: int) -> float:
+    """Return the transmission error of a model under a condition, peak to peak (µm), its extremes sought as by a check."""
+    mounted = model.remade(model.pair, condition.mounted(model.mounting))
+    cycle = SolidCycle.run(mounted, condition.torque, count).searched(ERRORS)
+    return float(np.ptp(cycle.course("transmission_error")))
 
 
 def unmirrored(amounts: Floats, pair: GearPair, torque: float) -> Floats:

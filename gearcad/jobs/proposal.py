@@ -22,6 +22,7 @@ __all__ = ["SUFFIX", "CycleFigures", "Proposal", "Robustness"]
 SUFFIX = "-modified"
 """What the name of a modified design ends in."""
 
+
 @dataclass(frozen=True, kw_only=True)
 class CycleFigures:
     """What a check says of a mesh cycle: transmission error in µm, stresses in MPa, and at how many positions a tip's edge

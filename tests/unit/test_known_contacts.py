@@ -9,7 +9,7 @@ from support.checks import small_check
 from gearcad.contact.plane.contact import solve_contact
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import KnownContacts, PlanePair
-from gearcad.contact.shared.complementarity import complementary
+from gearcad.contact.shared.complementarity import _cell_by_cell, _positive, complementary
 from gearcad.stiffness import PlaneStrainContact
 
 _POSITIONS, _SINGLE = 12, 25
@@ -68,3 +68,24 @@ def test_complementarity_has_one_solution_from_any_start(seed: int) -> None:
         other, same = complementary(matrix, gap, width, 3.0, touching)
         assert other == pytest.approx(pressure, rel=_SAME, abs=_SAME)
         assert same == pytest.approx(approach, rel=_SAME)
+    other, same = _cell_by_cell(matrix, gap, width, 3.0)
+    assert other == pytest.approx(pressure, rel=_SAME, abs=_SAME)
+    assert same == pytest.approx(approach, rel=_SAME)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_compliance_with_an_error_below_zero_still_carries_the_load(seed: int) -> None:
+    """A coarse mesh may leave a negative eigenvalue, for which no set of cells need be right: lesser ones are raised."""
+    random = np.random.default_rng(seed)
+    place = np.linspace(-3, 3, 60)
+    matrix = np.exp(-((place[:, None] - place) ** 2)) - 0.02 * np.eye(60)
+    assert np.linalg.eigvalsh(matrix)[0] == pytest.approx(-0.02, abs=1e-6)
+    raised = _positive(matrix)
+    assert np.linalg.eigvalsh(raised)[0] == pytest.approx(0.02, abs=1e-6)
+    gap, width = place**2 * random.uniform(0.5, 1.5, 60), np.ones(60)
+    pressure, approach = complementary(matrix, gap, width, 3.0)
+    opening = raised @ pressure + gap - approach
+    assert pressure.sum() == pytest.approx(3.0, rel=1e-9)
+    assert pressure.min() >= 0
+    assert opening.min() > -1e-9
+    assert np.abs(pressure * opening).max() < 1e-9

@@ -205,10 +205,9 @@ def test_of_two_shapes_the_one_with_free_edges_is_proposed_if_it_is_worth_it(
 ) -> None:
     assert search.dearest(5.1) == pytest.approx((5.1 + float(search.plain.peak_to_peak[0])) / 2)
     tried = [
-        SimpleNamespace(found=SimpleNamespace(bounded=True, bound=1800.0, edges_free=edges), peak_to_peak=error, search=search)
+        SimpleNamespace(found=SimpleNamespace(edges_free=edges), bounded=True, bound=1800.0, price=error, search=search)
         for error, edges in zip(errors, free, strict=True)
     ]
     assert _best(tried, []) is tried[chosen]
-    unbounded = SimpleNamespace(bounded=False, bound=1800.0, edges_free=True)
-    broken = SimpleNamespace(found=unbounded, peak_to_peak=1.0, search=search)
+    broken = SimpleNamespace(found=SimpleNamespace(edges_free=True), bounded=False, bound=1800.0, price=1.0, search=search)
     assert _best([broken, *tried], []) is tried[chosen]

@@ -105,8 +105,15 @@ def interior_pressure(of: Variants, pair: GearPair, solution: LineSolution) -> f
     to_start = np.concatenate([np.minimum(*start_distances(line, action)) for line in lines])
     curvature = np.concatenate([line.curvature for line in lines])
     widths = plain_widths(solution.given, curvature, of.roomy.helix, solution.forces)
-    counted = (to_edge > 3 * solution.half_widths) & (to_start > 3 * widths)
-    return float(solution.pressures[counted].max(initial=0.0))
+    margins = np.minimum(to_edge - 3 * solution.half_widths, to_start - 3 * widths)
+    greatest = float(solution.pressures[margins > 0].max(initial=0.0))
+    parts = (solution.given.split(each) for each in (margins, solution.pressures, solution.forces))
+    for margin, pressure, force in zip(*parts, strict=True):  # between cells, where the margin ends
+        for here in np.flatnonzero((np.diff(margin > 0)) & (force[1:] > 0) & (force[:-1] > 0)):
+            pair_of = slice(here, here + 2)
+            order = np.argsort(margin[pair_of])
+            greatest = max(greatest, float(np.interp(0.0, margin[pair_of][order], pressure[pair_of][order])))
+    return greatest
 
 
 def edge_share(solution: LineSolution) -> float:

@@ -149,6 +149,10 @@ class Lattice:
         """A place (n,) and all its neighbours (v, n), those in the direction of several axes included."""
         return self._in_reach(place, 1)
 
+    def near(self, place: Wholes) -> Wholes:
+        """Places (v, n) up to two steps away along every axis."""
+        return self._in_reach(place, 2)
+
     def clipped(self, places: Wholes) -> Wholes:
         """Places (..., n) brought between the ends."""
         result: Wholes = np.clip(places, self.low, self.high)

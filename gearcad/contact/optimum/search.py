@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -140,6 +139,18 @@ class Search:
         settled = self._worth_its_price(self._settled(bound, places, first=found), places)
         return replace(settled, tried=found.tried + self._full.count)
 
+    def better(self, found: Found, bound: float, count: int) -> list[Found]:
+        """Return at most `count` proposals near `found` that are better and keep to a bound (MPa), the best first."""
+        places, here = self._lattice.near(_nearest(found.amounts)), _nearest(found.amounts)[None]
+        goal = self._goal(self._full, bound, edges=not found.edges_free)
+        values = goal.at(places)
+        kept = (Outcomes.from_figures(self._full(places)).pressures <= bound) & (values < goal.at(here)[0])
+        best = np.flatnonzero(kept)[np.argsort(values[kept], kind="stable")][:count]
+        return [
+            replace(found, amounts=each, outcome=self.outcomes(each[None]), tried=found.tried + len(places))
+            for each in _amounts(places[best])
+        ]
+
     def _worth_its_price(self, found: Found, places: Wholes) -> Found:
         """The proposal that leaves the edges of tips free, if it is worth that; else the one with contact there."""
         if found.edges_free or not found.bounded:
@@ -158,9 +169,10 @@ class Search:
         over = self.price(found.pressures, bound)
         return np.nan_to_num(found.peak_to_peak + over + on_edge, nan=_NEVER, posinf=_NEVER)
 
-    def price(self, pressures: Any, bound: float) -> Any:
+    def price(self, pressures: Floats, bound: float) -> Floats:
         """Return what (µm) pressures (MPa) above the bound cost."""
-        return self.deflection * _OVER_PRESSURE * np.maximum(pressures / bound - 1, 0.0)
+        result: Floats = self.deflection * _OVER_PRESSURE * np.maximum(pressures / bound - 1, 0.0)
+        return result
 
     def _survey(self, bound: float) -> Wholes:
         """Places (v, 6) all over, the most of them where variants are good."""

@@ -293,9 +293,16 @@ class Variants:
             )
         )
         # Beside edges the cells' own half widths decide, the lesser ones: between few positions it counts rather too much.
-        inside = np.minimum(to_edge, self.roomy.width / 2 - np.abs(across)) > INTERIOR * widths
+        margin = np.minimum(to_edge, self.roomy.width / 2 - np.abs(across)) - INTERIOR * widths
         reach = INTERIOR * plain_widths(given, curvature, self.roomy.helix, forces)
         for role, flanks in self._flanks(amounts).items():
             lengths = np.concatenate([line.places.pick(role)[0] for line in given.lines])
-            inside = inside & (flanks.start_distance(lengths, curvature) > reach)
-        return np.where(inside, pressures, 0.0).max(axis=1), np.where(on_edge, forces, 0.0).sum(axis=1) / force
+            margin = np.minimum(margin, flanks.start_distance(lengths, curvature) - reach)
+        greatest = np.where(margin > 0, pressures, 0.0).max(axis=1)
+        # Where the margin ends between two cells of a line, as `SolidPairContact.inside` has it.
+        ends = (margin[:, 1:] > 0) != (margin[:, :-1] > 0)
+        ends &= (forces[:, 1:] > 0) & (forces[:, :-1] > 0) & (np.diff(across) > 0)
+        part = margin[:, :-1] / np.where(ends, margin[:, :-1] - margin[:, 1:], 1.0)
+        between = pressures[:, :-1] + part * np.diff(pressures, axis=1)
+        greatest = np.maximum(greatest, np.where(ends, between, 0.0).max(axis=1, initial=0.0))
+        return greatest, np.where(on_edge, forces, 0.0).sum(axis=1) / force
