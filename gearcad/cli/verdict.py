@@ -25,8 +25,9 @@ _TO_THE_RIGHT = (2, 3, 5, 6)
 _WORDS = (
     "ok, FAILED: gates, which decide. in band, OUTSIDE: information; how far it may be from ISO 6336 is set in [check] "
     "(root_band, stiffness_band, contact_band) and decides nothing. reached, BELOW: safeties by finite elements beside those "
-    "required: the standard's decide. below, ABOVE: the local pressure where a linear relief starts, beside the contact limit."
+    "required: the standard's decide."
 )
+_LOCAL = " below, ABOVE: the local pressure where a linear relief starts, beside the contact limit: no gate."
 
 
 class _Line(NamedTuple):
@@ -44,7 +45,7 @@ def print_verdict(name: str, result: CheckResult) -> None:
     rows = [heading, *(_row(each) for each in result.comparisons)]
     if console.width < _WIDE:
         rows = [_Line(row.cells[:-1], row.style) for row in rows]
-    lines = [*_aligned(rows), (_WORDS, "")]
+    lines = [*_aligned(rows), (_WORDS + _LOCAL * bool(result.relief_starts), "")]
     lines += [(f"Not evaluated: {', '.join(quantities)}: {reason}", "yellow") for reason, quantities in _reasons(result)]
     for text, style in lines:
         # Soft wrap: a narrow window may break a line, but never cut a number.
