@@ -18,6 +18,7 @@ from gearcad.contact.solid.body import SolidBody, SolidSector, assemble_body
 from gearcad.contact.solid.flank import solid_compliance
 from gearcad.contact.solid.hexahedra import lame
 from gearcad.contact.solid.root import _between
+from gearcad.contact.solid.spans import joined
 from gearcad.errors import SolverError
 from gearcad.meshing.section import MeshSizes
 from gearcad.meshing.section.outline import Side
@@ -335,3 +336,11 @@ def test_places_between_rows_reach_both_ends() -> None:
     for power in range(4):
         np.testing.assert_allclose(weights @ rows**power, places**power, atol=1e-12)
     np.testing.assert_array_equal(_between(np.array([2.0])), [[1.0]])
+
+
+@pytest.mark.parametrize("teeth", [4, 5])
+def test_rows_doubled_are_rows_joined_one_by_one(sector: SolidSector, teeth: int) -> None:
+    doubled, whole = sector.span.repeated(teeth), joined(sector.span, sector.span.repeated(teeth - 2))[0]
+    assert doubled.teeth == whole.teeth == teeth
+    for one, other in zip(doubled.matrices, whole.matrices, strict=True):
+        assert np.abs(one - other).max() < EXACT * np.abs(other).max()

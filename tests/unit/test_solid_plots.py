@@ -10,7 +10,7 @@ from support.checks import small_solid_check
 
 from gearcad import Material
 from gearcad.check.face import face_factors
-from gearcad.contact.solid.field import nodal_stress, worst_field
+from gearcad.contact.solid.field import _gauss_points, _outward, nodal_stress, worst_field
 from gearcad.meshing.section.outline import Side
 from gearcad.per_gear import Role
 from gearcad.plots.check import plot_mesh_stiffness, plot_root_stress, plot_transmission_error
@@ -171,3 +171,16 @@ def test_the_tooth_stands_upright_and_shows_its_loaded_flank():
     assert seen[0][1] > 0.9  # the tooth's height is up
     assert seen[1][2] > 0.6  # the left flank looks at us
     assert np.linalg.det(seen) == pytest.approx(1)
+
+
+def test_values_at_the_points_of_an_element_give_those_at_its_nodes():
+    """Of a trilinear field without error, at the places that the elements of scikit-fem have for their nodes."""
+    from skfem import ElementHexS2
+
+    def field(points):
+        x, y, z = np.asarray(points).T
+        return 3 + x - 2 * y + 5 * z + 7 * x * y * z - y * z
+
+    nodes = _outward() @ _gauss_points()
+    assert sorted(map(tuple, np.round(nodes, 9))) == sorted(map(tuple, ElementHexS2().doflocs))
+    np.testing.assert_allclose(_outward() @ field(_gauss_points()), field(nodes), atol=1e-12)

@@ -67,6 +67,14 @@ def test_stress_and_strength_are_their_products() -> None:
     assert rating.root.pinion.safety == rating.root.pinion.strength / rating.root.pinion.stress
 
 
+@pytest.mark.parametrize(("life", "flank", "root"), [(2000.0, False, False), (100.0, True, False), (10.0, True, True)])
+def test_factors_of_limited_life_are_to_be_verified(life: float, flank: bool, root: bool) -> None:
+    """90 000 load cycles an hour of the pinion: Eh lives for ever from 5e7 on at its flanks, from 3e6 on at its roots."""
+    verify = rated(RatingOptions(life=life)).verify
+    assert {symbol in verify for symbol in ("Z_L", "Z_v", "Z_R", "Z_W", "Z_X")} == {flank}
+    assert {symbol in verify for symbol in ("Y_delta_relT", "Y_RrelT", "Y_X")} == {root}
+
+
 def test_life_and_torque_are_those_at_which_the_required_safety_is_left() -> None:
     rating = rated(load=replace(LOAD, torque=350.0))
     life = rating.life
