@@ -12,6 +12,7 @@ from dataclasses import fields
 from enum import Enum
 from functools import cache
 from numbers import Integral, Real
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ __all__ = [
     "SolverError",
     "SpecError",
     "as_choice",
+    "as_path",
     "format_number",
     "is_finite_number",
     "out_of_memory",
@@ -34,6 +36,7 @@ __all__ = [
     "require_name",
     "require_number",
     "require_one_of",
+    "require_switch",
     "require_whole",
     "shortened",
     "shown",
@@ -237,6 +240,19 @@ def require_whole(parameter: str, value: Any, *, at_least: int, at_most: int) ->
         inside = isinstance(value, float) and value.is_integer() and at_least <= value <= at_most
         written = f" (write {value:.0f}, not {value!r})" if inside else ""
         raise ParameterError(parameter, value, f"must be a whole number from {at_least} to {at_most}{written}")
+
+
+def require_switch(parameter: str, value: Any) -> None:
+    """Raise ParameterError unless `value` is true or false."""
+    if not isinstance(value, bool):
+        raise ParameterError(parameter, value, "must be true or false")
+
+
+def as_path(parameter: str, value: Any) -> Path:
+    """Return a path that is given as one or as a text; raises ParameterError."""
+    if not isinstance(value, str | Path) or "\0" in str(value):
+        raise ParameterError(parameter, value, "must be a path, as a text or a Path")
+    return Path(value)
 
 
 def as_choice(parameter: str, value: Any, kind: type[Choice]) -> Choice:

@@ -13,7 +13,7 @@ from functools import cache, cached_property
 from types import MappingProxyType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
 
-from gearcad.errors import ParameterError, as_choice, format_number, plain_numbers, require_name
+from gearcad.errors import ParameterError, as_choice, format_number, plain_numbers, require_name, require_switch
 from gearcad.ranges import Choice, Member, Range, Whole
 from gearcad.reprs import is_assumed, is_usual
 from gearcad.symbols import Symbol
@@ -197,8 +197,8 @@ class FieldSchema:
             self._require_either(instance, parameter, self.stand_in)
         if (value is None and self.optional) or getattr(value, "derived", False) or _stands_in(value, self.words):
             return
-        if self.switch and not isinstance(value, bool):
-            raise ParameterError(parameter, value, "must be true or false")
+        if self.switch:
+            require_switch(parameter, value)
         if self.choices is not None:
             object.__setattr__(instance, self.name, as_choice(parameter, value, self.choices))
         if self.permitted is None:

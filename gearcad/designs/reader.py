@@ -15,6 +15,7 @@ from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.files import Where, read_tables
 from gearcad.designs.keys import MAIN_TABLES, OF_SETS
 from gearcad.designs.kinds import type_of
+from gearcad.errors import as_path
 
 __all__ = ["design_from_tables", "design_from_values", "kind_of", "read_spec"]
 
@@ -24,7 +25,7 @@ def read_spec(path: Path | str) -> Design:
 
     Raises SpecError, one line that names the file, the line, the key and what is permitted.
     """
-    tables, where = read_tables(path)
+    tables, where = read_tables(as_path("file", path))
     return design_from_tables(tables, where=where, default_name=Path(path).stem)
 
 

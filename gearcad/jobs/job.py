@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
 from gearcad.designs.design import Design, DesignKind
-from gearcad.errors import ParameterError
+from gearcad.errors import ParameterError, as_path
 from gearcad.notice import Notice
 from gearcad.output import json_text, staged_files
 from gearcad.progress import Agenda, Expected, Progress
@@ -89,7 +89,7 @@ class Job(ABC, Generic[Accepted, Result]):
     def write(self, result: Result, folder: Path | str, progress: Progress | None = None) -> list[Path]:
         """Write all files of a result into `folder`, or none, and return their paths. Raises OutputError."""
         _require_progress(progress)
-        folder, files = Path(folder), self.files(result)
+        folder, files = as_path("output", folder), self.files(result)
         agenda = Agenda(progress, dict.fromkeys(files, 1.0))
         with staged_files(folder, sometimes=self.sometimes) as staging:
             for name, write in files.items():

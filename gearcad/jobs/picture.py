@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from gearcad.designs import DesignKind, PlanetaryDesign, RackDesign, ToothedDesign
-from gearcad.errors import GeometryError, ParameterError, as_choice, require_whole
+from gearcad.errors import GeometryError, ParameterError, as_choice, as_path, require_switch, require_whole
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.products import products_of, require_bodies
 from gearcad.jobs.subject import Subject, as_design
@@ -75,6 +75,7 @@ class Picture(Job[ToothedDesign, Pictured]):
     background: Background = Background.WHITE
 
     def __post_init__(self) -> None:
+        require_switch("explode", self.explode)
         if self.size is not None:
             if not isinstance(self.size, tuple | list) or len(self.size) != 2:
                 raise ParameterError("size", self.size, "must be width and height in pixels, such as (800, 600)")
@@ -207,6 +208,6 @@ def picture(
         turning=None if turning is None else as_choice("turning", turning, Animation),
         background=as_choice("background", background, Background),
     )
-    path = Path(file)
+    path = as_path("file", file)
     job.write_image(job.run(as_design(subject)), path)
     return path

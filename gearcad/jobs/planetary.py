@@ -13,6 +13,7 @@ from gearcad.designs.mesh_pairs import MeshPairs
 from gearcad.dynamics.planetary.document import study_document
 from gearcad.dynamics.planetary.result import PlanetaryStudy
 from gearcad.dynamics.planetary.study import study_planetary
+from gearcad.errors import ParameterError, require_switch
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
 from gearcad.notice import Notice
@@ -47,6 +48,9 @@ class Planetary(Job[PlanetaryDesign, Studied]):
     why = "only planets go round"
 
     response: bool = False
+
+    def __post_init__(self) -> None:
+        require_switch("response", self.response)
 
     def _run(self, design: PlanetaryDesign, progress: Progress | None) -> Studied:
         study = study_planetary(
@@ -131,6 +135,8 @@ def planetary(
     Raises ParameterError for what is no planetary train, and for speeds that contradict each other.
     """
     design = as_design(subject, load, **inputs)
+    if speeds is not None and not isinstance(speeds, Mapping):
+        raise ParameterError("speeds", speeds, 'must be speeds by the names of members, such as {"ring": 0.0}')
     if speeds is not None and isinstance(design, PlanetaryDesign):
         design = replace(design, speeds=dict(speeds))
     return Planetary(response=response).run(design, progress).study

@@ -129,9 +129,11 @@ class MeshOptions:
     @property
     def extent(self) -> Extent | None:
         """How much is to be meshed; None for what suits the design."""
+        if not isinstance(self.what, str):
+            raise ParameterError("what", self.what, _EXTENTS)
         if self.what == AUTO:
             return None
-        match = _EXTENT.fullmatch(self.what) if isinstance(self.what, str) else None
+        match = _EXTENT.fullmatch(self.what)
         if match is None:
             raise ParameterError("what", self.what, _EXTENTS)
         plain, counted, count = match.groups()

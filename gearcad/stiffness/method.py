@@ -56,7 +56,7 @@ class StiffnessMethod(ABC):
     """What the method is expected to take."""
 
     def __post_init__(self) -> None:
-        if self.positions != 0:
+        if not (isinstance(self.positions, int) and self.positions == 0):
             require_whole("positions", self.positions, at_least=FEWEST_POSITIONS, at_most=MOST_POSITIONS)
         refuse_halves(self.pair.pinion, self.name)
         if self.pair.internal and self.no_internal_form:

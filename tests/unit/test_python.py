@@ -8,6 +8,7 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
+from functools import partial
 from importlib import import_module
 from inspect import signature
 from pathlib import Path
@@ -236,6 +237,8 @@ def test_jobs_refuse_what_their_functions_refuse(tmp_path: Path) -> None:
 
 
 GEAR = gearcad.Gear(teeth=20, normal_module=2, face_width=5)
+SEVERAL = np.array([True, False])
+"""No switch, number or word, though Python would ask it for its truth."""
 
 
 @pytest.mark.parametrize(
@@ -243,6 +246,25 @@ GEAR = gearcad.Gear(teeth=20, normal_module=2, face_width=5)
     [
         (lambda: gearcad.picture(GEAR, "it.png", size=5), "size = 5: must be width and height in pixels"),
         (lambda: gearcad.build(GEAR, "out", progress=5), "progress = 5: must be a function"),
+        *[
+            (
+                partial(gearcad.build, GEAR, "out", ["csv"], **{name: SEVERAL}),
+                f"{name} = array([ True, False]): must be true or",
+            )
+            for name in ("bracket", "circles", "carrier", "exploded", "turning")
+        ],
+        (lambda: gearcad.picture(GEAR, "it.png", explode=SEVERAL), "explode = array([ True, False]): must be true or false"),
+        (lambda: gearcad.planetary(GEAR, response=SEVERAL), "response = array([ True, False]): must be true or false"),
+        (lambda: gearcad.planetary(GEAR, speeds=SEVERAL), "speeds = array([ True, False]): must be speeds by the names"),
+        (lambda: gearcad.mesh(GEAR, what=SEVERAL), "what = array([ True, False]): must be "),
+        (
+            lambda: gearcad.stiffness(FZG_C, Load(torque=60), positions=SEVERAL),
+            "positions = array([ True, False]): must be",
+        ),
+        (lambda: gearcad.build(GEAR, 5), "output = 5: must be a path"),
+        (lambda: gearcad.build(GEAR, "a\0b"), r"output = 'a\x00b': must be a path"),
+        (lambda: gearcad.picture(GEAR, 5), "file = 5: must be a path"),
+        (lambda: gearcad.read(None), "file = None: must be a path"),
         (lambda: gearcad.read("\ud800"), "is no name that a file can have"),
         (lambda: gearcad.read("/dev/zero"), "/dev/zero: cannot be read (it is a device or a pipe, not a file)"),
     ],

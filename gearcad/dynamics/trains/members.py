@@ -8,7 +8,7 @@ from enum import Enum
 from typing import Annotated, Any
 
 from gearcad.dynamics.trains.mesh_pair import MeshPair
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.errors import GeometryError, ParameterError, require_switch
 from gearcad.geometry import GearPair
 from gearcad.geometry.derived import NOT_GIVEN, Derived, DerivedCount, is_given
 from gearcad.per_gear import PerGear
@@ -186,8 +186,7 @@ class Mesh(NamedPart):
         self._check_fields()
         object.__setattr__(self, "base_radii", _two_radii(self.name, self.base_radii))
         object.__setattr__(self, "pitch_deviations", _deviations(self.name, self.pitch_deviations, self.teeth))
-        if not isinstance(self.internal, bool):
-            raise ParameterError(f"{self.name}.internal", self.internal, "must be true or false")
+        require_switch(f"{self.name}.internal", self.internal)
         self._check_damping_and_wave()
 
     def _take_none(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gearcad.errors import require_number
+from gearcad.errors import require_number, require_switch
 
 __all__ = ["FileOptions"]
 
@@ -28,3 +28,5 @@ class FileOptions:
 
     def __post_init__(self) -> None:
         require_number("chord_error", self.chord_error, "mm", above=0)
+        for name in ("bracket", "circles", "carrier", "exploded", "turning"):
+            require_switch(name, getattr(self, name))
