@@ -126,6 +126,9 @@ def _train_lines(study: TrainStudy) -> list[str]:
     lines = [*map(_pair_line, study.pairs.values()), *_mode_lines(study.modes)]
     if study.on_bearings is not None:
         lines += bearing_mode_lines(study.on_bearings)
+    if study.operating.heading:
+        most = study.greatest_in_operation
+        lines.append(f"K_v {study.operating.heading}at most {most.factor:.3f}, of {most.mesh} at {most.speed:.5g} rpm")
     for mesh, name in enumerate(study.up.mesh_names):
         up = _peaks(study, study.up, mesh)
         down = up if study.down is None else _peaks(study, study.down, mesh)

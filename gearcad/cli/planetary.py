@@ -16,6 +16,8 @@ from gearcad.notice import joined
 from gearcad.schema import is_assumed
 
 if TYPE_CHECKING:
+    from gearcad.dynamics.charts.findings import GreatestFactor
+    from gearcad.dynamics.planetary.response import PlanetaryResponse
     from gearcad.dynamics.planetary.result import PlanetaryStudy
     from gearcad.jobs.planetary import Studied
 
@@ -155,6 +157,23 @@ def _stiffness_lines(study: PlanetaryStudy) -> Iterator[str]:
         yield f"{'torsional stiffness':<22}{torsion.stiffness:.5g} N·m/rad at {study.train.output}: {shares}"
 
 
+def _factor_words(response: PlanetaryResponse) -> str:
+    """Greatest factors at the load's speed and where the train runs under load."""
+    at_load, most, where = response.at_load, response.greatest_in_operation, response.operating.heading
+    found = [
+        f"{each.factor:.4g}, of {each.mesh} at {each.speed:.5g} rpm of {response.train.input}{_lasting(each)}"
+        for each in (at_load, most)
+        if each is not None
+    ]
+    if len(found) == 1 or found[0] == found[1]:
+        return f"{where}at most {found[-1]}"
+    return f"{found[0]}; {where}at most {found[1]}"
+
+
+def _lasting(factor: GreatestFactor) -> str:
+    return "" if factor.stable else ", of a motion that does not last: greater loads can follow"
+
+
 def _frequency_lines(study: PlanetaryStudy) -> Iterator[str]:
     if study.modes is None:
         return
@@ -171,6 +190,4 @@ def _frequency_lines(study: PlanetaryStudy) -> Iterator[str]:
         few = f"; first {_MOST_FREQUENCIES} of {len(speeds)}" if len(speeds) > _MOST_FREQUENCIES else ""
         yield f"{'resonances':<22}{met or 'none'} rpm of {study.train.input}, up to {study.campbell.highest_speed:.6g}{few}"
     if study.response is not None:
-        factor, mesh, speed = study.response.greatest
-        lasts = "" if study.response.greatest_lasts else ", of a motion that does not last: greater loads can follow"
-        yield f"{'dynamic load factor':<22}at most {factor:.4g}, of {mesh} at {speed:.5g} rpm of {study.train.input}{lasts}"
+        yield f"{'dynamic load factor':<22}{_factor_words(study.response)}"

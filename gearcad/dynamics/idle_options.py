@@ -8,7 +8,8 @@ from gearcad.notice import Notice
 __all__ = ["idle_in_contact", "idle_without_levels", "undamped_bearings"]
 
 
-_OF_LEVELS = ("operating_from", "operating_to", "level_tolerance")
+_OF_LEVELS = ("level_tolerance",)
+_OF_CHARTS = ("operating_from", "operating_to")
 _OF_CONTACT = (
     "tooth_errors",
     "error_distribution",
@@ -28,7 +29,7 @@ def idle_without_levels(options: DynamicsOptions) -> tuple[Notice, ...]:
 
 def idle_in_contact(options: DynamicsOptions) -> tuple[Notice, ...]:
     """What is for the model "mesh", in a study of the contact model; what is for several models of a train, too."""
-    found = _idle(options, (*_OF_CONTACT, *_OF_BEARINGS), f'the model "{PairModel.MESH.value}" of a pair')
+    found = _idle(options, (*_OF_CONTACT, *_OF_CHARTS, *_OF_BEARINGS), f'the model "{PairModel.MESH.value}" of a pair')
     return (*found, *idle_without_levels(options))
 
 

@@ -1,15 +1,21 @@
-"""The speeds at which a train runs under load: where its models are held against each other."""
+"""The speeds at which a machine runs under load: where its loads are told, and its models are held against each other."""
 
 from __future__ import annotations
 
 from enum import Enum
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from gearcad.arrays import Bools, Floats
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError
 
 __all__ = ["OperatingRange", "RangeSource", "operating_range"]
+
+
+_ROUNDING = 1e-9
+"""Relative, of speeds."""
 
 
 class RangeSource(Enum):
@@ -21,7 +27,7 @@ class RangeSource(Enum):
 
 
 class OperatingRange(NamedTuple):
-    """From `first` to `last` (rpm of the first pinion), and what says so."""
+    """From `first` to `last` (rpm of the first pinion, or of a planetary train's input), and what says so."""
 
     first: float
     last: float
@@ -37,17 +43,34 @@ class OperatingRange(NamedTuple):
         }
         return f"from {self.first:.5g} to {self.last:.5g} rpm ({given[self.source]})"
 
+    @property
+    def heading(self) -> str:
+        """As a line of the screen has it, "" of the whole chart."""
+        return "" if self.source is RangeSource.CHART else f"from {self.first:.5g} to {self.last:.5g} rpm "
+
+    def rows(self, speeds: Floats) -> Bools:
+        """Return which of the speeds (s,) lie in it."""
+        return np.asarray((speeds >= self.first * (1 - _ROUNDING)) & (speeds <= self.last * (1 + _ROUNDING)), bool)
+
+    def within(self, speeds: Floats) -> OperatingRange:
+        """Return the range, or the whole chart of rising `speeds` (s,) where none of these lies in it."""
+        if self.rows(speeds).any():
+            return self
+        return OperatingRange(float(speeds[0]), float(speeds[-1]), RangeSource.CHART)
+
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it."""
         return {**self._asdict(), "source": self.source.value}
 
 
-def operating_range(train: Train, options: DynamicsOptions, chart: tuple[float, float]) -> OperatingRange:
-    """As the options give it; else from the first speed of the chart up to the train's, or to the last of the chart.
+def operating_range(speed: float, options: DynamicsOptions, chart: tuple[float, float]) -> OperatingRange:
+    """Return it as the options give it; else from the first speed of the chart up to `speed`, or to the last of the chart.
+
+    `speed` (rpm) is that of the load, 0 if it is not known.
 
     Raises GeometryError where it would end before it begins.
     """
-    first, last, own = options.operating_from, options.operating_to, abs(train.speed)
+    first, last, own = options.operating_from, options.operating_to, abs(speed)
     given = first is not None or last is not None
     end = last if last is not None else own or chart[1]
     if first is not None and first >= end:

@@ -72,9 +72,10 @@ class DynamicsOptions:
     drawn so often, for both gears, in a study of their own in time, over `speeds` speeds (None: 200): K_v as it lies over many
     gears. Premature engagement: each pair of teeth is a spring by itself, and carries where bent teeth reach each other.
 
-    Of trains with several models side by side: the train runs under load from `operating_from` to `operating_to` (rpm of the
-    first pinion; None: from the first speed of the chart up to the train's own, or else to the last of the chart), and a model
-    is enough if its loads agree there within `level_tolerance` (part of the load at rest).
+    The machine runs under load from `operating_from` to `operating_to` (rpm of the first pinion, or of a planetary train's
+    input; None: from the first speed of the chart up to the load's own, or else to the last of the chart): its greatest load
+    there is told first. Of trains with several models side by side, a model is enough if its loads agree there within
+    `level_tolerance` (part of the load at rest).
 
     With `transient` the train runs in time as well, with a speed or torques that change. With `campbell` "on" its motion is
     integrated at 41 speeds of the chart (or so many as `speeds`, up to 101), each for `duration` (s) after it has settled,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -14,15 +15,16 @@ from gearcad.dynamics.charts.transmission import lines_that_matter
 from gearcad.dynamics.engagement import engaged, pair_notices
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.excitation.sources import train_excitation
-from gearcad.dynamics.in_time.campbell import mesh_campbell
+from gearcad.dynamics.in_time.campbell import campbell_seconds, mesh_campbell
 from gearcad.dynamics.in_time.mesh_campbell import MeshCampbell
 from gearcad.dynamics.in_time.transient import run_transient
 from gearcad.dynamics.in_time.transient_result import Transient
+from gearcad.dynamics.operating import operating_range
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.tooth_errors.result import ToothLaw
 from gearcad.dynamics.tooth_errors.sources import engaged_teeth, mesh_teeth
-from gearcad.dynamics.tooth_errors.study import ErrorPlan, study_errors
+from gearcad.dynamics.tooth_errors.study import ErrorPlan, errors_seconds, study_errors
 from gearcad.dynamics.tooth_errors.teeth import MeshTeeth
 from gearcad.dynamics.train_result import Course, ModalStudy, TrainStudy
 from gearcad.dynamics.trains.bearing_modes import BearingModes
@@ -37,11 +39,12 @@ from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError
 from gearcad.notice import Notice
-from gearcad.progress import Share, Tell, unheard, untold
+from gearcad.progress import Expected, Share, Tell, unheard, untold
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
+from gearcad.threads import cores
 
-__all__ = ["chart_speeds", "study_modes", "study_train"]
+__all__ = ["chart_speeds", "expected_train", "study_modes", "study_train"]
 
 
 _BEYOND = 1.5
@@ -57,6 +60,9 @@ _LEAST_LINE, _MOST_LINES = 1e-4, 512
 """Of the greatest line of a spectrum: what a line must have to be listed; and so many at most."""
 _LINES = 4
 """Natural frequencies that a Campbell diagram has."""
+
+_QUICK, _CHART_SECONDS, _MEMORY = "potential-energy", 10.0, 3e8
+"""To say beforehand what a study takes: the method of its pairs, CPU seconds of all but runs in time, and bytes."""
 
 _LOWER, _RUN_UP = 3.0, 60
 """Where flanks part at a speed beyond the chart, the run up to it begins at the speed over the first, and has so many steps."""
@@ -110,7 +116,7 @@ def study_train(
     tell("chart")
     over = over_speed(charted, excitation, frequencies, harmonics=options.harmonics, method_b=method_b, share=share)
     tell("course")
-    course, more = _course(train, over, asked)
+    course, more = _course(train, over, asked, options)
     errors = None
     if options.drawn:
         tell("tooth errors")
@@ -149,6 +155,29 @@ def study_train(
     )
 
 
+def expected_train(train: Train, options: DynamicsOptions) -> Expected:
+    """Return what `study_train` takes of drawn tooth errors and a Campbell diagram, about: pairs are as stiff as beams."""
+    train = engaged(train, replace(options, stiffness=_QUICK))
+    options = options.graded(RatingOptions())
+    charted = chart_speeds(train, options, natural_modes(train, count=options.frequencies))
+    train = fitted(train, max(float(charted[-1]), abs(train.speed)))
+    shaken = (system(train), _own_excitation(train, options))
+    seconds = _CHART_SECONDS
+    if options.drawn:
+        places = _error_speeds(train, options, charted)
+        seconds += errors_seconds(*shaken, _own_teeth(train, options), places, train.meshes[0].teeth, _plan(options))
+    if options.spectra:
+        places = _spectrum_speeds(options, charted)
+        seconds += campbell_seconds(train, *shaken, places, duration=options.duration, sampling=options.sampling)
+    return Expected(seconds / cores(), _MEMORY)
+
+
+def _spectrum_speeds(options: DynamicsOptions, speeds: Floats) -> Floats:
+    """Of a Campbell diagram (rpm), over the speeds of a chart."""
+    count = options.mesh_campbell_speeds
+    return np.linspace(options.speed_from or speeds[-1] / count, speeds[-1], count)
+
+
 def _notices(run: Transient | MeshCampbell | None) -> tuple[Notice, ...]:
     return () if run is None else run.notices
 
@@ -164,13 +193,13 @@ def _spectra(
 ) -> MeshCampbell:
     """Over the speeds of the chart; lines are the natural frequencies whose modes bend teeth most."""
     tell("campbell")
-    bent, count = modes.potential_meshes.max(axis=1, initial=0.0), options.mesh_campbell_speeds
+    bent = modes.potential_meshes.max(axis=1, initial=0.0)
     most = [number for number in np.argsort(-bent)[:_LINES].tolist() if bent[number] > _SHARE]
     return mesh_campbell(
         train,
         charted,
         excitation,
-        np.linspace(options.speed_from or speeds[-1] / count, speeds[-1], count),
+        _spectrum_speeds(options, speeds),
         {f"mode {number + 1}": float(modes.frequency[number]) for number in sorted(most)},
         duration=options.duration,
         sampling=options.sampling,
@@ -237,9 +266,9 @@ def chart_speeds(
     return np.linspace(first, last, options.chart_speeds)
 
 
-def _course(train: Train, over: OverSpeed, asked: float) -> tuple[Course, tuple[Notice, ...]]:
-    """At the frequency of the train's speed, or where the first mesh's K_v is greatest; and what to know about it."""
-    frequency = asked or float(over.up.frequencies[np.nanargmax(over.up.factors[:, 0])])
+def _course(train: Train, over: OverSpeed, asked: float, options: DynamicsOptions) -> tuple[Course, tuple[Notice, ...]]:
+    """At the train's speed, or where the first mesh's K_v is greatest in operation; and what to know about it."""
+    frequency = asked or _greatest_in_operation(train, over, options)
     response, notices = over.response(frequency), tuple[Notice, ...]()
     within = over.up.frequencies[0] <= frequency <= over.up.frequencies[-1]
     if not within and over.excitation.parting and _pull(response):
@@ -253,6 +282,14 @@ def _course(train: Train, over: OverSpeed, asked: float) -> tuple[Course, tuple[
         if felt > most:
             notices = (*notices, _unresolved(most))
     return _drawn(train, response, samples), notices
+
+
+def _greatest_in_operation(train: Train, over: OverSpeed, options: DynamicsOptions) -> float:
+    """Return the tooth frequency (1/s) at which K_v of the first mesh is greatest where the train runs under load."""
+    frequencies, factors = over.up.frequencies, over.up.factors[:, 0]
+    speeds = frequencies * 30 / (math.pi * train.meshes[0].teeth)
+    rows = operating_range(train.speed, options, (float(speeds[0]), float(speeds[-1]))).rows(speeds) & np.isfinite(factors)
+    return float(frequencies[np.nanargmax(np.where(rows, factors, np.nan) if rows.any() else factors)])
 
 
 def _unresolved(most: int) -> Notice:

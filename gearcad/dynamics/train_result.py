@@ -33,6 +33,7 @@ from gearcad.dynamics.charts.findings import (
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.in_time.mesh_campbell import MeshCampbell
 from gearcad.dynamics.in_time.transient_result import Transient
+from gearcad.dynamics.operating import OperatingRange, operating_range
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.tables import (
@@ -236,6 +237,17 @@ class TrainStudy(Pictured):
         return greatest_factor(self.charts)
 
     @cached_property
+    def operating(self) -> OperatingRange:
+        """Where the train runs under load."""
+        ends = float(self.speeds[0]), float(self.speeds[-1])
+        return operating_range(self.train.speed, self.options, ends).within(self.speeds)
+
+    @cached_property
+    def greatest_in_operation(self) -> GreatestFactor:
+        """The greatest K_v of all meshes, up and down, where the train runs under load."""
+        return greatest_factor(self.charts, self.operating.rows(self.speeds))
+
+    @cached_property
     def resonances(self) -> tuple[ChartResonance, ...]:
         """Maxima of K_v in the charts, mesh by mesh, with the natural frequencies that they meet."""
         return chart_resonances(self.charts, self.modes.circular if self.on_bearings is None else self.on_bearings.excited)
@@ -327,6 +339,7 @@ class TrainStudy(Pictured):
             "course": self.course.to_dict(),
             "tooth_errors": None if self.errors is None else self.errors.to_dict(),
             "greatest": self.greatest.to_dict(),
+            "operation": {**self.operating.to_dict(), "greatest": self.greatest_in_operation.to_dict()},
             "transient": None if self.transient is None else self.transient.to_dict(),
             "campbell": None if self.campbell is None else self.campbell.to_dict(),
             "resonances": [each.to_dict() for each in self.resonances],

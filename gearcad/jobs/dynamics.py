@@ -21,10 +21,10 @@ from gearcad.dynamics.options import DynamicsOptions, PairModel
 from gearcad.dynamics.pair import study_contact, study_pair
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.side_by_side import SideBySide
-from gearcad.dynamics.train import study_modes, study_train
+from gearcad.dynamics.train import expected_train, study_modes, study_train
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.dynamics.trains.train import Train
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.errors import GeometryError, InputError, ParameterError, SolverError
 from gearcad.geometry import GearPair
 from gearcad.geometry.halves import refuse_halves
 from gearcad.jobs.dynamics_columns import dynamics_columns
@@ -37,7 +37,7 @@ from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
-from gearcad.progress import Agenda, Progress
+from gearcad.progress import Agenda, Expected, Progress
 from gearcad.schema import with_assumed
 from gearcad.version import __version__
 
@@ -77,6 +77,17 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
         if isinstance(design, TrainDesign):
             return _of_train(design, progress)
         return _of_pair(design, progress)
+
+    def _expected(self, design: PairDesign | TrainDesign) -> Expected | None:
+        """Of a train's runs in time, which may take minutes."""
+        if not isinstance(design, TrainDesign) or not design.train.meshes:
+            return None
+        if design.other_models or not (design.dynamics.drawn or design.dynamics.spectra):
+            return None
+        try:
+            return expected_train(design.train, design.dynamics)
+        except (InputError, SolverError):
+            return None  # `run` says why
 
     def document(self, result: Study) -> dict[str, Any]:
         """What dynamics.json holds: everything but the long arrays."""

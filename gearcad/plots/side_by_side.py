@@ -9,8 +9,8 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.dynamics.charts.chart import KvChart
-from gearcad.dynamics.levels.operating import OperatingRange
 from gearcad.dynamics.levels.result import LevelStudy
+from gearcad.dynamics.operating import OperatingRange
 from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.plots.labels import plain

@@ -87,6 +87,23 @@ def test_a_train(here: Path) -> None:
 
 
 @pytest.mark.usefixtures("no_report")
+def test_the_greatest_factor_where_the_machine_runs_stands_first(here: Path) -> None:
+    """A resonance beyond the operating range is none of its headline, nor is the course that is drawn."""
+    text = PAIR.replace("speed = 6000.0\n", "") + "operating_from = 600.0\noperating_to = 2900.0\n"
+    result = run("dynamics", spec(text), "--quiet")
+    document = json.loads(Path("output/it/dynamics.json").read_text(encoding="utf-8"))
+    operation, speed = document["operation"], np.array(document["speed"])
+    inside = (speed >= 600.0) & (speed <= 2900.0)
+    most = np.array(document["chart"]["kv"]["mesh"])[inside].max()
+    assert (operation["first"], operation["last"], operation["source"]) == (600.0, 2900.0, "operating range")
+    assert operation["greatest"]["factor"] == most < 0.8 * document["greatest"]["factor"]
+    line = next(line for line in result.stdout.splitlines() if line.startswith("K_v"))
+    assert line == f"K_v from 600 to 2900 rpm at most {most:.3f}, of mesh at {operation['greatest']['speed']:.5g} rpm"
+    assert document["course"]["speed"] == pytest.approx(operation["greatest"]["speed"])
+    assert not any("without effect" in warning for warning in document["warnings"])
+
+
+@pytest.mark.usefixtures("no_report")
 def test_a_new_train_is_sent_to_its_command(here: Path) -> None:
     result = run("new", "train-2")
     assert result.stderr == "Next: gearcad dynamics train-2-stage.toml\n"

@@ -80,8 +80,8 @@ def test_the_response_is_there_if_it_is_asked_for() -> None:
     """Some 10 s."""
     study = gearcad.planetary(starter("differential"), response=True)
     assert study.response is not None
-    factor, _, speed = study.response.greatest
-    assert 1 < factor < 2 and speed > 0
+    most = study.response.greatest_in_operation
+    assert 1 < most.factor < 2 and most.speed > 0
 
 
 @pytest.mark.usefixtures("no_pictures")

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from support.pairs import thesis_model
 from support.responses import cosine, oscillator
 
+from gearcad.designs import TrainDesign
+from gearcad.designs.reader import read_spec
 from gearcad.dynamics.charts.over_speed import over_speed
 from gearcad.dynamics.tooth_springs import campbell as module
 from gearcad.dynamics.tooth_springs.campbell import campbell
+from gearcad.jobs.dynamics import Dynamics
 from gearcad.progress import onwards, part
+from gearcad.threads import cores
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
 
 
 @pytest.mark.parametrize("backlash", [None, math.inf])
@@ -43,6 +51,25 @@ def test_speeds_are_counted_and_an_interrupt_ends_a_study(monkeypatch: pytest.Mo
     with pytest.raises(KeyboardInterrupt):
         campbell(thesis_model(), speeds, duration=0.2, counted=interrupt)
     assert len(begun) < 20
+
+
+def test_runs_in_time_of_a_train_are_told_beforehand() -> None:
+    """A Campbell diagram by its duration, drawn errors by the number of samples; nothing of what is soon there."""
+    design = read_spec(TEMPLATES / "train-pairs.toml")
+    assert isinstance(design, TrainDesign)
+
+    def seconds(**options: object) -> float:
+        found = Dynamics().expected(replace(design, dynamics=replace(design.dynamics, **options)))
+        assert found is not None
+        return found.seconds
+
+    assert Dynamics().expected(design) is None
+    half, whole = seconds(campbell="on", duration=0.5), seconds(campbell="on")
+    drawn = [seconds(tooth_errors="on", error_samples=count) for count in (9, 19, 29)]
+    assert drawn[2] - drawn[1] == pytest.approx(drawn[1] - drawn[0], rel=1e-9)
+    # 54 CPU seconds were measured for the first, and more than 289 for some 20 samples.
+    assert 25 < whole * cores() < 110 and whole > 1.3 * half
+    assert drawn[1] * cores() > 289
 
 
 def test_shares_of_parts() -> None:

@@ -11,8 +11,8 @@ LEVELS = "a train with a list of models, held against each other"
 
 def test_what_is_for_levels_or_for_the_mesh() -> None:
     assert not idle_without_levels(DynamicsOptions(tooth_errors="on")) and not idle_in_contact(DynamicsOptions(model="contact"))
-    (one,) = idle_without_levels(DynamicsOptions(operating_to=5000.0))
-    assert one.text == f"without effect here: operating_to, which is for {LEVELS}"
+    (one,) = idle_without_levels(DynamicsOptions(operating_to=5000.0, level_tolerance=0.1))
+    assert one.text == f"without effect here: level_tolerance, which is for {LEVELS}"
     asked = DynamicsOptions(
         model="contact", tooth_errors="on", error_samples=5, premature_engagement="on", level_tolerance=0.1, zone="one pair"
     )

@@ -10,9 +10,9 @@ from support.trains import one_stage
 
 from gearcad.arrays import Bools, Floats
 from gearcad.dynamics.levels.agreement import SHIFT, Agreement, Reason, agreement
-from gearcad.dynamics.levels.operating import OperatingRange, RangeSource, operating_range
 from gearcad.dynamics.levels.result import finest_first
 from gearcad.dynamics.levels.verdict import LevelStatus, LevelVerdict
+from gearcad.dynamics.operating import OperatingRange, RangeSource, operating_range
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.train import study_train
 from gearcad.dynamics.train_result import TrainStudy
@@ -131,15 +131,15 @@ def test_shafts_that_one_model_knows_only(plain: TrainStudy) -> None:
 
 def test_operating_ranges() -> None:
     train, chart = one_stage("exact"), (10.0, 9000.0)
-    assert operating_range(train, DynamicsOptions(), chart) == (10.0, 9000.0, RangeSource.CHART)
+    assert operating_range(train.speed, DynamicsOptions(), chart) == (10.0, 9000.0, RangeSource.CHART)
     fast = replace(train, speed=-6000.0)
-    assert operating_range(fast, DynamicsOptions(), chart) == (10.0, 6000.0, RangeSource.SPEED)
-    assert operating_range(fast, DynamicsOptions(operating_to=7000.0), chart) == (10.0, 7000.0, RangeSource.GIVEN)
-    assert operating_range(fast, DynamicsOptions(operating_from=0.0), chart) == (0.0, 6000.0, RangeSource.GIVEN)
+    assert operating_range(fast.speed, DynamicsOptions(), chart) == (10.0, 6000.0, RangeSource.SPEED)
+    assert operating_range(fast.speed, DynamicsOptions(operating_to=7000.0), chart) == (10.0, 7000.0, RangeSource.GIVEN)
+    assert operating_range(fast.speed, DynamicsOptions(operating_from=0.0), chart) == (0.0, 6000.0, RangeSource.GIVEN)
     # A speed below the chart: all of it is outside, and nothing is judged.
-    assert operating_range(replace(train, speed=5.0), DynamicsOptions(), chart) == (0.0, 5.0, RangeSource.SPEED)
+    assert operating_range(5.0, DynamicsOptions(), chart) == (0.0, 5.0, RangeSource.SPEED)
     with pytest.raises(GeometryError, match=r"operating_from = 6000 rpm: must be below the speed of the train, 6000 rpm"):
-        operating_range(fast, DynamicsOptions(operating_from=6000.0), chart)
+        operating_range(fast.speed, DynamicsOptions(operating_from=6000.0), chart)
 
 
 def test_the_finest_comes_first() -> None:

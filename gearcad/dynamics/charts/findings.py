@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Bools, Floats
 from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
@@ -122,12 +122,16 @@ class ModeSpeed(NamedTuple):
     speed: float
 
 
-def greatest_factor(charts: Charts) -> GreatestFactor:
-    """Of all meshes and directions."""
-    direction, chart = max(charts.directions(), key=lambda each: float(np.nanmax(each[1].factors)))
-    row, mesh = np.unravel_index(int(np.nanargmax(chart.factors)), chart.factors.shape)
+def greatest_factor(charts: Charts, rows: Bools | None = None) -> GreatestFactor:
+    """Return that of all meshes and directions, of some `rows` (s,) of the charts if given."""
+    inside = np.ones(len(charts.speeds), bool) if rows is None else rows
+    if not any(np.isfinite(chart.factors[inside]).any() for _, chart in charts.directions()):
+        inside = np.ones(len(charts.speeds), bool)
+    found = [(np.where(inside[:, None], chart.factors, np.nan), chart, way) for way, chart in charts.directions()]
+    factors, chart, direction = max(found, key=lambda each: float(np.nanmax(each[0])))
+    row, mesh = np.unravel_index(int(np.nanargmax(factors)), factors.shape)
     return GreatestFactor(
-        factor=float(np.nanmax(chart.factors)),
+        factor=float(factors[row, mesh]),
         mesh=chart.mesh_names[mesh],
         speed=float(charts.speeds[row]),
         direction=None if charts.down is None else direction,

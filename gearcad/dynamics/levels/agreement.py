@@ -15,7 +15,7 @@ import numpy as np
 
 from gearcad.arrays import Bools, Floats, Indices, freeze
 from gearcad.dynamics.charts.chart import KvChart
-from gearcad.dynamics.levels.operating import OperatingRange
+from gearcad.dynamics.operating import OperatingRange
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.trains.half_waves import good_up_to
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from gearcad.dynamics.levels.agreement import OUTSIDE, SHIFT, NotJudged
-from gearcad.dynamics.levels.operating import OperatingRange
 from gearcad.dynamics.levels.verdict import LevelStatus, LevelVerdict
+from gearcad.dynamics.operating import OperatingRange
 from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.dynamics.trains.train import TrainModel
 

@@ -12,9 +12,9 @@ from gearcad.arrays import Floats
 from gearcad.dynamics.engagement import engaged
 from gearcad.dynamics.levels.agreement import SHIFT, Agreement, CurveName, agreement
 from gearcad.dynamics.levels.deciding import Decision, decision
-from gearcad.dynamics.levels.operating import OperatingRange, operating_range
 from gearcad.dynamics.levels.result import LevelStudy, finest_first
 from gearcad.dynamics.levels.verdict import LevelResonance, LevelVerdict
+from gearcad.dynamics.operating import OperatingRange, operating_range
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.same import joined_peaks, peaks_of
 from gearcad.dynamics.train import chart_speeds, study_train
@@ -85,7 +85,7 @@ def _speeds(train: Train, options: DynamicsOptions) -> tuple[Floats, OperatingRa
     if not options.speed_from and first and first / (1 + SHIFT) < speeds[0]:
         options = replace(options, speed_from=first / (1 + SHIFT))
     speeds = chart_speeds(train, options, modes)
-    over = operating_range(train, options, (float(speeds[0]), float(speeds[-1])))
+    over = operating_range(train.speed, options, (float(speeds[0]), float(speeds[-1])))
     begin, end = (float(np.clip(each, speeds[0], speeds[-1])) for each in (over.first, over.last))
     few = ((speeds >= begin) & (speeds <= end)).sum() < _WITHIN
     return _with(speeds, np.linspace(begin, end, _WITHIN if few else 2)), over

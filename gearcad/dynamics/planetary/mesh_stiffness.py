@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.options import AUTO, DynamicsOptions
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.load import Load
 from gearcad.material import Material, Materials
@@ -132,10 +133,13 @@ def mesh_stiffness(
 ) -> MeshStiffness:
     """The stiffness of a mesh under what one planet carries: `load`, of which the torque (N·m) is that on the pair's pinion.
 
-    Without a load, or a torque, it is that of a small nominal one. `method` is a name of `gearcad.stiffness.METHODS`; 0
-    `positions` are its own number. Raises ParameterError for an unknown method, and what methods raise - but GeometryError only
+    Without a load, or a torque, it is that of a small nominal one. `method` is a name of `gearcad.stiffness.METHODS`, or
+    "auto": that of `gearcad dynamics`, whose course does not jump; 0 `positions` are its own number. Raises ParameterError for
+    an unknown method, and what methods raise - but GeometryError only
     where no mean was given: one that was needs no course.
     """
+    if method == AUTO:
+        method = DynamicsOptions().method_for(mesh.pair)
     if method not in METHODS:
         raise ParameterError("method", method, f"must be one of {', '.join(METHODS)}")
     nominal = load is None or not load.torque

@@ -14,8 +14,10 @@ import numpy as np
 
 from gearcad.arrays import Bools, Floats
 from gearcad.dynamics.charts.chart import KvChart
+from gearcad.dynamics.charts.findings import Charts, GreatestFactor, greatest_factor
 from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
 from gearcad.dynamics.excitation.meshes import Excitation
+from gearcad.dynamics.operating import OperatingRange, operating_range
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.planetary.campbell import PlanetaryCampbell, planetary_campbell, speeds_per_input
 from gearcad.dynamics.planetary.driven import planetary_excitation, planetary_system
@@ -72,6 +74,8 @@ class PlanetaryResponse:
     over: OverSpeed
     tooth_frequency: float
     campbell: PlanetaryCampbell
+    operating: OperatingRange
+    stiffness: Mapping[str, MeshStiffness]
     alike: int
     found: tuple[Notice, ...]
 
@@ -98,15 +102,24 @@ class PlanetaryResponse:
         return {a.name: self.up.factors[:, :count], b.name: self.up.factors[:, count:]}
 
     @property
-    def greatest(self) -> tuple[float, str, float]:
-        """The greatest factor, of which mesh of which planet, and at which speed of the input (rpm)."""
-        row, mesh = np.unravel_index(int(np.nanargmax(self.up.factors)), self.up.factors.shape)
-        return float(np.nanmax(self.up.factors)), self.up.mesh_names[mesh], float(self.speeds[row])
+    def greatest(self) -> GreatestFactor:
+        """The greatest factor of the whole chart."""
+        return greatest_factor(self._charts)
 
     @property
-    def greatest_lasts(self) -> bool:
-        """Whether the motion of the greatest factor does; what comes instead of one that does not may be greater."""
-        return bool(self.up.stable[int(np.nanargmax(self.up.factors.max(axis=1)))])
+    def greatest_in_operation(self) -> GreatestFactor:
+        """The greatest factor where the train runs under load."""
+        return greatest_factor(self._charts, self.operating.rows(self.speeds))
+
+    @property
+    def at_load(self) -> GreatestFactor | None:
+        """The greatest factor at the load's speed, None if that is not in the chart."""
+        rows = np.isclose(self.speeds, abs(self.load.speed), rtol=1e-9)
+        return greatest_factor(self._charts, rows) if (rows & self.up.known).any() else None
+
+    @property
+    def _charts(self) -> Charts:
+        return Charts(self.speeds, self.up, self.down, (1.0,) * len(self.up.mesh_names))
 
     @cached_property
     def damping_ratios(self) -> Floats:
@@ -142,13 +155,16 @@ class PlanetaryResponse:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain lists: rpm, N, Hz."""
-        factor, mesh, speed = self.greatest
+        at_load = self.at_load
         return {
             "speed": self.speeds.tolist(),
             "tooth_frequency_per_rpm": self.tooth_frequency,
             "load_factor": {name: _or_null(values) for name, values in self.factors.items()},
             "stable": self.up.stable.tolist(),
-            "greatest": {"factor": factor, "mesh": mesh, "speed": speed, "lasts": self.greatest_lasts},
+            "stiffness_method": {name: each.cycle.method for name, each in self.stiffness.items()},
+            "at_load": None if at_load is None else _factor_document(at_load),
+            "operation": {**self.operating.to_dict(), "greatest": _factor_document(self.greatest_in_operation)},
+            "greatest": _factor_document(self.greatest),
             "static_force": dict(zip(self.up.mesh_names, self.up.static_forces.tolist(), strict=True)),
             "campbell": self.campbell.to_dict(),
             "notices": [notice.to_dict() for notice in self.notices],
@@ -199,6 +215,8 @@ def planetary_response(
         over=over if alike == 1 else _of_each(over, alike, system, excitation),
         tooth_frequency=tooth_frequency,
         campbell=planetary_campbell(train, modes, phases, float(charted[-1]), given_speeds=given_speeds),
+        operating=operating_range(load.speed, options, (float(charted[0]), float(charted[-1]))).within(charted),
+        stiffness=stiffness,
         alike=alike,
         found=(
             *turning_axes(modes, turns[train.carrier.name], float(charted[-1])),
@@ -207,6 +225,11 @@ def planetary_response(
             *modes.notices,
         ),
     )
+
+
+def _factor_document(found: GreatestFactor) -> dict[str, Any]:
+    """Return a factor as planetary.json has it."""
+    return {"factor": found.factor, "mesh": found.mesh, "speed": found.speed, "lasts": found.stable}
 
 
 def _or_null(values: Floats) -> list[list[float | None]]:
@@ -256,8 +279,8 @@ def _speeds(
         felt = modes.potential[:, meshes].sum(axis=1) > _SHARE
         last = _BEYOND * float(modes.frequency[felt].max(initial=0.0) or modes.frequency.max()) / tooth_frequency
     first = options.speed_from or last * max(options.slowest, _SLOWEST_STEPPED if train.stepped else 0.0)
-    charted, asked = np.linspace(first, last, options.chart_speeds), abs(load.speed)
-    return np.union1d(charted, asked) if first <= asked <= last else charted
+    asked = np.array([abs(load.speed), options.operating_from or 0.0, options.operating_to or 0.0])
+    return np.union1d(np.linspace(first, last, options.chart_speeds), asked[(asked >= first) & (asked <= last)])
 
 
 def _of_each(over: OverSpeed, alike: int, system: System, excitation: Excitation) -> OverSpeed:

@@ -76,7 +76,8 @@ def study_planetary(
     """Find out all that can be found out of a train.
 
     `given_speeds` (rpm) are of members, beside that of the input in `load`. The method of the mesh stiffness is that of
-    `dynamics`; so is the highest speed, of a Campbell diagram otherwise twice that of the load, of a `response` beyond the last
+    `dynamics`; where it names none, strain energy, and for a `response` a method whose course does not jump. The highest speed
+    is that of `dynamics` too; otherwise of a Campbell diagram twice that of the load, of a `response` beyond the last
     resonance. Raises ParameterError for speeds that contradict each other and an unknown method; what else keeps a part from
     being found is in `why_not`.
     """
@@ -92,8 +93,8 @@ def study_planetary(
             "rating": 1.0,
         },
     )
-    found, method = _Findings(), (dynamics or DynamicsOptions()).stiffness
-    method = QUICK if method == AUTO else method
+    found, asked = _Findings(), (dynamics or DynamicsOptions()).stiffness
+    method = QUICK if asked == AUTO else asked
     turning, load, others = _speeds(train, load, given_speeds or {}, found)
     flow = found.part("power", ("speeds",), lambda: power_flow(train, _loaded(train, load), others))
     drive = drive_of(train, load) if flow is None else _drive(train, flow)
@@ -137,7 +138,14 @@ def study_planetary(
         answer = found.part(
             "response",
             ("power", "stiffness", "modes"),
-            lambda: planetary_response(train, _loaded(train, load), _there(stiffness), masses, dynamics, given_speeds=others),
+            lambda: planetary_response(
+                train,
+                _loaded(train, load),
+                _there(stiffness) if asked != AUTO else train_stiffness(train, loads, method=AUTO, material=material),
+                masses,
+                dynamics,
+                given_speeds=others,
+            ),
         )
     tell("rating")
     shared = None if sharing is None else sharing.mesh_load_factor

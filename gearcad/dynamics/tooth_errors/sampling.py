@@ -48,6 +48,9 @@ _FELT, _TOUCHED = 0.02, 1e-3
 _WIDEST, _CHUNK = 128, 2_000_000
 """Samples side by side, and their steps between two looks at whether anybody wants to stop."""
 
+_STEP, _TERM = 40e-9, 4e-9
+"""CPU seconds that a step of a sample takes: for itself, and for each mode of each mesh."""
+
 _GLANCE = 0.2
 """Seconds between two looks at how far the samples are."""
 
@@ -177,14 +180,24 @@ class Sampling:
             done[place] += 1
         return Run(np.array(factors), np.array(settled))
 
+    def _lengths(self, frequency: float, decays: float) -> tuple[int, int, int]:
+        """Steps before loads are counted, steps of the first part of the period, and those of the period."""
+        per_tooth = self.per_tooth(frequency)
+        period = self.looked_at * per_tooth
+        wait_for = min(math.ceil(decays * frequency / max(self.decay, 1e-9)), _MOST_SETTLING) * per_tooth
+        return wait_for, max(1, min(period, max(wait_for, 2 * repeated_teeth(self.ratios) * per_tooth))), period
+
+    def seconds(self, frequencies: Floats, samples: int) -> float:
+        """Return the CPU seconds that a run of so many samples takes at tooth frequencies (Hz) of the first mesh, about."""
+        steps = sum(sum(self._lengths(frequency, _DECAYS)) for frequency in frequencies.tolist())
+        return steps * samples * (_STEP + _TERM * self.system.mesh.size)
+
     def _speed(self, samples: Samples, frequency: float, decays: float, stop: Event) -> tuple[Floats, Bools]:
         """Greatest forces (m, n) over the period, and whether (n,) those of its first part come again in the next."""
         per_tooth = self.per_tooth(frequency)
+        wait_for, length, period = self._lengths(frequency, decays)
         steps, pattern = self._steps(frequency, per_tooth), self._pattern(per_tooth, frequency)
         turns = np.array([float(ratio) / per_tooth for ratio in self.ratios])
-        period = self.looked_at * per_tooth
-        wait_for = min(math.ceil(decays * frequency / max(self.decay, 1e-9)), _MOST_SETTLING) * per_tooth
-        length = max(1, min(period, max(wait_for, 2 * repeated_teeth(self.ratios) * per_tooth)))
         begin, crests = -wait_for, []
         for end in (0, length, period, period + length):
             crests.append(self._part(steps, pattern, samples, turns, (begin, end), stop))

@@ -18,7 +18,7 @@ from gearcad.dynamics.trains.system import System
 from gearcad.errors import ParameterError
 from gearcad.notice import Notice
 
-__all__ = ["ErrorPlan", "study_errors"]
+__all__ = ["ErrorPlan", "errors_seconds", "study_errors"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,11 +45,8 @@ def study_errors(
 
     Raises ParameterError where all speeds are too low, GeometryError and SolverError.
     """
-    # Teeth that have no errors are all alike.
-    samples = plan.samples if any(not each.exact for each in teeth) else 1
+    sampling, samples = _sampling(system, excitation, teeth, plan)
     draws: list[Draw | None] = [Draw(plan.distribution, plan.seed, number) for number in range(samples)]
-    kept = with_short_period(teeth, [mesh.frequency_ratio for mesh in excitation.meshes])
-    sampling = Sampling(system=system, excitation=excitation, teeth=kept, law=plan.law)
     frequencies = speeds * pinion_teeth / 60
     quick = frequencies >= sampling.lowest
     if not quick.any():
@@ -60,6 +57,22 @@ def study_errors(
         raise ParameterError("speed_to", float(speeds[-1]), permitted, "rpm")
     found = sampling.run(frequencies[quick], [None, *draws], tell)
     return _study(sampling, plan, speeds[quick], found, (*_left_out(speeds[quick], speeds), *_assumed(sampling)))
+
+
+def errors_seconds(
+    system: System, excitation: Excitation, teeth: Sequence[MeshTeeth], speeds: Floats, pinion_teeth: int, plan: ErrorPlan
+) -> float:
+    """Return the CPU seconds that `study_errors` takes, about."""
+    sampling, samples = _sampling(system, excitation, teeth, plan)
+    frequencies = speeds * pinion_teeth / 60
+    return sampling.seconds(frequencies[frequencies >= sampling.lowest], samples + 1)
+
+
+def _sampling(system: System, excitation: Excitation, teeth: Sequence[MeshTeeth], plan: ErrorPlan) -> tuple[Sampling, int]:
+    """What is run, and how many samples: teeth that have no errors are all alike."""
+    kept = with_short_period(teeth, [mesh.frequency_ratio for mesh in excitation.meshes])
+    sampling = Sampling(system=system, excitation=excitation, teeth=kept, law=plan.law)
+    return sampling, plan.samples if any(not each.exact for each in teeth) else 1
 
 
 def _assumed(sampling: Sampling) -> tuple[Notice, ...]:
