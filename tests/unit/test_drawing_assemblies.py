@@ -22,7 +22,7 @@ from gearcad.drawing.gear_data import gear_notices
 from gearcad.drawing.layout import View
 from gearcad.drawing.options import DrawingOptions, PartDrawing, Projection, SheetSize
 from gearcad.drawing.pair_views import pair_face, pair_section
-from gearcad.drawing.shapes import Circle, Hatching, Pen, Text
+from gearcad.drawing.shapes import Circle, Hatching, Pen, Polyline, Text
 from gearcad.drawing.sheets.drawing import Sheet
 from gearcad.drawing.sheets.pair import draw_pair
 from gearcad.drawing.sheets.train import draw_train
@@ -203,6 +203,7 @@ def test_planets_stand_where_the_train_has_them() -> None:
         nearest = min(found, key=lambda centre: abs(complex(*centre) - at))
         assert abs(complex(*nearest) - at) < 1e-5
         assert train.rims[0].gear.tip_diameter / 2 in found[nearest]
+    assert {abs(central.gear.tip_diameter) / 2 for central in train.centrals} <= found[0.0, 0.0]
 
 
 def test_of_stepped_planets_the_rim_behind_the_larger_one_is_dashed() -> None:
@@ -268,15 +269,17 @@ def test_numbers_are_those_of_the_documents(name: str) -> None:
 @pytest.mark.parametrize("name", ["fzg-c", "planetary-alm"])
 def test_every_item_has_a_line_and_a_balloon(name: str) -> None:
     sheet = sheet_of(name)
-    balloons = [
-        shape.words
-        for shape in sheet.figure.shapes
-        if isinstance(shape, Text) and shape.height == 5.0 and shape.words.isdigit()
-    ]
+    shapes = sheet.figure.shapes
+    numbers = [shape for shape in shapes if isinstance(shape, Text) and shape.height == 5.0 and shape.words.isdigit()]
+    balloons = [number.words for number in numbers]
     listed = [text.words for text in sheet.figure.texts]
     assert sorted(balloons) == [str(number + 1) for number in range(len(balloons))]
     assert len(balloons) == {"fzg-c": 2, "planetary-alm": 7}[name]
     assert all(listed.count(number) >= 2 for number in balloons)
+    rings = [shape.vertices for shape in shapes if isinstance(shape, Polyline) and len(shape.vertices) == 2 and shape.closed]
+    around = {((one[0] + other[0]) / 2, one[1]) for one, other in rings if one[1:] == other[1:] and one[2] == 1.0}
+    for number in numbers:
+        assert min(math.dist(number.at, centre) for centre in around) < 1e-9
 
 
 def test_a_centre_distance_has_its_limits_and_backlash_its_extremes() -> None:

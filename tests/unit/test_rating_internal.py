@@ -15,6 +15,7 @@ from gearcad.geometry import ShaperCutter
 from gearcad.geometry.trochoid import FilletTool
 from gearcad.rating import Edition, RatingOptions, RootSection, VirtualGear, contact_at
 from gearcad.rating.rim import ring_rim_factor
+from gearcad.rating.ring_formula import _half_width
 from gearcad.rating.root_section import generated_section, hob_section, root_section
 from gearcad.rating.virtual import load_point
 from gearcad.rating.virtual_tool import virtual_tool
@@ -328,3 +329,15 @@ def test_random_internal_pairs_are_rated_or_refused_in_a_line(wanted: int) -> No
         assert root.section.moment_arm > 0
         assert root.form_factor > 0
         assert math.isfinite(root.nominal_stress)
+
+
+@pytest.mark.parametrize("module", [0.5, 2.7, 8.0])
+def test_thinner_teeth_widen_the_substitute_rack_of_a_ring(module: float) -> None:
+    """E in modules does not depend on the module, and grows by half of the thinning."""
+    ring = Gear(teeth=-75, normal_module=module, face_width=8 * module, rack=BasicRack(addendum=0.85))
+    thin = replace(ring, tooth_thinning=0.06 * module)
+    assert thin.dedendum == pytest.approx(1.25, rel=EXACT)
+    a_n = math.radians(20)
+    expected = math.pi / 4 - 1.25 * math.tan(a_n) - 0.3 * (1 - math.sin(a_n)) / math.cos(a_n)
+    assert _half_width(ring, 0.3) == pytest.approx(expected, rel=EXACT)
+    assert _half_width(thin, 0.3) == pytest.approx(expected + 0.03, rel=EXACT)
