@@ -136,7 +136,7 @@ class Modify(Job[PairDesign, Proposal]):
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """The modifications, and what the mesh comes to without and with them."""
         changes = {key: value for key, value in document["changes"].items() if key != "pair.name"}
-        named = ("model", "torque", "pressure_bound", "variants", "before", "after", "warnings")
+        named = ("torque", "pressure_bound", "variants", "before", "after", "warnings")
         return {**{name: document[name] for name in named}, **changes}
 
 

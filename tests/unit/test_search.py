@@ -12,13 +12,14 @@ from support.coarse import PAIRS, TORQUES, coarse_model, coarse_pair
 from threadpoolctl import threadpool_limits
 
 from gearcad import Mounting
+from gearcad.check.extremes import PRESSURE
 from gearcad.contact.optimum.search import Found, Search
 from gearcad.contact.optimum.start import _Sampling, start_search
 from gearcad.contact.optimum.variants import AMOUNTS, Condition, with_amounts
 from gearcad.contact.shared.loaded_left import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.geometry import ReliefShape
-from gearcad.jobs.modify import _best, unmirrored
+from gearcad.jobs.modify import _best, _modified, _polished, _tried, unmirrored
 
 TORQUE = TORQUES["FZG C"]
 
@@ -141,6 +142,28 @@ def test_no_variant_is_better_by_exhaustive_search(name: str, shape: ReliefShape
             assert proposal < BEST * min(least(search, bound, part) for part in np.array_split(every, 10))
             drawn = np.random.default_rng(1).random((10_000, 6))
             assert proposal < least(search, bound, search.low + drawn * (search.high - search.low))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("name", "shape"), [("FZG C", ReliefShape.LINEAR), ("FZG C", ReliefShape.PARABOLIC), ("helical", ReliefShape.LINEAR)]
+)
+def test_no_neighbour_of_a_checked_proposal_is_better(name: str, shape: ReliefShape, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The bound is kept by a check's pressure; neighbours are judged at 240 positions, between which nothing is missed."""
+    monkeypatch.undo()
+    model, torque = coarse_model(name), TORQUES[name]
+    with threadpool_limits(1):
+        plain = _modified(model, np.zeros(len(AMOUNTS)), shape, torque, 24).extreme(PRESSURE)
+        assert plain is not None
+        bounds = [1.05 * plain.value]
+        best = _polished(model, _best(_tried(model, torque, shape, bounds, 24, True), bounds), 24)
+        assert best.bounded
+        dense = replace(best.search, variants=replace(best.search.variants, count=240, more=()), surveyed=None)
+        own, edges = dense.outcomes(best.found.amounts[None]), not best.found.edges_free
+        aim = float(own.pressures[0]) * bounds[0] / best.figures.contact_pressure
+        every = np.array_split(grid(best.found, dense, 2), 10)
+        least = min(float(dense.scores(dense.outcomes(part), aim, edges=edges).min()) for part in every)
+    assert dense.scores(own, aim, edges=edges)[0] < BEST * least
 
 
 def test_proposals_are_round_and_the_same_each_time(search: Search, monkeypatch: pytest.MonkeyPatch) -> None:
