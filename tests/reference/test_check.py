@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ import pytest
 from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Load, Material, check
 from gearcad.check.comparison import Comparison, ComparisonRole, Subject, verdict
 from gearcad.check.document import check_document
+from gearcad.check.notices import _corners
 from gearcad.check.options import CheckOptions
 from gearcad.check.plane.summary import PlaneSummary, summarise_plane
 from gearcad.check.relief_start import relief_starts, start_comparisons, start_notice, start_notices
@@ -243,6 +245,17 @@ def test_a_load_far_beyond_elasticity_is_told(youngs_modulus: float, torque: flo
 def test_few_teeth_between_cuts_are_told(teeth: int, told: bool) -> None:
     found = check(high_teeth(), Load(torque=200.0), check=CheckOptions(body_teeth=teeth, convergence="off"))
     assert ("few-teeth" in {notice.code for notice in found.notices}) == told
+
+
+@pytest.mark.parametrize(
+    ("relief", "advice"),
+    [(0.0, "tip relief would avoid it"), (20.0, "the tip relief given does not prevent it under this load")],
+)
+def test_tip_relief_is_advised_only_where_there_is_none(relief: float, advice: str) -> None:
+    pair = relieved(ReliefShape.LINEAR, tip_relief=relief, tip_relief_length=4.0)
+    parts = (SimpleNamespace(pair=pair), SimpleNamespace(positions=range(24)), SimpleNamespace(corner_positions=4))
+    (notice,) = _corners(*parts)  # type: ignore[arg-type]
+    assert notice.text.endswith(advice)
 
 
 def relieved(shape: ReliefShape, **given: float) -> GearPair:
