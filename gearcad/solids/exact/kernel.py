@@ -92,18 +92,19 @@ class _Maker:
 
     def _vertex(self, source: tuple[int, int]) -> tuple[Any, Any]:
         """A vertex, as a copy of its source at a place, as the start and as the end of an edge."""
+        made = self.vertices.get(source)
+        if made is not None:
+            return made
         from OCP.gp import gp_Pnt
         from OCP.TopoDS import TopoDS_Vertex
 
-        made = self.vertices.get(source)
-        if made is None:
-            number, place = source
-            if place:
-                vertex = self._vertex((number, 0))[0].Moved(self.places.locations[place])
-            else:
-                vertex = TopoDS_Vertex()
-                self.builder.MakeVertex(vertex, gp_Pnt(*self.boundary.vertices[number]), self.boundary.tolerance)
-            made = self.vertices[source] = vertex, vertex.Reversed()
+        number, place = source
+        if place:
+            vertex = self._vertex((number, 0))[0].Moved(self.places.locations[place])
+        else:
+            vertex = TopoDS_Vertex()
+            self.builder.MakeVertex(vertex, gp_Pnt(*self.boundary.vertices[number]), self.boundary.tolerance)
+        made = self.vertices[source] = vertex, vertex.Reversed()
         return made
 
     def _copies(self) -> tuple[list[int], list[float]]:
@@ -123,16 +124,17 @@ class _Maker:
 
     def _edge(self, number: int) -> Any:
         """An edge that is no copy, with its curve and vertices."""
+        shape = self.edges.get(number)
+        if shape is not None:
+            return shape
         from OCP.TopoDS import TopoDS_Edge
 
-        shape = self.edges.get(number)
-        if shape is None:
-            curve, place, start, end, first, last = self.boundary.edges[number]
-            shape = self.edges[number] = TopoDS_Edge()
-            self.builder.MakeEdge(shape, self._form(curve), self.places.locations[place], self.boundary.tolerance)
-            self.builder.Add(shape, self._vertex(self.boundary.sources[start])[0])
-            self.builder.Add(shape, self._vertex(self.boundary.sources[end])[1])
-            self.builder.Range(shape, first, last)
+        curve, place, start, end, first, last = self.boundary.edges[number]
+        shape = self.edges[number] = TopoDS_Edge()
+        self.builder.MakeEdge(shape, self._form(curve), self.places.locations[place], self.boundary.tolerance)
+        self.builder.Add(shape, self._vertex(self.boundary.sources[start])[0])
+        self.builder.Add(shape, self._vertex(self.boundary.sources[end])[1])
+        self.builder.Range(shape, first, last)
         return shape
 
     def _lay(self) -> None:
