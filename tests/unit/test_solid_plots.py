@@ -117,7 +117,7 @@ def test_misalignment_of_method_c_is_that_of_the_gap():
     result = small_solid_check()
     form = result.pair.pinion.flank_form
     turned = type(form)(
-        type(form.modification)(helix_angle_modification=6.0), *[form.first, form.last], form.width, 1.0, form.hand
+        type(form.modification)(helix_angle_modification=6.0), *[form.first, form.last], form.width, 1.0, form.hand, form.module
     )
     grows = 1000 * float(turned.depth(form.last, form.width) - turned.depth(form.last, 0.0))
     factors = face_factors(result.task)
