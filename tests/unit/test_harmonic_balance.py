@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
+from scipy.linalg import expm
 from support.floquet import floquet_multipliers
 from support.responses import MOMENT, VARIATION, cosine, isolated, oscillator, two_stages
 from support.transient import integrate
@@ -23,7 +24,7 @@ from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffn
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation, cycle_excitation
 from gearcad.dynamics.response.branch import sweep, trace
 from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.response.floquet import growth
+from gearcad.dynamics.response.floquet import _propagators, growth
 from gearcad.dynamics.response.linear import harmonic_orders, periodic_response
 from gearcad.dynamics.response.resolved import Resolution
 from gearcad.dynamics.trains.system import System
@@ -424,3 +425,18 @@ def test_a_branch_goes_on_to_the_last_speed_where_flanks_still_part(monkeypatch:
     found = parted(curves, speeds, np.array([0.9]))
     assert found.branch.frequencies[-1] == speeds[-1]
     assert found.seen(Direction.UP)[0].least[-1].min() <= 0
+
+
+@pytest.mark.parametrize("size", [1, 6])
+def test_propagators_of_many_times_are_matrix_exponentials(size: int) -> None:
+    """One of the modes turns freely; damping couples them."""
+    random = np.random.default_rng(size)
+    squares, couplings = np.abs(random.standard_normal(size)) * 1e9, random.standard_normal((size, size))
+    squares[0] = 0.0 if size > 1 else squares[0]
+    damping, times = couplings @ couplings.T * 300, np.geomspace(1e-7, 1e-4, 5)
+    generator = np.block([[np.zeros((size, size)), np.eye(size)], [-np.diag(squares), -damping]])
+    true = expm(generator * times[:, None, None])
+    scale = np.repeat([1.0, np.sqrt(squares.max())], size)
+    assert _propagators(squares, damping, times) / scale[:, None] * scale == pytest.approx(
+        true / scale[:, None] * scale, abs=1e-11
+    )

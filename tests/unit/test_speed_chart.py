@@ -224,7 +224,7 @@ def test_force_over_time_is_that_of_the_motion(parting: OverSpeed) -> None:
 def test_few_speeds_begin_with_flanks_apart() -> None:
     """No motion below the first speed to begin with: integrated in time, as from any other first speed."""
     of, excitation = oscillator(0.02), cosine(0.3, phase=180.0, backlash=math.inf)
-    charts = [over_speed(of, excitation, np.linspace(low, 1.0, count)) for low, count in ((0.9, 3), (0.8, 5), (0.5, 11))]
+    charts = [over_speed(of, excitation, np.linspace(low, 1.0, count)) for low, count in ((0.9, 3), (0.5, 11))]
     values = []
     for found in charts:
         assert found.down is not None

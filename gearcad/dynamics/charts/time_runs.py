@@ -107,8 +107,10 @@ class TimeRuns:
 
     def parts(self, told: Told) -> Bools:
         """Whether (s,) flanks would part in linear motions, or these do not last or were not found."""
-        lasting = growth(self.linear.system, self.linear.excitation, told.frequencies) <= UNSTABLE
-        return np.asarray((told.least <= 0).any(axis=1) | ~lasting | ~np.isfinite(told.left_out), bool)
+        found = np.asarray((told.least <= 0).any(axis=1) | ~np.isfinite(told.left_out), bool)
+        rest = np.flatnonzero(~found)
+        found[rest] = growth(self.linear.system, self.linear.excitation, told.frequencies[rest]) > UNSTABLE
+        return found
 
     @cached_property
     def moving(self) -> MovingSystem:
