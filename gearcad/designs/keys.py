@@ -235,6 +235,8 @@ def explain_unknown_key(table: str, key: str) -> str:
     inner, _, own = key.rpartition(".")
     if inner and own in known:
         return f"unknown key here; {own} is a key of the table of the gear itself, not of its {inner}"
+    if inner and table in ("pinion", "wheel") and own in KEYS["pair"]:
+        return "unknown key here; it belongs in [pair]"
     if (near := nearest_of(key, FIELDS[table], known)) is not None:
         return f"unknown key; did you mean {near}?"
     return f"unknown key; {permitted_words(key, known) if len(known) > _MOST_KEYS else 'permitted are ' + ', '.join(known)}"

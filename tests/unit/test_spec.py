@@ -289,13 +289,18 @@ def test_a_gear_that_is_wrong_at_any_centre_distance_is_named_itself() -> None:
             "<pinion.drawing.tooth_allowance>: pinion.drawing.tooth_allowance: unknown key here; tooth_allowance is a key "
             "of the table of the gear itself, not of its drawing",
         ),
+        (
+            {"pinion": {"drawing": {"centre_distance_tolerance": "js7"}}},
+            "<pinion.drawing.centre_distance_tolerance>: pinion.drawing.centre_distance_tolerance: unknown key here; it belongs "
+            "in [pair]",
+        ),
         ({"pinion": {"z": 3}}, "<pinion.z>: pinion.z: unknown key; did you mean teeth?"),
         (
             {"pinion": {"root_radius": 3}},
             "<pinion.root_radius>: pinion.root_radius: unknown key; did you mean rack.root_radius?",
         ),
         ({"pinion": {"body": {"boer": 3}}}, "<pinion.body.boer>: pinion.body.boer: unknown key; did you mean body.bore?"),
-        ({"pinion": {"qqq": 3}}, "<pinion.qqq>: pinion.qqq: unknown key; the nearest of the 93 permitted are "),
+        ({"pinion": {"qqq": 3}}, "<pinion.qqq>: pinion.qqq: unknown key; the nearest of the 95 permitted are "),
         (
             {"pinion": {"centre_distance": 3}},
             "<pinion.centre_distance>: pinion.centre_distance: unknown key here; it belongs in [pair]",
@@ -403,7 +408,7 @@ def test_name_is_the_stem_of_the_file_by_default(tmp_path: Path) -> None:
         ),
         ("[gear]\nbody.bore = 3\nbody . 'bor' = 2", " line 3: gear.body.bor: unknown key"),
         ("[gear]\nteeth = 20\n", " line 1: gear.normal_module is missing: "),
-        ('[gear]\n"a\\nb" = 2\n', r"gear.a\nb: unknown key; the nearest of the 79 permitted are "),
+        ('[gear]\n"a\\nb" = 2\n', r"gear.a\nb: unknown key; the nearest of the 81 permitted are "),
         ("gear.teeth = 2\n", " line 1: gear.teeth = 2: "),
         ("[gear]\nteeth = 20\nteeth = 21\n", " line 3, column 11: is not valid TOML: Cannot overwrite a value"),
         ("[gear]\nface_width = 18,3\n", "; write 18.3 with a point"),
