@@ -291,8 +291,8 @@ def test_a_gear_that_is_wrong_at_any_centre_distance_is_named_itself() -> None:
         ),
         (
             {"pinion": {"drawing": {"centre_distance_tolerance": "js7"}}},
-            "<pinion.drawing.centre_distance_tolerance>: pinion.drawing.centre_distance_tolerance: unknown key here; it belongs "
-            "in [pair]",
+            "<pinion.drawing.centre_distance_tolerance>: pinion.drawing.centre_distance_tolerance: unknown key here; it "
+            "belongs in [pair]",
         ),
         ({"pinion": {"z": 3}}, "<pinion.z>: pinion.z: unknown key; did you mean teeth?"),
         (
