@@ -91,7 +91,11 @@ class Modify(Job[PairDesign, Proposal]):
         best = _polished(model, _best(tried, limits), count)
         agenda(_ROBUSTNESS)
         models = (model, best.cycle.model)
-        robustness = tuple(Robustness(each, *(_swing(of, each, count) for of in models)) for each in conditions(torque))
+        told = [each.transmission_error_peak_to_peak for each in (CycleFigures.of(before), best.figures)]
+        robustness = tuple(
+            Robustness(each, *(told if each == Condition(torque) else [_swing(of, each, count) for of in models]))
+            for each in conditions(torque)
+        )
         return Proposal(
             design=design,
             pair=with_amounts(pair, unmirrored(best.found.amounts, pair, torque), best.search.variants.shape),
