@@ -25,6 +25,9 @@ _SECONDS_BETWEEN_LINES = 5.0
 _LONG = 10.0
 """Seconds from which on it is worth telling beforehand what a job takes."""
 
+_LARGE = 1e9
+"""Bytes of memory from which on it is."""
+
 
 @contextmanager
 def file_progress(*, shown: bool) -> Iterator[Progress | None]:
@@ -74,7 +77,7 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
 def _told(expected: Expected) -> str:
     """What is worth telling before a job begins."""
     takes = f"takes {about(expected.seconds)} and {about_memory(expected.memory)} of memory"
-    return ", ".join(filter(None, (expected.makes, takes if expected.seconds >= _LONG else "")))
+    return ", ".join(filter(None, (expected.makes, takes if expected.seconds >= _LONG or expected.memory >= _LARGE else "")))
 
 
 class _JobLines:

@@ -120,6 +120,13 @@ def test_stiffness_of_solids_tells_how_far_its_bodies_are(monkeypatch: pytest.Mo
     assert [every for _, _, every in told] == pytest.approx([begin + expected] * 5, rel=0.5)
 
 
+def test_what_takes_much_memory_says_so_however_quick_it_is(capsys: pytest.CaptureFixture[str]) -> None:
+    for seconds, memory in ((9.0, 9e8), (9.0, 1.1e9)):
+        with shown.job_progress(shown=True, expected=Expected(seconds, memory, "makes 9 hex8")):
+            pass
+    assert capsys.readouterr().err == "makes 9 hex8\nmakes 9 hex8, takes about 9 s and 1.1 GB of memory\n"
+
+
 def test_lines_come_now_and_then(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """A step is told when it begins and every five seconds; time left goes by what was expected, later by the pace."""
     now = 1000.0
