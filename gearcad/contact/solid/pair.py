@@ -218,8 +218,8 @@ class SolidPair(FlexiblePair[SolidCompliance]):
             if half > bound:
                 raise SolverError(
                     f"the contact is outside the range of its model: its half width, {half:.3g} mm at {abs(torque):.4g} N·m, "
-                    f"is more than {words}, {bound:.3g} mm; reduce load.torque or mounting.misalignment, or raise check.refinement, "
-                    "as coarse elements put too much on an edge"
+                    f"is more than {words}, {bound:.3g} mm; reduce load.torque or mounting.misalignment, or raise "
+                    "check.refinement, as coarse elements put too much on an edge"
                 )
 
     def farthest(self, torque: float) -> float:
