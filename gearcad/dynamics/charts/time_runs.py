@@ -46,6 +46,9 @@ _SETTLES = 0.7
 _SAME, _MOST_HOLDS = 2e-4, 12
 """Relative difference of loads in two stretches of a motion that has settled; stretches after which none does repeat."""
 
+_FINER = 4
+"""Steps in place of one over which loads are told where a stiffness jumps: a crest at a jump lies between two steps."""
+
 _UNSETTLED_TEETH = 512
 """Teeth over which the loads of a motion are counted that does not repeat."""
 
@@ -228,17 +231,25 @@ class TimeRuns:
         start = self.moving.run(course, step, settle, start=begin.start).end
         turns = (begin.turns + float(course.frequency.integrals(settle * step))) % 1.0
         steady, before = Course(frequency=Line.level(common[1]), turns=turns), None
+        repeats = False
         for _ in range(_MOST_HOLDS):
             # Whole periods: each stretch begins at the phase of the one before.
             motion = self.moving.run(steady, step, hold, stride=int(sampled), ends=(1, hold + 1), start=start)
-            if before is not None and np.allclose(motion.crest[1], before, rtol=_SAME, atol=0.0):
-                return _Stay(_State(frequency, motion.end, turns), motion, per, True)
+            repeats = before is not None and np.allclose(motion.crest[1], before, rtol=_SAME, atol=0.0)
+            if repeats:
+                break
             before = motion.crest[1]
             start = self.moving.run(steady, step, -(-settle // per) * per, start=motion.end).end
         if sampled:
-            hold = max(hold, math.ceil(_UNSETTLED_TEETH / max(self.excitation.orders)) * per)
-            motion = self.moving.run(steady, step, hold, stride=1, ends=(1, hold + 1), start=start)
-        return _Stay(_State(frequency, motion.end, turns), motion, per, False)
+            finer = _FINER if len(self.excitation.jumps) else 1
+            if not repeats:
+                hold = max(hold, math.ceil(_UNSETTLED_TEETH / max(self.excitation.orders)) * per)
+            if finer > 1 or not repeats:
+                count = finer * hold
+                motion = self.moving.run(
+                    steady, step / finer, count, stride=finer, ends=(1, count + 1), start=motion.end if repeats else start
+                )
+        return _Stay(_State(frequency, motion.end, turns), motion, per, repeats)
 
     def response(self, frequency: float, orders: int) -> PeriodicResponse:
         """What the run up shows at one frequency (1/s), by its orders of the common period.
