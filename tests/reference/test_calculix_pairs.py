@@ -101,7 +101,8 @@ def test_calculix_loads_the_fzg_pair_as_we_do(roll_angle: float, tmp_path: Path,
     _published(published, "FZG C", roll_angle, _compared(_template("fzg-c"), roll_angle, tmp_path))
 
 
-@pytest.mark.parametrize("torque", [120.0, pytest.param(-120.0, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("torque", [120.0, -120.0])
 def test_calculix_loads_a_ring_as_we_do(torque: float, tmp_path: Path) -> None:
     decks = replace(_template("ring-22-70", torque, refinement=2.0), sizes=PLANE_SIZES)
     of = _compared(decks, -6.0, tmp_path)

@@ -369,9 +369,9 @@ def test_a_wrong_sample_is_one_line(rows: int, seed: int, message: str) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("teeth = 13", "teeth = [13]", "line 30: pinion.teeth = [13]: must be a number or a text"),
-        ("teeth = 13", "teeth = true", "line 30: pinion.teeth = True: must be a number or a text"),
-        ("teeth = 13", "teth = 13", "line 30: pinion.teth: unknown key; did you mean teeth?"),
+        ("teeth = 13", "teeth = [13]", "line 31: pinion.teeth = [13]: must be a number or a text"),
+        ("teeth = 13", "teeth = true", "line 31: pinion.teeth = True: must be a number or a text"),
+        ("teeth = 13", "teth = 13", "line 31: pinion.teth: unknown key; did you mean teeth?"),
     ],
 )
 def test_a_spec_that_no_table_can_hold_is_refused(old: str, new: str, message: str, spec: Path) -> None:
