@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 __all__ = [
     "CHECK",
+    "COURSES",
     "DRAW",
     "DRIVE",
     "DYNAMICS",
@@ -129,9 +130,6 @@ PAIR = {
     "specific_sliding.pinion_E": Symbol("ζ_E1", "", "5.4", "specific sliding at E, pinion"),
     "specific_sliding.wheel_E": Symbol("ζ_E2", "", "5.4", "specific sliding at E, wheel"),
     "specific_sliding.greatest": Symbol("ζ", "", "5.4", "specific sliding, greatest"),
-    "specific_sliding_path.distance": Symbol("T1Y", "mm", "5.4", "places along the path of contact, from T1"),
-    "specific_sliding_path.pinion": Symbol("ζ_1", "", "5.4", "specific sliding along the path, pinion"),
-    "specific_sliding_path.wheel": Symbol("ζ_2", "", "5.4", "specific sliding along the path, wheel"),
     "contact_line_lengths.minimum": Symbol("", "mm", "5.4", "contact lines, least total length"),
     "contact_line_lengths.mean": Symbol("", "mm", "5.4", "contact lines, mean total length"),
     "contact_line_lengths.maximum": Symbol("", "mm", "5.4", "contact lines, greatest total length"),
@@ -141,6 +139,13 @@ PAIR = {
     "interference_margins.trochoid": Symbol("", "mm", "", "tips beside the mesh (trochoid)"),
     "interference_margins.radial": Symbol("", "mm", "", "tips when put in radially"),
 }
+
+COURSES: dict[str, Symbol] = {
+    "specific_sliding_path.distance": Symbol("T1Y", "mm", "5.4", "places along the path of contact, from T1"),
+    "specific_sliding_path.pinion": Symbol("ζ_1", "", "5.4", "specific sliding along the path, pinion"),
+    "specific_sliding_path.wheel": Symbol("ζ_2", "", "5.4", "specific sliding along the path, wheel"),
+}
+"""Lists along the path of contact in the document of a pair."""
 
 RACK = {
     "transverse_module": GEAR["transverse_module"],

@@ -48,9 +48,9 @@ def test_every_field_of_a_pair_has_a_symbol_and_every_symbol_a_field() -> None:
     ring = Gear(teeth=-70, normal_module=2.0, face_width=10.0, profile_shift=-0.3)
     internal = GearPair(pinion=gear, wheel=ring, centre_distance_tolerance="js7")
     assert "centre_distance_tolerance" not in _keys(GearPair(pinion=gear, wheel=gear).to_dict())
-    assert _keys(internal.to_dict()) == {*inputs, *symbols.PAIR}
+    assert _keys(internal.to_dict()) == {*inputs, *symbols.PAIR, *symbols.COURSES}
     only_with_a_ring = {key for key in symbols.PAIR if key.startswith("interference_margins.")}
-    assert _keys(pair.to_dict()) == {*inputs, *symbols.PAIR} - only_with_a_ring
+    assert _keys(pair.to_dict()) == {*inputs, *symbols.PAIR, *symbols.COURSES} - only_with_a_ring
     assert {key for key in symbols.PAIR if isinstance(getattr(pair, key, None), PerGear)} == set(symbols.PER_GEAR)
 
 
