@@ -98,3 +98,10 @@ def test_no_torque_no_force() -> None:
     document = forces_of(alm_train(), 0.0).to_dict()
     assert set(document["meshes"]["ring_4-rim_3"].values()) == set(document["stages"]["pre_stage"].values()) == {0.0}
     assert document["pin"]["size"] == 0.0
+
+
+def test_what_is_nothing_has_no_sign() -> None:
+    """Spur teeth push neither way along the axis: 0, not -0, in either sense of the torque."""
+    for torque in (90.0, -90.0):
+        for force in forces_of(helical(0.0), torque).meshes.values():
+            assert force.axial == 0.0 and math.copysign(1.0, force.axial) == 1.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import product
 from typing import TypeVar
 
 import numpy as np
@@ -15,6 +16,7 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.rack_views import end_section, front_view, plan_view
 from gearcad.drawing.rack_views.figures import front_figure, plan_figure, tooth_middles
 from gearcad.drawing.rack_views.span import Span
+from gearcad.drawing.rack_views.teeth import teeth_between
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.ring_views import face_view, section_view
 from gearcad.drawing.ring_views.face import end_face, hole_places
@@ -252,3 +254,15 @@ def test_all_marks_have_a_place(number: int) -> None:
 
 def _views(gear: Gear | Rack):  # type: ignore[no-untyped-def]
     return (front_view, end_section) if isinstance(gear, Rack) else (section_view, face_view)
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_teeth_of_a_rack_are_cut_off_where_they_are_asked_to_end(side: int) -> None:
+    """In the middle of flanks, whose height there is known, and in the middle of a tooth and of a space."""
+    rack = Rack(teeth=10, normal_module=2.0, face_width=20.0, height=20.0)
+    pitch, on_flank = rack.transverse_pitch, side * rack.profile.half_thickness(0.3)
+    cases = ((1.5 + on_flank, 0.3), (1.5, rack.profile.tip_height), (1.5 + side * pitch / 2, -2.5))
+    for (low, below), (high, above) in product(cases, repeat=2):
+        found = teeth_between(rack, low, high + 3 * pitch, 1.5)
+        assert found[0][:2] == pytest.approx((low, below), abs=1e-9)
+        assert found[-1][:2] == pytest.approx((high + 3 * pitch, above), abs=1e-9)

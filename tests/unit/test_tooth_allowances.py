@@ -8,7 +8,7 @@ import pytest
 from gearcad import Gear, GearPair, GeometryError, Load, Material, ParameterError, SpecError
 from gearcad.designs import PairDesign
 from gearcad.geometry.centre_distance_tolerance import centre_distance_allowance
-from gearcad.geometry.iso286 import limit_deviations
+from gearcad.geometry.iso286 import limit_deviations, standard_tolerance
 from gearcad.geometry.tooth_allowance import tooth_thickness_allowance
 from gearcad.rating.strength import rate_strength
 from gearcad.report.strength.tables import backlash_rows, tolerance_rows
@@ -82,6 +82,56 @@ def test_tables_of_din_3967():
 @pytest.mark.parametrize(("tolerance_class", "size", "upper", "lower"), ISO_286)
 def test_limit_deviations_of_iso_286(tolerance_class, size, upper, lower):
     assert limit_deviations(tolerance_class, size) == (upper, lower)
+
+
+SHAFTS = """
+3: 20 14 6 2 0 2 4 6
+6: 30 20 10 4 1 4 8 12
+10: 40 25 13 5 1 6 10 15
+18: 50 32 16 6 1 7 12 18
+30: 65 40 20 7 2 8 15 22
+50: 80 50 25 9 2 9 17 26
+80: 100 60 30 10 2 11 20 32
+120: 120 72 36 12 3 13 23 37
+180: 145 85 43 14 3 15 27 43
+250: 170 100 50 15 4 17 31 50
+315: 190 110 56 17 4 20 34 56
+400: 210 125 62 18 4 21 37 62
+500: 230 135 68 20 5 23 40 68
+"""
+"""ISO 286-1, fundamental deviations up to a size: below it for d, e, f and g, above it for k, m, n and p."""
+
+TIGHT_SHAFTS = """
+3: 10 14 18 | 6: 15 19 23 | 10: 19 23 28 | 18: 23 28 33 | 24: 28 35 41 | 30: 28 35 48 | 40: 34 43 60 | 50: 34 43 70
+65: 41 53 87 | 80: 43 59 102 | 100: 51 71 124 | 120: 54 79 144 | 140: 63 92 170 | 160: 65 100 190 | 180: 68 108 210
+200: 77 122 236 | 225: 80 130 258 | 250: 84 140 284 | 280: 94 158 315 | 315: 98 170 350 | 355: 108 190 390 | 400: 114 208 435
+450: 126 232 490 | 500: 132 252 540
+"""
+"""The same of r, s and u."""
+
+
+def test_tables_of_iso_286():
+    """Typed by sizes; holes mirror the shafts, higher by the difference of two grades where these are fine."""
+    rows = [list(map(int, row.replace(":", "").split())) for row in SHAFTS.strip().splitlines()]
+    for size, *deviations in rows:
+        for letter, deviation in zip("defgkmnp", deviations, strict=True):
+            shaft, hole = limit_deviations(f"{letter}6", size), limit_deviations(f"{letter.upper()}7", size)
+            if letter in "defg":
+                assert (shaft.upper, hole.lower) == (-deviation, deviation)
+                continue
+            assert shaft.lower == deviation
+            finer = standard_tolerance(7, size) - standard_tolerance(6, size) if size > 3 else 0
+            assert hole.upper == finer - deviation
+    for row in TIGHT_SHAFTS.replace("\n", "|").split("|"):
+        if row.strip():
+            size, *deviations = map(int, row.replace(":", "").split())
+            assert [limit_deviations(f"{letter}6", size).lower for letter in "rsu"] == deviations
+
+
+def test_m_is_the_difference_of_two_grades():
+    """ISO 286-1: m begins IT7 - IT6 above the size, from 3 mm on."""
+    for size in (6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500):
+        assert limit_deviations("m6", size).lower == standard_tolerance(7, size) - standard_tolerance(6, size)
 
 
 @pytest.mark.parametrize("wrong", ["J7", "hH7", "Js7", "j8", "h15", "x6", "7", "H", "", None])
