@@ -7,9 +7,11 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scipy.integrate import quad, solve_ivp
 from scipy.linalg import expm
 from support.floquet import floquet_multipliers
@@ -22,7 +24,7 @@ from gearcad.dynamics.charts.speed_curves import SpeedCurves
 from gearcad.dynamics.excitation.deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness, cycle_stiffness, square_stiffness
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation, cycle_excitation
-from gearcad.dynamics.response.branch import sweep, trace
+from gearcad.dynamics.response.branch import Branch, sweep, trace
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.floquet import _propagators, growth
 from gearcad.dynamics.response.linear import harmonic_orders, periodic_response
@@ -419,10 +421,19 @@ def test_a_motion_far_from_where_the_search_began_is_another_one() -> None:
 
 def test_a_branch_goes_on_to_the_last_speed_where_flanks_still_part(monkeypatch: pytest.MonkeyPatch) -> None:
     """Flanks are said to part at 0.9 of the resonance alone, but do so at the end of the chart too: it is followed to there."""
+    traced: list[float] = []
+
+    def traced_to(system: System, excitation: Excitation, frequencies: NDArray[np.float64], **how: Any) -> Branch:
+        traced.append(float(frequencies[-1]))
+        assert len(traced) < 5  # or it would be followed for ever
+        return trace(system, excitation, frequencies, **how)
+
+    monkeypatch.setattr("gearcad.dynamics.charts.parting.trace", traced_to)
     monkeypatch.setattr("gearcad.dynamics.charts.parting.MOST_ROUNDS", 0)  # no speeds between: they take long
     curves = SpeedCurves(oscillator(0.1), cosine(0.5, phase=180.0, backlash=math.inf))
     speeds = np.array([0.5, 0.6, 0.75, 0.9, 0.95, 1.0, 1.05])
     found = parted(curves, speeds, np.array([0.9]))
+    assert traced[0] < traced[-1] == speeds[-1]
     assert found.branch.frequencies[-1] == speeds[-1]
     assert found.seen(Direction.UP)[0].least[-1].min() <= 0
 
