@@ -15,16 +15,16 @@ import gearcad
 from gearcad import Body, Gear, Load, Material, picture
 from gearcad.batch import run_table
 from gearcad.batch.study import plan_study, write_study
+from gearcad.core.records import PerGear
 from gearcad.designs import read_spec
-from gearcad.jobs.data import Data
 from gearcad.jobs.draw import Draw
-from gearcad.per_gear import PerGear
-from gearcad.planetary.speeds import speeds
+from gearcad.jobs.job import Data
+from gearcad.planetary.train_data import speeds
 from gearcad.plots import plot_contours, save_plot
-from gearcad.plots.mesh import plot_body_mesh, plot_section_mesh
-from gearcad.plots.planetary.front import plot_front
-from gearcad.plots.planetary.scheme import plot_scheme
-from gearcad.plots.sizing import save_front
+from gearcad.plots.gears import plot_body_mesh, plot_section_mesh
+from gearcad.plots.planetary import plot_front
+from gearcad.plots.planetary_scheme import plot_scheme
+from gearcad.plots.ratings import save_front
 from gearcad.plots.table_data import read_points
 from gearcad.rating import RatingOptions
 from gearcad.sizing import SizeTask, search_pairs

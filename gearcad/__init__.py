@@ -24,7 +24,7 @@ What is done with gears is a verb. It takes a pair and a load, or a design such 
 >>> gearcad.check(pair, 60)
 Traceback (most recent call last):
 ...
-gearcad.errors.ParameterError: load = 60: must be a Load
+gearcad.core.errors.ParameterError: load = 60: must be a Load
 
     read(file)                     the design in a spec: a gear, a rack, a pair or a train, with its load and options
     data(pair)                     every derived quantity
@@ -41,7 +41,7 @@ gearcad.errors.ParameterError: load = 60: must be a Load
 
 `gearcad.plots` draws gears and results, a call for each picture; a notebook shows them without one.
 
-A class for each in `gearcad.jobs` writes the files of a result: `gearcad.jobs.check.Check().write(result, folder)`.
+A class for each in `gearcad.jobs` writes the files of a result: `gearcad.jobs.strength.Check().write(result, folder)`.
 """
 
 from __future__ import annotations
@@ -50,8 +50,9 @@ from gearcad.version import __version__
 
 TYPE_CHECKING = False  # as in guard.py
 if TYPE_CHECKING:
+    from gearcad.core.errors import GearcadError, GeometryError, ParameterError, SolverError, SpecError
+    from gearcad.core.records import Notice, PerGear
     from gearcad.designs import read_spec as read
-    from gearcad.errors import GearcadError, GeometryError, ParameterError, SolverError, SpecError
     from gearcad.geometry import (
         ISO53_A,
         ISO53_B,
@@ -75,8 +76,6 @@ if TYPE_CHECKING:
     from gearcad.load import Load
     from gearcad.material import Material
     from gearcad.mounting import Mounting
-    from gearcad.notice import Notice
-    from gearcad.per_gear import PerGear
     from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
 
 __all__ = [
@@ -125,16 +124,16 @@ _ROOMS = (
 if not TYPE_CHECKING:
     import sys
 
-    from gearcad.jobs import VERBS, WITHOUT_DESIGN
+    from gearcad.jobs.verbs import VERBS, WITHOUT_DESIGN, module_of
     from gearcad.lazy import Entrance, lazily
 
     __all__ += (*VERBS, *WITHOUT_DESIGN)
     __getattr__ = lazily(
         __name__,
         __all__,
-        ("errors", "notice", "per_gear", "geometry", "load", "material", "mounting", "planetary"),
+        ("core.errors", "core.records", "geometry", "load", "material", "mounting", "planetary"),
         _ROOMS,
-        {"read": "designs.read_spec", **{verb: f"jobs.{verb}.{verb}" for verb in (*VERBS, *WITHOUT_DESIGN)}},
+        {"read": "designs.read_spec", **{verb: f"jobs.{module_of(verb)}.{verb}" for verb in (*VERBS, *WITHOUT_DESIGN)}},
     )
     sys.modules[__name__].__class__ = Entrance
 

@@ -6,7 +6,7 @@ import os
 import signal
 import sys
 
-from gearcad.guard import CAN_GUARD, guarded
+from gearcad.core.guard import CAN_GUARD, guarded
 
 TYPE_CHECKING = False  # as in guard.py
 if TYPE_CHECKING:

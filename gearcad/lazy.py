@@ -35,7 +35,7 @@ def lazily(
             return getattr(sys.modules[package], name)
         for home in homes if name in names else ():
             module = import_module(f"{package}.{home}")
-            if name in module.__all__:
+            if hasattr(module, name):
                 setattr(sys.modules[package], name, getattr(module, name))
                 return getattr(module, name)
         raise AttributeError(f"module {package!r} has no attribute {name!r}")
@@ -70,7 +70,8 @@ class Verb(ModuleType):
     def function(self) -> Callable[..., Any]:
         """That of the job."""
         package, _, name = self.__name__.rpartition(".")
-        found: Callable[..., Any] = getattr(import_module(f"{package}.jobs.{name}"), name)
+        module = import_module(f"{package}.jobs.verbs").module_of(name)
+        found: Callable[..., Any] = getattr(import_module(f"{package}.jobs.{module}"), name)
         return found
 
     def __call__(self, *arguments: Any, **options: Any) -> Any:

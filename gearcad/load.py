@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from gearcad.ranges import APPLICATION_FACTOR, SPEED, TORQUE
-from gearcad.reprs import concise
-from gearcad.schema import AssumedNumber, Words, require_fields
+from gearcad.core.quantities import APPLICATION_FACTOR, SPEED, TORQUE, AssumedNumber, Words, require_fields
+from gearcad.core.records import concise
 
 __all__ = ["Load"]
 

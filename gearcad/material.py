@@ -8,11 +8,19 @@ from dataclasses import asdict, dataclass
 from enum import StrEnum
 from typing import Annotated, Any, NamedTuple
 
-from gearcad.errors import GeometryError, ParameterError
-from gearcad.per_gear import PerGear
-from gearcad.ranges import DENSITY, MODULUS, POISSON_RATIO, STRENGTH, Range
-from gearcad.reprs import concise
-from gearcad.schema import AssumedNumber, AssumedText, Words, require_fields
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.quantities import (
+    DENSITY,
+    MODULUS,
+    POISSON_RATIO,
+    STRENGTH,
+    AssumedNumber,
+    AssumedText,
+    Range,
+    Words,
+    require_fields,
+)
+from gearcad.core.records import PerGear, concise
 
 __all__ = [
     "STEEL_MODULUS",

@@ -11,10 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.arrays import Floats
-from gearcad.errors import SolverError, require_whole
-from gearcad.notice import Notice, texts
-from gearcad.reprs import Pictured
+from gearcad.core.errors import SolverError, require_whole
+from gearcad.core.records import Floats, Notice, Pictured, texts
 
 __all__ = ["FourierSeries", "MeshCycle"]
 

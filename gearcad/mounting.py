@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Annotated
 
-from gearcad.errors import GeometryError, InputError, format_number
+from gearcad.core.errors import GeometryError, InputError, format_number
+from gearcad.core.quantities import OFFSET, Range, Words, require_fields
+from gearcad.core.records import concise
 from gearcad.geometry import GearPair
-from gearcad.ranges import OFFSET, Range
-from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
 
 __all__ = ["Mounting"]
 

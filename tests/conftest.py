@@ -49,22 +49,22 @@ def pytest_collection_finish() -> None:
 @pytest.fixture(scope="module")
 def kept_workers() -> Iterator[None]:
     """Runs of tables share their workers, one for each job: these need not start anew for tests of what becomes of rows."""
-    from gearcad.batch import pool, worker
+    from gearcad.batch import pool
 
-    made: dict[worker._Worker, object] = {}
-    idle: list[worker._Worker] = []
+    made: dict[pool._Worker, object] = {}
+    idle: list[pool._Worker] = []
     keeper = ThreadPoolExecutor(1)  # a worker dies with the thread that started it, and those of a run end with that
 
-    def start() -> worker._Worker:
-        new = worker._Worker()
+    def start() -> pool._Worker:
+        new = pool._Worker()
         made[new] = new._running()
         return new
 
     def own_worker() -> None:
         try:
-            worker._here.worker = idle.pop()
+            pool._here.worker = idle.pop()
         except IndexError:
-            worker._here.worker = keeper.submit(start).result()
+            pool._here.worker = keeper.submit(start).result()
 
     def close_workers() -> None:
         """Those that lost their process have one of a thread that ends."""

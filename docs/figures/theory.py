@@ -7,7 +7,7 @@ import numpy as np
 
 import gearcad
 from gearcad import read
-from gearcad.geometry.trochoid import ToolTip
+from gearcad.geometry.fillets import ToolTip
 from gearcad.plots import save_plot
 from gearcad.plots.paper import new_figure, prepared
 from gearcad.plots.stiffness import plot_stiffness

@@ -6,11 +6,10 @@ from dataclasses import is_dataclass
 from enum import Enum
 from typing import Any
 
-from gearcad.designs.auto import AUTO, CLEAR
+from gearcad.core.quantities import ELSEWHERE, Choice, FieldSchema, Member, Range, Whole
 from gearcad.designs.keys import OF_SPECS
-from gearcad.geometry.basic_rack import NAMED_RACKS
-from gearcad.ranges import Choice, Member, Range, Whole
-from gearcad.schema import ELSEWHERE, FieldSchema
+from gearcad.designs.spec import AUTO, CLEAR
+from gearcad.geometry.gear_parts import NAMED_RACKS
 
 __all__ = ["clause", "default", "fields_default", "fields_permitted", "permitted"]
 

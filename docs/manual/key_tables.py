@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 
+from gearcad.core.quantities import FieldSchema, schema_of
 from gearcad.designs.keys import FIELDS, SHARED
-from gearcad.designs.planetary_keys import PLANETARY, PRE_STAGE
-from gearcad.designs.train_keys import TRAIN
+from gearcad.designs.train_keys import PLANETARY, PRE_STAGE, TRAIN
 from gearcad.identify import Measurements
-from gearcad.schema import FieldSchema, schema_of
 
 __all__ = ["key_tables"]
 

@@ -14,7 +14,7 @@ from docutils.parsers.rst import Directive
 from sphinx.util.nodes import make_refnode
 
 import gearcad
-from gearcad.schema import schema_of
+from gearcad.core.quantities import schema_of
 from manual.field_words import fields_default, fields_permitted
 from manual.table_pages import meaning, unit
 from manual.tables import table, text

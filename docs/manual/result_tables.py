@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 
-from gearcad import symbols
-from gearcad.symbols import Symbol
+from gearcad.core import symbols
+from gearcad.core.symbols import Symbol
 
 __all__ = ["result_tables"]
 
 
 @cache
 def result_tables() -> Mapping[str, Mapping[str, Symbol]]:
-    """Every table of `gearcad.symbols`; those of the parts of a train as `TRAIN_PARTS.shaft`."""
+    """Every table of `gearcad.core.symbols`; those of the parts of a train as `TRAIN_PARTS.shaft`."""
     found: dict[str, Mapping[str, Symbol]] = {}
     for name, table in vars(symbols).items():
         if name.isupper() and not name.startswith("_") and isinstance(table, dict):

@@ -8,7 +8,7 @@ from typing import Any
 from docutils import nodes
 from docutils.parsers.rst import Directive
 
-from gearcad.symbols import Symbol
+from gearcad.core.symbols import Symbol
 from manual.field_words import clause, default, permitted
 from manual.key_tables import key_tables
 from manual.result_tables import result_tables

@@ -9,8 +9,7 @@ table.py (designs)  ->  run.py: check all rows, make them, write the results
 
 """
 
-from gearcad.batch.results import Decimal
-from gearcad.batch.run import run_table
-from gearcad.batch.summary import InterruptedRunError, Summary
+from gearcad.batch.run import InterruptedRunError, Summary, run_table
+from gearcad.designs.cells import Decimal
 
 __all__ = ["Decimal", "InterruptedRunError", "Summary", "run_table"]

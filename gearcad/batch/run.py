@@ -1,32 +1,236 @@
-"""A design table from the first fault to the last file."""
+"""A run of a design table, from the first fault to the last file: journal, results, summary.
+
+Beside it, columns.csv says what its columns hold.
+"""
 
 from __future__ import annotations
 
 import errno
+import importlib.util
+import pickle
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+import sqlite3
+import unicodedata
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager, suppress
+from dataclasses import dataclass
+from functools import partial
 from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from filelock import FileLock, Timeout
 
-from gearcad.batch.journal import Journal
-from gearcad.batch.pool import ClusterLostError, Outcome, Pool, open_pool
-from gearcad.batch.results import FILES, Decimal, write_results
-from gearcad.batch.row import Checked, Record, Status, Task, check_rows, make_row
-from gearcad.batch.stages import stages
-from gearcad.batch.summary import InterruptedRunError, Summary
-from gearcad.batch.worker import WorkerLostError
+from gearcad.batch.pool import ClusterLostError, Outcome, Pool, WorkerLostError, open_pool
+from gearcad.batch.row import Checked, Record, Status, Task, check_rows, make_row, stages
+from gearcad.core.errors import OutputError, SpecError, format_number, require_number
+from gearcad.core.output import MARK, UNWRITABLE, has_mark, mark_folder, staged_files, unwritable
+from gearcad.core.records import Verdict
+from gearcad.core.runtime import Progress
+from gearcad.core.symbols import Symbol
+from gearcad.designs.cells import Decimal, cell_text, write_csv
 from gearcad.designs.table import Row, Table, open_table
-from gearcad.errors import OutputError, SpecError, require_number
+from gearcad.designs.variations import column_of_train, column_symbol
 from gearcad.jobs.job import Job
-from gearcad.output import MARK, UNWRITABLE, has_mark, mark_folder, unwritable
-from gearcad.progress import Progress
-from gearcad.verdict import Verdict
 
-__all__ = ["falls_short", "run_table"]
+
+@dataclass(frozen=True, kw_only=True)
+class Summary:
+    """How a run ended: its files, rows by status, one line for each failed row, and why it stopped early if it did.
+
+    `short` of the rows that are ok have a check with a gate that is not passed, or a rating that is not.
+    """
+
+    results: tuple[Path, ...]
+    ok: int
+    failed: int
+    not_run: int
+    short: int
+    errors: tuple[str, ...]
+    stopped: str = ""
+
+
+class InterruptedRunError(KeyboardInterrupt):
+    """Ctrl-C, and how far the run was: a row that is not finished counts as not run."""
+
+    def __init__(self, summary: Summary) -> None:
+        super().__init__()
+        self.summary = summary
+
+
+RESULTS = "results.csv"
+COLUMNS = "columns.csv"
+PARQUET = "results.parquet"
+FILES = (RESULTS, COLUMNS, PARQUET)
+"""What `write_results` writes: the names are not for a design, nor for the table itself."""
+
+_ROWS_PER_GROUP = 300
+"""What Parquet holds in memory before it writes: more rows make smaller files, fewer a smaller process."""
+
+
+class Results(Protocol):
+    """Something that yields every row with its record, again on each call."""
+
+    def results(self) -> Iterator[tuple[Row, Record]]: ...
+
+
+def write_results(journal: Results, folder: Path, workspace: Path, decimal: Decimal = Decimal.POINT) -> list[Path]:
+    """Write results.csv and columns.csv, and results.parquet where pyarrow is installed, by way of `workspace`.
+
+    Texts that a spreadsheet would run as a formula get an apostrophe in front. Raises OutputError.
+    """
+    columns = _columns(journal)
+    found = (_cells(row, record) for row, record in journal.results())
+    lines = ([cell_text(cells.get(heading), decimal) for heading in columns] for cells in found)
+    with staged_files(folder, workspace) as staging:
+        write_csv(lines, columns, staging / RESULTS, decimal)
+        of_trains = any(heading.startswith("planetary.") for heading in columns)
+        explained = map(partial(_explained, column_of_train if of_trains else column_symbol), columns)
+        write_csv(explained, _EXPLAINED, staging / COLUMNS, decimal)
+        if importlib.util.find_spec("pyarrow") is not None:
+            _write_parquet(journal, columns, staging / PARQUET)
+        return [folder / name for name in FILES if (staging / name).exists()]
+
+
+def _groups(row: Row, record: Record) -> tuple[dict[str, Any], ...]:
+    """One line under its headings: how the row ended, its files, its inputs, and what is derived.
+
+    What was derived stands in the place of the input it came from, such as "auto".
+    """
+    states = {
+        "name": row.name,
+        "status": record.status.value,
+        "error": record.error or None,
+        "warnings": "; ".join(record.warnings) or None,
+        "seconds": record.seconds,
+    }
+    files = {f"files.{file}": f"{row.name}/{file}" for file in record.files}
+    inputs = {key: record.values.get(key, row.values.get(key)) for key in row.columns if key not in ("", "name")}
+    derived = {key: value for key, value in record.values.items() if key not in inputs}
+    return states, files, inputs, derived
+
+
+def _cells(row: Row, record: Record) -> dict[str, Any]:
+    return {heading: value for group in _groups(row, record) for heading, value in group.items()}
+
+
+def _columns(journal: Results) -> dict[str, type]:
+    """Headings in order, group by group, and the one type (int, float, bool or str) that holds all cells of each.
+
+    Several numbers in a cell are a text.
+    """
+    columns: list[dict[str, type | None]] = [{}, {}, {}, {}]
+    for row, record in journal.results():
+        for kinds, cells in zip(columns, _groups(row, record), strict=True):
+            for heading, value in cells.items():
+                kinds[heading] = _common(kinds.get(heading), None if value is None else type(value))
+    return {heading: str if kind in (None, tuple) else kind for kinds in columns for heading, kind in kinds.items()}
+
+
+def _common(one: type | None, other: type | None) -> type | None:
+    """The type that holds cells of both; None for that of no cell."""
+    if one is None or other is None or one is other:
+        return one or other
+    return float if {one, other} == {int, float} else str
+
+
+_EXPLAINED = ("column", "symbol", "unit", "of", "words", "source")
+
+
+def _explained(symbol_of: Callable[[str], tuple[str, Symbol] | None], heading: str) -> Sequence[str]:
+    """The line of columns.csv for a column."""
+    if heading.startswith("files."):
+        return heading, "", "", "", "path of a file, from the folder of this table", ""
+    owner, symbol = symbol_of(heading) or ("", Symbol("", "", "", ""))
+    return heading, symbol.symbol, symbol.unit, owner, symbol.words, symbol.source
+
+
+def _write_parquet(journal: Results, columns: Mapping[str, type], path: Path) -> None:
+    import pyarrow
+    from pyarrow.parquet import ParquetWriter
+
+    kinds = {int: pyarrow.int64(), float: pyarrow.float64(), bool: pyarrow.bool_(), str: pyarrow.string()}
+    schema = pyarrow.schema([(heading, kinds[kind]) for heading, kind in columns.items()])
+    lines = (_cells(row, record) for row, record in journal.results())
+    with ParquetWriter(path, schema) as writer:
+        while group := list(islice(lines, _ROWS_PER_GROUP)):
+            arrays = [
+                pyarrow.array([_as(kind, cells.get(heading)) for cells in group], kinds[kind])
+                for heading, kind in columns.items()
+            ]
+            writer.write_table(pyarrow.Table.from_arrays(arrays, schema=schema))
+
+
+def _as(kind: type, value: Any) -> Any:
+    if isinstance(value, tuple):
+        return cell_text(value)
+    return None if value is None else kind(value)
+
+
+class Journal:
+    """A temporary database that vanishes with the process, however that ends. Not for more than one thread."""
+
+    def __init__(self) -> None:
+        self._database = sqlite3.connect("", isolation_level=None)  # "": on disk, without a name
+        self._database.execute("PRAGMA journal_mode = OFF")
+        self._database.execute("BEGIN")  # and never commit: nobody reads it after us
+        self._database.execute(
+            "CREATE TABLE rows (number INTEGER PRIMARY KEY, name TEXT, folded TEXT UNIQUE, row BLOB, checked BLOB, record BLOB)"
+        )
+
+    def close(self) -> None:
+        """Remove the database."""
+        self._database.close()
+
+    def add(self, row: Row) -> list[str]:
+        """Note a row of the table; faults of its name beside the other names."""
+        folded = unicodedata.normalize("NFC", row.name).casefold() or None
+        taken = self._execute("SELECT number, name FROM rows WHERE folded = ?", (folded,)).fetchone()
+        content = (row.number, row.name, None if taken else folded, pickle.dumps(row))
+        self._execute("INSERT INTO rows (number, name, folded, row) VALUES (?, ?, ?, ?)", content)
+        said = f"{row.where('name')}: name = {format_number(row.name)}"
+        if taken is not None:
+            number, name = taken
+            same = "has it too" if name == row.name else f"has {format_number(name)}, which some file systems take for the same"
+            return [f"{said}: must be unique, for it names a folder; row {number} {same}"]
+        if folded in FILES:
+            return [f"{said}: must be another one; this is the name of a table of results"]
+        return []
+
+    def keep(self, number: int, checked: Checked) -> None:
+        """Note what the check of a row has found."""
+        self._execute("UPDATE rows SET checked = ? WHERE number = ?", (pickle.dumps(checked), number))
+
+    def finish(self, record: Record) -> None:
+        """Note how a row ended."""
+        self._execute("UPDATE rows SET record = ?, checked = NULL WHERE number = ?", (pickle.dumps(record), record.number))
+
+    def open_rows(self) -> Iterator[tuple[Row, Checked]]:
+        """The rows without a record, in the order of the table, with what their checks have found."""
+        last = -1
+        query = "SELECT number, row, checked FROM rows WHERE record IS NULL AND number > ? ORDER BY number LIMIT 1"
+        while (found := self._execute(query, (last,)).fetchone()) is not None:
+            last = found[0]
+            yield pickle.loads(found[1]), pickle.loads(found[2]) if found[2] else Checked()
+
+    def results(self) -> Iterator[tuple[Row, Record]]:
+        """Every row and its record, in the order of the table."""
+        with _writable():
+            for number, row, record in self._execute("SELECT number, row, record FROM rows ORDER BY number"):
+                yield pickle.loads(row), pickle.loads(record) if record else Record(number=number, status=Status.NOT_RUN)
+
+    def _execute(self, statement: str, values: tuple[Any, ...] = ()) -> sqlite3.Cursor:
+        with _writable():
+            return self._database.execute(statement, values)
+
+
+@contextmanager
+def _writable() -> Iterator[None]:
+    try:
+        yield
+    except sqlite3.DatabaseError as error:  # the disk for temporary files is full, or was: then the database is in pieces
+        raise OutputError("temporary files", "", f"cannot be written ({error}); TMPDIR names their folder") from error
+
 
 WORKSPACE = ".gearcad-batch"
 """Folder inside the output folder where rows grow; it is there during a run, and after one that was killed."""

@@ -15,15 +15,13 @@ from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from gearcad.core.errors import ParameterError, require_whole
+from gearcad.core.output import staged_files
 from gearcad.designs.cells import guarded_text, list_text
-from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, DesignKind
-from gearcad.designs.keys import Cell
-from gearcad.designs.named_files import names_file
-from gearcad.designs.spec_values import spec_values
+from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, names_file
+from gearcad.designs.keys import Cell, DesignKind
 from gearcad.designs.table import open_table
-from gearcad.designs.variations import MOST_ROWS, Choices, Span, read_variations, without_varied
-from gearcad.errors import ParameterError, require_whole
-from gearcad.output import staged_files
+from gearcad.designs.variations import MOST_ROWS, Choices, Span, read_variations, spec_values, without_varied
 
 if TYPE_CHECKING:
     import numpy as np

@@ -1,27 +1,21 @@
-"""One comparison of the check: what was computed, beside what it is held against."""
+"""Comparisons of a check: computed values beside references, and safeties by the stresses of finite elements."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from enum import Enum
+from functools import cached_property
 from typing import Any
 
-from gearcad.verdict import Verdict
-
-__all__ = [
-    "Comparison",
-    "ComparisonRole",
-    "Subject",
-    "agrees",
-    "at_least",
-    "at_most",
-    "beside",
-    "beside_limit",
-    "beside_required",
-    "verdict",
-]
+from gearcad.check.options import Model
+from gearcad.check.summary import Summary
+from gearcad.check.task import CheckTask
+from gearcad.core.records import PerGear, Role, Verdict
+from gearcad.rating.load_factors import LoadFactors
+from gearcad.rating.strength import Part, PartStrength, StrengthRating
+from gearcad.rating.strength.duty import stresses_of
 
 
 class ComparisonRole(Enum):
@@ -175,3 +169,215 @@ def beside_required(
     """Information on strength: a safety beside the least one that is required, which another decides."""
     information, strength = ComparisonRole.INFORMATION, Subject.STRENGTH
     return Comparison(quantity, computed, limit, None, "", source, note, reason, role=information, subject=strength, least=True)
+
+
+_FE = "finite elements"
+
+
+@dataclass(frozen=True, kw_only=True)
+class FoundStrength:
+    """Of one flank or root: `stress` by finite elements (MPa), and `raised` by the load factors that the model lacks.
+
+    `rated` is what the rating says of it, `rated_stress` its stress under that load: of a spectrum under its nominal torque.
+    Without a `safety` it was not judged, for the `reason`.
+    """
+
+    rated: PartStrength
+    rated_stress: float | None
+    stress: float | None
+    raised: float | None
+    missing: str = ""
+
+    @cached_property
+    def safety(self) -> float | None:
+        """The rating's safety times sigma by the rating over that by finite elements: of one load sigma_G over the stress."""
+        if self.rated.safety is None or self.rated_stress is None or not self.raised:
+            return None
+        return self.rated.safety * self.rated_stress / self.raised
+
+    @property
+    def reason(self) -> str:
+        """Why there is no safety."""
+        return self.rated.reason or ("" if self.raised else self.missing)
+
+    @property
+    def below(self) -> bool:
+        """Whether finite elements give less than the safety that is required."""
+        return self.safety is not None and self.safety < self.rated.required
+
+    def to_dict(self) -> dict[str, float | str | None]:
+        """Stresses and safeties of both."""
+        rated = self.rated
+        return {
+            "fe_stress": self.stress,
+            "fe_stress_with_factors": self.raised,
+            "rated_stress": self.rated_stress,
+            "strength": rated.strength,
+            "required": rated.required,
+            "fe_safety": self.safety,
+            "rated_safety": rated.safety,
+            **({"reason": self.reason} if self.reason else {}),
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckStrength:
+    """What finite elements and the rating say of strength, side by side."""
+
+    task: CheckTask
+    summary: Summary
+    rating: StrengthRating
+
+    @classmethod
+    def of(cls, task: CheckTask, summary: Summary) -> CheckStrength:
+        """Of a task and what its check found. Raises what `rate_strength` raises."""
+        return cls(task=task, summary=summary, rating=task.strength_rating)
+
+    @cached_property
+    def contained(self) -> Mapping[str, str]:
+        """Load factors that are in the model already, and how."""
+        mounting = self.task.mounting
+        found = {"K_A": "the torque has it"}
+        if self.task.model is Model.SOLID and mounting.tilted:
+            found |= dict.fromkeys(("K_Hbeta", "K_Fbeta"), "the bodies stand as misaligned as [mounting] says")
+        if mounting.pitch_error:
+            found |= dict.fromkeys(("K_Halpha", "K_Falpha"), "a pair of teeth stands proud by the pitch error of [mounting]")
+        return found
+
+    @cached_property
+    def own(self) -> Mapping[str, float]:
+        """Face load factors of the model itself, aligned: its peaks have them, so those of the rating come in as far as they
+        exceed them. A tilted model has them all."""
+        return {symbol: value for symbol, value in self.summary.own_face_factors.items() if symbol not in self.contained}
+
+    @cached_property
+    def applied(self) -> Mapping[Part, Mapping[str, float]]:
+        """Load factors that raise the stresses of flanks, and of roots."""
+        factors = self.rating.load_factors
+        if factors is None:
+            return {part: {} for part in Part}
+        return {
+            part: {k: self._lacking(k, v) for k, v in _factors(factors, part).items() if k not in self.contained}
+            for part in Part
+        }
+
+    def _lacking(self, symbol: str, factor: float) -> float:
+        """What of a factor the model's own leaves to be applied."""
+        return max(factor / self.own[symbol], 1.0) if symbol in self.own else factor
+
+    def applied_words(self, part: Part) -> str:
+        """What the stress of a part is multiplied by."""
+        of_flank = {"Z_eps": self.contact_ratio_factor} if part is Part.FLANK else {}
+        factors = {**self.applied[part], **of_flank}
+        words = (f"{name}{' beyond its own' if name in self.own else ''} {value:.4g}" for name, value in factors.items())
+        return ", ".join(words)
+
+    @property
+    def below_required(self) -> tuple[str, ...]:
+        """Safeties by finite elements that are less than required, in words."""
+        return tuple(
+            f"S_{part.index} of the {role.value} is {found.safety:.3g}, below {found.rated.required:.3g} required"
+            for part, both in self.parts.items()
+            for role, found in both.items()
+            if found.below
+        )
+
+    @cached_property
+    def contact_ratio_factor(self) -> float:
+        """What of Z_eps is none of the load that the model shares: sqrt((4 - eps_alpha)/3 (1 - eps_beta) + eps_beta).
+
+        sigma_Hlim was told from tests by the standard's stress, which has Z_eps. Of spur gears it relieves the one pair of
+        teeth that carries all; with eps_beta from 1 on it is the length of the lines of contact, which solid bodies have.
+        """
+        pair = self.task.pair
+        overlap = min(pair.overlap_ratio, 1.0)
+        return math.sqrt((4 - pair.transverse_contact_ratio) / 3 * (1 - overlap) + overlap)
+
+    @property
+    def flank(self) -> PerGear[FoundStrength]:
+        """By the greatest pressure, that of both flanks."""
+        missing = self.summary.missing.get("contact_pressure", "")
+        return PerGear.each(lambda role: self._found(Part.FLANK, role, self.summary.contact_pressure, missing))
+
+    @property
+    def root(self) -> PerGear[FoundStrength]:
+        """By the greatest tension in the fillets."""
+        return PerGear.each(lambda role: self._found(Part.ROOT, role, self.summary.root_tension.pick(role)))
+
+    @property
+    def parts(self) -> Mapping[Part, PerGear[FoundStrength]]:
+        """Flanks and roots."""
+        return {Part.FLANK: self.flank, Part.ROOT: self.root}
+
+    def _found(self, part: Part, role: Role, stress: float | None, missing: str = "") -> FoundStrength:
+        """Pressure goes with the square root of the load, tension with the load; pressure has its part of Z_eps, too."""
+        raised = rated_stress = None
+        factors = self.rating.load_factors
+        if stress is not None and factors is not None and not factors.unknown:
+            product = math.prod(self.applied[part].values())
+            raised = stress * (math.sqrt(product) * self.contact_ratio_factor if part is Part.FLANK else product)
+            rated_stress = stresses_of(self.rating.nominal, factors)[part].pick(role)
+        rated = self.rating.parts[part].pick(role)
+        return FoundStrength(rated=rated, rated_stress=rated_stress, stress=stress, raised=raised, missing=missing)
+
+    @property
+    def judged(self) -> bool:
+        """Whether anything was."""
+        return any(each.rated.safety is not None for both in self.parts.values() for each in both)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As check.json has it."""
+        parts = {part.value: {role.value: each.to_dict() for role, each in both.items()} for part, both in self.parts.items()}
+        applied = {part.value: dict(factors) for part, factors in self.applied.items()}
+        applied["flank"] |= {"Z_eps": self.contact_ratio_factor}
+        return {
+            **parts,
+            "factors_applied": applied,
+            "factors_contained": dict(self.contained),
+            "factors_of_model": dict(self.own),
+            "below_required": list(self.below_required),
+        }
+
+
+def _scuffing_comparisons(rating: StrengthRating) -> Iterator[Comparison]:
+    """Safeties against scuffing that were judged, where one is required: gates."""
+    required, found = rating.options.required_safety_scuffing, rating.scuffing
+    if required is None or found is None:
+        return
+    for words, safety in (
+        ("S_int, integral temperature", found.integral_safety),
+        ("S_B, flash temperature", found.flash_safety),
+    ):
+        if safety is not None:
+            yield at_least(words, safety, required, "scuffing temperature of the oil over that of the teeth")
+
+
+def _factors(of: LoadFactors, part: Part) -> dict[str, float]:
+    """All but K_A, which every model contains, by symbols."""
+    common = {"K_gamma": of.mesh_load, "K_v": of.dynamic}
+    if part is Part.FLANK:
+        return {**common, "K_Hbeta": of.face_flank, "K_Halpha": of.transverse_flank}
+    return {**common, "K_Fbeta": of.face_root, "K_Falpha": of.transverse_root}
+
+
+def strength_comparisons(strength: CheckStrength) -> Iterator[Comparison]:
+    """Safeties of all parts that were judged, against those required: gates by the standard, information by finite elements.
+
+    What a material endures was told from tests by the standard's own stress, so the standard decides.
+    """
+    edition = strength.rating.options.standard
+    for part, both in strength.parts.items():
+        symbol, clause = f"S_{part.index}", edition.dated_part(2 if part is Part.FLANK else 3)
+        where = f"by {_FE}, of both flanks" if part is Part.FLANK else f"by {_FE}"
+        for role, found in both.items():
+            rated = found.rated
+            if rated.safety is None:
+                continue
+            words = f"{symbol} of the {role.value}"
+            note = f"sigma_{part.index} = {rated.stress:.5g} MPa against {rated.strength:.5g} MPa"
+            yield at_least(f"{words}, {edition.part(2)[:-2]}", rated.safety, rated.required, f"{clause}, 5", note)
+            raised = "" if found.raised is None else f", {found.raised:.5g} MPa with {strength.applied_words(part)}"
+            note = "" if found.stress is None else f"{found.stress:.5g} MPa {where}{raised}"
+            source = f"required; stress by {_FE}, strength by {clause}"
+            yield beside_required(f"{words}, {_FE}", found.safety, rated.required, source, note, found.reason)
+    yield from _scuffing_comparisons(strength.rating)

@@ -1,27 +1,53 @@
-"""Why finite elements and ISO 6336 differ for a pair: numbers that separate the reasons, those of every model."""
+"""Reasons why finite elements and ISO 6336 differ for a pair, with the number of each."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
-from gearcad.check.summary import Summary, root_peaks
-from gearcad.check.sweep import SweepPoint
-from gearcad.check.task import CheckTask
+import numpy as np
+
+from gearcad.check.convergence import SweepPoint
+from gearcad.check.summary import PlaneSummary, SolidSummary, Summary, root_peaks, worst_place
+from gearcad.check.task import CheckTask, face_factors
+from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.shared.loaded import Cycle
-from gearcad.per_gear import PerGear, Role
-from gearcad.rating.iso6336_1 import mesh_stiffness_alpha
+from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.core.records import Floats, PerGear, Role
+from gearcad.meshing.outline import Side
+from gearcad.rating.tooth_stiffness import mesh_stiffness_alpha
 
-__all__ = [
-    "Compared",
-    "Explanation",
-    "Explanations",
-    "RootCompared",
-    "StiffnessExplanation",
-    "explain_stiffness",
-    "root_compared",
-]
+
+class PlaceOfShare(NamedTuple):
+    """A place on the line of action (mm from T1), and the part of the load that a pair of teeth carries there."""
+
+    place: float
+    share: float
+
+
+class LoadShare(NamedTuple):
+    """Places (n,) on the line of action (mm from T1), in the order in which one pair of teeth goes through them; its shares."""
+
+    places: Floats
+    shares: Floats
+
+    @classmethod
+    def of(cls, cycle: Cycle) -> LoadShare:
+        """Of a mesh cycle."""
+        places, shares = np.array(sorted((contact.place, contact.share) for _, contact in cycle.contacts)).T
+        return cls(places, shares)
+
+    def at(self, place: float) -> float:
+        """Between the positions solved."""
+        return float(np.interp(place, self.places, self.shares))
+
+    @property
+    def most(self) -> PlaceOfShare:
+        """The greatest share."""
+        at = self.shares.argmax()
+        return PlaceOfShare(float(self.places[at]), float(self.shares[at]))
+
 
 _SAME_WIDTH = 1e-6
 """Part of the width below which two are one."""
@@ -147,4 +173,149 @@ def explain_stiffness(task: CheckTask, cycle: Cycle, summary: Summary, sweep: Se
             computed=summary.mesh_stiffness_mean / summary.single_stiffness,
             standard=mesh_stiffness_alpha(1.0, task.pair.transverse_contact_ratio),
         ),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneRootExplanation(Explanation):
+    """With all of the load on one pair of teeth at its `outer_point` the finite elements have `single_contact` (MPa).
+
+    There a pair carries the part `load_share` of the load. `rim_compression` (MPa) is that of a rim that bends, None of one
+    that does not; `rim_thickness_factor` is Y_B.
+    """
+
+    compared: RootCompared
+    outer_point: str
+    single_contact: float
+    load_share: float
+    rim_thickness_factor: float
+    rim_compression: float | None
+
+
+def root_at_single_contact(cycle: PlaneCycle, role: Role) -> float:
+    """Root tension (MPa) of a gear with all of the load on one pair at its outer point, D or B."""
+    model, path = cycle.model, cycle.model.pair.path_of_contact
+    length = PerGear(path.D, model.line.whole - path.B).pick(role)
+    load = (0, length, model.force(cycle.torque))
+    return model.fillets.pick(role).extreme(Side.LEFT_FILLET, [load]).stress
+
+
+def explain_plane_roots(
+    task: CheckTask, cycle: PlaneCycle, summary: PlaneSummary, load_share: LoadShare
+) -> PerGear[PlaneRootExplanation]:
+    """Of both gears."""
+    compared = root_compared(task, cycle, summary)
+    path, supports = task.pair.path_of_contact, task.body.supports(task.pair)
+    outer = PerGear(("D", path.D), ("B", path.B))
+
+    def explained(role: Role) -> PlaneRootExplanation:
+        letter, place = outer.pick(role)
+        bends = supports.pick(role).bends
+        return PlaneRootExplanation(
+            compared=compared.pick(role),
+            outer_point=letter,
+            single_contact=root_at_single_contact(cycle, role),
+            load_share=load_share.at(place),
+            rim_thickness_factor=task.rating.roots.pick(role).rim_thickness_factor,
+            rim_compression=summary.root_compression.pick(role) if bends else None,
+        )
+
+    return PerGear.each(explained)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolidRootExplanation(Explanation):
+    """The greatest tension stands at a `height` (mm) and is `face_load_factor` (K_F_beta) times the `mean` (MPa) along the
+    common width; `helix_angle_factor` is Y_beta.
+    """
+
+    compared: RootCompared
+    height: float
+    face_load_factor: float
+    mean: float
+    helix_angle_factor: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class GreatestPressure(Explanation):
+    """The greatest pressure (MPa) away from the edges: its roll angle (deg), place `across` (mm) from the middle of the common
+    width, the line load (N/mm) and the reduced radius (mm) there.
+    """
+
+    pressure: float
+    roll_angle: float
+    across: float
+    line_load: float
+    radius: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinesExplanation(Explanation):
+    """The load along the lines of contact and along the face.
+
+    `length` (mm) is the mean of the lines that carry, and that of rigid gears; the standard spreads F_bn K_A over the latter,
+    to `mean_line_load` (N/mm) on `pitch_point_radius` (mm). K_H_beta of Method C comes from `misalignment` (F_beta_y, µm);
+    that of the cycle is `greatest_across` mm from the middle.
+    """
+
+    greatest_pressure: GreatestPressure | None
+    length: Compared
+    mean_line_load: float
+    pitch_point_radius: float
+    face_load_factor: Compared
+    greatest_across: float
+    misalignment: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolidExplanations(Explanations[SolidRootExplanation]):
+    """With what solid bodies have of their lines of contact."""
+
+    lines_of_contact: LinesExplanation
+
+
+def explain_solid_roots(task: CheckTask, cycle: SolidCycle, summary: SolidSummary) -> PerGear[SolidRootExplanation]:
+    """Of both gears."""
+    compared = root_compared(task, cycle, summary)
+
+    def explained(role: Role) -> SolidRootExplanation:
+        uneven = summary.root_face_load_factor.pick(role)
+        return SolidRootExplanation(
+            compared=compared.pick(role),
+            height=summary.root_tension_height.pick(role),
+            face_load_factor=uneven,
+            mean=summary.root_tension.pick(role) / uneven,
+            helix_angle_factor=task.rating.roots.pick(role).helix_angle_factor,
+        )
+
+    return PerGear.each(explained)
+
+
+def explain_lines(task: CheckTask, cycle: SolidCycle, summary: SolidSummary) -> LinesExplanation:
+    """Of the cycle."""
+    rating, factors = task.rating, face_factors(task)
+    length = task.pair.contact_line_lengths.mean
+    across, load = cycle.load_along_face
+    greatest = across[np.abs(load - summary.face_load_factor * load.mean()).argmin()]
+    return LinesExplanation(
+        greatest_pressure=_greatest_pressure(cycle),
+        length=Compared(computed=summary.contact_length_mean, standard=length),
+        mean_line_load=rating.normal_force * rating.application_factor / length,
+        pitch_point_radius=rating.pitch_point.radius,
+        face_load_factor=Compared(computed=summary.face_load_factor, standard=factors.flank),
+        greatest_across=float(greatest),
+        misalignment=factors.misalignment,
+    )
+
+
+def _greatest_pressure(cycle: SolidCycle) -> GreatestPressure | None:
+    if (worst := worst_place(cycle)) is None:
+        return None
+    contact = worst.contact
+    return GreatestPressure(
+        pressure=worst.of(contact.pressures),
+        roll_angle=worst.position.roll_angle,
+        across=worst.of(contact.line.across),
+        line_load=worst.of(contact.line_loads),
+        radius=worst.of(contact.radii),
     )

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gearcad.check.rim import rim_notices
+from gearcad.check.gates import rim_notices
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.loaded import Cycle
+from gearcad.core.records import Notice
 from gearcad.geometry import Gear
-from gearcad.notice import Notice
-from gearcad.rating.rim import RING_RIM_LIMIT
+from gearcad.rating.tooth_stiffness import RING_RIM_LIMIT
 
 __all__ = ["common_notices", "elastic_end"]
 

@@ -6,17 +6,25 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated
 
-from gearcad.contact.plane.elasticity import Plane
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.chain import Cuts
-from gearcad.contact.shared.holding import Hold
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.contact.plane.sector import Plane
+from gearcad.contact.shared.bodies import BodyModel, Cuts, Hold
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.quantities import (
+    BAND,
+    LENGTH,
+    MODULUS,
+    TORQUE,
+    AssumedNumber,
+    Choice,
+    Member,
+    Range,
+    Whole,
+    Words,
+    require_fields,
+)
+from gearcad.core.records import PerGear, concise
 from gearcad.geometry import GearPair
 from gearcad.material import STEEL_MODULUS
-from gearcad.per_gear import PerGear
-from gearcad.ranges import BAND, LENGTH, MODULUS, TORQUE, Choice, Member, Range, Whole
-from gearcad.reprs import concise
-from gearcad.schema import AssumedNumber, Words, require_fields
 
 __all__ = ["CheckOptions", "Model"]
 

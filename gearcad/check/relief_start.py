@@ -8,14 +8,12 @@ from typing import Any, NamedTuple
 
 from gearcad.check.comparison import Comparison, beside_limit
 from gearcad.check.task import CheckTask
-from gearcad.contact.shared.engaged import FlankCompliance, FlexiblePair
 from gearcad.contact.shared.line_of_action import line_of_action
-from gearcad.contact.shared.loaded import Cycle, PairContact
-from gearcad.contact.shared.relief_start import onsets, start_lengths
+from gearcad.contact.shared.loaded import Cycle, FlankCompliance, FlexiblePair, PairContact
+from gearcad.contact.shared.local_contact import onsets, start_lengths
+from gearcad.core.records import Notice, PerGear, Role
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.modification import ReliefTransition, TransitionSource, longest_transition
-from gearcad.notice import Notice
-from gearcad.per_gear import PerGear, Role
 
 __all__ = ["ReliefStart", "relief_starts", "start_comparisons", "start_notice", "start_notices"]
 

@@ -1,40 +1,98 @@
-"""CheckResult: what a check found out, whatever the model."""
+"""CheckResult: the result of a structural check, of plane or solid gears, and its document for check.json."""
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
-from gearcad.check.comparison import Comparison, Subject, verdict
-from gearcad.check.convergence import Convergence
-from gearcad.check.explanation import Explanations
-from gearcad.check.load_share import LoadShare
+from gearcad.check import pictures
+from gearcad.check.comparison import CheckStrength, Comparison, Subject, verdict
+from gearcad.check.convergence import SOLID_ORDER, Convergence, SweepPoint, SweepTrends
+from gearcad.check.explanation import (
+    Explanations,
+    LoadShare,
+    PlaneRootExplanation,
+    SolidExplanations,
+    explain_lines,
+    explain_plane_roots,
+    explain_solid_roots,
+    explain_stiffness,
+)
 from gearcad.check.notices import elastic_end
 from gearcad.check.options import CheckOptions, Model
+from gearcad.check.pictures import (
+    AlongFace,
+    Cells,
+    DepthProfile,
+    FilletCurves,
+    ShownPlane,
+    ShownSolid,
+    StressField,
+    ToothStress,
+    ToothSurface,
+    along_face,
+)
 from gearcad.check.relief_start import ReliefStart
-from gearcad.check.stiffness import StiffnessMethods, stiffness_methods
-from gearcad.check.strength import CheckStrength
-from gearcad.check.summary import Summary, root_peaks
-from gearcad.check.sweep import SweepPoint, SweepTrends
-from gearcad.check.task import CheckTask
-from gearcad.contact.shared.loaded import Cycle, LoadedPosition, RootStress
+from gearcad.check.summary import PlaneSummary, SolidSummary, Summary, root_peaks
+from gearcad.check.task import CheckTask, shown_contact
+from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
+from gearcad.contact.plane.sector import Plane
+from gearcad.contact.shared.loaded import Cycle, Extreme, LoadedPosition, RootStress
+from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact
+from gearcad.core.errors import GearcadError
+from gearcad.core.quantities import with_assumed
+from gearcad.core.records import NOT_ASKED_WORDS, Notice, PerGear, Pictured, Verdict, strength_verdict, texts
+from gearcad.core.runtime import one_thread
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Materials, by_gear
+from gearcad.material import Materials, by_gear, materials_document
 from gearcad.mounting import Mounting
-from gearcad.notice import Notice, texts
-from gearcad.per_gear import PerGear
-from gearcad.rating.rate import Rating
+from gearcad.rating.nominal_rating import Rating
 from gearcad.rating.strength import Part
-from gearcad.reprs import Pictured
-from gearcad.stiffness import StiffnessMethod
-from gearcad.verdict import NOT_ASKED_WORDS, Verdict, strength_verdict
+from gearcad.stiffness import (
+    CLOSED_FORMS,
+    PlaneStrainContact,
+    PlaneStressContact,
+    SolidContact,
+    StiffnessComparison,
+    StiffnessMethod,
+    compare_methods,
+)
 
-__all__ = ["CheckResult"]
+
+class StiffnessMethods(NamedTuple):
+    """The closed forms and the model of a check, in this order; None for a `reason` where they cannot be had."""
+
+    comparison: StiffnessComparison | None
+    reason: str = ""
+
+    def to_dict(self) -> dict[str, Any]:
+        """The figures of each as in `stiffness.json`, which has their curves too; stiffness in N/µm."""
+        if self.comparison is None:
+            return {"methods": {}, "left_out": {}, "reason": self.reason}
+        document = self.comparison.to_dict()
+        for method in document["methods"].values():
+            del method["mesh_cycle"]
+        return {"methods": document["methods"], "left_out": document["left_out"], "reason": ""}
+
+
+def stiffness_methods(task: CheckTask, own: Callable[[Mounting], StiffnessMethod], positions: int) -> StiffnessMethods:
+    """The check's `own` model, at its own even positions, beside the closed forms."""
+    mounting = replace(task.mounting, centre_distance_change=0.0)  # the pair is as mounted already
+    try:
+        closed = compare_methods(task.pair, task.material, task.load, CLOSED_FORMS, body=task.options.body, mounting=mounting)
+        # Positions and torque of the check itself: solid bodies know what they answer there.
+        with one_thread():
+            cycle = own(mounting)(task.load, positions)
+    except GearcadError as error:
+        return StiffnessMethods(None, str(error))
+    return StiffnessMethods(replace(closed, cycles=(*closed.cycles, cycle)))
 
 
 class MeanLag(NamedTuple):
@@ -251,3 +309,217 @@ class CheckResult(Pictured, ABC):
     def all_notices(self) -> tuple[Notice, ...]:
         """Its own, and those of the rating."""
         return (*self.notices, *(notice.within("rating") for notice in self.rating.notices))
+
+
+def check_document(result: CheckResult) -> dict[str, Any]:
+    """Everything of a check under the names of check.json."""
+    document = {
+        "kind": "check",
+        "model": result.model.value,
+        "load": asdict(result.load),
+        "mounting": asdict(result.mounting),
+        **materials_document(result.material),
+        "options": asdict(result.options),
+        "body": result.bodies,
+        "mesh": {role.value: body.mesh_document for role, body in result.cycle.model.bodies.items()},
+        **result.own_document,
+        "positions": len(result.cycle.positions),
+        "mesh_cycle": _cycle(result),
+        "summary": result.summary.to_dict(),
+        "not_evaluated": result.summary.missing,
+        "extremes": {name: _extreme(of) for name, of in result.summary.extremes.items()},
+        "torque_sweep": [point.to_dict() for point in result.sweep],
+        "torque_trends": result.trends.to_dict(),
+        "rating": result.rating.to_dict(),
+        "strength_rating": {key: value for key, value in result.safeties.rating.to_dict().items() if key != "nominal"},
+        "safeties": result.safeties.to_dict(),
+        "convergence": [each.to_dict() for each in result.convergence],
+        "relief_starts": [start.to_dict() for start in result.relief_starts],
+        "comparisons": [comparison.to_dict() for comparison in result.comparisons],
+        "explanations": result.explanations.to_dict(),
+        "warnings": list(result.warnings),
+        "notices": [notice.to_dict() for notice in result.notices],
+        "numerics": result.numerics.value,
+        "strength": result.strength.value,
+        "passed": result.passed,
+        "verdict": result.verdict,
+    }
+    return with_assumed(document)
+
+
+def reported_document(result: CheckResult) -> dict[str, Any]:
+    """The same with all that a report shows: also the mesh stiffness by other methods, which takes part of the check's time."""
+    return check_document(result) | {"stiffness_methods": result.stiffness_methods.to_dict()}
+
+
+def _extreme(of: Extreme | None) -> dict[str, float | None] | None:
+    """Value, roll angle, and what the positions may miss of it (relative; null where nothing is known of that)."""
+    if of is None:
+        return None
+    return {"value": of.value, "roll_angle": of.roll_angle, "error": of.error if math.isfinite(of.error) else None}
+
+
+def _cycle(result: CheckResult) -> dict[str, Any]:
+    """Lists over the positions; those of load share and pressure hold one value for each of `pairs`, 0 out of contact.
+
+    The pressure of a contact of edges alone is null: it depends on the mesh.
+    """
+    positions = result.cycle.positions
+    by_tooth = [{contact.tooth: contact for contact in position.contacts} for position in positions]
+    pairs = sorted(set().union(*by_tooth))
+    return {
+        "roll_angle": [position.roll_angle for position in positions],
+        "mesh_stiffness": [position.stiffness for position in positions],
+        "transmission_error": [position.transmission_error for position in positions],
+        "pairs": pairs,
+        "load_share": [[of[pair].share if pair in of else 0.0 for pair in pairs] for of in by_tooth],
+        "contact_pressure": [[of[pair].interior_pressure if pair in of else 0.0 for pair in pairs] for of in by_tooth],
+        "root_stress_pinion": [position.tension.pinion.stress for position in positions],
+        "root_stress_wheel": [position.tension.wheel.stress for position in positions],
+        "root_compression_pinion": [position.compression.pinion.stress for position in positions],
+        "root_compression_wheel": [position.compression.wheel.stress for position in positions],
+    }
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class PlaneCheck(CheckResult):
+    """A check in the transverse section through the middle of the common face width."""
+
+    cycle: PlaneCycle
+    summary: PlaneSummary
+
+    model: ClassVar[Model] = Model.PLANE
+
+    shown_by_reports: ClassVar[tuple[str, ...]] = ("stiffness_methods", "stress_field", "fillet_curves")
+
+    @cached_property
+    def explanations(self) -> Explanations[PlaneRootExplanation]:
+        return Explanations(
+            stiffness=explain_stiffness(self.task, self.cycle, self.summary, self.sweep),
+            root_stress=explain_plane_roots(self.task, self.cycle, self.summary, self.load_share),
+        )
+
+    @property
+    def contacts_along_path(self) -> list[PlanePairContact]:
+        """All contacts of the cycle in the order in which one pair of teeth goes through them."""
+        return sorted((contact for _, contact in self.cycle.contacts), key=attrgetter("place"))
+
+    @property
+    def hertz_deviation(self) -> float | None:
+        """The greatest deviation of a peak pressure from Hertz's; None if all contacts are near the ends of the flanks."""
+        contacts = [contact for _, contact in self.cycle.interior_contacts if contact.two_cylinders]
+        return max((abs(contact.peak_pressure / contact.hertz_pressure - 1) for contact in contacts), default=None)
+
+    def _as_method(self, mounting: Mounting) -> StiffnessMethod:
+        method = PlaneStressContact if self.options.plane_state is Plane.STRESS else PlaneStrainContact
+        return method(
+            pair=self.pair, material=self.material, body=self.options.body, mounting=mounting, bodies=self.cycle.model
+        )
+
+    # ------------------------------------------------------------------ what pictures show
+
+    @cached_property
+    def shown(self) -> ShownPlane:
+        """The contact that pictures show."""
+        return shown_contact(self.cycle)
+
+    @cached_property
+    def stress_field(self) -> StressField:
+        """Around the contact that is shown."""
+        return pictures.stress_field(self.cycle, self.shown)
+
+    @cached_property
+    def fillet_curves(self) -> PerGear[FilletCurves]:
+        """Of both gears, each where its root tension is greatest."""
+        return pictures.fillet_curves(self.cycle)
+
+    @cached_property
+    def depth_profile(self) -> DepthProfile:
+        """Below the contact that is shown."""
+        return pictures.depth_profile(self.cycle, self.shown.contact)
+
+
+def load_distribution(cycle: SolidCycle) -> list[list[dict[str, Any]]]:
+    """Position by position, the lines of contact that carry; their lists go cell by cell along the face width."""
+    return [[_line(contact) for contact in position.contacts] for position in cycle.positions]
+
+
+def _line(contact: SolidPairContact) -> dict[str, Any]:
+    """`across` (mm) from the middle of the common face width, lengths in mm, loads in N/mm, pressures in MPa."""
+    line = contact.line
+    return {
+        "tooth": contact.tooth,
+        "across": line.across.tolist(),
+        "pinion_roll_length": line.places.pinion[0].tolist(),
+        "wheel_roll_length": line.places.wheel[0].tolist(),
+        "length": line.lengths.tolist(),
+        "line_load": contact.line_loads.tolist(),
+        "pressure": contact.pressures.tolist(),
+        "half_width": contact.half_widths.tolist(),
+        "on_edge": line.on_edge.tolist(),
+        "interior": contact.interior.tolist(),
+    }
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class SolidCheck(CheckResult):
+    """A check of solid bodies; under a negative torque `cycle` is that of the mirrored pair.
+
+    `tooth_stresses` are those of the most stressed tooth of each gear.
+    """
+
+    cycle: SolidCycle
+    summary: SolidSummary
+    tooth_stresses: PerGear[ToothStress]
+
+    model: ClassVar[Model] = Model.SOLID
+
+    shown_by_reports: ClassVar[tuple[str, ...]] = ("stiffness_methods", "along_face", "cells", "tooth_surfaces")
+
+    greatest_order: ClassVar[float] = SOLID_ORDER
+    """The greatest order of convergence that meshes of solids are credited with."""
+
+    @cached_property
+    def along_face(self) -> AlongFace:
+        """Load and root stress over the face width."""
+        return along_face(self.cycle)
+
+    @cached_property
+    def explanations(self) -> SolidExplanations:
+        return SolidExplanations(
+            stiffness=explain_stiffness(self.task, self.cycle, self.summary, self.sweep),
+            root_stress=explain_solid_roots(self.task, self.cycle, self.summary),
+            lines_of_contact=explain_lines(self.task, self.cycle, self.summary),
+        )
+
+    def _as_method(self, mounting: Mounting) -> StiffnessMethod:
+        return SolidContact(
+            pair=self.pair, material=self.material, body=self.options.body, mounting=mounting, bodies=self.cycle.model
+        )
+
+    # ------------------------------------------------------------------ files and documents
+
+    @property
+    def own_document(self) -> dict[str, Any]:
+        return {"load_distribution": load_distribution(self.cycle), "face": self.along_face.to_dict()}
+
+    @property
+    def stress_files(self) -> Mapping[str, Callable[[Path], None]]:
+        return {f"stress_{role.value}.vtu": stress.write for role, stress in self.tooth_stresses.items()}
+
+    # ------------------------------------------------------------------ what pictures show
+
+    @cached_property
+    def shown(self) -> ShownSolid:
+        """The contact that pictures show."""
+        return shown_contact(self.cycle)
+
+    @cached_property
+    def cells(self) -> Cells:
+        """Of all lines of contact."""
+        return pictures.loaded_cells(self.cycle)
+
+    @cached_property
+    def tooth_surfaces(self) -> PerGear[ToothSurface]:
+        """Of the most stressed teeth."""
+        return PerGear(*map(pictures.tooth_surface, self.tooth_stresses, self.pair.gears))

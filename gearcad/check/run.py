@@ -1,24 +1,382 @@
-"""The structural check of a pair, by the model that its teeth ask for."""
+"""The structural check of a pair: one mesh cycle, refined meshes, a torque sweep, and the verdict."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
 
-from gearcad.check.load_distribution import load_distribution
+from gearcad.check.convergence import FACTORS, FEW_POSITIONS, SOLID_FACTORS, sweep_points, three_meshes, three_solid_meshes
+from gearcad.check.gates import compare_plane, compare_solid
+from gearcad.check.notices import common_notices
 from gearcad.check.options import CheckOptions, Model
-from gearcad.check.plane.run import PLANE_MEMORY, check_plane, plane_steps
-from gearcad.check.result import CheckResult
-from gearcad.check.solid.expected import expected_solid, solid_steps
-from gearcad.check.solid.run import check_solid
-from gearcad.check.task import check_task
+from gearcad.check.pictures import tooth_stresses
+from gearcad.check.relief_start import relief_starts, start_comparisons, start_notices
+from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
+from gearcad.check.summary import PLANE, SOLID, SolidSummary, summarise_plane, summarise_solid
+from gearcad.check.task import CheckTask, check_task
+from gearcad.contact.plane.cycle import PlaneCycle, plane_pressure, thin_faces, wide_plane_contacts
+from gearcad.contact.plane.pair import PlanePair, plane_pair
+from gearcad.contact.shared.line_of_action import loaded_left
+from gearcad.contact.solid.cycle import SolidCycle, wide_solid_contacts
+from gearcad.contact.solid.pair import LEFT, POSITION_SECONDS, SolidPair, SolidSizes, expected_bodies, solid_pair
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Floats, Notice, freeze
+from gearcad.core.runtime import Agenda, Expected, Progress, Share, machine_memory, unheard
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Materials
+from gearcad.material import Materials, of_both
+from gearcad.meshing.outline import MeshSizes
 from gearcad.mounting import Mounting
-from gearcad.progress import Agenda, Expected, Progress
-from gearcad.rating.options import RatingOptions
+from gearcad.rating.load_factors import BodyLoad, LoadedMesh, Misalignment, dynamic_factor
+from gearcad.rating.nominal_rating import require_ratable
+from gearcad.rating.options import HelixModification, RatingOptions
 
-__all__ = ["check_pair", "expected_check"]
+BODIES, CYCLE, SWEEP, RATING = "bodies of pinion and wheel", "mesh cycle", "torque sweep", "rating"
+COARSER, FINER = "coarser bodies, for the error", "finer bodies, for the error"
+
+_SINGLE_POSITIONS = 15
+
+_EXPECTED_SOUGHT = 2
+"""How many times the positions asked for there are with those between them, where extremes are sought."""
+_RATING_SECONDS = 0.2
+
+_PROGRAM = 0.27e9
+"""Bytes of Python and its libraries, and of contacts."""
+
+
+def sizes_of(task: CheckTask, factor: float) -> SolidSizes:
+    """Sizes of the check's mesh, refined by a factor."""
+    return SolidSizes().refined(factor * task.options.refinement)
+
+
+def _bodies(task: CheckTask) -> dict[str, Expected]:
+    factors = dict(zip((COARSER, BODIES, FINER), SOLID_FACTORS, strict=True))
+    wanted = (BODIES, COARSER, FINER) if task.options.refines else (BODIES,)
+    pair = loaded_left(task.pair, task.torque)
+    return {name: expected_bodies(pair, task.body, sizes_of(task, factors[name]), fields=name == BODIES) for name in wanted}
+
+
+def solid_steps(task: CheckTask) -> dict[str, float]:
+    """Seconds expected of each step, in order."""
+    few = _EXPECTED_SOUGHT * FEW_POSITIONS * POSITION_SECONDS
+    cycle = _EXPECTED_SOUGHT * task.options.positions_of(Model.SOLID)
+    bodies = {name: each.seconds + cycle * POSITION_SECONDS for name, each in _bodies(task).items()}
+    positions = cycle + _SINGLE_POSITIONS
+    return {
+        BODIES: bodies.pop(BODIES) - cycle * POSITION_SECONDS,
+        CYCLE: positions * POSITION_SECONDS,
+        SWEEP: len(task.torques) * few,
+        **bodies,
+        RATING: _RATING_SECONDS,
+    }
+
+
+def expected_solid(task: CheckTask) -> Expected:
+    """Of the whole check: the bodies of the check's own mesh are kept, without factors, while the others are solved."""
+    own, *others = (each.memory for each in _bodies(task).values())
+    return Expected(sum(solid_steps(task).values()), _PROGRAM + max(own, LEFT * own + max(others, default=0.0)))
+
+
+_GROWTH = 4.0
+"""Power of the refinement with which memory grows: of edges and layers together."""
+
+_MARGIN = 1.25
+"""By how much less than what would just do the refinement that is told asks for: memory is known roughly."""
+
+
+def require_room(task: CheckTask) -> None:
+    """Raise ParameterError for bodies that take more memory than the machine has, with what would do."""
+    needed, there = expected_solid(task).memory, machine_memory()
+    if needed <= there:
+        return
+    coarser = task.options.refinement * (there / needed / _MARGIN) ** (1 / _GROWTH)
+    fewer = ", or fewer without convergence" if task.options.refines else ""
+    raise ParameterError(
+        "check.refinement",
+        task.options.refinement,
+        f"the solid bodies take about {needed / 1e9:.3g} GB of memory{fewer}, and there are {there / 1e9:.3g} GB; "
+        f"about {coarser:.2g} would do",
+    )
+
+
+_WORTH_A_WORD = 0.01
+"""How much wider than the mesh a root carries before it is told."""
+
+_BODIES = (0.1, 0.13)
+"""Seconds for two bodies: whatever their mesh, and times the square of its refinement."""
+
+_POSITION, _SOUGHT, _SINGLE, _RATING = 0.003, 20, 25, 0.5
+"""Seconds for a position; how many are sought between those of a cycle, and of one pair alone; seconds for the rest."""
+
+PLANE_MEMORY = 0.4e9
+"""Bytes."""
+
+
+def plane_steps(task: CheckTask) -> dict[str, float]:
+    """Seconds expected of each step, in order."""
+
+    def bodies(factor: float) -> float:
+        whatever, refined = _BODIES
+        return whatever + refined * (factor * task.options.refinement) ** 2
+
+    few = (FEW_POSITIONS + _SOUGHT) * _POSITION
+    own = (task.options.positions_of(Model.PLANE) + _SOUGHT + _SINGLE) * _POSITION
+    others = [bodies(factor) + own for factor in FACTORS if factor != 1] if task.options.refines else []
+    return {
+        "mesh cycle": bodies(1.0) + own,
+        "convergence": sum(others),
+        "torque sweep": len(task.torques) * few,
+        "rating": _RATING,
+    }
+
+
+def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
+    """Check in the transverse section through the middle of the common face width. Raises what `check_pair` does."""
+    tell("mesh cycle")
+    model = plane_model(task)
+    cycle = PlaneCycle.run(model, task.torque, task.options.positions_of(Model.PLANE)).searched(PLANE)
+    summary = summarise_plane(cycle, model.single_stiffness(task.torque))
+    starts = relief_starts(cycle)
+    tell("convergence")
+    convergence = three_meshes(_refined(task, cycle)) if task.options.refines else ()
+    tell("torque sweep")
+    sweep = sweep_points(cycle, task.torques)
+    tell("rating")
+    comparisons = (*compare_plane(task, cycle, summary, convergence), *start_comparisons(task, starts))
+    notices = (
+        *common_notices(task, cycle, summary),
+        *plane_notices(task),
+        *wide_plane_contacts(cycle),
+        *start_notices(task, starts),
+    )
+    return PlaneCheck(
+        task=task,
+        cycle=cycle,
+        summary=summary,
+        sweep=sweep,
+        convergence=convergence,
+        comparisons=comparisons,
+        notices=notices,
+        relief_starts=starts,
+    )
+
+
+def plane_model(task: CheckTask, factor: float = 1.0) -> PlanePair:
+    """Both sections of a task, their elements `factor` times smaller than it asks for. Raises what `check_pair` does."""
+    options = task.options
+    sizes = MeshSizes().refined(factor * options.refinement)
+    error = task.mounting.pitch_error
+    return plane_pair(task.pair, task.material, plane=options.plane_state, body=task.body, sizes=sizes, pitch_error=error)
+
+
+def _refined(task: CheckTask, middle: PlaneCycle) -> Iterator[PlaneCycle]:
+    """Yield the cycles of coarser, own and finer meshes at as many positions: the middle one has the figures that are told."""
+    for factor in FACTORS:
+        if factor == 1:
+            yield middle
+        else:
+            positions = task.options.positions_of(Model.PLANE)
+            yield PlaneCycle.run(plane_model(task, factor), task.torque, positions).searched(PLANE)
+
+
+def plane_notices(task: CheckTask) -> Iterator[Notice]:
+    """What a plane does not know of these bodies."""
+    yield from thin_faces(task.pair, task.material, task.options.plane_state)
+    yield from plane_pressure(task.material, task.options.plane_state)
+    yield from _wider_gears(task)
+    yield from _left_out(task)
+
+
+def _wider_gears(task: CheckTask) -> Iterator[Notice]:
+    """Gears whose root carries over more than the common width."""
+    common = task.pair.common_width.width
+    for role, rating in task.rating.roots.items():
+        own = task.pair.gears.pick(role).face_width
+        if rating.width > (1 + _WORTH_A_WORD) * common:
+            carry = f"by {task.rating.edition.part(3)} {rating.width:.4g} mm carry at its root"
+            yield Notice(
+                "wider-root",
+                f"the {role.value} is {own:.4g} mm wide, and the plane model has the {common:.4g} mm in mesh; {carry}, "
+                f"with {100 * (1 - common / rating.width):.2g} % less stress; --model 3d has the whole width",
+            )
+
+
+def _left_out(task: CheckTask) -> Iterator[Notice]:
+    along = [role for role, gear in task.pair.gears.items() if gear.modification.along_face]
+    left_out = [f"the {role.value}'s modifications along the face width" for role in along]
+    left_out += ["the misalignment"] if task.mounting.tilted else []
+    if left_out:
+        yield Notice("left-out", f"the plane model leaves out {' and '.join(left_out)}; --model 3d has them")
+
+
+_EDGE_RATIO = 1.5
+"""Pressure beside an edge, over the greatest away from edges, from which on it is worth a warning."""
+
+
+def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
+    """Check the bodies over their face widths. Raises what `check_pair` does.
+
+    The model's left flanks carry. A negative torque loads the right ones: the pair is then mirrored in the plane x-z, which
+    turns helix angles over and leaves heights and radii as they are, and all results are those of its left flanks. The
+    mounting's misalignment is always that of the flanks that carry.
+    """
+    require_room(task)
+    model = solid_model(task, 1.0, agenda.within(BODIES), fields=True)
+    positions = task.options.positions_of(Model.SOLID)
+    cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
+    summary, stresses = summarise_solid(cycle, model.single_stiffness(task.torque)), tooth_stresses(cycle)
+    starts = relief_starts(cycle)
+    model.let_go()
+    agenda(SWEEP)
+    sweep = sweep_points(cycle, task.torques)
+    convergence = three_solid_meshes(_solid_refined(task, cycle, agenda)) if task.options.refines else ()
+    agenda(RATING)
+    comparisons = (*compare_solid(task, cycle, summary, convergence), *start_comparisons(task, starts))
+    notices = (
+        *common_notices(task, cycle, summary),
+        *_edge_notices(task, cycle, summary),
+        *wide_solid_contacts(cycle),
+        *start_notices(task, starts),
+    )
+    return SolidCheck(
+        task=task,
+        cycle=cycle,
+        summary=summary,
+        tooth_stresses=stresses,
+        sweep=sweep,
+        convergence=convergence,
+        comparisons=comparisons,
+        notices=notices,
+        relief_starts=starts,
+    )
+
+
+def solid_model(task: CheckTask, factor: float = 1.0, tell: Share = unheard, *, fields: bool = False) -> SolidPair:
+    """Both bodies of a task, their elements `factor` times smaller than it asks for; left flanks carry.
+
+    They keep what `fields` of teeth need if these are asked for. Raises what `check_pair` does.
+    """
+    sizes = sizes_of(task, factor)
+    pair, mounting = loaded_left(task.pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
+    return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, fields=fields, tell=tell)
+
+
+def _solid_refined(task: CheckTask, middle: SolidCycle, agenda: Agenda) -> Iterator[SolidCycle]:
+    """Yield the cycles of coarser, own and finer bodies at as many positions; none but the own bodies are kept."""
+    coarser, _, finer = SOLID_FACTORS
+    yield _cycle(solid_model(task, coarser, agenda.within(COARSER)), task)
+    yield middle
+    yield _cycle(solid_model(task, finer, agenda.within(FINER)), task)
+
+
+def _cycle(model: SolidPair, task: CheckTask) -> SolidCycle:
+    return SolidCycle.run(model, task.torque, task.options.positions_of(Model.SOLID)).searched(SOLID)
+
+
+def _edge_notices(task: CheckTask, cycle: SolidCycle, summary: SolidSummary) -> Iterator[Notice]:
+    greatest = max(contact.edge_pressure for _, contact in cycle.contacts)
+    if summary.contact_pressure is None or greatest >= _EDGE_RATIO * summary.contact_pressure:
+        modified = any(gear.modification.present for gear in task.pair.gears)
+        advice = "the modifications given do not prevent it" if modified else "reliefs and crowning would lower it"
+        yield Notice(
+            "edge-pressure",
+            f"beside the edges of the flanks the pressure is up to {greatest:.0f} MPa, by Hertz's formula, which no edge fits; "
+            f"it is left out of the verdict; {advice}",
+        )
+
+
+COARSE = 0.5
+"""How much finer than in a check the elements are. K_Hbeta is then up to 3 % larger (spur and helical pairs, measured)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadDistribution:
+    """`face_load_factor` K_Hbeta of a pair under `torque` (N·m on the pinion, with K_A, K_gamma and K_v).
+
+    `load` (n,) is the load per width (N/mm), mean of a mesh cycle, at places `across` (n,) in mm from the middle of the common
+    face width. `misalignment` (µm) is F_beta_y in the plane of action, positive if the gap grows towards larger z, and that of
+    the mounting if `mounted`.
+    """
+
+    face_load_factor: float
+    misalignment: float
+    mounted: bool
+    torque: float
+    across: Floats
+    load: Floats
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+    @property
+    def body_load(self) -> BodyLoad:
+        """What a rating takes of it."""
+        return BodyLoad(factor=self.face_load_factor, misalignment=abs(self.misalignment), mounted=self.mounted)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As documents have it."""
+        return {
+            "K_Hbeta": self.face_load_factor,
+            "F_betay": self.misalignment,
+            "torque": self.torque,
+            "across": self.across.tolist(),
+            "load": self.load.tolist(),
+        }
+
+
+def load_distribution(
+    pair: GearPair,
+    material: Materials,
+    load: Load,
+    rating: RatingOptions | None = None,
+    *,
+    mounting: Mounting | None = None,
+    check: CheckOptions | None = None,
+    tell: Share = unheard,
+) -> LoadDistribution:
+    """The worst distribution of the load along the face width, on coarse solid bodies with their flank modifications.
+
+    The flanks stand off by the misalignment of the mounting or, where that is 0, by F_beta_x of Method C, to the worse side,
+    with B_1 = B_2 = 1; y_beta runs in. The bodies are held all along their width, so that shafts and the pinion itself give
+    way in f_sh alone. `check` says how the bodies are held. Raises ParameterError, GeometryError and SolverError.
+    """
+    options, mounting = rating or RatingOptions(), mounting or Mounting()
+    plain = replace(options, helix_modification=HelixModification.NONE)  # the flanks have their own
+    mesh = LoadedMesh(pair=mounting.mounted(pair), materials=of_both(material), load=load, options=plain)
+    require_ratable(mesh.pair, load)
+    speed_factor = dynamic_factor(mesh).factors["K_v"]
+    off = _standing_off(mesh, mounting, speed_factor)
+    torque = load.torque * load.application_factor * options.mesh_load_factor * speed_factor
+    asked = replace(check or CheckOptions(), model=Model.SOLID.value, refinement=COARSE, convergence="off", torques=())
+    model = solid_model(check_task(pair, material, Load(torque=torque), asked, mounting, options), tell=tell)
+    sides = (off,) if mounting.misalignment or not off else (off, -off)
+    found = [_distribution(model, torque, side, mounted=bool(mounting.misalignment)) for side in sides]
+    return max(found, key=lambda each: each.face_load_factor)
+
+
+def _standing_off(mesh: LoadedMesh, mounting: Mounting, speed_factor: float) -> float:
+    """F_beta_y (µm): of the mounting, with its sign, or of what Method C takes shafts and manufacture for."""
+    initial = mounting.misalignment or Misalignment.of(mesh, mesh.specific_load * speed_factor).initial
+    return initial - math.copysign(float(mesh.wear.beta(abs(initial), mesh.speed)), initial)
+
+
+def _distribution(model: SolidPair, torque: float, misalignment: float, *, mounted: bool) -> LoadDistribution:
+    """By a few positions of a mesh cycle, with another misalignment (µm)."""
+    mounting = replace(model.mounting, misalignment=misalignment)
+    cycle = SolidCycle.run(model.remade(model.pair, mounting), abs(torque), FEW_POSITIONS)
+    across, carried = cycle.load_along_face
+    # Where flanks part the ends carry what there is: then they are no longer left out.
+    factor = cycle.face_load_factor if (carried > 0).all() else float(carried.max() / carried.mean())
+    return LoadDistribution(
+        face_load_factor=max(factor, 1.0),
+        misalignment=misalignment,
+        mounted=mounted,
+        torque=torque,
+        across=across,
+        load=carried,
+    )
 
 
 def check_pair(

@@ -1,16 +1,69 @@
-"""The figures of a mesh cycle that one reads first."""
+"""Summary of a mesh cycle: the figures that one reads first, of plane and solid gears."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypedDict
+from typing import Any, NamedTuple, TypeAlias, TypedDict
 
-from gearcad.check.extremes import Extremes
-from gearcad.contact.shared.loaded import Cycle, RootStress
-from gearcad.per_gear import PerGear
+import numpy as np
 
-__all__ = ["AtPitchPoint", "CommonFigures", "Figures", "Summary", "by_name", "common_figures", "figures", "root_peaks"]
+from gearcad.contact.plane.cycle import (
+    PlaneCycle,
+    PlanePairContact,
+    PlanePosition,
+    contact_frame,
+    greatest_von_mises,
+    tooth_field,
+)
+from gearcad.contact.shared.loaded import INTERIOR, Cycle, Extreme, LoadedPosition, Quantity, RootStress
+from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact, SolidPosition
+from gearcad.core.records import Floats, PerGear, Role
+from gearcad.rating.contact_stress import LineContact
+
+_Position: TypeAlias = LoadedPosition[Any]
+_Quantities: TypeAlias = tuple[Quantity[_Position], ...]
+
+Extremes: TypeAlias = dict[str, Extreme | None]
+"""By name; None for what has no value at any position."""
+
+
+def _tension(role: Role) -> Quantity[_Position]:
+    return Quantity(f"root_tension_{role.value}", lambda position: position.tension.pick(role).stress)
+
+
+def _compression(role: Role) -> Quantity[_Position]:
+    return Quantity(f"root_compression_{role.value}", lambda position: position.compression.pick(role).stress, least=True)
+
+
+def _bore(role: Role) -> Quantity[_Position]:
+    def tension(position: _Position) -> float:
+        found = position.bore_tension.pick(role)
+        return math.nan if found is None else found
+
+    return Quantity(f"bore_tension_{role.value}", tension)
+
+
+ROOTS: _Quantities = PerGear.each(_tension)
+PRESSURE: Quantity[_Position] = Quantity("contact_pressure", lambda position: position.contact_pressure)
+STRESSES: _Quantities = (*ROOTS, PRESSURE)
+
+ERRORS: _Quantities = (
+    Quantity("transmission_error_max", lambda position: position.transmission_error, swing=True),
+    Quantity("transmission_error_min", lambda position: position.transmission_error, least=True, swing=True),
+)
+_COURSES: _Quantities = (
+    *ERRORS,
+    Quantity("mesh_stiffness_max", lambda position: position.stiffness, swing=True),
+    Quantity("mesh_stiffness_min", lambda position: position.stiffness, least=True, swing=True),
+)
+"""What goes up and down over the mesh, and is told by how far it does."""
+
+PLANE: _Quantities = (*STRESSES, *PerGear.each(_compression), *PerGear.each(_bore), *_COURSES)
+SOLID: tuple[Quantity[SolidPosition], ...] = (*PLANE, Quantity("line_load_max", lambda position: position.line_load))
+"""All that a summary tells."""
+
 
 _ABOUT = ("missing", "extremes", "mean_error")
 
@@ -165,3 +218,211 @@ def common_figures(cycle: Cycle, extremes: Extremes, single: float, at_pitch_poi
         "corner_positions": cycle.edge_positions,
         "extremes": extremes,
     }
+
+
+_NEAR = 2.0
+"""Half widths around a contact within which the stress below it is greatest."""
+
+_PRESSURES = ("contact_pressure", "von_mises", "von_mises_depth", "von_mises_half_plane")
+"""What the worst contact away from the ends of the flanks decides."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneSummary(Summary):
+    """That of a plane cycle; `von_mises_half_plane` is what the pressures alone would make in a half-plane."""
+
+    von_mises_half_plane: float | None
+
+
+def summarise_plane(cycle: PlaneCycle, single: float) -> PlaneSummary:
+    """Summarise a plane cycle; `single` is the stiffness of one pair of teeth alone."""
+    worst, at_pitch = cycle.worst_contact, _plane_at_pitch(cycle.pitch_point_contact)
+    below = [each for role in Role if (each := _plane_below(cycle, *worst, role)) is not None] if worst else []
+    mises, depth = max(below, default=(None, None))
+    extremes = {quantity.name: cycle.extreme(quantity) for quantity in PLANE}
+    return PlaneSummary(
+        **common_figures(cycle, extremes, single, at_pitch),
+        von_mises=mises,
+        von_mises_depth=depth,
+        von_mises_half_plane=_half_plane(cycle, worst[1]) if worst else None,
+        missing=at_pitch.missing | _missing(cycle, bool(worst), bool(below)),
+    )
+
+
+def _missing(cycle: PlaneCycle, inside: bool, below: bool) -> dict[str, str]:
+    """Why the figures of the worst contact are not told."""
+    if not inside:
+        reason = (
+            f"at none of {len(cycle.every)} positions is a contact with a tenth of the load more than {INTERIOR:g} half widths "
+            "away from the ends of both flanks and the starts of their linear reliefs"
+        )
+        return dict.fromkeys(_PRESSURES, reason)
+    return {} if below else dict.fromkeys(_PRESSURES[1:3], "no point of the elements lies near enough to the contact")
+
+
+def _plane_at_pitch(contact: PlanePairContact | None) -> AtPitchPoint:
+    """Pressure and half width at the pitch point, or why there are none."""
+    if contact is None:
+        return AtPitchPoint(0.0, reason="the pair of teeth at the pitch point does not touch")
+    if not contact.interior:
+        return AtPitchPoint(
+            contact.share,
+            reason=f"the pitch point lies within {INTERIOR:g} half widths of an end of a flank, or of the start of a relief",
+        )
+    if math.isnan(contact.half_width):
+        return AtPitchPoint(contact.share, reason="the pressures at the pitch point have no width to tell")
+    return AtPitchPoint(contact.share, contact.peak_pressure, contact.half_width)
+
+
+def _plane_below(
+    cycle: PlaneCycle, position: PlanePosition, contact: PlanePairContact, role: Role
+) -> tuple[float, float] | None:
+    """Greatest von Mises stress (MPa) of a gear near a contact, and its depth (mm); None if no point of the field is near."""
+    field = tooth_field(cycle, position, role, contact.tooth)
+    centre, frame = contact_frame(cycle, contact)
+    across, into_wheel = ((field.points - centre) @ frame).T
+    near = np.hypot(across, into_wheel) < _NEAR * contact.hertz_half_width
+    if not near.any():
+        return None
+    at = int(np.argmax(np.where(near, field.von_mises, 0.0)))
+    return float(field.von_mises[at]), float(into_wheel[at] * PerGear(-1, 1).pick(role))
+
+
+def _half_plane(cycle: PlaneCycle, contact: PlanePairContact) -> float:
+    cells = contact.pair.cells
+    stress, _ = greatest_von_mises(
+        cells.place, cells.width, contact.pressures, contact.hertz_half_width, cycle.model.pinion.elasticity
+    )
+    return stress
+
+
+_HARMONICS = 5
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolidSummary(Summary):
+    """That of a cycle of solid gears: also where the greatest are, radii and heights in mm, `across` from the middle of the
+    common face width.
+
+    `transmission_error_harmonics` (µm) at the tooth frequency and its multiples; `contact_length_mean` (mm) of the lines that
+    carry, all together; `line_load_max` (N/mm) away from the edges of the flanks; the face load factors are K_H_beta, of the
+    whole cycle, and K_F_beta.
+    """
+
+    transmission_error_harmonics: tuple[float, ...]
+    contact_pressure_across: float | None
+    contact_pressure_radius: PerGear[float] | PerGear[None]
+    root_tension_height: PerGear[float]
+    root_tension_radius: PerGear[float]
+    contact_length_mean: float
+    line_load_max: float | None
+    face_load_factor: float
+    root_face_load_factor: PerGear[float]
+
+    @property
+    def own_face_factors(self) -> dict[str, float]:
+        """K_F_beta is the lesser of both gears."""
+        return {"K_Hbeta": self.face_load_factor, "K_Fbeta": min(self.root_face_load_factor)}
+
+
+class WorstPlace(NamedTuple):
+    """Where the greatest pressure away from the edges of the flanks is: `place` in cells of the line."""
+
+    position: SolidPosition
+    contact: SolidPairContact
+    place: float
+
+    def of(self, values: Floats) -> float:
+        """What values (n,) of the line's cells are there."""
+        return float(self.contact.between(values, self.place))
+
+
+def worst_place(cycle: SolidCycle) -> WorstPlace | None:
+    """Where the greatest pressure is; None if no place is away from the edges."""
+    if (worst := cycle.worst_contact) is None:
+        return None
+    position, contact = worst
+    return WorstPlace(position, contact, float(contact.inside[contact.between(contact.pressures, contact.inside).argmax()]))
+
+
+def summarise_solid(cycle: SolidCycle, single: float) -> SolidSummary:
+    """Summarise a cycle; `single` is the stiffness of one pair of teeth alone."""
+    peaks = PerGear.each(lambda role: cycle.worst_position(role).tension.pick(role))
+    worst, at_pitch = worst_place(cycle), _at_pitch(cycle.pitch_point_contact)
+    below = _below(cycle, worst) if worst is not None else _Below(None, None, None, PerGear(None, None))
+    extremes = {quantity.name: cycle.extreme(quantity) for quantity in SOLID}
+    line_load = extremes["line_load_max"]
+    return SolidSummary(
+        **common_figures(cycle, extremes, single, at_pitch),
+        von_mises=below.von_mises,
+        von_mises_depth=below.depth,
+        contact_pressure_across=below.across,
+        contact_pressure_radius=below.radius,
+        transmission_error_harmonics=tuple(cycle.harmonics[:_HARMONICS].tolist()),
+        root_tension_height=peaks.map(lambda peak: peak.height),
+        root_tension_radius=peaks.map(lambda peak: peak.radius),
+        contact_length_mean=float(np.mean([_loaded_length(position) for position in cycle.positions])),
+        line_load_max=line_load.value if line_load is not None else None,
+        face_load_factor=cycle.face_load_factor,
+        root_face_load_factor=PerGear.each(cycle.root_face_load_factor),
+        missing=at_pitch.missing | ({} if worst else _nothing_inside(cycle)),
+    )
+
+
+_AT_WORST = ("contact_pressure", "contact_pressure_across", "contact_pressure_radius", "von_mises", "von_mises_depth")
+
+
+def _nothing_inside(cycle: SolidCycle) -> dict[str, str]:
+    """Why the figures of the worst place are not told."""
+    reason = (
+        f"at none of {len(cycle.every)} positions do places more than {INTERIOR:g} half widths away from the edges of both "
+        "flanks carry a tenth of the load"
+    )
+    return dict.fromkeys((*_AT_WORST, "line_load_max"), reason)
+
+
+class _Below(NamedTuple):
+    """Where the greatest pressure is (mm), and the stress below it (MPa) and its depth (mm)."""
+
+    von_mises: float | None
+    depth: float | None
+    across: float | None
+    radius: PerGear[float] | PerGear[None]
+
+
+def _below(cycle: SolidCycle, worst: WorstPlace) -> _Below:
+    line, stress = worst.contact.line, line_contact(cycle, worst).greatest_von_mises
+    bodies, lengths = cycle.model.bodies, line.places.map(lambda places: worst.of(places[0]))
+    radii = PerGear.each(lambda role: math.hypot(bodies.pick(role).flank.base_radius, lengths.pick(role)))
+    return _Below(stress.value, stress.depth, worst.of(line.across), radii)
+
+
+def _at_pitch(contact: SolidPairContact | None) -> AtPitchPoint:
+    """Pressure and half width at the pitch point in the middle of the common face width, or why there are none."""
+    if contact is None:
+        return AtPitchPoint(0.0, reason="the pair of teeth at the pitch point does not touch")
+    across = contact.line.across
+    place = float(np.interp(0, across, np.arange(len(across)), math.nan, math.nan))
+    if math.isnan(place) or not min(contact.forces[[math.floor(place), math.ceil(place)]]) > 0:
+        return AtPitchPoint(
+            contact.share, reason="nothing is carried at the pitch point in the middle of the common face width"
+        )
+    if not float(contact.between(contact.margin, place)) > 0:
+        return AtPitchPoint(contact.share, reason=f"the pitch point lies within {INTERIOR:g} half widths of an edge")
+    pressure, half_width = (float(contact.between(of, place)) for of in (contact.pressures, contact.half_widths))
+    return AtPitchPoint(contact.share, pressure, half_width)
+
+
+def line_contact(cycle: SolidCycle, worst: WorstPlace) -> LineContact:
+    """Two cylinders of the curvature of the flanks under the line load of a place."""
+    materials = [body.material for body in cycle.model.bodies]
+    return LineContact(
+        load_per_width=worst.of(worst.contact.line_loads),
+        radius=worst.of(worst.contact.radii),
+        modulus=1 / sum((1 - of.poisson_ratio**2) / of.youngs_modulus for of in materials),
+        poisson_ratio=materials[0].poisson_ratio,
+    )
+
+
+def _loaded_length(position: SolidPosition) -> float:
+    return sum(float(contact.line.lengths[contact.forces > 0].sum()) for contact in position.contacts)

@@ -1,24 +1,26 @@
-"""CheckTask: what is to be checked."""
+"""CheckTask: the pair, load and options of a check, and which contact its pictures show."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from gearcad.check.options import CheckOptions, Model
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.errors import GeometryError, ParameterError
-from gearcad.geometry import GearPair
+from gearcad.contact.shared.line_of_action import gears_loaded_left
+from gearcad.contact.shared.loaded import LoadedCycle, LoadedPosition, PairContact
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.records import PerGear
+from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
 from gearcad.mounting import Mounting
-from gearcad.per_gear import PerGear
+from gearcad.rating.load_factor_formulas import face_load_factor, root_face_load_factor, width_to_height
 from gearcad.rating.load_factors import BodyLoad
+from gearcad.rating.nominal_rating import Rating, rate
 from gearcad.rating.options import RatingOptions
-from gearcad.rating.rate import Rating, rate
 from gearcad.rating.strength import StrengthRating, rate_strength
-
-__all__ = ["CheckTask", "check_task"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,3 +101,53 @@ def _require_meshing(task: CheckTask) -> None:
     if task.pair.transverse_contact_ratio < 1:
         ratio = task.pair.transverse_contact_ratio
         raise GeometryError("pair.transverse_contact_ratio", ratio, "must be at least 1: the teeth lose each other")
+
+
+P = TypeVar("P", bound=LoadedPosition[Any])
+C = TypeVar("C", bound=PairContact)
+
+
+class ShownContact(NamedTuple, Generic[P, C]):
+    """A contact and its position; `interior` if part of it is away from the edges of the flanks."""
+
+    position: P
+    contact: C
+    interior: bool
+
+
+def shown_contact(cycle: LoadedCycle[Any, P, C]) -> ShownContact[P, C]:
+    """That of the greatest pressure away from edges, or that of the greatest load where all are near them."""
+    worst = cycle.worst_contact
+    position, contact = worst or cycle.heaviest_contact
+    return ShownContact(position, contact, worst is not None)
+
+
+class FaceFactors(NamedTuple):
+    """F_beta_y (µm), K_H_beta and K_F_beta."""
+
+    misalignment: float
+    flank: float
+    root: float
+
+
+def face_factors(task: CheckTask) -> FaceFactors:
+    """From the mounting's misalignment and both helix angle modifications, over the common face width, and from nothing else.
+
+    Deflections of shafts and bodies, crowning, end relief and running in are no part of it; K_v is 1.
+    """
+    rating = task.rating
+    misalignment = task.mounting.misalignment + sum(_mismatch(task))
+    flank = face_load_factor(misalignment, rating.stiffness.mesh_beta, rating.specific_load)
+    return FaceFactors(misalignment, flank, root_face_load_factor(flank, width_to_height(task.pair)))
+
+
+def _mismatch(task: CheckTask) -> PerGear[float]:
+    """By how much (µm) the gap grows towards larger z over the common width, by the helix angle modification of each gear."""
+    width, carries_left = task.pair.common_width.width, task.torque > 0
+
+    def grows(gear: Gear) -> float:
+        hand = -1 if gear.helix_angle < 0 else 1
+        depth = gear.modification.helix_angle_modification * hand * (-1 if carries_left else 1)
+        return depth * width / gear.face_width
+
+    return gears_loaded_left(task.pair).map(grows)

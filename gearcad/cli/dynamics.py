@@ -1,4 +1,4 @@
-"""Dynamics of a pair or a train: dynamics."""
+"""Command `dynamics`."""
 
 from __future__ import annotations
 
@@ -8,21 +8,89 @@ from typing import TYPE_CHECKING
 
 import click
 
-from gearcad.cli.displacement_lines import bearing_mode_lines, displacement_lines
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import echo_warnings, folder_of, json_option, output_option, perform_on, quiet_option
-from gearcad.cli.side_by_side import beside_lines
 
 if TYPE_CHECKING:
     from gearcad.designs import Design
-    from gearcad.dynamics.charts.chart import KvChart
     from gearcad.dynamics.pair_result import ContactStudy
+    from gearcad.dynamics.response.kv_chart import KvChart
+    from gearcad.dynamics.tooth_errors.error_result import ErrorStudy
     from gearcad.dynamics.train_result import TrainStudy
-    from gearcad.dynamics.trains.eigenmodes import NaturalModes
-    from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
+    from gearcad.dynamics.trains.pair_on_bearings import BearingModes
+    from gearcad.dynamics.trains.train import EngagedMesh
+    from gearcad.dynamics.trains.train_modes import NaturalModes
+    from gearcad.dynamics.variant_comparison import SideBySide
     from gearcad.jobs.dynamics import Dynamics, Study
 
-__all__ = ["dynamics"]
+
+def displacement_lines(study: TrainStudy) -> list[str]:
+    """How far everything moves at most, and what bearings carry."""
+    swings = {
+        quantity: [
+            f"{each.name} {each.amplitude:.4g} {each.unit} at {each.speed:.5g} rpm"
+            for each in study.greatest_amplitudes
+            if each.quantity == quantity
+        ]
+        for quantity in ("turn", "approach")
+    }
+    lines = [f"amplitude of {quantity}: {', '.join(listed)}" for quantity, listed in swings.items()]
+    return lines + [
+        f"bearings of {each.gear}: at most {each.force:.5g} N at {each.speed:.5g} rpm, {each.static:.5g} N at rest"
+        for each in study.greatest_bearing_forces
+    ]
+
+
+def bearing_mode_lines(modes: BearingModes) -> list[str]:
+    """The six modes of gears on bearings."""
+    lines = [f"{'on bearings':<20}{'Hz':>10}{'1/s':>12}{'in mesh, %':>12}  what moves most"]
+    for number, words in enumerate(modes.words):
+        share = 100 * modes.potential[number, 0]
+        lines.append(
+            f"{number + 1:<20}{modes.frequency[number]:>10.6g}{modes.circular[number]:>12.6g}{share:>12.1f}  {words}"
+            + ("" if modes.shaken[number] or not number else ": teeth do not shake it")
+        )
+    return lines
+
+
+def beside_lines(study: SideBySide) -> list[str]:
+    """The greatest loads of each study, and the highest resonances of all."""
+    from gearcad.dynamics.level_verdict import LevelStudy
+
+    wide = max(len(label) for label in (study.what, *study.labels))
+    what = f"{study.what} ({study.key})" if study.key else study.what
+    lines = [f"natural frequencies in 1/s, those that move alike below each other; {what}:"]
+    for at, label in enumerate(study.labels):
+        shown = ("–" if group[at] is None else f"{group[at]:.6g}" for group in study.natural_frequencies)
+        lines.append(f"  {label:<{wide}}  {' '.join(f'{each:<9}' for each in shown)}".rstrip())
+    for mesh in study.mesh_names:
+        lines.append(f"K_v of {mesh}")
+        lines += [f"  {label:<{wide}}  {_resonance_line(study, mesh, at)}" for at, label in enumerate(study.labels)]
+    for mesh in study.mesh_names if study.errors else ():
+        lines.append(f"K_v of {mesh} with tooth errors")
+        lines += [f"  {label:<{wide}}  {_errors_line(found, mesh)}" for label, found in study.errors.items()]
+    for shaft in study.shaft_names:
+        lines.append(f"overload of {shaft}")
+        own = [each for each in study.shaft_overloads if each.shaft == shaft]
+        lines += [f"  {each.label:<{wide}}  {each.factor:.3f} at {each.speed:.5g} rpm" for each in own]
+    return [*lines, *study.headlines] if isinstance(study, LevelStudy) else lines
+
+
+def _errors_line(found: ErrorStudy, mesh: str) -> str:
+    """The greatest median of a mesh, and the greatest of its upper quantile where there are several samples."""
+    (most,) = (each for each in found.greatest if each.mesh == mesh)
+    upper = f", 95 % quantile {most.upper:.3f} at {most.upper_speed:.5g} rpm" if found.samples > 1 else ""
+    return f"at most {most.median:.3f} at {most.median_speed:.5g} rpm{' (median)' if upper else ''}{upper}"
+
+
+def _resonance_line(study: SideBySide, mesh: str, at: int) -> str:
+    """The resonances of a mesh in one study, under those of the others; else its greatest K_v."""
+    shown = [each.shown[at] for each in study.resonances if each.mesh == mesh]
+    if not any(shown):
+        (found,) = (each for each in study.greatest if each.mesh == mesh and each.label == study.labels[at])
+        return f"at most {found.factor:.3f}, at {found.speed:.5g} rpm: no resonance in the chart"
+    return " ".join(f"{'' if peak is None else f'{peak.factor:.3f} at {peak.speed:.5g} rpm':<21}" for peak in shown).rstrip()
+
 
 _MOST_PEAKS = 8
 
@@ -65,9 +133,8 @@ def dynamics(spec: Path, variations: tuple[str, ...], output: Path | None, as_js
 
 def _varied(spec: Path, variations: tuple[str, ...]) -> tuple[Dynamics, Design]:
     """What is done with the variants of a spec, and the first of them."""
-    from gearcad.designs.variants import read_variants
-    from gearcad.jobs.dynamics import Dynamics
-    from gearcad.jobs.dynamics_beside import DynamicsBeside
+    from gearcad.designs.variations import read_variants
+    from gearcad.jobs.dynamics import Dynamics, DynamicsBeside
 
     variants = read_variants(spec, variations)
     job = DynamicsBeside(variants=variants) if len(variants.designs) > 1 else Dynamics()
@@ -91,8 +158,8 @@ def _show(_name: str, study: Study) -> None:
 def _lines(study: Study) -> list[str]:
     """What was found out, in a few lines."""
     from gearcad.dynamics.pair_result import ContactStudy, PairStudy
-    from gearcad.dynamics.side_by_side import SideBySide
     from gearcad.dynamics.train_result import ModalStudy
+    from gearcad.dynamics.variant_comparison import SideBySide
 
     if isinstance(study, ContactStudy):
         return _contact_lines(study)

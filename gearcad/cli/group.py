@@ -8,14 +8,13 @@ from collections.abc import Callable
 from enum import Enum
 from importlib import import_module
 from pathlib import Path
-from pkgutil import iter_modules
 from typing import Any, NoReturn, TypeVar
 
 import click
 
-from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice, out_of_memory, printable, shortened, shown
+from gearcad.core.errors import GearcadError, ParameterError, SolverError, as_choice, out_of_memory, printable, shortened, shown
+from gearcad.core.output import source_date
 from gearcad.jobs import VERBS
-from gearcad.output import source_date
 
 __all__ = ["Commands", "debug_option", "job_commands", "parse_choices", "require_new_file", "spec_argument"]
 
@@ -32,6 +31,15 @@ INTERRUPTED = 128 + signal.SIGINT
 """Exit status after Ctrl-C, that of a shell."""
 
 
+_MODULES = {
+    **dict.fromkeys(("new", "data", "open", "completion"), "basics"),
+    **dict.fromkeys(("draw", "picture"), "build"),
+    **dict.fromkeys(("study", "plot"), "batch"),
+    **dict.fromkeys(("check", "rate", "stiffness", "modify"), "strength"),
+}
+"""The module of `gearcad.cli` with a command, where it is not called as the command."""
+
+
 class Commands(click.Group):
     """A group whose commands end with one line instead of a traceback, and with the exit status that fits."""
 
@@ -40,10 +48,10 @@ class Commands(click.Group):
         return ["new", *job_commands(), "size", "identify", "study", "batch", "plot", "open", "completion"]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
-        """That of the module of its name, which is imported now: a command is as quick to start as what it needs."""
+        """Return a command, whose module is imported now: a command is as quick to start as what it needs."""
         if name not in self.list_commands(ctx):
             return None
-        found: click.Command = getattr(import_module(f"gearcad.cli.{name}"), name)
+        found: click.Command = getattr(import_module(f"gearcad.cli.{_MODULES.get(name, name)}"), name)
         return found
 
     def invoke(self, ctx: click.Context) -> Any:
@@ -117,9 +125,8 @@ def _interrupted(error: BaseException | None) -> bool:
 
 
 def job_commands() -> tuple[str, ...]:
-    """The jobs that are commands: those with a module of their name here."""
-    modules = {each.name for each in iter_modules([str(Path(__file__).parent)])}
-    return tuple(verb for verb in VERBS if verb in modules)
+    """Return the jobs that are commands: all of them."""
+    return VERBS
 
 
 def debug_option(command: Command) -> Command:

@@ -1,8 +1,8 @@
-"""A gear from measurements: identify."""
+"""Command `identify`: a gear from measurements."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -10,15 +10,123 @@ import click
 
 from gearcad.cli.group import debug_option, require_new_file
 from gearcad.cli.job import echo_warnings, quiet_option
-from gearcad.errors import ParameterError
-from gearcad.identify.measured import Gauge
-from gearcad.identify.measurements import Measurements
-from gearcad.schema import FieldSchema, schema_of
+from gearcad.core.errors import ParameterError
+from gearcad.core.quantities import FieldSchema, schema_of
+from gearcad.identify.measurements import ANGLES, Gauge, Measurements, Reading
 
 if TYPE_CHECKING:
-    from gearcad.identify import Candidate, Identification
+    from gearcad.identify import Candidate, Deciding, Identification
 
-__all__ = ["identify"]
+
+_COLUMNS = 4
+"""Candidates whose residuals are shown."""
+
+_REST = 0.01
+"""The least probability of all others that is told."""
+
+_FAR = 100.0
+"""Uncertainties beyond which nobody asks how far."""
+
+_CLEAR = 2.0
+"""How far apart candidates must be for a measurement to decide."""
+
+
+def identification_lines(found: Identification) -> Iterator[str]:
+    """Candidates, their residuals, the verdict, and what would decide."""
+    yield from _aligned(_candidate_rows(found), left=(1, 10))
+    yield ""
+    yield from _aligned(_residual_rows(found), left=(0,))
+    yield ""
+    yield from _verdict(found)
+
+
+def _aligned(rows: Sequence[Sequence[str]], left: Sequence[int]) -> Iterator[str]:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (
+            f"{cell:<{width}}" if number in left else f"{cell:>{width}}"
+            for number, (cell, width) in enumerate(zip(row, widths, strict=True))
+        )
+        yield "  ".join(cells).rstrip()
+
+
+def _candidate_rows(found: Identification) -> list[tuple[str, ...]]:
+    heading = ("", "size", "%", "chi²", "m_n mm", "α_n °", "β °", "x", "thinning mm", "k", "rack (h_a/h_f)")
+    return [heading, *(_row(number, each) for number, each in enumerate(found.candidates, 1))]
+
+
+def _row(number: int, each: Candidate) -> tuple[str, ...]:
+    gear = each.gear
+    pitch = each.diametral_pitch
+    return (
+        f"{number}",
+        " ".join([each.series, *([f"{pitch:g}"] if pitch is not None else []), *(["transverse"] if each.transverse else [])]),
+        f"{100 * each.probability:.1f}",
+        f"{each.chi_square:.1f}",
+        f"{gear.normal_module:.5g}" + (f" ±{each.module_uncertainty:.1g}" if each.module_uncertainty else ""),
+        f"{gear.rack.pressure_angle:g}",
+        f"{gear.helix_angle:.2f} ±{each.helix_uncertainty:.1g}" if gear.helix_angle else "0",
+        f"{gear.profile_shift:.3f} ±{each.shift_uncertainty:.1g}",
+        f"{gear.tooth_thinning:.3f} ±{each.thinning_uncertainty:.1g}",
+        f"{gear.tip_alteration:.3f}" if gear.tip_alteration else "0",
+        f"{each.rack.name} ({gear.rack.addendum:g}/{gear.rack.dedendum:.4g})",
+    )
+
+
+def _residual_rows(found: Identification) -> list[tuple[str, ...]]:
+    """Readings, and how far each candidate is off, in uncertainties."""
+    shown = found.candidates[:_COLUMNS]
+    rows = [("off, in uncertainties", "read", "±", *(f"{number}" for number in range(1, len(shown) + 1)))]
+    for place, each in enumerate(found.measured.readings):
+        if each.value == 0:  # a spur gear: no candidate is off
+            continue
+        off = (f"{candidate.residuals[place]:+.1f}" for candidate in shown)
+        rows.append((found.measured.label(each), _number(each, abs(each.value)), f"{each.uncertainty:g}", *off))
+    return rows
+
+
+def _number(place: Reading, value: float) -> str:
+    return f"{value:.2f}°" if place.gauge in ANGLES else f"{value:.3f}"
+
+
+def _verdict(found: Identification) -> Iterator[str]:
+    if found.certain:
+        yield "Certain: all others together are less probable than 5 %"
+        return
+    if not found.fits:
+        yield "Not certain: no candidate fits"
+    elif not found.rivals and found.best.off_involute:
+        yield "Not certain: a gauge would not touch the flanks of 1, so that it cannot have read what was read"
+    elif not found.rivals:
+        yield f"Not certain: many others are left, each less probable than {100 * found.candidates[-1].probability:.1g} %"
+    else:
+        first, *others = (f"{number}" for number in range(1, len(found.rivals) + 2))
+        rest = f", or one that is not listed ({100 * found.unlisted:.0f} %)" if found.unlisted >= _REST else ""
+        yield f"Ambiguous: {first} or {', '.join(others)}{rest}"
+    if found.alike:
+        same = ", ".join(f"{found.candidates.index(each) + 1}" for each in found.alike)
+        yield f"The flanks of {same} are those of 1 under another name, within uncertainty: as a replacement they are alike"
+    if found.deciding:
+        apart = found.deciding[0].apart
+        yield (
+            "What would decide:"
+            if min(apart) >= _CLEAR
+            else "What would tell some of them from 1:"
+            if max(apart) >= _CLEAR
+            else "Nothing else decides at once; these tell most, measured more finely:"
+        )
+        yield from (_deciding_line(found, each) for each in found.deciding)
+
+
+def _deciding_line(found: Identification, each: Deciding) -> str:
+    label, unit = found.measured.label(each.place), "" if each.place.gauge in ANGLES else " mm"
+    values = ", ".join(f"{number}: {_number(each.place, value)}" for number, value in enumerate(each.predicted, 1))
+    how = " (gear rolled over paper)" if each.place.gauge is Gauge.TIP_HELIX_ANGLE else ""
+    if each.less is not None:
+        label = f"{found.measured.label(each.less)} and over {each.place.size:g}, their difference"
+    apart = ", ".join(f"{distance:.1f}" if distance < _FAR else f"over {_FAR:g}" for distance in each.apart)
+    return f"  {label}{how}: {values}{unit} (from 1: {apart} uncertainties)"
+
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -82,8 +190,8 @@ def identify(
     gearcad identify --teeth 31 --tip-diameter 74.6 --over-pins 3.5:75.52 --tip-helix-angle 16
     gearcad identify --teeth 30 --tip-diameter 81.2+-0.2 --centre-distance 101.6 --mate-teeth 50
     """
-    from gearcad.jobs.identify import identify_measured
-    from gearcad.output import json_text
+    from gearcad.core.output import json_text
+    from gearcad.jobs.searches import identify_measured
 
     if write is not None:
         require_new_file(write, force)
@@ -96,8 +204,6 @@ def identify(
     if as_json:
         click.echo(json_text(found.to_dict()), nl=False)
     else:
-        from gearcad.cli.identify_table import identification_lines
-
         click.echo("\n".join(identification_lines(found)))
         if write is not None:
             click.echo(write)
@@ -111,7 +217,7 @@ def identify(
 
 def _measurements(file: Path | None, given: dict[str, Any]) -> Measurements:
     """Those of a file and of the options that are given."""
-    from gearcad.designs.measured import read_measurements, reading_of
+    from gearcad.designs.spec_writers import read_measurements, reading_of
 
     readings: dict[str, Any] = {}
     for name, said in given.items():
@@ -128,7 +234,7 @@ def _measurements(file: Path | None, given: dict[str, Any]) -> Measurements:
 
 def _by_size(name: str, texts: Sequence[str]) -> dict[float, Any]:
     """Readings by the number of teeth spanned, or by the diameter of pins or balls."""
-    from gearcad.designs.measured import reading_of, size_of
+    from gearcad.designs.spec_writers import reading_of, size_of
 
     gauge, found = _SIZED[name], {}
     for text in texts:
@@ -151,8 +257,8 @@ def _chosen(found: Identification, number: int) -> Candidate:
 
 
 def _write(found: Identification, chosen: Candidate, path: Path) -> None:
-    from gearcad.designs.identified import write_identified
-    from gearcad.output import staged_files
+    from gearcad.core.output import staged_files
+    from gearcad.designs.spec_writers import write_identified
 
     with staged_files(path.parent) as staging:
         write_identified(found, chosen, path.stem, staging / path.name)

@@ -1,26 +1,351 @@
-"""Pairs for a task: size."""
+"""Command `size`: pairs, or planetary sets, for a task."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+import textwrap
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from gearcad.cli.group import debug_option
-from gearcad.cli.job import quiet_option
-from gearcad.cli.progress import job_progress
+from gearcad.cli.job import echo_warnings, job_progress, quiet_option
 from gearcad.cli.size_options import size_options, task_of
-from gearcad.cli.size_sets import require_no_sets, set_options, size_planetary
-from gearcad.cli.size_table import basis_lines, nothing_lines, notice_texts, scuffing_line, table_lines
-from gearcad.errors import ParameterError
-from gearcad.reprs import grouped
+from gearcad.core.errors import ParameterError, SolverError, as_choice
+from gearcad.core.records import grouped, is_assumed
 
 if TYPE_CHECKING:
-    from gearcad.sizing import Sizing
+    from gearcad.material import Material
+    from gearcad.rating.options import RatingOptions
+    from gearcad.sizing import SizedPair, Sizing
+    from gearcad.sizing.planetary_sets import SetSizeTask, SizedSet, SizedSets
 
-__all__ = ["size"]
+
+_SIZE_TABLE_HEADING = (
+    *("pair", "a mm", "b mm", "x1", "x2", "u", "kg", "S_H", "S_F1", "S_F2", "eps_a", "eps_b", "sliding", "°C", "ripple %"),
+    *("TE µm", "front", "notice"),
+)
+
+_WIDTH = 120
+
+_HINTS = {
+    "centre distance": "another --centre-distance, --module or --teeth",
+    "diameter": "a larger --max-diameter",
+    "undercut": "more --teeth, or a larger --shift and --shift-sum",
+    "tip thickness": "a smaller --shift or --shift-sum",
+    "contact ratio": "more --teeth, or a smaller --shift-sum or --helix-angle",
+    "interference": "another --shift",
+    "face width": "a larger --max-width, or a smaller --width-ratio",
+    "range of the rating": "sizes that ISO 1328-1 has tolerances for",
+    "flank safety": "a larger --module, --width-ratio or --centre-distance, or a harder material",
+    "root safety": "a larger --module, or fewer --teeth at the same centre distance",
+    "scuffing safety": "a thicker oil, a higher scuffing_stage, or more --helix-angle",
+}
+"""What would help where a condition takes most variants."""
+
+
+def table_lines(result: Sizing) -> Iterator[str]:
+    """A line for each pair, under a heading."""
+    codes = list(notice_texts(result))
+    rows = [_SIZE_TABLE_HEADING, *((*_size_table_row(each), _marks(each, codes)) for each in result.found)]
+    shown = [number for number, column in enumerate(zip(*rows[1:], strict=True)) if any(column)]
+    widths = {number: max(len(row[number]) for row in rows) for number in shown}
+    for row in rows:
+        first, *others = shown
+        cells = (f"{row[number]:>{widths[number]}}" for number in others)
+        yield "  ".join((f"{row[first]:<{widths[first]}}", *cells)).rstrip()
+
+
+def _marks(each: SizedPair, codes: list[str]) -> str:
+    """Numbers of the notices of its rating."""
+    own = () if each.strength is None else (codes.index(notice.code) + 1 for notice in each.strength.notices)
+    return ",".join(map(str, sorted(set(own))))
+
+
+def notice_texts(result: Sizing) -> dict[str, list[str]]:
+    """What the ratings give notice of, by code: the texts, of some kinds different with each pair."""
+    found: dict[str, list[str]] = {}
+    for each in result.found:
+        for notice in () if each.strength is None else each.strength.notices:
+            texts = found.setdefault(notice.code, [])
+            if str(notice) not in texts:
+                texts.append(str(notice))
+    return found
+
+
+def scuffing_line(options: RatingOptions) -> str | None:
+    """That scuffing was not judged, and what would let it be; None where it was."""
+    from gearcad.sizing.proposals import unjudged_scuffing
+
+    why = unjudged_scuffing(options)
+    return None if why is None else f"{why}; --safety-scuffing 1.8 --rating scuffing_stage=12 would judge it"
+
+
+def basis_lines(options: RatingOptions, application_factor: float, assumed: Iterable[str]) -> Iterator[str]:
+    """What the safeties go by, said once: what is required, the accuracy, and what was assumed."""
+    grade = f"accuracy grade {options.accuracy_grade} of {options.accuracy.value}"
+    grade += " (assumed)" if is_assumed(options.accuracy_grade) else ""
+    required = f"S_H {options.required_safety_flank:g}, S_F {options.required_safety_root:g}"
+    yield f"required {required}; K_A {application_factor:g}; {grade}; {options.standard.value}"
+    yield from _wrapped("assumed ", "; ".join(assumed))
+
+
+def _wrapped(words: str, text: str) -> list[str]:
+    return textwrap.wrap(text, _WIDTH, initial_indent=words, subsequent_indent=" " * len(words)) if text else []
+
+
+def _size_table_row(each: SizedPair) -> tuple[str, ...]:
+    return (
+        each.name,
+        f"{each.centre_distance:g}",
+        f"{each.face_width:g}",
+        f"{each.pinion_shift:.2f}",
+        f"{each.shift_sum - each.pinion_shift:.3f}",
+        f"{each.ratio:.3f}",
+        f"{each.mass:.3g}" if each.mass < 100 else f"{each.mass:.0f}",
+        f"{min(each.flank_safeties):.2f}",
+        *(f"{safety:.2f}" for safety in each.root_safeties),
+        f"{each.transverse_contact_ratio:.2f}",
+        f"{each.overlap_ratio:.2f}" if each.overlap_ratio else "",
+        f"{each.sliding:.2f}",
+        "" if each.temperature is None else f"{each.temperature:.0f}",
+        f"{100 * each.ripple:.0f}",
+        "" if each.transmission_error is None else f"{each.transmission_error:.2f}",
+        "*" if each.front else "",
+    )
+
+
+def nothing_lines(result: Sizing) -> Iterator[str]:
+    """Why nothing was found: which condition took what, the safest of all, and what would help."""
+    took = ", ".join(f"{grouped(number)} by {name}" for name, number in result.removed.items() if number)
+    yield f"No pair of {grouped(result.considered)} variants meets all conditions: removed {took}"
+    last = _last(result)
+    if last == "mass" and (light := result.lightest) is not None:
+        yield f"the lightest variant that is safe is {light.name}, b {light.face_width:g} mm: {light.mass:.3g} kg"
+    elif (best := result.strongest) is not None:
+        rating, flank, root = result.task.rating, min(best.flank_safeties), min(best.root_safeties)
+        required = f"{rating.required_safety_flank:g} and {rating.required_safety_root:g} are required"
+        yield f"the safest is {best.name}, b {best.face_width:g} mm: S_H {flank:.2f}, S_F {root:.2f}, where {required}"
+    for text in result.unmade[:1]:
+        yield f"{len(result.unmade)} could not be made or did not pass the full rating; the first: {text}"
+    if last is not None:
+        yield f"what would help: {_hint(last, result)}"
+
+
+def _last(result: Sizing) -> str | None:
+    """The condition that removed the last candidates: those that it took had met all before. None where some met all."""
+    if result.cloud.size:
+        return None
+    return next((name for name, number in reversed(result.removed.items()) if number), None)
+
+
+def _hint(condition: str, result: Sizing) -> str:
+    light = result.lightest
+    if condition != "mass" or light is None:
+        return _HINTS[condition]
+    step = 10.0 ** (math.floor(math.log10(light.mass)) - 2)
+    return f"--max-mass {math.ceil(light.mass / step) * step:.3g} or more; a harder material makes lighter pairs"
+
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+_OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
+    (
+        "--type",
+        {"metavar": "TYPES", "help": "Sets: A sun and ring, B stepped planets, C two suns, D two rings.  [default: A]"},
+    ),
+    ("--planets", {"metavar": "N[:N]", "help": "Sets: how many planets.  [default: 3:5]"}),
+    ("--input-torque", {"type": float, "metavar": "NM", "help": "Sets: on the input; --torque is its old name."}),
+    ("--output-torque", {"type": float, "metavar": "NM", "help": "Sets: on the output."}),
+    ("--ring-teeth", {"metavar": "Z[:Z]", "help": "Sets: of rings.  [default: 30:200]"}),
+    ("--fixed", {"metavar": "MEMBER", "help": "Sets: sun, ring, carrier, sun_2 or ring_2; so for --in and --out."}),
+    ("--in", {"metavar": "MEMBER", "help": "Sets: the input."}),
+    ("--out", {"metavar": "MEMBER", "help": "Sets: the output."}),
+    ("--mesh-load-factor", {"type": float, "metavar": "K_G", "help": "Sets: K_gamma.  [default: by the planets, ABS]"}),
+)
+
+_OF_PAIRS = (
+    *(
+        "centre_distance",
+        "max_mass",
+        "shift",
+        "shift_sum",
+        "max_width",
+        "contact_ratio",
+        "tip_thickness",
+        "rack",
+        "by",
+        "errors",
+    ),
+)
+"""Options of pairs that sets do not have."""
+
+_PLAIN = {"fixed": "fixed", "in": "input", "out": "output", "ratio_tolerance": "tolerance"}
+_RANGES = ("planets", "teeth", "ring_teeth")
+
+
+def set_options(command: Command) -> Command:
+    """The options of planetary sets."""
+    for name, how in reversed(_OPTIONS):
+        command = click.option(name, name.lstrip("-").replace("-", "_"), **how)(command)
+    text = "Planetary sets in place of pairs; speed of the input."
+    return click.option("--planetary", is_flag=True, help=text)(command)
+
+
+def require_no_sets(given: Mapping[str, Any]) -> None:
+    """Raise ParameterError for an option of sets where pairs are wanted."""
+    for option, _ in _OPTIONS:
+        name = option.lstrip("-").replace("-", "_")
+        if given[name] is not None:
+            raise ParameterError(name, given[name], "is of planetary sets: needs --planetary")
+
+
+def size_planetary(given: Mapping[str, Any], count: int, output: Path | None, *, as_json: bool, quiet: bool) -> None:
+    """Size sets for what options ask for, write the files and show the table; ends with status 1 where none holds."""
+    from gearcad.core.output import json_text
+    from gearcad.jobs.searches import write_set_sizes
+    from gearcad.sizing.planetary_sets import expected, size_sets
+
+    task = _task(given)
+    try:
+        with job_progress(shown=not quiet, expected=None if quiet else expected(task, count)) as progress:
+            result = size_sets(task, count, progress)
+    except SolverError as error:
+        click.echo(str(error), err=True)
+        click.get_current_context().exit(1)
+    files = write_set_sizes(result, Path("output/size") if output is None else output)
+    if as_json:
+        click.echo(json_text(result.to_dict()), nl=False)
+        return
+    click.echo("\n".join(_table(result)))
+    if not quiet:
+        echo_warnings(task.notices, err=True)
+        click.echo("\n".join(_remarks(result)), err=True)
+    click.echo("".join(f"{file}\n" for file in files), nl=False)
+
+
+# ---------------------------------------------------------------------- what is asked
+
+
+def _task(given: Mapping[str, Any]) -> SetSizeTask:
+    """The task of the options that are given. Raises ParameterError."""
+    from gearcad.cli.size_options import ends_of, load_of, material_of, modules_of, rating_of, values_of
+    from gearcad.planetary.members import SetType
+    from gearcad.planetary.tooth_numbers import SearchTask
+    from gearcad.sizing.planetary_sets import SetSizeTask
+
+    for name in _OF_PAIRS:
+        if given.get(name) is not None:
+            raise ParameterError(name, given[name], "is of pairs: leave it out with --planetary")
+    for needed, what in (("ratio", "speed of the input over that of the output"), ("material", 'such as "Eh MQ"')):
+        if given[needed] is None:
+            raise ParameterError(needed, None, f"must be given, {what}")
+    fields: dict[str, Any] = {field: given[name] for name, field in _PLAIN.items() if given[name] is not None}
+    fields |= {name: ends_of(name, given[name]) for name in _RANGES if given[name] is not None}
+    if given["type"] is not None:
+        fields["types"] = tuple(as_choice("type", each.strip().upper(), SetType) for each in given["type"].split(","))
+    if given["helix_angle"] is not None:
+        fields["helix_angle"] = _single("helix_angle", values_of("helix_angle", given["helix_angle"]))
+    others: dict[str, Any] = {name: given[name] for name in ("mesh_load_factor", "max_diameter") if given[name] is not None}
+    if given["width_ratio"] is not None:
+        others["width_ratio"] = max(values_of("width_ratio", given["width_ratio"]))
+    if given["module"] is not None or given["second_series"]:
+        others["modules"] = modules_of("0.5:50" if given["module"] is None else given["module"], second=given["second_series"])
+    torques: dict[str, Any] = {name: given[name] for name in ("input_torque", "output_torque") if given[name] is not None}
+    if len(torques) > 1 or (torques and (given["torque"] is not None or given["power"] is not None)):
+        name, value = torques.popitem()
+        permitted = "must be the only one of --input-torque, --output-torque, --power and --torque"
+        raise ParameterError(name, value, permitted, "N·m")
+    if not torques and given["torque"] is None and given["power"] is None:
+        raise ParameterError("input_torque", None, "must be given, in N·m, or --output-torque, or --power in kW")
+    load = load_of({**given, "torque": 1.0} if torques else given)
+    if not torques:
+        torques = {"torque" if given["power"] is None else "input_torque": load.torque}
+    return SetSizeTask(
+        sets=SearchTask(ratio=given["ratio"], module=1.0, **fields),
+        **torques,
+        speed=load.speed,
+        application_factor=load.application_factor,
+        material=material_of("material", given["material"], given["hardness"]),
+        ring_material=_of_rings(given),
+        rating=rating_of(given),
+        **others,
+    )
+
+
+def _of_rings(given: Mapping[str, Any]) -> Material | None:
+    """The one of a wheel is here that of rings."""
+    from gearcad.cli.size_options import material_of
+
+    if given["wheel_material"] is None and given["wheel_hardness"] is None:
+        return None
+    name, hardness = given["material" if given["wheel_material"] is None else "wheel_material"], given["wheel_hardness"]
+    found: Material = material_of("wheel_material", name, hardness)
+    return found
+
+
+def _single(name: str, values: tuple[float, ...]) -> float:
+    if len(values) != 1:
+        raise ParameterError(name, list(values), "must be one number with --planetary, of the first sun or ring")
+    return values[0]
+
+
+# ---------------------------------------------------------------------- what is shown
+
+_HEADING = ("set", "ratio", "off %", "m mm", "b mm", "diameter mm", "a mm", "planets", "K_gamma", "kg", "S_H", "S_F", "weakest")
+
+
+def _table(result: SizedSets) -> Iterator[str]:
+    """A line for each set, under a heading."""
+    rows = [_HEADING, *(_row(each) for each in result.found)]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        name, *numbers, last = row
+        cells = (f"{cell:>{width}}" for cell, width in zip(numbers, widths[1:], strict=False))
+        yield "  ".join((f"{name:<{widths[0]}}", *cells, last)).rstrip()
+
+
+def _row(each: SizedSet) -> tuple[str, ...]:
+    from gearcad.rating.strength import Part
+
+    own = each.candidate
+    worst = min(each.margins, key=lambda part: each.margins[part] ** (2 if part is Part.FLANK else 1))
+    places = [(least, name) for name, gear in each.strength.members.items() if (least := gear.least(worst)) is not None]
+    least, gear = min(places)
+    return (
+        each.name,
+        f"{own.ratio:.5g}",
+        f"{own.deviation:+.3f}" if own.deviation else "0",
+        f"{own.task.module:g}",
+        f"{own.task.width:g}",
+        f"{own.diameter:.1f}",
+        f"{own.centre_distance:.3f}",
+        str(own.planets),
+        f"{each.load.mesh_load_factor:g}",
+        f"{each.mass:.3g}",
+        *(f"{each.least[part]:.3f}" for part in Part),
+        f"{worst.value} of {gear} in {least.mesh}",
+    )
+
+
+def _remarks(result: SizedSets) -> Iterator[str]:
+    """What the safeties go by, how many were looked at, and what the columns are."""
+
+    options, task = result.task.rating, result.task
+    yield from basis_lines(options, task.application_factor, result.assumed)
+    if (line := scuffing_line(options)) is not None:
+        yield line
+    yield f"{result.considered} sets of tooth numbers, {result.refined} of them sized; lightest first"
+    yield "weakest: the part that more torque takes first; off: ratio over the one asked for, less 1"
+    yield "mass without bores, rings with rims of 3.5 m_n; diameter over all teeth"
+    yield "S_H and S_F are the least of all gears under all load factors; no set has backlash yet: planetary.tooth_thinning"
+    if result.refused:
+        name, why = next(iter(result.refused.items()))
+        yield f"{len(result.refused)} were left out; the first: {name}: {why}"
+    yield "Next: gearcad rate best.toml, gearcad planetary best.toml, gearcad batch sets.csv"
+
 
 _COUNT, _MOST_COUNT = 20, 1000
 _MODIFIED = "best-modified.toml"
@@ -51,10 +376,10 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
     gearcad size --power 5 --speed 400 --ratio 4 --life 5000 --material "Eh MQ" --application-factor 1.25 --by quiet
     gearcad size --planetary --input-torque 300 --speed 1500 --ratio 5.2 --life 20000 --material "Eh MQ"
     """
-    from gearcad.jobs.sizes import write_sizing
-    from gearcad.output import json_text
+    from gearcad.core.output import json_text
+    from gearcad.jobs.searches import write_sizing
     from gearcad.sizing import search_pairs
-    from gearcad.sizing.run import expected
+    from gearcad.sizing.proposals import expected
 
     number = _COUNT if count is None else count
     for name, value, least in (("count", number, 1), ("errors", errors, 0)):
@@ -77,12 +402,12 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
         click.echo("\n".join(nothing_lines(result)), err=True)
         click.get_current_context().exit(1)
     if not quiet:
-        click.echo("\n".join(_remarks(result, files[1])), err=True)
+        click.echo("\n".join(_size_remarks(result, files[1])), err=True)
     if not as_json:
         click.echo("".join(f"{file}\n" for file in files), nl=False)
 
 
-def _remarks(result: Sizing, best: Path) -> Iterator[str]:
+def _size_remarks(result: Sizing, best: Path) -> Iterator[str]:
     """What the safeties go by, what the columns are, what was left out, and how to go on from the spec of the best."""
     rating = result.task.rating
     yield from basis_lines(rating, result.task.load.application_factor, result.assumed)

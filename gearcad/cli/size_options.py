@@ -1,4 +1,4 @@
-"""What `gearcad size` asks for, and the task that it makes."""
+"""Options of the command `size`, and the task that they make."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from gearcad.errors import ParameterError, require_number
+from gearcad.core.errors import ParameterError, require_number
 
 if TYPE_CHECKING:
     from gearcad.load import Load
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from gearcad.rating.options import RatingOptions
     from gearcad.sizing import SizeTask
 
-__all__ = ["ends_of", "load_of", "material_of", "modules_of", "rating_of", "size_options", "task_of", "values_of"]
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -102,8 +101,8 @@ def task_of(given: Mapping[str, Any]) -> SizeTask:
 
 
 def _task(given: Mapping[str, Any]) -> SizeTask:
-    from gearcad.geometry.basic_rack import NAMED_RACKS
-    from gearcad.per_gear import PerGear
+    from gearcad.core.records import PerGear
+    from gearcad.geometry.gear_parts import NAMED_RACKS
     from gearcad.sizing import SizeTask
 
     for needed, what in (("ratio", "teeth of the wheel over those of the pinion"), ("material", 'such as "Eh MQ"')):
@@ -161,8 +160,8 @@ def material_of(option: str, name: str, hardness: float | None) -> Material:
 
 
 def rating_of(given: Mapping[str, Any]) -> RatingOptions:
+    from gearcad.core.quantities import schema_of
     from gearcad.rating.options import RatingOptions
-    from gearcad.schema import schema_of
 
     fields: dict[str, Any] = {field: given[name] for name, field in _OF_RATING.items() if given[name] is not None}
     for text in given["rating"]:

@@ -1,36 +1,24 @@
-"""Decks of CalculiX: a loaded pair, sections or solids, as the text of one job that `ccx` runs as it is.
+"""Decks of CalculiX: the text of a job that ccx runs as it is, its results, and their difference from the check's.
 
 Lengths are in mm, forces in N, stresses in MPa; torques in N mm, in the deck only.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 import numpy as np
 
-from gearcad.arrays import Floats, Wholes
+from gearcad.core.errors import SolverError
+from gearcad.core.records import Floats, PerGear, Role, Wholes
 from gearcad.material import Material
 from gearcad.meshing.bodies import ElementMesh
-from gearcad.meshing.files.inp import element_type, write_elements, write_node_set, write_nodes, write_surface
-from gearcad.per_gear import PerGear, Role
-
-__all__ = [
-    "REFERENCE",
-    "Flanks",
-    "LoadedPairDeck",
-    "number",
-    "write_contact",
-    "write_heading",
-    "write_held",
-    "write_material",
-    "write_reference",
-    "write_turned",
-]
-
+from gearcad.meshing.files import element_type, write_elements, write_node_set, write_nodes, write_surface
 
 REFERENCE = "reference"
 """The node that carries the torque: its first degree of freedom is the angle (rad) by which the pinion turns."""
@@ -171,3 +159,115 @@ def write_contact(file: TextIO, flanks: Iterable[Flanks], stiffness: float) -> N
     file.write(f"*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{number(stiffness)}\n")
     for each in flanks:
         file.write(f"*CONTACT PAIR, INTERACTION={_INTERACTION}, TYPE=SURFACE TO SURFACE\n{each.pinion}, {each.wheel}\n")
+
+
+_COLUMN = 12
+"""Characters of a number in a .frd, from the thirteenth of a line on."""
+
+_SETS = re.compile(r"statistics for slave set (\S+), master set")
+
+_ROWS = re.compile(r"[-+ 0-9.EeNna]+")
+"""Numbers only, NaN among them: where nothing touches."""
+
+
+@dataclass(frozen=True)
+class PrintedContact:
+    """What a .dat holds of a loaded pair: how far the pinion turned (rad), and by the names of the pinion's flanks the normal
+    force (N, 0 where nothing touches) and the greatest pressure at a point of integration (MPa).
+    """
+
+    turn: float
+    forces: Mapping[str, float]
+    pressures: Mapping[str, float]
+
+    @property
+    def shares(self) -> dict[str, float]:
+        """Shares of the load by the names of the pinion's flanks."""
+        total = math.fsum(self.forces.values())
+        return {name: force / total for name, force in self.forces.items()}
+
+
+def printed_contact(path: Path, mesh: ElementMesh, flanks: Iterable[str]) -> PrintedContact:
+    """Read the .dat of a loaded pair; `flanks` are the pinion's sides that may touch. Raises SolverError if it is not whole."""
+    turn, forces, stresses = math.nan, dict.fromkeys(flanks, 0.0), np.empty((0, 3))
+    sides = {name.upper(): name for name in forces}
+    for heading, rows in _blocks(path):
+        if heading.startswith("displacements"):
+            turn = rows[-1][1]
+        elif heading.startswith("contact stress"):
+            stresses = np.array([row[:3] for row in rows])
+        elif found := _SETS.match(heading):
+            force = -rows[-1][1] if len(rows) > 3 else math.nan
+            forces[sides[found[1]]] = force if math.isfinite(force) else 0.0
+    if not math.isfinite(turn) or not len(stresses):
+        raise SolverError(f"{path.name} has no loaded pair: did CalculiX come to an end?")
+    owners = {name: np.isin(stresses[:, 0], mesh.sides[name].elements + 1) for name in forces}
+    return PrintedContact(turn, forces, {name: float(stresses[own, 2].max(initial=0.0)) for name, own in owners.items()})
+
+
+def _blocks(path: Path) -> Iterator[tuple[str, list[list[float]]]]:
+    """Headings of a .dat, and the lines of numbers below each; words between those of one statistic are passed over."""
+    heading, rows = "", list[list[float]]()
+    with path.open(encoding="latin-1") as lines:
+        for text in map(str.strip, lines):
+            if text and _ROWS.fullmatch(text):
+                rows.append([float(word) for word in text.split()])
+            elif " and time " in text or " for set " in text:
+                if heading:
+                    yield heading, rows
+                heading, rows = text, []
+    yield heading, rows
+
+
+def displacements(path: Path, nodes: int) -> Floats:
+    """Displacements (nodes, 3) in mm of the first nodes, from the last increment in a .frd. Raises SolverError."""
+    found, inside = np.full((nodes, 3), np.nan), False
+    with path.open(encoding="latin-1") as lines:
+        for line in lines:
+            if line.startswith(" -4"):
+                inside = line[5:9] == "DISP"
+            elif inside and line.startswith(" -1") and (node := int(line[3:13])) <= nodes:
+                found[node - 1] = [float(line[at : at + _COLUMN]) for at in range(13, 13 + 3 * _COLUMN, _COLUMN)]
+    if np.isnan(found).any():
+        raise SolverError(f"{path.name} has not the displacements of all nodes: did CalculiX come to an end?")
+    return found
+
+
+@dataclass(frozen=True)
+class Deviations:
+    """In % of our own figures; the load share in % of the load, of the pair of teeth where it is farthest off.
+
+    That of the pressure is the greatest of all pairs of teeth away from edges, None if there are none.
+    """
+
+    transmission_error: float
+    load_share: float
+    root_stress: PerGear[float]
+    contact_pressure: float | None
+
+
+def deviations(expected: dict[str, Any], found: dict[str, Any]) -> Deviations:
+    """What `found` differs by from `expected`, as a deck has them both."""
+    theirs = {pair["pinion"]: pair for pair in found["pairs"]}
+    ours = {pair["pinion"]: pair for pair in expected["pairs"]}
+    shares = [_value(theirs, name, "load_share") - _value(ours, name, "load_share") for name in theirs | ours]
+    pressures = [
+        _relative(_value(theirs, name, "contact_pressure"), pair["contact_pressure"])
+        for name, pair in ours.items()
+        if pair["contact_pressure"]
+    ]
+    roots = PerGear.each(lambda role: _root(found, expected, role))
+    error = _relative(found["transmission_error"], expected["transmission_error"])
+    return Deviations(error, 100 * max(shares, key=abs), roots, max(pressures, key=abs, default=None))
+
+
+def _value(pairs: dict[str, Any], name: str, figure: str) -> float:
+    return float(pairs[name][figure]) if name in pairs else 0.0
+
+
+def _root(found: dict[str, Any], expected: dict[str, Any], role: Role) -> float:
+    return _relative(found["root_stress"][role.value], expected["root_stress"][role.value])
+
+
+def _relative(value: float, reference: float) -> float:
+    return 100 * (value / reference - 1)

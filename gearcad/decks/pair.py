@@ -1,4 +1,4 @@
-"""Loaded pairs as decks: what plane and solid gears have in common."""
+"""Loaded pairs, and single loaded gears, as decks: what plane and solid gears have in common."""
 
 from __future__ import annotations
 
@@ -7,25 +7,118 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TextIO
 
 import numpy as np
 
-from gearcad.arrays import Floats, Wholes
 from gearcad.check.task import CheckTask
+from gearcad.contact.shared.bodies import Cuts, Hold
 from gearcad.contact.shared.loaded import Cycle, LoadedPosition, PairContact
-from gearcad.decks.calculix import Flanks, LoadedPairDeck
-from gearcad.decks.results import displacements, printed_contact
-from gearcad.decks.treatable import require_treatable
-from gearcad.decks.words import pair_words
+from gearcad.core.errors import GeometryError, ParameterError, format_number
+from gearcad.core.records import Floats, PerGear, Role, Wholes
+from gearcad.decks.calculix import (
+    HELD,
+    Flanks,
+    LoadedPairDeck,
+    displacements,
+    printed_contact,
+    write_heading,
+    write_held,
+    write_material,
+)
 from gearcad.geometry import GearPair
 from gearcad.meshing.bodies import ElementMesh
-from gearcad.meshing.bodies.contact_zone import ContactZone
-from gearcad.meshing.bodies.names import BORE, RIM
-from gearcad.meshing.bodies.posed import posed, poses
-from gearcad.per_gear import PerGear, Role
+from gearcad.meshing.bodies.body_mesh import posed, poses
+from gearcad.meshing.bodies.element_mesh import BORE, RIM
+from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.files import element_type, write_elements, write_nodes
 
-__all__ = ["PairDeck", "PairDecks", "held_nodes"]
+_PAIR = """\
+A pair of gears in mesh at the roll angle {roll_angle:.6g} deg, the pinion pressed against the wheel by {torque:.6g} N m.
+CalculiX runs this deck as it is:  ccx NAME  for NAME.inp
+
+The pinion turns about the z axis; the wheel's axis is at x = {distance:.10g} mm. All of each bore, or of an internal gear's
+rim, is held, and the cuts of bodies of fewer teeth: the wheel's stand, the pinion's turn with the node "reference", whose
+first degree of freedom is the angle in rad. The flanks of pairs of teeth that may touch are surfaces; pressure is a stiffness
+times overlap.
+
+The pinion stands turned by {approach_in_mesh:.6g} um along the line of action already, so that there is contact in the first
+iteration. The transmission error is that and the angle times the base radius, {base_radius:.10g} mm.
+
+gearcad's own check of the same gears: transmission error {transmission_error:.5g} um, angle {reference_turn:.6e} rad,
+greatest tension along the fillets, pinion {root_pinion:.5g} MPa, wheel {root_wheel:.5g} MPa."""
+
+_TOOTH = """\
+The {gear} under the loads that gearcad's own check has found on its flanks at the roll angle {roll_angle:.6g} deg,
+with {torque:.6g} N m on the pinion. CalculiX runs this deck as it is:  ccx NAME  for NAME.inp
+
+Tooth 0 is on the x axis; all of the bore, or of an internal gear's rim, is held, and the cuts of a body of fewer teeth. {laid}
+
+Greatest tension along the fillets by gearcad's own check: {root_stress:.6g} MPa."""
+
+
+_LAID_ON_EDGES = """\
+The force on each tooth
+is laid on the edges of its flank as uniform pressures, which add up to it."""
+
+_LAID_ON_NODES = """\
+The loads along the
+lines of contact are forces on nodes of the flanks, shared as the shape functions of their faces do."""
+
+
+def pair_words(expected: Mapping[str, Any], *, distance: float, base_radius: float) -> list[str]:
+    """Those of a pair; centre distance and base radius in mm."""
+    roots = {f"root_{gear}": stress for gear, stress in expected["root_stress"].items()}
+    return _PAIR.format(**expected, **roots, distance=distance, base_radius=base_radius).splitlines()
+
+
+def tooth_words(expected: Mapping[str, Any], *, solid: bool) -> list[str]:
+    """Those of one gear."""
+    return _TOOTH.format(**expected, laid=_LAID_ON_NODES if solid else _LAID_ON_EDGES).splitlines()
+
+
+_UNTILTED = ("misalignment", "misalignment_across")
+_PITCH_ERRORS = ("pinion_pitch_error", "wheel_pitch_error")
+
+
+def require_treatable(task: CheckTask) -> None:
+    """Raise ParameterError or GeometryError for supports, cuts and mountings that decks do not have."""
+    _require_one_elasticity(task)
+    _require_rigid_hubs(task)
+    for name in (*_UNTILTED, *_PITCH_ERRORS):
+        if value := getattr(task.mounting, name):
+            raise ParameterError(f"mounting.{name}", value, "must be 0 for a deck: it has the gears as they are drawn", "µm")
+
+
+def _require_one_elasticity(task: CheckTask) -> None:
+    pinion, wheel = task.materials
+    for name, unit in (("youngs_modulus", "MPa"), ("poisson_ratio", "")):
+        if (own := getattr(wheel, name)) != (other := getattr(pinion, name)):
+            permitted = f"must be that of the pinion, {format_number(other)}, for a deck, which has one elastic material"
+            raise ParameterError(f"wheel.material.{name}", own, permitted, unit)
+
+
+def _require_rigid_hubs(task: CheckTask) -> None:
+    body = task.body
+    for role, support in body.supports(task.pair).items():
+        if support.hold is not Hold.RIGID:
+            held = "rim" if task.pair.gears.pick(role).internal else "bore"
+            permitted = f'must be "{Hold.RIGID.value}" for a deck, which holds the {held} all round'
+            raise ParameterError(f"check.{role.value}_support", support.hold.value, permitted)
+        if body.teeth_held(task.pair.gears.pick(role)) is not None and body.cuts is not Cuts.FIXED:
+            raise ParameterError("check.cuts", body.cuts.value, f'must be "{Cuts.FIXED.value}" for a deck')
+
+
+def require_same_flanks(task: CheckTask) -> None:
+    """Raise GeometryError where flanks are modified along the face, and gears do not meet in the middle of theirs.
+
+    A plane deck is of the sections in the middle of both gears, our own check of those in the middle of the common width.
+    """
+    middle = task.pair.common_width.offset
+    for offset, gear in zip((middle, middle - task.pair.axial_offset), task.pair.gears, strict=True):
+        if gear.modification.along_face and offset:
+            permitted = "must be 0 for a plane deck of flanks that are modified along the face width"
+            raise GeometryError("pair.axial_offset", task.pair.axial_offset, permitted, "mm")
 
 
 _STIFFNESS = 10.0
@@ -211,3 +304,56 @@ def held_nodes(mesh: ElementMesh, gear: str = "") -> Wholes:
     """
     names = (f"{gear}{side}" for side in (BORE, RIM, "cut_behind", "cut_ahead"))
     return np.unique(np.concatenate([mesh.nodes(name) for name in names if name in mesh.sides]))
+
+
+@dataclass(frozen=True)
+class ToothDeck(ABC):
+    """A deck of one gear, and what our own check finds of it.
+
+    The gear stands in coordinates of its own; its sides have its name before theirs, as those of a pair.
+    """
+
+    decks: PairDecks
+    role: Role
+    mesh: ElementMesh
+    position: LoadedPosition[PairContact]
+
+    @abstractmethod
+    def write_loads(self, file: TextIO) -> None:
+        """The loads, as cards of the step."""
+
+    @property
+    def expected(self) -> dict[str, Any]:
+        """Figures of our own check to compare with: the greatest tension along the fillets (MPa), and forces (N) on flanks."""
+        width = self.decks.width or 1.0
+        return {
+            "gear": self.role.value,
+            "roll_angle": self.position.roll_angle,
+            "torque": self.decks.task.torque,
+            "body": self.decks.task.body.describe(self.decks.pair)[self.role.value],
+            "forces": {self._flank(contact): contact.force * width for contact in self.position.contacts},
+            "root_stress": self.position.tension.pick(self.role).stress,
+        }
+
+    def found(self, job: Path) -> dict[str, Any]:
+        """The same root stress as CalculiX has left it in the files of a job, named without suffix. Raises SolverError."""
+        moved = displacements(job.with_name(f"{job.name}.frd"), len(self.mesh.points))
+        teeth = [self.decks.tooth(self.role, contact.tooth) for contact in self.position.contacts]
+        return {"root_stress": max(self.decks.root_tension(self.mesh, moved, self.role, tooth, 0.0) for tooth in teeth)}
+
+    def write(self, path: Path) -> None:
+        """Write the deck; `ccx` wants a name that ends with .inp."""
+        held = HELD.format(self.role.value)
+        with path.open("w", encoding="ascii", newline="\n") as file:
+            write_heading(file, tooth_words(self.expected, solid=self.decks.solid))
+            write_nodes(file, self.mesh.points)
+            write_elements(file, self.mesh, element_type(self.mesh.element))
+            write_held(file, self.role, held_nodes(self.mesh, f"{self.role.value}_"))
+            write_material(file, self.decks.task.materials.pick(self.role), self.mesh.parts, self.decks.width)
+            file.write(f"*BOUNDARY\n{held}, 1, {self.mesh.element.shape.dimension}\n*STEP\n*STATIC\n")
+            self.write_loads(file)
+            file.write("*NODE FILE, NSET=nodes\nU\n*EL FILE\nS\n")
+            file.write(f"*NODE PRINT, NSET={held}, TOTALS=ONLY\nRF\n*END STEP\n")
+
+    def _flank(self, contact: PairContact) -> str:
+        return self.decks.side(self.role, self.decks.tooth(self.role, contact.tooth), "flank")

@@ -1,4 +1,4 @@
-"""A check in the plane as decks: both sections in triangles that are fine where our own solution has contact."""
+"""Decks of a check in the plane: both sections, or one section under the pressures that the check has found."""
 
 from __future__ import annotations
 
@@ -6,29 +6,25 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import ClassVar, TextIO
 
 import numpy as np
 
-from gearcad.arrays import Floats
-from gearcad.check.plane.run import plane_model
-from gearcad.contact.plane.contact import ContactSolution
-from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.elasticity import Plane
-from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
-from gearcad.decks.pair import PairDecks
-from gearcad.decks.treatable import require_same_flanks
-from gearcad.errors import ParameterError
-from gearcad.geometry.limits import at_least
-from gearcad.meshing.bodies import Element, ElementMesh
-from gearcad.meshing.bodies.contact_zone import ContactZone
+from gearcad.check.run import plane_model
+from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
+from gearcad.contact.plane.pair import ContactSolution
+from gearcad.contact.plane.sector import Plane
+from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, LoadedFlank
+from gearcad.core.errors import ParameterError, at_least
+from gearcad.core.records import Floats, Role
+from gearcad.decks.calculix import number
+from gearcad.decks.pair import PairDecks, ToothDeck, require_same_flanks
+from gearcad.meshing.bodies import Element, ElementMesh, Faces
+from gearcad.meshing.bodies.element_mesh import joined
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.section import MeshSizes
-from gearcad.meshing.section.shapes import GAUSS, edge_slopes
-from gearcad.per_gear import Role
-
-__all__ = ["PLANE_SIZES", "PlaneDecks"]
-
+from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.outline import MeshSizes
+from gearcad.meshing.quads import GAUSS, edge_slopes
 
 PLANE_SIZES = MeshSizes(flank=0.5, corner=0.2, fillet=0.05, outline=0.5, growth=0.4, fillet_turn=5.0)
 """Edges away from the contacts. Root stresses are then within 0.3 %; of a ring, whose fillets are tight, within 0.6 % of the
@@ -122,3 +118,47 @@ class PlaneDecks(PairDecks):
         rise = own.imag * self.cycle.model.bodies.pick(role).flank.upward
         at_root = np.degrees(np.arctan2(rise, np.abs(own.real))) >= LEAST_TANGENT_ANGLE
         return float(stress[at_root].max())
+
+
+@dataclass(frozen=True)
+class PlaneToothDeck(ToothDeck):
+    """Pressures (n,) in MPa on sides of elements of a section."""
+
+    faces: Faces
+    pressures: Floats
+
+    def write_loads(self, file: TextIO) -> None:
+        """Pressures on edges."""
+        file.write("*DLOAD\n")
+        for element, side, pressure in zip(self.faces.elements, self.faces.sides, self.pressures, strict=True):
+            file.write(f"{element + 1}, P{side + 1}, {number(pressure)}\n")
+
+
+def plane_tooth_deck(decks: PlaneDecks, roll_angle: float, role: Role) -> PlaneToothDeck:
+    """A gear of the pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
+    position = decks.cycle.solve(roll_angle)
+    mesh = joined({role.value: decks.mesh(role, decks.zones(roll_angle, role))})
+    flank = decks.cycle.model.bodies.pick(role).flank
+    loaded, pressures = list[Faces](), list[Floats]()
+    for contact in position.contacts:
+        name = decks.side(role, decks.tooth(role, contact.tooth), "flank")
+        laid = _laid(mesh, name, contact, role, flank)
+        loaded.append(Faces(mesh.sides[name].elements[laid > 0], mesh.sides[name].sides[laid > 0]))
+        pressures.append(laid[laid > 0])
+    faces = Faces(np.concatenate([each.elements for each in loaded]), np.concatenate([each.sides for each in loaded]))
+    return PlaneToothDeck(decks, role, mesh, position, faces, np.concatenate(pressures))
+
+
+def _laid(mesh: ElementMesh, flank: str, contact: PlanePairContact, role: Role, exact: LoadedFlank) -> Floats:
+    """Pressures (n,) in MPa on the edges of a flank: the forces of the cells of contact on each, over its chord."""
+    cells = contact.pair.cells
+    lengths = cells.lengths.pick(role)
+    ends = np.interp(cells.place[0] - cells.width / 2 + cells.width * np.arange(len(lengths) + 1), cells.place, lengths)
+    ends[[0, -1]] += lengths[[0, -1]] - ends[[1, -2]]
+    passed = np.r_[0.0, np.cumsum(contact.pressures)] * cells.width
+    order = np.argsort(ends)
+    points = mesh.points[mesh.face_cells(flank)[:, :2], :2]
+    at = exact.roll_lengths(np.hypot(points[..., 0], points[..., 1]))
+    force = np.abs(np.diff(np.interp(at, ends[order], passed[order]), axis=1)[:, 0])
+    result: Floats = force / np.hypot(*(points[:, 1] - points[:, 0]).T)
+    return result

@@ -1,4 +1,4 @@
-"""Loaded pairs of solid gears as decks: hexahedra that are fine along the lines of contact."""
+"""Decks of a check of solid bodies: hexahedra, fine along the lines of contact; root stresses from displacements."""
 
 from __future__ import annotations
 
@@ -6,29 +6,84 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar
+from typing import ClassVar, TextIO
 
 import numpy as np
 
-from gearcad.arrays import Floats
 from gearcad.check.options import Model
-from gearcad.check.solid.run import solid_model
+from gearcad.check.run import solid_model
 from gearcad.check.task import CheckTask
-from gearcad.contact.solid.contact import SolidPairContact
-from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, roll_lengths
+from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact
+from gearcad.contact.solid.flank import Places
 from gearcad.contact.solid.pair import teeth_moved
-from gearcad.decks.pair import PairDecks
-from gearcad.decks.solid_root import Fillet, root_tension
-from gearcad.errors import ParameterError
-from gearcad.geometry.helix import twist
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Floats, Role, Wholes
+from gearcad.decks.calculix import number
+from gearcad.decks.pair import PairDecks, ToothDeck
+from gearcad.geometry.gear_data import twist
+from gearcad.material import Material
 from gearcad.meshing.bodies import Element, ElementMesh
 from gearcad.meshing.bodies.body_mesh import mesh_body
-from gearcad.meshing.bodies.contact_zone import ContactZone
-from gearcad.meshing.section import MeshSizes
-from gearcad.meshing.section.swept import layer_planes
-from gearcad.per_gear import Role
+from gearcad.meshing.bodies.element_mesh import joined, rises, shape_slopes, shape_values
+from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.outline import MeshSizes
+from gearcad.meshing.quads import GAUSS
+from gearcad.meshing.sector import layer_planes
 
-__all__ = ["SOLID_SIZES", "SolidDecks", "solid_task"]
+
+@dataclass(frozen=True)
+class Fillet:
+    """A fillet over the whole face of a posed body of hexahedra. The middle of its tooth is at the angle `turn` (rad) about the
+    gear's axis where the gear begins, and turns by `rate` (rad/mm). `upward` is 1, or -1 for a ring's tooth, which points
+    inwards.
+    """
+
+    mesh: ElementMesh
+    name: str
+    turn: float
+    rate: float
+    upward: int = 1
+
+
+def root_tension(fillet: Fillet, moved: Floats, material: Material) -> float:
+    """Greatest principal tension (MPa) of a fillet by displacements (n, 3) in mm of the nodes of its mesh.
+
+    Half-way along each edge of the profile, at the Gauss points over the face; from a tangent angle on, as our own check.
+    """
+    nodes = fillet.mesh.face_cells(fillet.name)
+    lowest = float(fillet.mesh.points[nodes, 2].min())
+    face, places = fillet.mesh.element.shape.face, np.array([[0.0, -GAUSS], [0.0, GAUSS]])
+    heights = np.einsum("qa,na->qn", shape_values(face, places), fillet.mesh.points[nodes, 2]).ravel() - lowest
+    by_place = shape_slopes(face, places)
+    bases, slopes = (np.einsum("qda,nac->dqnc", by_place, of[nodes]).reshape(2, -1, 3) for of in (fillet.mesh.points, moved))
+    at_root = _tangent_angles(fillet, bases[0], heights) >= LEAST_TANGENT_ANGLE
+    return float(_greater(bases, slopes, material)[at_root].max())
+
+
+def _tangent_angles(fillet: Fillet, along: Floats, z: Floats) -> Floats:
+    """Angles (n,) in degrees between the profile's tangents (n, 3) at heights (n,) of the gear and the middle of the tooth."""
+    own = (along[:, 0] + 1j * along[:, 1]) * np.exp(-1j * (fillet.turn + fillet.rate * z))
+    result: Floats = np.degrees(np.arctan2(fillet.upward * own.imag, np.abs(own.real)))
+    return result
+
+
+def _greater(bases: Floats, slopes: Floats, material: Material) -> Floats:
+    """Greater principal stresses (n,) in MPa of a free surface: `slopes` of displacements along `bases`, (2, n, 3) each."""
+    length = np.linalg.norm(bases[0], axis=1)
+    first = bases[0] / length[:, None]
+    lean = (bases[1] * first).sum(1)
+    upright = bases[1] - lean[:, None] * first
+    height = np.linalg.norm(upright, axis=1)
+    second = upright / height[:, None]
+    by_first = slopes[0] / length[:, None]
+    by_second = (slopes[1] - lean[:, None] * by_first) / height[:, None]
+    along, axial = (by_first * first).sum(1), (by_second * second).sum(1)
+    shear = (by_first * second).sum(1) + (by_second * first).sum(1)
+    e, nu = material.youngs_modulus, material.poisson_ratio
+    mean, apart = e / (1 - nu) * (along + axial) / 2, e / (1 + nu) * (along - axial) / 2
+    result: Floats = mean + np.hypot(apart, e / (2 * (1 + nu)) * shear)
+    return result
 
 
 SOLID_SIZES = MeshSizes(flank=0.5, corner=0.3, fillet=0.11, outline=0.8, cut=0.7, rim=4.0, growth=0.8)
@@ -150,3 +205,63 @@ class SolidDecks(PairDecks):
 def _beyond(low: float, high: float, thickness: float) -> Floats:
     """Planes (n,) from a height to another; one if there is nothing between them."""
     return np.linspace(low, high, math.ceil((high - low) / thickness - 1e-6) + 1)
+
+
+_MIRRORED = np.array([1.0, -1.0, 1.0])
+"""Mirrors vectors: our solution has every loaded flank on the side y > 0 of its tooth."""
+
+
+@dataclass(frozen=True)
+class SolidToothDeck(ToothDeck):
+    """Forces (n, 3) in N on `nodes` (n,) of a body."""
+
+    nodes: Wholes
+    forces: Floats
+
+    def write_loads(self, file: TextIO) -> None:
+        """Forces on nodes."""
+        file.write("*CLOAD\n")
+        for node, force in zip(self.nodes.tolist(), self.forces.tolist(), strict=True):
+            file.writelines(f"{node + 1}, {axis}, {number(part)}\n" for axis, part in enumerate(force, 1) if part)
+
+
+def solid_tooth_deck(decks: SolidDecks, roll_angle: float, role: Role) -> SolidToothDeck:
+    """A gear at a roll angle (deg), in coordinates of its own. Raises SolverError and GeometryError."""
+    position, gear = decks.cycle.solve(roll_angle), decks.pair.gears.pick(role)
+    mesh = joined({role.value: decks.mesh(role, {})})
+    exact, forces = decks.cycle.model.bodies.pick(role).flank, np.zeros_like(mesh.points)
+    for contact in position.contacts:
+        tooth, places = decks.tooth(role, contact.tooth), contact.line.places.pick(role)
+        pressing = contact.forces[:, None] * exact.inward(places)
+        if not rises(gear, decks.flank_side):
+            pressing = pressing * _MIRRORED
+        turned = _turned(pressing, 2 * math.pi * tooth / gear.tooth_count)
+        _lay(forces, mesh, decks.side(role, tooth, "flank"), exact.base_radius, places, turned)
+    nodes = np.flatnonzero(forces.any(axis=1))
+    return SolidToothDeck(decks, role, mesh, position, nodes, forces[nodes])
+
+
+def _lay(forces: Floats, mesh: ElementMesh, flank: str, base_radius: float, places: Places, pressing: Floats) -> None:
+    """Add forces `pressing` (n, 3) in N at places of a flank to those of the nodes (nodes, 3), as shape functions share them.
+
+    On a face of a swept flank the height goes with one local coordinate, the square of the roll length with the other: nodes
+    between vertices are half-way in arc length.
+    """
+    nodes = mesh.face_cells(flank)
+    corners = mesh.points[nodes[:, :4]]
+    squares = roll_lengths(np.hypot(corners[..., 0], corners[..., 1]), base_radius) ** 2
+    along, up = (places[0] ** 2)[:, None], places[1][:, None]
+    across = 2 * (along - squares[:, 0]) / (squares[:, 1] - squares[:, 0]) - 1
+    above = 2 * (up - corners[:, 0, 2]) / (corners[:, 3, 2] - corners[:, 0, 2]) - 1
+    face = np.argmin(np.maximum(np.abs(across), np.abs(above)), axis=1)
+    every = np.arange(len(face))
+    local = np.clip(np.stack([across[every, face], above[every, face]], -1), -1, 1)
+    shares = shape_values(mesh.element.shape.face, local)
+    np.add.at(forces, nodes[face], shares[:, :, None] * pressing[:, None])
+
+
+def _turned(vectors: Floats, angle: float) -> Floats:
+    """Vectors (n, 3) turned about the z axis by an angle (rad)."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    result: Floats = vectors @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    return result

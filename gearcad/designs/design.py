@@ -1,29 +1,262 @@
-"""Design: what one spec describes, whatever its kind - each kind has a module of its own in `kinds`."""
+"""Design: what one spec describes, whatever its kind; the TOML text of a spec with the places of its keys."""
 
 from __future__ import annotations
 
+import re
+import tomllib
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
-from enum import Enum
+from pathlib import Path
 from typing import Any, ClassVar, Protocol, Self
 
-from gearcad.designs.files import Where
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError, SpecError, format_number, shown, shown_path
+from gearcad.core.output import file_bytes
+from gearcad.core.records import Notice, concise, texts
+from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear
-from gearcad.notice import Notice, texts
-from gearcad.reprs import concise
 from gearcad.version import __version__
 
-__all__ = [
-    "LONGEST_NAME",
-    "LONGEST_NAME_IN_BYTES",
-    "Described",
-    "Design",
-    "DesignKind",
-    "kinds_in_words",
-    "require_plain_name",
-]
+_PART = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
+_DOTTED = rf"{_PART}(?:\s*\.\s*{_PART})*"
+_HEADER = re.compile(rf"\s*\[\[?\s*({_DOTTED})\s*\]\]?")
+_ASSIGNMENT = re.compile(rf"\s*({_DOTTED})\s*=\s*(.*)")
+_INLINE = re.compile(rf"[{{,]\s*({_DOTTED})\s*=")
+_MULTILINE_QUOTES = ('"""', "'''")
+
+
+def _plain(dotted: str) -> str:
+    """`a . "b"` as `a.b`."""
+    return ".".join(part.strip("\"'") for part in re.findall(_PART, dotted))
+
+
+def find_lines(text: str) -> dict[str, int]:
+    """Line number (from 1) of every table header and key, under its full dotted name.
+
+    Follows headers, dotted keys and inline tables on one line, counts tables in lists from 0 (`mesh[0].teeth`); skips texts
+    over several lines. The first mention wins.
+    The text is taken to be valid TOML: what a stranger layout hides has no line, which only costs the message its number.
+    """
+    lines: dict[str, int] = {}
+    lists: Counter[str] = Counter()
+    table, closing = "", ""
+    for number, line in enumerate(text.split("\n"), start=1):
+        if closing:
+            closing = "" if closing in line else closing
+            continue
+        if header := _HEADER.match(line):
+            table = _inside(_plain(header[1]), lists)
+            lines.setdefault(table, number)
+            if line.lstrip().startswith("[["):
+                lists[table] += 1
+                table = f"{table}[{lists[table] - 1}]"
+                lines.setdefault(table, number)
+        elif assignment := _ASSIGNMENT.match(line):
+            key = ".".join(filter(None, (table, _plain(assignment[1]))))
+            lines.setdefault(key, number)
+            value = assignment[2]
+            if value.startswith("{"):
+                for inner in _INLINE.finditer(value):
+                    lines.setdefault(f"{key}.{_plain(inner[1])}", number)
+            closing = next((quotes for quotes in _MULTILINE_QUOTES if value.count(quotes) == 1), "")
+    return lines
+
+
+def _inside(table: str, lists: Counter[str]) -> str:
+    """A table's name, with the number of the table in a list that it stands in: `mesh[0].pair` below [[mesh]]."""
+    for name in sorted(lists, key=len, reverse=True):
+        if table.startswith(f"{name}."):
+            return f"{name}[{lists[name] - 1}]{table.removeprefix(name)}"
+    return table
+
+
+def nearest_line(lines: dict[str, int], key: str) -> int | None:
+    """Line of `key`, else of the innermost table around it that has one."""
+    while key not in lines and "." in key:
+        key = key.rpartition(".")[0]
+    return lines.get(key)
+
+
+def explain_syntax(error: tomllib.TOMLDecodeError, text: str) -> str:
+    """The end of the message about broken TOML: place and reason, and the commonest mistake by its name."""
+    place = re.search(r" \(at line (\d+), column (\d+)\)$", str(error))
+    if place is None:
+        return f": is not valid TOML: {error}"
+    hint = ""
+    if comma := re.search(r"=\s*([-+]?\d+),(\d+)", text.split("\n")[int(place[1]) - 1]):
+        hint = f"; write {comma[1]}.{comma[2]} with a point"
+    return f" line {place[1]}, column {place[2]}: is not valid TOML: {str(error)[: place.start()]}{hint}"
+
+
+WORKBOOKS = (".xlsx", ".xlsm")
+UNREADABLE = (".xls", ".xlsb", ".ods", ".numbers")
+"""Tables that have to be saved as something else."""
+
+_TEXTS = (".csv", ".tsv")
+"""Names of tables that are texts; a text under any other name than a spec's is read as one too."""
+
+
+def is_table_name(path: Path) -> bool:
+    """True for a file that is named like a design table."""
+    return path.suffix.lower() in (*WORKBOOKS, *UNREADABLE, *_TEXTS)
+
+
+def is_spec_name(path: Path) -> bool:
+    """True for a file that is named like a spec."""
+    return path.suffix.lower() == ".toml"
+
+
+_TEMPLATE = "drawing.template"
+"""What changes the title block of drawings."""
+
+_fence: ContextVar[Path | None] = ContextVar("the folder in which files must be", default=None)
+
+
+@contextmanager
+def files_only_in(folder: Path) -> Iterator[None]:
+    """What is read meanwhile by this thread names files in `folder` only, wherever links lead. Raises ParameterError."""
+    token = _fence.set(folder.resolve())
+    try:
+        yield
+    finally:
+        _fence.reset(token)
+
+
+def names_file(key: str) -> bool:
+    """Whether a text under a key is a file: a template, or the pair of a mesh, `mesh.NAME.pair`."""
+    table, _, rest = key.partition(".")
+    name, _, field = rest.rpartition(".")
+    return key == _TEMPLATE or (table == "mesh" and bool(name) and field == "pair")
+
+
+def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """The values with files, which are seen from `folder`, as they are found from here."""
+    return {key: _found(key, each, folder) if names_file(key) else each for key, each in values.items()}
+
+
+def find_named_files(tables: Mapping[str, Any], folder: Path) -> None:
+    """The same of the tables of a spec in `folder`, in place."""
+    train, drawing = tables.get("train"), tables.get("drawing")
+    meshes = train.get("mesh") if isinstance(train, Mapping) else None
+    named = [(f"train.mesh[{at}]", mesh, "pair") for at, mesh in enumerate(meshes)] if isinstance(meshes, list) else []
+    for where, table, key in (*named, ("drawing", drawing, "template")):
+        if isinstance(table, dict) and key in table:
+            table[key] = _found(f"{where}.{key}", table[key], folder)
+
+
+def _found(key: str, name: Any, folder: Path) -> Any:
+    """A name that no file can have is left as it is written: whoever reads the file refuses it."""
+    if not isinstance(name, str) or not name.strip() or "\0" in name:
+        return name
+    fence, found = _fence.get(), folder / name
+    if fence is not None and not _resolved(found).is_relative_to(fence):
+        raise ParameterError(key, name, "must be a file in the folder of the page")
+    return str(found)
+
+
+def _resolved(path: Path) -> Path:
+    """Where links lead; of a path that leads nowhere, what is outside of everything."""
+    try:
+        return path.resolve()
+    except (OSError, RuntimeError):  # a loop of links
+        return Path("/")
+
+
+Where = Callable[[str], str]
+"""Says where a key stands, such as `pair.toml line 7`, for the beginning of a message."""
+
+_DEEPEST = 50
+"""Levels of tables and lists in each other: no key of ours needs more than a few."""
+
+_MOST_WHOLE = 10**15
+
+
+def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
+    """The tables of a TOML spec as they are written, and what locates a key of theirs for messages. Raises SpecError.
+
+    Only the files that it names are named as they are found from here.
+    """
+    path, text = Path(path), spec_text(path)
+    try:
+        return tables_of_text(text, shown_path(path), path.parent)
+    except SpecError as error:
+        if isinstance(error.__cause__, tomllib.TOMLDecodeError):
+            _refuse_table(path)
+        raise
+
+
+def spec_text(path: Path | str) -> str:
+    """The text of a spec. Raises SpecError."""
+    path, file = Path(path), shown_path(path)
+    try:
+        return file_bytes(path).decode("utf-8-sig")
+    except UnicodeEncodeError as error:
+        raise SpecError(f"{shown(file)}: is no name that a file can have; give a spec file") from error
+    except OSError as error:
+        raise SpecError(
+            f"{file}: cannot be read ({error.strerror}); give a spec file, or make one with `gearcad new`"
+        ) from error
+    except UnicodeDecodeError as error:
+        _refuse_table(path)
+        raise SpecError(f"{file}: is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
+
+
+def tables_of_text(text: str, file: str, folder: Path) -> tuple[dict[str, Any], Where]:
+    """The same of a spec's text, which messages call `file`; files that it names are seen from `folder`. Raises SpecError."""
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise SpecError(f"{file}{explain_syntax(error, text)}") from error
+    except ValueError as error:
+        raise SpecError(f"{file}: has a whole number of thousands of digits; write a smaller one") from error
+    except RecursionError as error:
+        raise SpecError(f"{file}: has lists or tables in each other, hundreds deep") from error
+    lines = find_lines(text)
+
+    def where(key: str) -> str:
+        line = nearest_line(lines, key)
+        return f"{file} line {line}" if line else file
+
+    require_sane_tables(tables, where)
+    try:
+        find_named_files(tables, folder)
+    except ParameterError as error:
+        raise SpecError(f"{where(error.parameter)}: {error}", error.parameter) from error
+    return tables, where
+
+
+def _refuse_table(path: Path) -> None:
+    if is_table_name(path):
+        raise SpecError(f"{path}: is a design table, not the spec of one design; use `gearcad batch {path}`")
+
+
+def require_sane_tables(content: Any, where: Where, key: str = "", depth: int = 0) -> None:
+    """Raise SpecError for a whole number in the tables of a spec that a float could not hold, and for tables too deep."""
+    if depth > _DEEPEST:
+        raise SpecError(f"{where(key)}: {shown(key)}: has lists or tables in each other, more than {_DEEPEST} deep", key)
+    if isinstance(content, Mapping):
+        for name, inner in content.items():
+            require_sane_tables(inner, where, f"{key}.{name}" if key else name, depth + 1)
+    elif isinstance(content, list | tuple):
+        for number, inner in enumerate(content):
+            require_sane_tables(inner, where, f"{key}[{number}]" if isinstance(inner, Mapping) else key, depth + 1)
+    elif isinstance(content, int) and abs(content) > _MOST_WHOLE:
+        if _is_text(key):
+            raise SpecError(f"{where(key)}: {ParameterError(key, content, 'must be a text, in quotation marks')}", key)
+        raise SpecError(f"{where(key)}: {shown(key)}: must be a smaller number; this is {format_number(content)}", key)
+
+
+def _is_text(key: str) -> bool:
+    """Return whether a key of a spec takes texts only."""
+    from gearcad.designs.keys import FIELDS, field_of  # which import this module
+
+    table, _, own = key.partition(".")
+    field = field_of(table, own) if table in FIELDS else None
+    return own == "name" if field is None else field.text
+
 
 LONGEST_NAME = 100
 """Most characters of a design's name: it becomes a folder, and file systems stop at 255 bytes."""
@@ -32,22 +265,6 @@ LONGEST_NAME_IN_BYTES = 200
 """The same in UTF-8, with room for what the names of files beside the folder add."""
 
 _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM", "LPT") for number in range(1, 10))}
-
-
-class DesignKind(Enum):
-    """What a spec makes; the value names its module in `kinds`, and its main table: of a pinion and a rack that is [pair]."""
-
-    GEAR = "gear"
-    PAIR = "pair"
-    RACK = "rack"
-    RACK_PAIR = "rack_pair"
-    TRAIN = "train"
-    PLANETARY = "planetary"
-
-    @property
-    def words(self) -> str:
-        """As one says it to whoever never typed the value."""
-        return {"rack_pair": "rack and pinion", "planetary": "planetary train"}.get(self.value, self.value)
 
 
 class Described(Protocol):

@@ -1,53 +1,42 @@
-"""Which keys a spec may have, and what to say about one that it may not."""
+"""Keys that a spec may have, and messages for a key that is not permitted."""
 
 from __future__ import annotations
 
 import difflib
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
+from enum import Enum
 from importlib import import_module
 from typing import TYPE_CHECKING, Annotated
 
-from gearcad.designs.design import DesignKind
+from gearcad.core.quantities import FieldSchema, Words, parts_of, schema_of
+from gearcad.core.records import Role
+from gearcad.core.symbols import Symbol
 from gearcad.geometry import Gear, GearPair, Rack, RackPair, ShiftSplit
-from gearcad.geometry.diametral import MODULE_OR_PITCH
-from gearcad.geometry.tooth_allowance import THINNING_OR_ALLOWANCE
+from gearcad.geometry.fits import THINNING_OR_ALLOWANCE
+from gearcad.geometry.gear_parts import MODULE_OR_PITCH
 from gearcad.lazy_table import LazyTable
-from gearcad.per_gear import Role
-from gearcad.schema import FieldSchema, Words, parts_of, schema_of
-from gearcad.symbols import Symbol
+
+
+class DesignKind(Enum):
+    """What a spec makes; the value names its module in `kinds`, and its main table: of a pinion and a rack that is [pair]."""
+
+    GEAR = "gear"
+    PAIR = "pair"
+    RACK = "rack"
+    RACK_PAIR = "rack_pair"
+    TRAIN = "train"
+    PLANETARY = "planetary"
+
+    @property
+    def words(self) -> str:
+        """As one says it to whoever never typed the value."""
+        return {"rack_pair": "rack and pinion", "planetary": "planetary train"}.get(self.value, self.value)
+
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = [
-    "ALTERNATIVES",
-    "BESIDE",
-    "FIELDS",
-    "GEAR_FIELDS",
-    "KEYS",
-    "MAIN_TABLES",
-    "MOVED",
-    "OF_GEAR_PAIRS",
-    "OF_RACK_PAIRS",
-    "OF_SETS",
-    "OF_SPECS",
-    "PARTS",
-    "PARTS_BESIDE",
-    "SHARED",
-    "SPEEDS",
-    "Cell",
-    "Fields",
-    "explain_unknown_key",
-    "explain_unknown_table",
-    "field_of",
-    "fields_of_mates",
-    "flat_fields",
-    "names_of_materials",
-    "nearest_key",
-    "nearest_of",
-    "permitted_words",
-]
 
 _MOST_LISTED, _NEAREST, _MOST_KEYS = 12, 5, 30
 """Permitted keys that a line can bear, and of more those that it names; a table's keys that it bears at the most."""

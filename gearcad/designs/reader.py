@@ -1,4 +1,4 @@
-"""Spec files: TOML in, a Design out. The keys are the field names of the inputs; README.md and the templates show them.
+"""Reader of spec files and of starters, and an editor of specs that keeps comments and layout.
 
 The main table decides the kind: `[gear]`, `[pair]` with `[pinion]` and `[wheel]`, `[rack]`, which may have a `[pinion]` in its
 `[pair]`, `[train]`, or `[planetary]` with its gears. Whatever is not understood is
@@ -7,17 +7,29 @@ refused, so nothing is silently ignored.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import tomllib
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from operator import itemgetter
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
-from gearcad.designs.design import Design, DesignKind
-from gearcad.designs.files import Where, read_tables
-from gearcad.designs.keys import MAIN_TABLES, OF_SETS
-from gearcad.designs.kinds import type_of
-from gearcad.errors import as_path
+from gearcad.core.errors import ParameterError, SpecError, as_path
+from gearcad.core.runtime import templates
+from gearcad.designs.design import Design, Where, read_tables
+from gearcad.designs.keys import MAIN_TABLES, OF_SETS, Cell, DesignKind
 
-__all__ = ["design_from_tables", "design_from_values", "kind_of", "read_spec"]
+if TYPE_CHECKING:
+    from tomlkit import TOMLDocument
+    from tomlkit.container import Container
+    from tomlkit.items import AbstractTable, Item
+
+
+def type_of(kind: DesignKind) -> type[Design]:
+    """The class of a kind's designs; a train's is not imported for a gear."""
+    module = import_module("gearcad.designs")
+    name = "".join(word.capitalize() for word in kind.value.split("_"))
+    return cast("type[Design]", getattr(module, f"{name}Design"))
 
 
 def read_spec(path: Path | str) -> Design:
@@ -40,8 +52,7 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
 def design_from_values(values: Mapping[str, Any], kind: DesignKind, *, where: Where, default_name: str) -> Design:
     """The design that values under the keys of a design table describe. Raises SpecError."""
     if kind is DesignKind.TRAIN:
-        from gearcad.designs.kinds.train import TrainDesign
-        from gearcad.designs.train_values import tables_of
+        from gearcad.designs.train_designs import TrainDesign, tables_of
 
         tables, names = tables_of(values, where)
         return TrainDesign.read(tables, where, default_name, names)
@@ -65,3 +76,169 @@ def kind_of(tables: Mapping[str, Any]) -> DesignKind:
     if any(table in tables for table in OF_SETS) and "train" not in tables:
         return DesignKind.PLANETARY
     return next((kind for kind in reversed(DesignKind) if kind.value in tables), DesignKind.PAIR)
+
+
+_ALIASES = {
+    "gear": "spur",
+    "pair": "volvo-13-44",
+    "ring": "ring-22-70",
+    "planetary": "planetary-24-21-66",
+    "uhlir": "uhlir-19-23",
+}
+"""What a newcomer would ask for."""
+
+NO_DESIGNS = ("drawing_title", "measured")
+"""Starters that are no spec and no table of designs."""
+
+
+_NONE = ("drawing_words", "page_words")
+"""Templates that nobody begins with."""
+
+
+def _files() -> dict[str, Path]:
+    return {
+        path.stem: path
+        for path in sorted(templates().iterdir(), key=lambda path: path.stem)
+        if path.suffix in (".toml", ".csv") and path.stem not in _NONE
+    }
+
+
+def starters() -> dict[str, str]:
+    """Name of every starter and what it is, from the first line of its file."""
+    found = {}
+    for name, path in _files().items():
+        with path.open(encoding="utf-8") as file:
+            found[name] = file.readline().strip("# \n").rstrip(".")
+    return found
+
+
+def starter_text(kind: str) -> tuple[str, str]:
+    """Name of the file and text of the starter called `kind` - its name, or the beginning of one. Raises ParameterError."""
+    files = _files()
+    asked = _ALIASES.get(kind, kind)
+    matches = [asked] if asked in files else [name for name in files if name.startswith(asked)]
+    if len(matches) != 1:
+        raise ParameterError("kind", kind, f"must be one of {', '.join(files)} (or {', '.join(_ALIASES)})")
+    path = files[matches[0]]
+    return path.name, path.read_text(encoding="utf-8")
+
+
+def edit_spec(text: str, values: Mapping[str, Cell | None], notes: Mapping[str, str] | None = None) -> str:
+    """The text of a spec with values under their dotted keys, such as "pinion.modification.tip_relief".
+
+    A value that is there is replaced, or goes with its line where the new one is None; a key that is not there comes to the end
+    of its table (a name to its head), with a note behind it if it has one; a table that is not there to the end of the text.
+    Raises SpecError for a layout that cannot be edited.
+    """
+    import tomlkit
+
+    newline = "\r\n" if "\r\n" in text else "\n"
+    edited = text if not text or text.endswith("\n") else text + newline
+    try:
+        for key, value in values.items():
+            document = tomlkit.parse(edited)  # anew for each: what is put in between is found in its place
+            if value is None:
+                _take(document, key.split("."))
+            else:
+                item = tomlkit.item(value)
+                item.trivia.trail = newline
+                if notes and key in notes:
+                    item.trivia.comment_ws, item.trivia.comment = "  ", f"# {notes[key]}"
+                _put(document, key.split("."), item, newline)
+            edited = document.as_string()
+    except (KeyError, tomlkit.exceptions.TOMLKitError) as error:
+        raise _uneditable(values) from error
+    _require_edited(text, edited, values)
+    return edited
+
+
+def _take(document: Container, path: list[str]) -> None:
+    """Remove the value under a path with its line, wherever it is; what holds nothing else by dotted keys goes as well."""
+    for inside, _, _, table in sorted(_tables_around(document, path), key=itemgetter(0), reverse=True):
+        if len(path) - inside == 1 and path[-1] in table.value:
+            table.value.remove(path[-1])
+            path = path[:-1]
+            if table.value or len(path) < 2:
+                return
+
+
+def _put(document: TOMLDocument, path: list[str], item: Item, newline: str) -> None:
+    """Replace the value under a path, or put a new one in the innermost of the tables around it that is there, or a new one."""
+    import tomlkit
+
+    around = sorted(_tables_around(document, path), key=itemgetter(0, 1, 2))
+    if not around and (path[0] in document or len(path) < 2):
+        raise KeyError(path[0])
+    if not around:
+        made = tomlkit.table()
+        made.append(tomlkit.key(path[1:]), item)
+        made.trivia.indent = newline if document.as_string().strip() else ""
+        made.trivia.trail = newline
+        document.append(path[0], made)
+        return
+    inside, *_, table = around[-1]  # of equals the last
+    rest, keys = path[inside:], table.value.body
+    if len(rest) == 1 and rest[0] in table.value:
+        table.value[rest[0]] = item.unwrap()
+        return
+    end = max((at for at, (key, each) in enumerate(keys, 1) if key is not None and not _has_header(key, each)), default=0)
+    at = 0 if rest == ["name"] else end
+    if isinstance(table, tomlkit.items.InlineTable):
+        item.trivia.indent = " " if at else ""
+        item.trivia.comment_ws = item.trivia.comment = ""  # a note would end the line, and the table with it
+    keys.insert(at, (tomlkit.key(rest), item))
+
+
+def _tables_around(container: Container, path: list[str], inside: int = 1) -> Iterator[tuple[int, bool, bool, AbstractTable]]:
+    """Tables around the end of a path, one of which may stand in several places.
+
+    With each: how far it is inside, whether it has the next key, and whether it is more than the beginning of others' names.
+    """
+    from tomlkit.items import AbstractTable, Table
+
+    for key, item in container.body:
+        if key is not None and key.key == path[0] and isinstance(item, AbstractTable) and len(path) > 1:
+            yield inside, path[1] in item.value, not (isinstance(item, Table) and item.is_super_table()), item
+            yield from _tables_around(item.value, path[1:], inside + 1)
+
+
+def _has_header(key: Any, item: Any) -> bool:
+    """Whether an entry of a table is a table with a header of its own, which ends the keys of the one around it."""
+    from tomlkit.items import AoT, Table
+
+    return isinstance(item, AoT) or (isinstance(item, Table) and not key.is_dotted())
+
+
+def _require_edited(text: str, edited: str, values: Mapping[str, Cell | None]) -> None:
+    """Raise SpecError unless the edited text holds the new values, and else what the old one did."""
+    expected = tomllib.loads(text)
+    for key, value in values.items():
+        inner: dict[str, Any] = expected
+        *tables, last = key.split(".")
+        for table in tables:
+            inner = inner.setdefault(table, {})
+        if value is None:
+            inner.pop(last, None)
+        else:
+            inner[last] = list(value) if isinstance(value, tuple) else value
+    try:
+        same = _filled(tomllib.loads(edited)) == _filled(expected)
+    except tomllib.TOMLDecodeError:
+        same = False
+    if not same:
+        raise _uneditable(values)
+
+
+def _filled(table: dict[str, Any]) -> dict[str, Any]:
+    """Without tables in which nothing is: dotted keys make one that goes with the last of them."""
+    inner = {key: _filled(value) if isinstance(value, dict) else value for key, value in table.items()}
+    return {key: value for key, value in inner.items() if value != {}}
+
+
+def _uneditable(values: Mapping[str, Cell | None]) -> SpecError:
+    import tomlkit
+
+    wanted = ", ".join(
+        f"no {key}" if value is None else f"{key} = {tomlkit.item(value).as_string()}" for key, value in values.items()
+    )
+    return SpecError(f"the layout of the spec cannot be edited; write by hand: {wanted}")

@@ -1,4 +1,4 @@
-"""The keys of a train in tables and studies: its parts under their names, `shaft.input.length`, or all alike, `shaft.*.length`.
+"""Keys of planetary trains and trains, and of the columns of design tables.
 
 The last dot of such a key is the one before the part's own key: a name may have dots, spaces and commas.
 """
@@ -10,24 +10,91 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, NamedTuple, Self
 
+from gearcad.core.errors import shown
+from gearcad.core.quantities import ELSEWHERE, TORQUE, FieldSchema, Words, schema_of
+from gearcad.core.records import Role
+from gearcad.designs.keys import (
+    BESIDE,
+    FIELDS,
+    GEAR_FIELDS,
+    KEYS,
+    MOVED,
+    OF_SETS,
+    OF_SPECS,
+    SHARED,
+    fields_of_mates,
+    flat_fields,
+    names_of_materials,
+    nearest_key,
+    nearest_of,
+)
 from gearcad.dynamics.options import OF_PAIRS, OF_TRAINS_OF_PAIRS, DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.train import Train
-from gearcad.errors import shown
-from gearcad.ranges import TORQUE
-from gearcad.schema import FieldSchema, Words, schema_of
+from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = ["ALL", "MAIN", "PARTS", "TORQUES", "TRAIN", "TrainKey", "explain_unknown_key_of_train", "general_key"]
+
+def _plain(kind: type[DataclassInstance], *others: str) -> dict[str, FieldSchema]:
+    """The fields of a type that are no parts, without `others`."""
+    return {name: each for name, each in schema_of(kind).items() if each.part is None and name not in others}
+
+
+_CENTRAL = fields_of_mates() | _plain(Central, "meshes")
+_RIM = fields_of_mates() | _plain(Rim)
+
+SET_FIELDS: dict[str, dict[str, FieldSchema]] = {table: _RIM if table.startswith("planet") else _CENTRAL for table in OF_SETS}
+"""The tables of the gears of a set."""
+
+PRE_STAGE: dict[str, FieldSchema] = {
+    **{key: field for key, field in FIELDS["pair"].items() if key != "mounting_distance"},
+    **_plain(PairStage, "pinion", "wheel"),
+    **{f"{role.value}.{key}": field for role in Role for key, field in GEAR_FIELDS.items()},
+    **{f"{role.value}.on": schema_of(PairStage)[role.value] for role in Role},
+}
+"""The keys of a pair before or behind the set; `pinion.on` is the member that its pinion turns with."""
+
+_OF_VIBRATION = ("speed_from", "speed_to", "speeds", "harmonics", "stiffness", "damping_ratio")
+
+PLANETARY: dict[str, dict[str, FieldSchema]] = {
+    "planetary": {
+        **_plain(PlanetaryTrain, "centrals", "rims", "stages"),
+        "profile_shift_split": OF_SPECS["profile_shift_split"],
+        **{key: GEAR_FIELDS[key] for key in SHARED},
+        **{f"carrier.{key}": field for key, field in _plain(Carrier).items()},
+        **{f"pre_stage.{key}": field for key, field in PRE_STAGE.items()},
+    },
+    **SET_FIELDS,
+    **{table: dict(flat_fields(kind)) for table, kind in {**BESIDE, "load": TrainLoad}.items() if table != "mounting"},
+    "dynamics": {key: schema_of(DynamicsOptions)[key] for key in _OF_VIBRATION},
+}
+PLANETARY["material"] |= names_of_materials(*OF_SETS)
+"""The tables of a planetary train, likewise: its [load] is that of the output."""
+
+
+def explain_unknown_planetary_column(heading: str) -> str:
+    """The end of the message about a heading of a table of planetary trains that is no key."""
+    first, dot, rest = heading.partition(".")
+    near = difflib.get_close_matches(first.lower(), PLANETARY, n=1, cutoff=0.75) if dot else []
+    table, field = (near[0], rest) if near else ("planetary", heading)
+    if heading.lower() == "name":
+        return "unknown column; did you mean name?"
+    for meant in (field, nearest_key(field, PLANETARY[table])):
+        homes = [f"{owner}.{meant}" for owner in dict.fromkeys((table, *PLANETARY)) if meant in PLANETARY[owner]]
+        if homes:
+            found = homes[:1] if homes[0].startswith(f"{table}.") else homes
+            return f"unknown column; did you mean {' or '.join(found)}?"
+    return "unknown column; must be name, or a key of a spec with its table, such as planetary.planets or sun.teeth"
+
 
 MAIN = "train"
 
 ALL = "*"
 """In place of a name: all parts of a kind. What a part has of its own goes before it."""
 
-PARTS: dict[str, type[DataclassInstance]] = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
+TRAIN_PARTS: dict[str, type[DataclassInstance]] = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
 """What a train is made of, by the tables of its spec."""
 
 TORQUES = "torques"
@@ -53,7 +120,7 @@ def _flat(name: str, field: FieldSchema) -> dict[str, FieldSchema]:
 
 TRAIN: dict[str, dict[str, FieldSchema]] = {
     MAIN: _but(Train, *_ELSEWHERE),
-    **{table: _but(kind, "name") for table, kind in PARTS.items()},
+    **{table: _but(kind, "name") for table, kind in TRAIN_PARTS.items()},
     "dynamics": {
         key: each
         for name, field in schema_of(DynamicsOptions).items()
@@ -78,7 +145,7 @@ class TrainKey(NamedTuple):
         """What a key says; None for one that no train has."""
         table, _, rest = key.partition(".")
         name, _, field = rest.rpartition(".")
-        if table in PARTS:
+        if table in TRAIN_PARTS:
             return cls(table, name, field) if name and field in TRAIN[table] else None
         if table == MAIN and rest.startswith(f"{TORQUES}."):
             name = rest[len(TORQUES) + 1 :]
@@ -104,7 +171,7 @@ class TrainKey(NamedTuple):
 def general_key(key: str) -> str:
     """`shaft.*.length` for the key of any shaft's length; a key that is of no part as it is."""
     table = key.partition(".")[0]
-    found = TrainKey.of(key) if table in PARTS or table == MAIN else None
+    found = TrainKey.of(key) if table in TRAIN_PARTS or table == MAIN else None
     return key if found is None else found.general
 
 
@@ -116,14 +183,14 @@ def explain_unknown_key_of_train(key: str, names: Mapping[str, tuple[str, ...]] 
     near = difflib.get_close_matches(table.lower(), TRAIN, n=1, cutoff=0.75) if dot else []
     name, _, field = rest.rpartition(".") if near else ("", "", key)
     table = near[0] if near else ""
-    if table in PARTS and field in TRAIN[table] and name and names is not None and name not in _permitted(names[table]):
+    if table in TRAIN_PARTS and field in TRAIN[table] and name and names is not None and name not in _permitted(names[table]):
         return _unknown_part(table, name, f"{table}.{{}}.{field}", names)
     # A key by itself is one of [train] before it is another's.
     for tables in ((table or MAIN,), tuple(TRAIN)):
         if meant := [_full(home, name, spelt, names) for home, spelt in _near(field, tables)]:
             return f"unknown key; did you mean {' or '.join(meant)}?"
     if table:
-        return f"unknown key; permitted behind {table}.{'NAME.' if table in PARTS else ''} are {', '.join(TRAIN[table])}"
+        return f"unknown key; permitted behind {table}.{'NAME.' if table in TRAIN_PARTS else ''} are {', '.join(TRAIN[table])}"
     return (
         "unknown key; must be one of a train, such as train.model, shaft.NAME.damping_ratio or, for all shafts, shaft.*.modes"
     )
@@ -143,7 +210,7 @@ def _permitted(known: tuple[str, ...]) -> tuple[str, ...]:
 
 def _full(table: str, name: str, field: str, names: Mapping[str, tuple[str, ...]] | None) -> str:
     """A key, that of all parts where the name is none of them."""
-    if table not in PARTS:
+    if table not in TRAIN_PARTS:
         return f"{table}.{field}"
     return f"{table}.{name if name and (names is None or name in names[table]) else ALL}.{field}"
 
@@ -154,3 +221,61 @@ def _near(field: str, tables: Iterable[str]) -> list[tuple[str, str]]:
     field = field.rpartition(".")[2].lower()
     spelt = [field] if field in known else difflib.get_close_matches(field, known, n=1)
     return [(home, key) for key in spelt for home in known[key]]
+
+
+_EACH = {
+    f"{table}.{key}": field for kind in (PLANETARY, FIELDS) for table, fields in kind.items() for key, field in fields.items()
+} | {
+    f"{table}.{ALL}.{key}" if table in TRAIN_PARTS else f"{table}.{key}": field
+    for table, fields in TRAIN.items()
+    for key, field in fields.items()
+}
+COUNTS = frozenset(key for key, field in _EACH.items() if field.whole)
+LISTS = frozenset(key for key, field in _EACH.items() if field.several)
+NESTED = frozenset(key for key, field in _EACH.items() if field.nested)
+TEXT_LISTS = frozenset(key for key, field in _EACH.items() if field.texts)
+TEXTS = NESTED | frozenset(key for key, field in _EACH.items() if field.text or ELSEWHERE in field.marks)
+SWITCHES = frozenset(key for key, field in _EACH.items() if field.switch)
+"""Full keys of whole numbers, of what may be several numbers (in a cell there is space between them), of lists of lists (a text
+in a cell), of lists of texts, of these and words, and of true and false; of a train's parts those of all (`general_key`)."""
+
+
+_NO_COLUMN = (("gear", "name"), ("pair", "name"), ("rack", "name"))
+
+COLUMNS = {table: tuple(field for field in fields if (table, field) not in _NO_COLUMN) for table, fields in KEYS.items()}
+"""Permitted keys of the columns of a design table, by their tables, where the design's own name has a column `name`."""
+
+_USUAL = tuple(table for table in COLUMNS if table not in ("gear", "rack"))
+
+
+def nearest_table(name: str) -> str | None:
+    """The table that was meant by `name`, if any."""
+    if name.lower() in TRAIN:
+        return name.lower()
+    near = difflib.get_close_matches(name.lower(), (*KEYS, *OF_SETS, "planetary"), n=1, cutoff=0.75)
+    return near[0] if near else None
+
+
+def explain_unknown_column(heading: str, main: str) -> str:
+    """The end of the message about a heading of a design table that is no key; bare keys are those of the table `main`."""
+    if main == "train":
+        return explain_unknown_key_of_train(heading)
+    if main == "planetary":
+        return explain_unknown_planetary_column(heading)
+    if heading.lower() == "name":
+        return "unknown column; did you mean name?"
+    if (moved := MOVED.get(heading)) is not None:
+        return f"is no column any more: {moved}"
+    first, dot, rest = heading.partition(".")
+    table = nearest_table(first) if dot else None
+    owner, field = (table, rest) if table else (main, heading)
+    # A pair has no [gear], and few have a [rack]; a table with nothing but bare keys may have been meant for pairs.
+    owners = [owner, *(name for name in COLUMNS if name != owner and name in (main, *_USUAL))]
+    for meant in (field, *(nearest_of(field, FIELDS[name], COLUMNS[name]) for name in owners)):
+        if homes := [f"{name}.{meant}" for name in owners if meant in COLUMNS[name]]:
+            found = homes[:1] if homes[0].startswith(f"{owner}.") else homes
+            return f"unknown column; did you mean {' or '.join(found)}?"
+    if table:
+        return f"unknown column; permitted behind {table}. are {', '.join(COLUMNS[table])}"
+    examples = f"{main}.teeth" if main != "pair" else "pair.normal_module, pinion.teeth"
+    return f"unknown column; must be name, or a key of a spec with its table, such as {examples} or load.torque"

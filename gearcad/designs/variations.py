@@ -1,31 +1,240 @@
-"""What varies in a study: `KEY=VALUES` as a command has it, and the values that it stands for."""
+"""Variations of a spec for studies: `KEY=VALUES`, every combination, and symbol, unit and words of result columns."""
 
 from __future__ import annotations
 
+import itertools
+import math
 import re
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from datetime import date
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from gearcad.designs.cells import CellReader, Layout
-from gearcad.designs.column_keys import COUNTS, TEXTS, explain_unknown_column
-from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import KEYS, MAIN_TABLES, SPEEDS, Cell
-from gearcad.designs.named_files import with_files_found
-from gearcad.designs.planetary_keys import PLANETARY
-from gearcad.designs.train_keys import ALL, MAIN, PARTS, TORQUES, TrainKey, explain_unknown_key_of_train, general_key
-from gearcad.designs.train_values import names_of
-from gearcad.errors import ParameterError, format_number
-from gearcad.geometry.diametral import MODULE_OR_PITCH
+from gearcad.core import symbols
+from gearcad.core.errors import ParameterError, SpecError, format_number
+from gearcad.core.quantities import schema_of, symbols_of
+from gearcad.core.records import Role
+from gearcad.core.symbols import Symbol
+from gearcad.designs.cells import CellReader, Layout, nested_text, texts_cell
+from gearcad.designs.design import Design, Where, names_file, read_tables, with_files_found
+from gearcad.designs.gear_designs import ToothedDesign
+from gearcad.designs.keys import FIELDS, KEYS, MAIN_TABLES, SPEEDS, Cell, DesignKind, Fields
+from gearcad.designs.reader import design_from_values, kind_of, type_of
+from gearcad.designs.spec import Given, Spec
+from gearcad.designs.train_designs import names_of, values_of
+from gearcad.designs.train_keys import (
+    ALL,
+    COUNTS,
+    LISTS,
+    MAIN,
+    NESTED,
+    PLANETARY,
+    SWITCHES,
+    TEXT_LISTS,
+    TEXTS,
+    TORQUES,
+    TRAIN_PARTS,
+    TrainKey,
+    explain_unknown_column,
+    explain_unknown_key_of_train,
+    general_key,
+)
+from gearcad.drawing.options import PartDrawing
+from gearcad.geometry.gear_parts import MODULE_OR_PITCH
+from gearcad.material import Material
+from gearcad.planetary import Carrier, Central, PairStage, Rim
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["MOST_ROWS", "Choices", "Span", "read_variation", "read_variations", "without_varied"]
+
+_STATES = {
+    "name": Symbol("", "", "", "name of the design, and of its folder"),
+    "status": Symbol("", "", "", "how the row ended: ok, failed or not run"),
+    "error": Symbol("", "", "", "why it failed"),
+    "warnings": Symbol("", "", "", "what to know before making this"),
+    "seconds": Symbol("", "s", "", "time to make the row"),
+}
+
+
+def _symbols(tables: Fields) -> dict[str, dict[str, Symbol]]:
+    return {table: {key: field.symbol for key, field in fields.items()} for table, fields in tables.items()}
+
+
+_INPUTS = _symbols(FIELDS)
+
+_COMPUTED = {
+    "gear": symbols.GEAR,
+    "pinion": symbols.GEAR,
+    "wheel": symbols.GEAR,
+    "rack": symbols.RACK,
+    "pair": symbols.PAIR | symbols.RACK_PAIR,
+    "drive": symbols.DRIVE,
+    "check": symbols.CHECK,
+    "check.rating": symbols.RATING,
+    "check.rating.pinion": symbols.GEAR_RATING,
+    "check.rating.wheel": symbols.GEAR_RATING,
+    "check.rating.wheel.formula": symbols.RING_FORMULA,
+    "draw": symbols.DRAW,
+    "rate": symbols.STRENGTH_FIGURES,
+    "stiffness": symbols.STIFFNESS,
+    "dynamics": symbols.DYNAMICS,
+    "mesh": symbols.MESH,
+    "modify": symbols.MODIFY,
+    "modify.before": symbols.MODIFY_FIGURES,
+    "modify.after": symbols.MODIFY_FIGURES,
+    "modify.pinion": _INPUTS["pinion"],
+    "modify.wheel": _INPUTS["wheel"],
+    "": _STATES,
+}
+
+_TABLES = _COMPUTED | {table: inputs | _COMPUTED.get(table, {}) for table, inputs in _INPUTS.items()}
+"""By the beginning of the heading."""
+
+_OF_TRAINS = _symbols(PLANETARY)
+_OF_TRAINS["planetary"] |= symbols.PLANETARY
+
+_MEMBER = {key: field.symbol for kind in (Central, Rim, Carrier) for key, field in schema_of(kind).items()}
+_STAGE = {key: field.symbol for key, field in schema_of(PairStage).items()}
+_NAMED_OF_TRAINS = {
+    "meshes": _COMPUTED["pair"] | _INPUTS["pair"],
+    "stages": _COMPUTED["pair"] | _INPUTS["pair"] | _STAGE,
+    "members": _MEMBER | symbols.PLANETARY_MEMBER,
+}
+"""What stands under the name of a mesh, stage or member."""
+
+_NAMED = ("stiffness",)
+"""Tables whose quantities stand under a name each: `stiffness.iso6336.mean`."""
+
+_ALL_PARTS = {"inertia": "all inertias", "shaft": "all shafts", "mesh": "all meshes"}
+
+_OWNERS = tuple(role.value for role in Role)
+
+
+def column_of_train(heading: str) -> tuple[str, Symbol] | None:
+    """The same in a table of planetary trains: whose it is by the name of its gear, mesh or stage."""
+    table, _, field = heading.partition(".")
+    kind, _, named = field.partition(".")
+    if table == "planetary" and kind in _NAMED_OF_TRAINS:
+        owner, _, of = named.rpartition(".") if kind == "members" else named.partition(".")
+        return _found(owner, of, _NAMED_OF_TRAINS[kind])
+    if table == "planetary" and kind == "mesh_stiffness":
+        return named, symbols.STIFFNESS["mean"]
+    if table in _OF_TRAINS and (found := _found("", field, _OF_TRAINS[table])):
+        return found
+    if table in _TABLES and table not in ("gear", "pinion", "wheel", "pair", "rack"):
+        return column_symbol(heading)
+    return _of_own(heading) or _found(table, field, _TABLES["gear"])
+
+
+def _found(owner: str, field: str, known: Mapping[str, Symbol]) -> tuple[str, Symbol] | None:
+    return (owner, known[field]) if field in known else None
+
+
+def column_symbol(heading: str) -> tuple[str, Symbol] | None:
+    """Whose the quantity of a column of results is ("pinion", "wheel", the name of a train's part, or ""), and how it is
+    written; None for an unknown one.
+
+    Columns are `pinion.tip_diameter`, `pair.tip_clearances.wheel`, `check.root_tension_pinion`, `check.rating.wheel.Y_F` or
+    `shaft.input.length`.
+    """
+    for table, known in _TABLES.items():
+        if table and not heading.startswith(f"{table}."):
+            continue
+        field = heading[len(table) + 1 :] if table else heading
+        field = field.partition(".")[2] if table in _NAMED else field
+        if field in known:
+            return next((owner for owner in _OWNERS if owner in table.split(".")), ""), known[field]
+        for owner in _OWNERS:
+            name = field[: -len(owner) - 1]
+            if field.endswith((f".{owner}", f"_{owner}")) and name in known:
+                return owner, known[name]
+    return _of_own(heading) or _of_part(heading)
+
+
+def _of_own(heading: str) -> tuple[str, Symbol] | None:
+    """Of gears that have materials or drawings of their own."""
+    table, _, rest = heading.partition(".")
+    owner, _, field = rest.partition(".")
+    own = {"materials": Material, "drawings": PartDrawing}.get(table)
+    return None if own is None else _found(owner, field, symbols_of(own))
+
+
+def _of_part(heading: str) -> tuple[str, Symbol] | None:
+    """Of a train: whose it is by the name of its part."""
+    table, _, rest = heading.partition(".")
+    if table == "train" and rest in symbols.TRAIN:
+        return "", symbols.TRAIN[rest]
+    if table == "dynamics":
+        key, _, name = rest.partition(".")
+        return (name, symbols.TRAIN_DYNAMICS[key]) if name and key in symbols.TRAIN_DYNAMICS else None
+    if (found := TrainKey.of(heading)) is not None:
+        return _ALL_PARTS[table] if found.name == ALL else found.name, found.schema.symbol
+    name, _, key = rest.rpartition(".")
+    return (name, symbols.TRAIN_PARTS[table][key]) if table in TRAIN_PARTS and key in symbols.TRAIN_PARTS[table] else None
+
+
+class SpecValues(NamedTuple):
+    """What a spec says: its kind and name, and its other values under their keys, each with the key that the user wrote."""
+
+    kind: DesignKind
+    name: str
+    values: dict[str, Given]
+    where: Where
+
+
+def read_values(path: Path | str) -> SpecValues:
+    """The values of a spec, which need not make a design. Raises SpecError."""
+    tables, where = read_tables(path)
+    kind = kind_of(tables)
+    made, main = type_of(kind), MAIN_TABLES[kind][0]
+    spec = made.spec(tables, where) if issubclass(made, ToothedDesign) else Spec(values_of(tables, where), where)
+    name = spec.name(main, Path(path).stem)
+    return SpecValues(kind, name, {key: given for key, given in spec.values.items() if key != f"{main}.name"}, where)
+
+
+def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
+    """Kind and name of a spec, and its other values under their dotted keys as a design table holds them: "auto" is a text.
+
+    The values need not make a gear. Raises SpecError, for a value that no cell can hold too.
+    """
+    kind, name, values, where = read_values(path)
+    listed = next((key for key in values if "[" in key), None) if kind is DesignKind.PLANETARY else None
+    if listed is not None:
+        raise SpecError(f"{where(listed)}: {listed}: no table holds lists of tables", listed)
+    return kind, name, {key: _cell(key, given, where) for key, given in values.items()}
+
+
+def _cell(key: str, given: Given, where: Where) -> Cell:
+    """A value as a cell can hold it."""
+    value = given.value
+    if general_key(key) in LISTS and isinstance(value, list | tuple) and all(type(item) in (int, float) for item in value):
+        return tuple(float(item) for item in value)
+    if key == "train.model" and isinstance(value, tuple):
+        raise SpecError(
+            f"{where(key)}: {key} = {format_number(value)}: no cell of a table holds several models: give one word", key
+        )
+    if isinstance(value, Mapping) and names_file(key):
+        raise SpecError(f"{where(given.key)}: {given.key}: no table holds a pair: write it to a file, and its name here", key)
+    if general_key(key) in NESTED and isinstance(value, list | tuple):
+        return nested_text(value) if all(isinstance(each, list | tuple) for each in value) else format_number(value)
+    if key in TEXT_LISTS and isinstance(value, list | tuple):
+        try:
+            return texts_cell(value, key)
+        except ParameterError as error:
+            raise SpecError(f"{where(given.key)}: {error}", key) from error
+    if isinstance(value, date):
+        return value.isoformat()
+    if isinstance(value, bool) and general_key(key) in SWITCHES:
+        return "true" if value else "false"
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        raise SpecError(f"{where(given.key)}: {given.key} = {format_number(value)}: must be a number or a text")
+    return value
+
 
 MOST_ROWS = 1_000_000
 """Rows of the largest study: beyond it a number was mistyped, or one table is not the way."""
@@ -138,7 +347,9 @@ def _known_to_train(name: str, base: Collection[str]) -> str | None:
         found = TrainKey.of(key)
         if found is None:
             continue
-        if found.table in PARTS and (not names[found.table] if found.name == ALL else found.name not in names[found.table]):
+        if found.table in TRAIN_PARTS and (
+            not names[found.table] if found.name == ALL else found.name not in names[found.table]
+        ):
             continue
         if found.field != TORQUES or found.name in names["inertia"]:
             return key
@@ -254,8 +465,109 @@ def _replaced(key: str, varied: Collection[str]) -> bool:
         return any(f"rack.{other}" in varied for other in _SIZES_OF_RACKS)
     if field in MODULE_OR_PITCH:
         return any(f"{table}.{other}" in varied for other in MODULE_OR_PITCH)
-    part = TrainKey.of(key) if table in PARTS else None
+    part = TrainKey.of(key) if table in TRAIN_PARTS else None
     if part is None or not part.name:
         return False
     instead = [part._replace(field=other) for (home, other), gone in _INSTEAD.items() if home == table and part.field in gone]
     return part.general in varied or any(each.general in varied or str(each) in varied for each in instead)
+
+
+MOST_VARIANTS = 12
+"""Curves that one chart can bear."""
+
+_MODEL = "train.model"
+
+VariantValue = Cell | tuple[Cell, ...]
+"""Of a key that varies; several of models."""
+
+
+@dataclass(frozen=True)
+class Variants:
+    """Designs that differ in `what`, in words with units; `labels` say how, one for each: by the values of one `key`, or, where
+    it is "", in words."""
+
+    what: str
+    labels: tuple[str, ...]
+    designs: tuple[Design, ...]
+    key: str = ""
+
+
+def read_variants(spec: Path | str, variations: Sequence[str]) -> Variants:
+    """The designs of a spec (TOML) with keys varied as texts such as "shaft.*.damping_ratio=0.01,0.1" say.
+
+    A key with one value is only set. Several models of a train, and nothing else, are those of one design: a list of models.
+    Raises SpecError for the spec and for what makes no design, ParameterError for a variation and for more than MOST_VARIANTS.
+    """
+    base = read_values(spec)
+    read = [each for each in read_variations(variations, base.kind, base.values) if isinstance(each, Choices)]
+    _require_few(read)
+    found = [each.found_from(Path(spec).parent) for each in read]
+    several = [each for each in found if len(each.values) > 1]
+    if base.kind is DesignKind.TRAIN and [each.key for each in several] == [_MODEL]:
+        one = {each.key: each.values if each.key == _MODEL else each.values[0] for each in found}
+        return Variants(_words(_MODEL), (several[0].text,), (_design(base, one),))
+    points = [
+        dict(zip((each.key for each in found), point, strict=True))
+        for point in itertools.product(*(each.values for each in found))
+    ]
+    names = _short([each.key for each in several])
+    labels = [_label({names[key]: point[key] for key in names}) for point in points]
+    what = ", ".join(_words(key) for key in names)
+    key = several[0].key if len(several) == 1 else ""
+    return Variants(what, tuple(labels), tuple(_design(base, point) for point in points), key)
+
+
+def _require_few(read: Sequence[Choices]) -> None:
+    count = math.prod(len(each.values) for each in read)
+    if count > MOST_VARIANTS:
+        permitted = f"make {count} curves, and one chart can bear {MOST_VARIANTS}: take fewer, or a table of `gearcad study`"
+        raise ParameterError("vary", ", ".join(each.key for each in read), permitted)
+
+
+def _design(base: SpecValues, point: Mapping[str, VariantValue]) -> Design:
+    """That of the spec with the values of a point put in."""
+    values = {key: given.value for key, given in without_varied(base.values, point).items()} | dict(point)
+    return design_from_values(values, base.kind, where=_where(base, point), default_name=base.name)
+
+
+def _where(base: SpecValues, point: Mapping[str, VariantValue]) -> Callable[[str], str]:
+    """Says of a key that varies what its value is, and of another where it stands in the spec."""
+
+    def where(key: str) -> str:
+        for each in (key, general_key(key)):
+            if each in point:
+                value = point[each]
+                return f"--vary {each}={_text(value) if isinstance(value, int | float | str) else ','.join(map(str, value))}"
+        return base.where(base.values[key].key if key in base.values else key)
+
+    return where
+
+
+def _words(key: str) -> str:
+    """What a key is, whose, and in which unit."""
+    found = column_symbol(key)
+    if found is None or not found[1].words:
+        return key
+    owner, symbol = ("" if f".{ALL}." in key else found[0]), found[1]
+    return f"{symbol.words}{f' of {owner}' if owner else ''}{f' in {symbol.unit}' if symbol.unit else ''}"
+
+
+def _short(keys: Sequence[str]) -> dict[str, str]:
+    """What the keys are called where there are several: by their last words, as long as these differ."""
+    last = [key.rpartition(".")[2].replace("_", " ") for key in keys]
+    alike = len(set(last)) < len(last)
+    return {key: key if alike else words for key, words in zip(keys, last, strict=True)}
+
+
+def _label(values: Mapping[str, Cell]) -> str:
+    if len(values) == 1:
+        return _text(*values.values())
+    return ", ".join(f"{name} {_text(value)}" for name, value in values.items())
+
+
+def _text(value: Cell) -> str:
+    """A value as a user would type it, to its last digit."""
+    if isinstance(value, tuple):
+        return " ".join(map(_text, value))
+    shown = format_number(value) if isinstance(value, int | float) else value
+    return repr(value) if isinstance(value, float) and float(shown) != value else shown

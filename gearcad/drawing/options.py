@@ -10,13 +10,12 @@ from datetime import UTC, date, datetime
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated, Any, cast
 
+from gearcad.core.errors import InputError, ParameterError
+from gearcad.core.output import source_date
+from gearcad.core.quantities import Range, Words, require_fields, schema_of
+from gearcad.core.records import concise
 from gearcad.drawing.words import Language
-from gearcad.errors import InputError, ParameterError
-from gearcad.geometry.iso286 import limit_deviations, require_hole, require_shaft
-from gearcad.output import source_date
-from gearcad.ranges import Range
-from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields, schema_of
+from gearcad.geometry.fits import limit_deviations, require_hole, require_shaft
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance

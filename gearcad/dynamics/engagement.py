@@ -9,23 +9,18 @@ from functools import lru_cache
 
 import numpy as np
 
-from gearcad.arrays import Floats
 from gearcad.contact.shared.bodies import BodyModel
+from gearcad.core.errors import InputError, ParameterError, SolverError
+from gearcad.core.quantities import TORQUE
+from gearcad.core.records import Floats, Notice, Role
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
-from gearcad.dynamics.trains.members import Mesh
-from gearcad.dynamics.trains.mesh_pair import MeshCourse, MeshPair
-from gearcad.dynamics.trains.parts import pressing_forces
-from gearcad.dynamics.trains.train import Train
-from gearcad.errors import InputError, ParameterError, SolverError
+from gearcad.dynamics.trains.members import Mesh, MeshCourse, MeshPair
+from gearcad.dynamics.trains.train import EngagedMesh, Train, pressing_forces
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Materials
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
-from gearcad.notice import Notice
-from gearcad.per_gear import Role
-from gearcad.ranges import TORQUE
 from gearcad.stiffness.method import StiffnessMethod
 
 __all__ = ["engaged", "pair_notices"]

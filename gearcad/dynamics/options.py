@@ -1,23 +1,35 @@
-"""What a study of the dynamics looks at: the [dynamics] table of a spec."""
+"""Options of dynamics: the [dynamics] table of a spec, and notices of options without effect."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import Annotated
+from typing import Annotated, Any, NamedTuple
 
-from gearcad.dynamics.excitation.deviations import ErrorDistribution
-from gearcad.dynamics.in_time.transient_options import TransientOptions
-from gearcad.dynamics.tooth_springs.contact_model import EngagedPairs
-from gearcad.errors import GeometryError, ParameterError
+import numpy as np
+
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.quantities import (
+    DAMPING,
+    DURATION,
+    INERTIA,
+    SAMPLING,
+    SPEED,
+    STIFFNESS,
+    AssumedNumber,
+    Choice,
+    Member,
+    Range,
+    Whole,
+    Words,
+    require_fields,
+)
+from gearcad.core.records import Bools, Floats, Notice, PerGear, concise
+from gearcad.dynamics.time_domain.contact_model import EngagedPairs
+from gearcad.dynamics.time_domain.transient_result import TransientOptions
+from gearcad.dynamics.trains.tooth_deviations import ErrorDistribution
 from gearcad.geometry import GearPair
-from gearcad.per_gear import PerGear
-from gearcad.ranges import DAMPING, DURATION, INERTIA, SAMPLING, SPEED, STIFFNESS, Choice, Member, Range, Whole
 from gearcad.rating.options import RatingOptions
-from gearcad.reprs import concise
-from gearcad.schema import AssumedNumber, Words, require_fields
-
-__all__ = ["OF_PAIRS", "OF_TRAINS_OF_PAIRS", "DynamicsOptions", "PairModel"]
 
 _CHART, _CAMPBELL, _DRAWN = 1000, 41, 200
 """Speeds where none are given."""
@@ -235,3 +247,116 @@ class DynamicsOptions:
     def engaged_pairs(self) -> EngagedPairs:
         """The zone as an enum."""
         return EngagedPairs(self.zone)
+
+
+_OF_LEVELS = ("level_tolerance",)
+_OF_CHARTS = ("operating_from", "operating_to")
+_OF_CONTACT = (
+    "tooth_errors",
+    "error_distribution",
+    "error_samples",
+    "premature_engagement",
+    "harmonics",
+    "accuracy_grade",
+    "seed",
+)
+_OF_BEARINGS = ("pinion_bearing_stiffness", "wheel_bearing_stiffness", "bearing_damping")
+
+
+def idle_without_levels(options: DynamicsOptions) -> tuple[Notice, ...]:
+    """What is for several models of a train, in a study of one model, or of a pair."""
+    return _idle(options, _OF_LEVELS, "a train with a list of models, held against each other")
+
+
+def idle_in_contact(options: DynamicsOptions) -> tuple[Notice, ...]:
+    """What is for the model "mesh", in a study of the contact model; what is for several models of a train, too."""
+    found = _idle(options, (*_OF_CONTACT, *_OF_CHARTS, *_OF_BEARINGS), f'the model "{PairModel.MESH.value}" of a pair')
+    return (*found, *idle_without_levels(options))
+
+
+def _idle(options: DynamicsOptions, keys: tuple[str, ...], subject: str) -> tuple[Notice, ...]:
+    """Those of the keys that are not as they are by default, and what they are for."""
+    default = DynamicsOptions()
+    given = [key for key in keys if getattr(options, key) != getattr(default, key)]
+    if not given:
+        return ()
+    verb = "is" if len(given) == 1 else "are"
+    return (Notice("option-without-effect", f"without effect here: {', '.join(given)}, which {verb} for {subject}"),)
+
+
+def undamped_bearings(options: DynamicsOptions) -> tuple[Notice, ...]:
+    """That only the teeth damp gears on bearings."""
+    if options.pinion_bearing_stiffness is None or options.bearing_damping:
+        return ()
+    text = (
+        "the bearings are undamped: resonances of gears that travel are as sharp as the damping of the teeth leaves them, and "
+        "there may be speeds at which no steady motion lasts; bearing_damping (N·s/m) damps them"
+    )
+    return (Notice("undamped-bearings", text),)
+
+
+_ROUNDING = 1e-9
+"""Relative, of speeds."""
+
+
+class RangeSource(Enum):
+    """What says where a train runs under load."""
+
+    GIVEN = "operating range"
+    SPEED = "speed of the train"
+    CHART = "whole chart"
+
+
+class OperatingRange(NamedTuple):
+    """From `first` to `last` (rpm of the first pinion, or of a planetary train's input), and what says so."""
+
+    first: float
+    last: float
+    source: RangeSource
+
+    @property
+    def words(self) -> str:
+        """As a sentence has it."""
+        given = {
+            RangeSource.GIVEN: "the operating range",
+            RangeSource.SPEED: "up to the speed of the train",
+            RangeSource.CHART: "the whole chart, for no operating range is given",
+        }
+        return f"from {self.first:.5g} to {self.last:.5g} rpm ({given[self.source]})"
+
+    @property
+    def heading(self) -> str:
+        """As a line of the screen has it, "" of the whole chart."""
+        return "" if self.source is RangeSource.CHART else f"from {self.first:.5g} to {self.last:.5g} rpm "
+
+    def rows(self, speeds: Floats) -> Bools:
+        """Return which of the speeds (s,) lie in it."""
+        return np.asarray((speeds >= self.first * (1 - _ROUNDING)) & (speeds <= self.last * (1 + _ROUNDING)), bool)
+
+    def within(self, speeds: Floats) -> OperatingRange:
+        """Return the range, or the whole chart of rising `speeds` (s,) where none of these lies in it."""
+        if self.rows(speeds).any():
+            return self
+        return OperatingRange(float(speeds[0]), float(speeds[-1]), RangeSource.CHART)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it."""
+        return {**self._asdict(), "source": self.source.value}
+
+
+def operating_range(speed: float, options: DynamicsOptions, chart: tuple[float, float]) -> OperatingRange:
+    """Return it as the options give it; else from the first speed of the chart up to `speed`, or to the last of the chart.
+
+    `speed` (rpm) is that of the load, 0 if it is not known.
+
+    Raises GeometryError where it would end before it begins.
+    """
+    first, last, own = options.operating_from, options.operating_to, abs(speed)
+    given = first is not None or last is not None
+    end = last if last is not None else own or chart[1]
+    if first is not None and first >= end:
+        what = "operating_to" if last is not None else "the speed of the train" if own else "the last speed of the chart"
+        raise GeometryError("operating_from", first, f"must be below {what}, {end:.5g} rpm", "rpm")
+    source = RangeSource.GIVEN if given else RangeSource.SPEED if own else RangeSource.CHART
+    begin = first if first is not None else chart[0] if chart[0] < end else 0.0
+    return OperatingRange(begin, end, source)

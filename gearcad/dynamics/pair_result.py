@@ -6,19 +6,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from gearcad.arrays import Floats
-from gearcad.dynamics.idle_options import idle_without_levels, undamped_bearings
-from gearcad.dynamics.tables import Tables, campbell_columns, cycle_columns, history_columns, spectrum_columns
-from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
-from gearcad.dynamics.tooth_springs.contact_model import ContactModel
-from gearcad.dynamics.tooth_springs.history import TimeHistory
+from gearcad.core.records import Floats, Notice, PerGear, Pictured, texts
+from gearcad.dynamics.options import idle_without_levels, undamped_bearings
+from gearcad.dynamics.result_tables import Tables, campbell_columns, cycle_columns, history_columns, spectrum_columns
+from gearcad.dynamics.time_domain.contact_model import ContactModel
+from gearcad.dynamics.time_domain.time_history import CampbellStudy, TimeHistory
 from gearcad.dynamics.train_result import TrainStudy
-from gearcad.dynamics.trains.six_dof import PairOnBearings
+from gearcad.dynamics.trains.pair_on_bearings import PairOnBearings
 from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.notice import Notice, texts
-from gearcad.per_gear import PerGear
-from gearcad.reprs import Pictured
 
 __all__ = ["ContactStudy", "PairStudy"]
 

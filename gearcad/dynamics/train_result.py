@@ -11,32 +11,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.arrays import Floats
-from gearcad.dynamics.charts.amplitudes import (
-    GreatestAmplitude,
-    GreatestBearingForce,
-    greatest_amplitudes,
-    greatest_bearing_forces,
-)
-from gearcad.dynamics.charts.chart import KvChart
-from gearcad.dynamics.charts.findings import (
+from gearcad.core.records import Floats, Notice, Pictured, texts
+from gearcad.dynamics.options import DynamicsOptions, OperatingRange, operating_range
+from gearcad.dynamics.response.chart_findings import (
     ChartResonance,
     Charts,
+    GreatestAmplitude,
+    GreatestBearingForce,
     GreatestFactor,
     ModeSpeed,
     ShaftOverload,
     chart_resonances,
+    greatest_amplitudes,
+    greatest_bearing_forces,
     greatest_factor,
     mode_speeds,
     shaft_overloads,
 )
-from gearcad.dynamics.excitation.meshes import Excitation
-from gearcad.dynamics.in_time.mesh_campbell import MeshCampbell
-from gearcad.dynamics.in_time.transient_result import Transient
-from gearcad.dynamics.operating import OperatingRange, operating_range
-from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.tables import (
+from gearcad.dynamics.response.kv_chart import KvChart
+from gearcad.dynamics.result_tables import (
     Columns,
     Tables,
     campbell_columns,
@@ -47,15 +40,16 @@ from gearcad.dynamics.tables import (
     stacked,
     transient_columns,
 )
-from gearcad.dynamics.tooth_errors.result import ErrorStudy
-from gearcad.dynamics.trains.bearing_modes import BearingModes
-from gearcad.dynamics.trains.eigenmodes import NaturalModes
-from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
-from gearcad.dynamics.trains.system import System
-from gearcad.dynamics.trains.train import Train, TrainModel
-from gearcad.notice import Notice, texts
+from gearcad.dynamics.time_domain.spectra import MeshCampbell
+from gearcad.dynamics.time_domain.transient_result import Transient
+from gearcad.dynamics.tooth_errors.error_result import ErrorStudy
+from gearcad.dynamics.trains.mesh_excitation import Excitation
+from gearcad.dynamics.trains.pair_on_bearings import BearingModes
+from gearcad.dynamics.trains.shaft_lines import System
+from gearcad.dynamics.trains.steady_response import Direction
+from gearcad.dynamics.trains.train import EngagedMesh, Train, TrainModel
+from gearcad.dynamics.trains.train_modes import NaturalModes
 from gearcad.rating.dynamic_factor import DynamicFactor
-from gearcad.reprs import Pictured
 
 __all__ = ["Course", "ModalStudy", "TrainStudy"]
 

@@ -1,31 +1,219 @@
-"""Gear: one cylindrical gear, external or internal, and everything that follows from what was given (ISO 21771)."""
+"""Gear: one cylindrical gear, external or internal, with all that follows from its inputs (ISO 21771)."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
-from typing import Any
+from html import escape
+from itertools import pairwise
+from typing import Any, NamedTuple
 
-from gearcad.errors import InputError
-from gearcad.geometry.derived import derive
-from gearcad.geometry.feasibility import check_given, check_tool
-from gearcad.geometry.gauged import inspection_of
-from gearcad.geometry.gear_data import GearData
-from gearcad.geometry.inspection import Inspection
-from gearcad.geometry.internal_profile import InternalProfile
+import numpy as np
+from numpy.polynomial import Polynomial
+from numpy.typing import ArrayLike
+
+from gearcad.core import symbols
+from gearcad.core.errors import GeometryError, InputError, format_number
+from gearcad.core.quantities import derive, symbols_of
+from gearcad.core.records import Floats, Notice, PerGear, Role, concise, texts
+from gearcad.geometry.feasibility import check_given, check_tool, trimming_notices
+from gearcad.geometry.gear_data import GearData, check_body, corner_notices, fillet_tool, shaper_tip, twist
+from gearcad.geometry.gear_parts import DoubleHelix
+from gearcad.geometry.inspection import Inspection, ThicknessLimits, inspection_of
 from gearcad.geometry.modification import FlankForm, check_flanks
-from gearcad.geometry.picture import gear_html
-from gearcad.geometry.profile import ToothProfile, base_half_angle
-from gearcad.geometry.thickness_limits import ThicknessLimits
-from gearcad.geometry.tooling import corner_notices, fillet_tool, shaper_tip
-from gearcad.geometry.trimming import trimming_notices
-from gearcad.geometry.walls import check_body
-from gearcad.notice import Notice, texts
-from gearcad.reprs import concise
+from gearcad.geometry.profile import (
+    LEAST_LAND,
+    Curve,
+    CurveKind,
+    Fillet,
+    InternalProfile,
+    Involute,
+    Land,
+    ToothProfile,
+    base_half_angle,
+)
 
-__all__ = ["Gear"]
+
+class Pose(NamedTuple):
+    """Place of the wheel beside a pinion that stands unturned at the origin, teeth from z = 0 to its face width.
+
+    `rotation` of the wheel about its own axis (degrees, counter-clockwise seen from +z), then its shift along x (the
+    centre distance) and along z (mm).
+    """
+
+    rotation: float
+    x: float
+    z: float
+
+
+def wheel_pose(*, teeth: PerGear[int], centre_distance: float, z: float, turn: float) -> Pose:
+    """Pose of a wheel that begins at height `z` (mm), where the pinion's section is turned by `turn` (degrees).
+
+    A ring stands at minus x: like the pinion's, the teeth of it that mesh are on its side of +x.
+    """
+    facing = 0.0 if teeth.wheel > 0 and teeth.wheel % 2 else 180 / abs(teeth.wheel)
+    return Pose(facing - turn / (teeth.wheel / teeth.pinion), centre_distance, z)
+
+
+class RackPose(NamedTuple):
+    """Place of a rack beside a pinion that stands at the origin, teeth from z = 0 to its face width.
+
+    `rotation` of the rack about z (degrees: its tips then face the pinion), then its shift (mm) along x (the mounting
+    distance), y (its travel, from where its own x = 0 is) and z.
+    """
+
+    rotation: float
+    x: float
+    y: float
+    z: float
+
+
+_PIXELS = 240
+"""Of the longer side."""
+
+CHORD_ERROR = 0.2
+"""Pixels that a polygon may be off the outline."""
+
+_OF_GEAR = "teeth normal_module helix_angle profile_shift face_width reference_diameter tip_diameter root_diameter".split()
+
+_RIM = 3.5
+"""Thickness (normal modules) with which a rim is drawn that was not given: from there on Y_B of ISO 6336-3 is 1."""
+
+_NO_RIM = f"no body.rim_diameter is given: drawn with {_RIM:g} m_n outside the root circle"
+
+_FLAT = 'style="width:auto;border-collapse:collapse"'
+
+
+def gear_html(gear: GearData, profile: ToothProfile) -> str:
+    """A picture of the gear from +z, and a table."""
+    written = symbols_of(GearData) | symbols.GEAR
+    rows = ((written[name], [getattr(gear, name)]) for name in _looked_up(gear))
+    return sheet(gear.name, _svg([_Placed(gear, profile, Pose(0.0, 0.0, 0.0))]), [], rows)
+
+
+def pair_html(
+    name: str,
+    gears: PerGear[GearData],
+    profiles: PerGear[ToothProfile],
+    wheel: Pose,
+    figures: Iterable[tuple[symbols.Symbol, float]],
+) -> str:
+    """A picture of the pair in mesh from +z, the wheel at its pose, and a table with figures of the pair."""
+    written = symbols_of(GearData) | symbols.GEAR
+    rows = [(written[key], [getattr(gear, key) for gear in gears]) for key in _looked_up(*gears)]
+    rows += [(symbol, [value]) for symbol, value in figures]
+    poses = PerGear(Pose(0.0, 0.0, 0.0), wheel)
+    picture = _svg([_Placed(*each) for each in zip(gears, profiles, poses, strict=True)])
+    return sheet(name, picture, [role.value for role in Role], rows)
+
+
+def _looked_up(*gears: GearData) -> list[str]:
+    """The figures of gears; of a ring the profile shift in the other sign too, as many know it."""
+    ring = any(gear.internal for gear in gears)
+    return [key for name in _OF_GEAR for key in ((name, "profile_shift_khk") if ring and name == "profile_shift" else (name,))]
+
+
+class _Placed(NamedTuple):
+    """A gear where a picture shows it."""
+
+    gear: GearData
+    profile: ToothProfile
+    pose: Pose
+
+
+def sheet(name: str, picture: str, headings: list[str], rows: Iterable[tuple[symbols.Symbol, list[float | None]]]) -> str:
+    """A picture beside a table of figures, a column for each heading."""
+    columns = len(headings) or 1
+    head = "".join(f"<th>{escape(heading)}</th>" for heading in headings)
+    lines = [f"<tr><th>{escape(name)}</th><th></th>{head}</tr>"]
+    for symbol, values in rows:
+        span = f' colspan="{columns}"' if len(values) < columns else ""
+        cells = "".join(f"<td{span}>{_shown(value, symbol.unit)}</td>" for value in values)
+        lines.append(f"<tr><td>{escape(symbol.words)}</td><td>{escape(symbol.symbol)}</td>{cells}</tr>")
+    table = f"<table cellpadding=3 {_FLAT}>{''.join(lines)}</table>"
+    return f'<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:center">{picture}{table}</div>'
+
+
+def _shown(value: float | None, unit: str) -> str:
+    if value is None:
+        return "-"
+    # What is left of a difference is no figure; adding zero makes -0.0 a plain zero.
+    return f"{round(value, 9) + 0.0:.6g}{' ' if unit else ''}{escape(unit)}"
+
+
+def _svg(placed: list[_Placed]) -> str:
+    """Sections of gears where they stand, the section of the first one at its z = 0, as seen from +z; in mm."""
+    left = min(pose.x - _outside(gear) / 2 for gear, _, pose in placed)
+    right = max(pose.x + _outside(gear) / 2 for gear, _, pose in placed)
+    height = max(_outside(gear) for gear, _, _ in placed)
+
+    def shapes(pixel: float) -> str:
+        return "".join(shape for each in placed for shape in gear_shapes(*each, pixel))
+
+    return drawing((left, -height / 2, right - left, height), shapes)
+
+
+def drawing(view: tuple[float, float, float, float], shapes: Callable[[float], str]) -> str:
+    """An SVG of what is in a view (left, top, width, height in mm, y down), whose shapes are drawn for the size of a pixel."""
+    left, top, width, height = view
+    scale = _PIXELS / max(width, height)
+    box = f"{left:.6g} {top:.6g} {width:.6g} {height:.6g}"
+    size = f'width="{width * scale:.0f}" height="{height * scale:.0f}"'
+    style = f'fill="currentColor" fill-opacity=".15" stroke="currentColor" stroke-width="{1 / scale:.3g}"'
+    drawn = shapes(1 / scale)
+    return f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{box}" overflow="visible"><g {style}>{drawn}</g></svg>'
+
+
+def _outside(gear: GearData) -> float:
+    """Diameter (mm) of what surrounds a gear: its tip circle, or the rim of a ring, which is drawn somewhere if not given."""
+    if not gear.internal:
+        return gear.tip_diameter
+    return gear.body.rim_diameter or 2 * _RIM * gear.normal_module - gear.root_diameter
+
+
+def gear_shapes(gear: GearData, profile: ToothProfile, pose: Pose, pixel: float) -> Iterator[str]:
+    """The outline with its bore or rim, and the reference circle; `pixel` is its size (mm)."""
+    # Seen at the pinion's z = 0, a helical wheel that begins at another height is turned by then.
+    turn = math.radians(pose.rotation) - twist(gear, pose.z)
+    cosine, sine = math.cos(turn), math.sin(turn)
+    turned = profile.contour(CHORD_ERROR * pixel) @ np.array([[cosine, sine], [-sine, cosine]])
+    outline = polygon(turned + np.array([pose.x, 0.0]), pixel)
+    rim = _circle(_outside(gear) / 2, pose.x)
+    if not gear.internal:
+        yield f'<path fill-rule="evenodd" d="{outline}{_circle(gear.body.bore / 2, pose.x)}"/>'
+    elif gear.body.rim_diameter is not None:
+        yield f'<path fill-rule="evenodd" d="{outline}{rim}{_bolt_holes(gear, pose.x, turn)}"/>'
+    else:
+        yield f'<path fill-rule="evenodd" stroke="none" d="{outline}{rim}"/><path fill="none" d="{outline}"/>'
+        yield f'<path fill="none" stroke-dasharray="{2 * pixel:.3g}" d="{rim}"><title>{_NO_RIM}</title></path>'
+    yield (
+        f'<circle cx="{pose.x:.6g}" cy="0" r="{abs(gear.reference_diameter) / 2:.6g}" fill="none" stroke-opacity=".5"'
+        f' stroke-dasharray="{8 * pixel:.3g} {2 * pixel:.3g} {pixel:.3g} {2 * pixel:.3g}"/>'
+    )
+
+
+def _bolt_holes(gear: GearData, x: float, turn: float) -> str:
+    """The bolt holes of a ring, the first in the middle of tooth 0, as paths; y is down."""
+    body = gear.body
+    angles = turn + 2 * math.pi / max(body.bolt_holes, 1) * np.arange(body.bolt_holes)
+    centres = zip(np.cos(angles).tolist(), np.sin(angles).tolist(), strict=True)
+    half = body.bolt_circle / 2
+    return "".join(_circle(body.bolt_diameter / 2, x + half * cosine, -half * sine) for cosine, sine in centres)
+
+
+def polygon(points: Floats, pixel: float) -> str:
+    """A closed path, to a tenth of a pixel; y is down in an SVG."""
+    digits = max(0, 1 - math.floor(math.log10(pixel)))
+    return "M" + " ".join(f"{x:.{digits}f},{-y:.{digits}f}" for x, y in points.tolist()) + "Z"
+
+
+def _circle(radius: float, x: float, y: float = 0.0) -> str:
+    """A path, empty for no radius; y is down."""
+    arc = f"a{radius:.6g},{radius:.6g} 0 1 0"
+    return f"M{x - radius:.6g},{y:.6g}{arc} {2 * radius:.6g},0{arc} {-2 * radius:.6g},0Z" if radius else ""
+
 
 THIN_TIP = 0.2
 """Normal tip thickness below which the data sheet warns, in normal modules (0.4 for case-hardened teeth)."""
@@ -242,3 +430,166 @@ class Gear(GearData):
             derived["thickness_limits"] = self.thickness_limits.to_dict()
         warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}
         return {**inputs, **parts, **derived, **warnings}
+
+
+class Half(NamedTuple):
+    """One half: a gear of its width and hand, that begins at height `z` (mm) and is turned by `rotation` (degrees)."""
+
+    gear: Gear
+    z: float
+    rotation: float
+
+
+def halves(gear: Gear) -> tuple[Half, Half]:
+    """Lower and upper half of a double helical gear.
+
+    The upper one is the mirror image of the lower one, turned by the offset. Modifications along the face are those of each
+    half.
+    """
+    lower = replace(gear, face_width=gear.half_width, double_helix=DoubleHelix())
+    mirrored = replace(gear.modification, twist=0.0 - gear.modification.twist)
+    upper = replace(lower, helix_angle=-gear.helix_angle, modification=mirrored)
+    turned = math.copysign(gear.twist, gear.helix_angle) + 360 / gear.tooth_count * gear.double_helix.offset
+    return Half(lower, 0.0, 0.0), Half(upper, gear.face_width - gear.half_width, turned)
+
+
+def refuse_halves(gear: Gear, what: str) -> None:
+    """Raise GeometryError for a double helical gear where only one hand is treated, with the half that would do."""
+    if gear.double_helix.present:
+        half = format_number(round(gear.half_width, 6))
+        permitted = f"must be left out for {what}: take one half, of face width {half} mm, and half the torque"
+        raise GeometryError("double_helix.gap_width", gear.double_helix.gap_width, permitted, "mm")
+
+
+_HEIGHTS = 65
+"""Places over the face width at which the width of the root land is looked at."""
+
+_STEP = 1e-5
+"""Step of a curve's parameter over which its speed is taken."""
+
+
+_NOTHING = 1e-9
+"""Length (mm) of a curve that is but a point."""
+
+
+@dataclass(frozen=True)
+class FlankCurve:
+    """A smooth piece of half a tooth's side, root to tip. Its end s = 0 is turned as the flank at roll length `first` (mm),
+    s = 1 as at `last`, in proportion between them.
+
+    `fading`: of that turn there is nothing at s = 0, and all of it, with no corner, at s = 1.
+    """
+
+    curve: Curve
+    first: float
+    last: float
+    fading: bool = False
+
+    def lengths(self, s: Floats) -> Floats:
+        """Roll lengths (mm) whose depth turns the points at s."""
+        return self.first + s * (self.last - self.first)
+
+    def turn(self, form: FlankForm, s: ArrayLike, z: ArrayLike, *, left: bool) -> Floats:
+        """Angle (rad) by which the point at s is turned at height z (mm); s and z broadcast."""
+        s = np.asarray(s, float)
+        turn = form.turn(self.lengths(s), z, left=left)
+        return turn * s**2 * (3 - 2 * s) if self.fading else turn
+
+
+def flank_curves(gear: Gear) -> list[FlankCurve]:
+    """Fillet, involute and tip chamfer; the involute of a modified gear in the pieces on which the depth is smooth.
+
+    Fillet and chamfer turn with the end of the involute that they join; sharp corners of a form root have no fillet. Fillets
+    that meet in the middle of the space, or would after turning, do not turn at the root circle.
+    """
+    form, found = gear.flank_form, list[FlankCurve]()
+    for curve in gear.profile.curves:
+        if isinstance(curve, Fillet):
+            if _is_point(curve):
+                continue
+            found.append(FlankCurve(curve, form.first, form.first, gear.modification.present and not _root_land_stays(gear)))
+        elif curve.kind is CurveKind.CHAMFER:
+            found.append(FlankCurve(curve, form.last, form.last))
+        elif isinstance(curve, Involute):
+            breaks = form.roll_breaks if gear.modification.present else ()
+            lengths = [form.first, *breaks, form.last]
+            rolls = [curve.first, *(abs(length) / curve.base_radius for length in breaks), curve.last]
+            pieces = [replace(curve, first=first, last=last) for first, last in pairwise(rolls)]
+            found += [FlankCurve(piece, *ends) for piece, ends in zip(pieces, pairwise(lengths), strict=True)]
+    return found
+
+
+def _is_point(curve: Curve) -> bool:
+    """Whether there is nothing of a curve, as of the fillet of a form root with sharp corners."""
+    start, end = curve.points(np.array([0.0, 1.0]))
+    return math.dist(start, end) < _NOTHING
+
+
+def _root_land_stays(gear: Gear) -> bool:
+    """True if there is some root land at every height when both fillets have turned."""
+    land = gear.profile.curves[0]
+    if land.kind is not CurveKind.ROOT:
+        return False
+    form = gear.flank_form
+    z = np.union1d(np.linspace(0.0, gear.half_width, _HEIGHTS), form.height_breaks)
+    right, left = (form.turn(form.first, z, left=side) for side in (False, True))
+    width = 2 * (math.pi / gear.tooth_count - float(land.polar(1.0)[1])) + right - left
+    return float(width.min()) * gear.profile.root_diameter / 2 >= LEAST_LAND
+
+
+# ---------------------------------------------------------------------- the section at mid face width
+
+
+def middle_section(gear: Gear) -> tuple[Curve, ...]:
+    """Curves of half a tooth in the section at mid face width, not turned by the helix: `profile.curves`, as modified.
+
+    There lead crowning, end relief, helix modification and twist are nothing, and so both flanks are alike.
+    """
+    if not gear.modification.on_profile:
+        return gear.profile.curves
+    flank = [TurnedCurve.of(gear, piece) for piece in flank_curves(gear)]
+    lands = {curve.kind: curve for curve in gear.profile.curves if isinstance(curve, Land)}
+    tip = replace(lands[CurveKind.TIP], first=float(flank[-1].polar(1.0)[1]))
+    root = lands.get(CurveKind.ROOT)
+    return (*([replace(root, last=float(flank[0].polar(0.0)[1]))] if root else []), *flank, tip)
+
+
+@dataclass(frozen=True)
+class TurnedCurve:
+    """A curve whose points are turned: by (a + b s + c s^2) times s^2 (3 - 2 s) if it is fading; angles in radians."""
+
+    curve: Curve
+    turn: Polynomial
+
+    @classmethod
+    def of(cls, gear: Gear, piece: FlankCurve) -> TurnedCurve:
+        """A piece of the left flank at mid face width. Over a piece the depth is a parabola, so three places give it."""
+        s = np.array([0.0, 0.5, 1.0])
+        at = gear.flank_form.turn(piece.lengths(s), gear.half_width / 2)
+        slope = at[2] - at[0]
+        bend = 2 * (at[0] - 2 * at[1] + at[2])
+        turn = Polynomial([at[0], slope - bend, bend])
+        return cls(piece.curve, turn * Polynomial([0, 0, 3, -2]) if piece.fading else turn)
+
+    @property
+    def kind(self) -> CurveKind:
+        return self.curve.kind
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        radius, angle = self.curve.polar(s)
+        return radius, angle + self.turn(np.asarray(s, float))
+
+    def points(self, s: ArrayLike) -> Floats:
+        radius, angle = self.polar(s)
+        return np.stack([radius * np.cos(angle), radius * np.sin(angle)], -1)
+
+    def direction(self, s: ArrayLike) -> Floats:
+        """That of the curve, and a sideways step by what the turn grows."""
+        s = np.asarray(s, float)
+        heading, (radius, angle) = self.curve.direction(s), self.curve.polar(s)
+        low, high = np.clip(s - _STEP, 0, 1), np.clip(s + _STEP, 0, 1)
+        speed = np.hypot(*np.moveaxis(self.curve.points(high) - self.curve.points(low), -1, 0)) / (high - low)
+        sideways = radius * self.turn.deriv()(s)
+        across = angle + np.pi / 2 - heading  # from the heading to where a turn moves a point
+        tilt: Floats = np.arctan2(sideways * np.sin(across), speed + sideways * np.cos(across))
+        return heading + tilt + self.turn(s)

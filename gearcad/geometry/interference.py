@@ -1,9 +1,13 @@
-"""Fillet interference: whether the tip of one gear sweeps through the fillet of its mate.
+"""Interference of teeth in mesh: tips against fillets, and a pinion inside a ring, each with its margin.
 
 The classical check compares circles: the lowest point that the mate's tip touches on the involute against the form
 circle. It is not enough: a tip edge that leaves the involute in time may still cut the fillet further down, where the
 mate rolls in closer than the tool did. So the path of the edge itself is compared with the fillet: by bounds, which are enough
 for most pairs, else point by point.
+
+On plain numbers, all of them magnitudes: lengths in mm, angles in radians. The ring's axis is the origin and the pinion's lies
+on +x, where they mesh; both turn the same way, counter-clockwise, and the pinion's flanks that lead drive. "Touching" is with
+these flanks in contact, all backlash behind them: so they run, and where the tips foul, backlash does not help them.
 """
 
 from __future__ import annotations
@@ -11,16 +15,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
 from typing import NamedTuple, Self
 
 import numpy as np
 
-from gearcad.arrays import Floats
-from gearcad.geometry.curves import Fillet
+from gearcad.core.records import Floats
 from gearcad.geometry.involute import involute
-from gearcad.geometry.profile import ToothProfile
-
-__all__ = ["EdgePath", "FilletCut", "RollingEdge", "deepest_cut", "fillet_cut", "tip_edges"]
+from gearcad.geometry.profile import Fillet, ToothProfile
 
 EdgePath = Callable[[Floats], tuple[Floats, Floats]]
 """Where an edge of a mate is, by its angle from the line of centres about the mate's axis (rad): the radius (mm) about the
@@ -150,3 +153,193 @@ def _cut_by_edge(
     if edge is None or (not own.undercut and edge.stays_off(own.fillet)):
         return None
     return deepest_cut(own, edge.path, edge.farthest)
+
+
+CHAMFER_POINTS = 33
+"""Points of a tip chamfer that are looked at."""
+
+_GRID = 65
+_REFINEMENTS = 4
+
+
+class InterferenceMargins(NamedTuple):
+    """How far an internal pair is from each interference (mm); what is negative is fouled.
+
+    Along the line of action: `involute` from the base tangent point T1 to the end of the ring's tip (A); `pinion_fillet` from
+    the pinion's root form circle to it; `wheel_fillet` from the end of the pinion's tip (E) to the ring's root form circle.
+    Beside the mesh, along the ring's tip circle: `trochoid`, between the tips with flanks touching; and `radial`, between them
+    while the pinion is pushed in along the line of centres, backlash split, in the worst of its positions.
+    """
+
+    involute: float
+    pinion_fillet: float
+    wheel_fillet: float
+    trochoid: float
+    radial: float
+
+
+@dataclass(frozen=True)
+class ToothTips:
+    """What of the teeth of one gear could foul its mate: the corners of their tips.
+
+    `base_half_angle` (rad) is that of the profile. `edges` (radius in mm, half tooth angle in rad) go from the end of the
+    involute to the tip land; they are one without a tip chamfer.
+    """
+
+    teeth: int
+    base_radius: float
+    base_half_angle: float
+    edges: tuple[tuple[float, float], ...]
+
+    @classmethod
+    def of(cls, profile: ToothProfile) -> ToothTips:
+        """Those of a tooth profile."""
+        edges = tip_edges(profile)
+        return cls(round(profile.teeth), profile.base_diameter / 2, math.radians(profile.base_half_angle), edges)
+
+    @classmethod
+    def sharp(cls, teeth: int, base_radius: float, base_half_angle: float, tip_radius: float) -> ToothTips:
+        """Those of a ring without tip chamfers."""
+        roll = math.sqrt((tip_radius - base_radius) * (tip_radius + base_radius)) / base_radius
+        return cls(teeth, base_radius, base_half_angle, ((tip_radius, base_half_angle + roll - math.atan(roll)),))
+
+    @property
+    def reach(self) -> float:
+        """Roll length (mm) of the end of the involute."""
+        radius = self.edges[0][0]
+        return math.sqrt(max((radius - self.base_radius) * (radius + self.base_radius), 0.0))
+
+    @cached_property
+    def corner(self) -> tuple[Floats, Floats]:
+        """Points between flank and tip land: radius (mm) and half tooth angle (rad), each (n,); one where it is sharp."""
+        if len(self.edges) == 1:
+            ((radius, angle),) = self.edges
+            return np.array([radius]), np.array([angle])
+        (x, y), (u, v) = ((radius * math.cos(angle), radius * math.sin(angle)) for radius, angle in self.edges)
+        s = np.linspace(0.0, 1.0, CHAMFER_POINTS)
+        along, across = x + s * (u - x), y + s * (v - y)
+        return np.hypot(along, across), np.arctan2(across, along)
+
+
+@dataclass(frozen=True)
+class InternalTips:
+    """Tips of a pinion inside a ring whose axis is `centre_distance` (mm) away."""
+
+    pinion: ToothTips
+    ring: ToothTips
+    centre_distance: float
+
+    @cached_property
+    def pressure_angle(self) -> float:
+        """alpha_wt (rad)."""
+        return math.acos((self.ring.base_radius - self.pinion.base_radius) / self.centre_distance)
+
+    @property
+    def tangent(self) -> float:
+        """|T1T2| (mm)."""
+        return self.centre_distance * math.sin(self.pressure_angle)
+
+    @property
+    def first(self) -> float:
+        """First contact A (mm from T1)."""
+        return self.ring.reach - self.tangent
+
+    @property
+    def last(self) -> float:
+        """Last contact E (mm from T1)."""
+        return self.pinion.reach
+
+    @property
+    def _ratio(self) -> float:
+        """By how much the ring turns when the pinion turns by one."""
+        return self.pinion.teeth / self.ring.teeth
+
+    @cached_property
+    def _working_half_angles(self) -> tuple[float, float]:
+        """Half tooth angles (rad) of pinion and ring on the working pitch circles."""
+        working = math.tan(self.pressure_angle) - self.pressure_angle
+        return self.pinion.base_half_angle - working, self.ring.base_half_angle + working
+
+    # ------------------------------------------------------------------ beside the mesh
+
+    @property
+    def trochoid_margin(self) -> float:
+        """Least distance (mm) of the tips where their circles cross, with flanks touching; negative where they foul.
+
+        A point of the pinion's tip on r_1 and half angle theta_1 crosses the circle r_2 of a point of the ring's at d_1 from
+        the line of centres about the pinion's axis, at d_2 about the ring's:
+        r_2 [(d_1 - theta_1 + psi_w1) z_1/z_2 + psi_w2 - theta_2 - d_2] >= 0.
+        """
+        a, own, mate = self.centre_distance, *self._working_half_angles
+        r, theta = (each[:, None] for each in self.pinion.corner)
+        R, space = self.ring.corner
+        if (far := a + float(R.min()) - float(r.max())) < 0:
+            return far  # the tip circles do not even cross: the pinion reaches the ring's teeth on the far side
+        d_1 = np.arccos(np.clip((R**2 - r**2 - a**2) / (2 * a * r), -1, 1))
+        d_2 = np.arccos(np.clip((a**2 + R**2 - r**2) / (2 * a * R), -1, 1))
+        return float((R * ((d_1 - theta + own) * self._ratio + mate - space - d_2)).min())
+
+    @property
+    def radial_margin(self) -> float:
+        """Least distance (mm) of the tips, across the line of centres, on the way in along it; negative where they foul.
+
+        min over u of r_2 sin(u z_1/z_2 + eta_2) - r_1 sin(u + psi_1), with half tooth angle psi_1 of the pinion and half space
+        angle eta_2 of the ring at their tips; u is the angle of a tooth from the line of centres.
+        """
+        return min(self._radial(one, other) for one, other in product(self.pinion.edges, self.ring.edges))
+
+    def _radial(self, pinion: tuple[float, float], ring: tuple[float, float]) -> float:
+        (r_1, psi_1), (r_2, theta_2) = pinion, ring
+        eta_2 = math.pi / self.ring.teeth - theta_2
+        low, high = 0.0, math.pi / 2
+        for _ in range(_REFINEMENTS):
+            u = np.linspace(low, high, _GRID)
+            margin = r_2 * np.sin(u * self._ratio + eta_2) - r_1 * np.sin(u + psi_1)
+            least = int(np.argmin(margin))
+            low, high = u[max(least - 1, 0)], u[min(least + 1, _GRID - 1)]
+        return float(margin[least])
+
+    # ------------------------------------------------------------------ paths of edges
+
+    def in_ring(self, radius: float, angle: float) -> EdgePath:
+        """Path of a point of the pinion, at `radius` and half tooth `angle`, before the ring's flank that it faces."""
+        own, mate = self._working_half_angles
+
+        def path(t: Floats) -> tuple[Floats, Floats]:
+            across, along = self.centre_distance + radius * np.cos(t), radius * np.sin(t)
+            turned = mate + (t - angle + own) * self._ratio
+            return np.hypot(across, along), turned - np.arctan2(along, across)
+
+        return path
+
+    def in_pinion(self, radius: float, angle: float) -> EdgePath:
+        """Path of a point of the ring, at `radius` and half tooth `angle`, before the pinion's flank that it faces."""
+        own, mate = self._working_half_angles
+
+        def path(t: Floats) -> tuple[Floats, Floats]:
+            across, along = radius * np.cos(t) - self.centre_distance, radius * np.sin(t)
+            turned = (t + angle - mate) / self._ratio - own
+            return np.hypot(across, along), np.arctan2(along, across) - turned
+
+        return path
+
+
+def internal_fillet_cut(own: ToothProfile, mate: ToothProfile, *, centre_distance: float, rounding: float) -> FilletCut | None:
+    """What the tip edges of `mate` cut from the fillet of `own`, one of them a ring, with flanks touching.
+
+    None if it is no more than `rounding` (mm). Where contact already ends in the fillet this includes what the involute of
+    the mate overlaps.
+    """
+    pinion, ring = (mate, own) if own.internal else (own, mate)
+    tips = InternalTips(ToothTips.of(pinion), ToothTips.of(ring), centre_distance)
+    form = own.form_diameter / 2
+    path_of: Callable[[float, float], EdgePath] = tips.in_ring if own.internal else tips.in_pinion
+
+    def cut(radius: float, angle: float) -> FilletCut | None:
+        # Beyond the ring's form circle, or within the pinion's, is the edge at less than this from the line of centres.
+        side = 1 if own.internal else -1
+        cosine = side * (form**2 - centre_distance**2 - radius**2) / (2 * centre_distance * radius)
+        return None if cosine >= 1 else deepest_cut(own, path_of(radius, angle), math.acos(max(cosine, -1.0)))
+
+    cuts = (cut(*edge) for edge in tip_edges(mate))
+    return max((each for each in cuts if each and each.depth > rounding), default=None)

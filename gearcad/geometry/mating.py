@@ -1,4 +1,6 @@
-"""Can these two gears mesh? What both must share, the centre distance, and teeth that fit into each other.
+"""Checks that two gears can mesh: common sizes, centre distance, fitting teeth, and interference inside a ring.
+
+Raises GeometryError, whose limits can be used as they are printed.
 
 Raises ParameterError or GeometryError, whose limits can be used as they are printed.
 """
@@ -6,30 +8,306 @@ Raises ParameterError or GeometryError, whose limits can be used as they are pri
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
+from dataclasses import fields, replace
+from functools import partial
+from itertools import islice
 
-from gearcad.errors import GeometryError, ParameterError, format_number, require_name
-from gearcad.geometry.centre_distance_tolerance import LARGEST_DISTANCE, require_class
-from gearcad.geometry.derived import is_given
+from gearcad.core.errors import GeometryError, InputError, ParameterError, at_least, at_most, format_number, require_name
+from gearcad.core.quantities import is_given, require_fields
+from gearcad.core.records import Notice, PerGear, Role
+from gearcad.geometry.fits import LARGEST_DISTANCE, require_class
 from gearcad.geometry.gear import Gear
-from gearcad.geometry.internal_mating import check_interference, ring_tip_limit
-from gearcad.geometry.involute import tangent_length
-from gearcad.geometry.limits import at_least, at_most
-from gearcad.geometry.pair_data import PairData
-from gearcad.geometry.path import farthest_centre_distance
-from gearcad.geometry.shift import shift_sum_limit
-from gearcad.per_gear import PerGear, Role
-from gearcad.schema import require_fields
+from gearcad.geometry.gear_data import GearData
+from gearcad.geometry.interference import FilletCut, InterferenceMargins, InternalTips, ToothTips, internal_fillet_cut
+from gearcad.geometry.involute import involute, tangent_length
+from gearcad.geometry.pair_data import PairData, farthest_centre_distance, shift_sum_limit, zero_backlash_centre_distance
+from gearcad.geometry.profile import ToothProfile
 
-__all__ = [
-    "check_centre_distance",
-    "check_inputs",
-    "check_mates",
-    "check_ring",
-    "check_shift_sum",
-    "check_teeth",
-    "check_tolerance",
-    "wrong_side",
-]
+ROUNDING = 1e-9
+"""Cut into a fillet, in normal modules, that counts as rounding."""
+
+_ASIDE = 1e-6
+"""What a limit keeps off a tip that would just touch, in normal modules."""
+
+_HALVINGS = 40
+_COARSE_HALVINGS = 20
+
+_SHORTER = 0.5
+"""How far a tip circle is drawn in at the most, in normal modules of diameter, for its edge to clear a fillet."""
+
+_MOST_STEPS = 400
+"""Rings of more teeth that are looked at, to say which would do."""
+
+_MOST_TRIALS = 4
+"""Those with room enough that are made: they may not be permitted for other reasons, such as their rim."""
+
+
+def internal_tips(pair: PairData, ring: ToothProfile | None = None) -> InternalTips:
+    """The tips of both gears, or of another ring at their centre distance."""
+    mate = ToothTips.of(pair.wheel.profile if ring is None else ring)
+    return InternalTips(ToothTips.of(pair.pinion.profile), mate, -pair.centre_distance)
+
+
+def interference_margins(pair: PairData) -> InterferenceMargins:
+    """How far the pair is from each interference (mm)."""
+    tips = internal_tips(pair)
+    pinion, ring = (abs(tangent_length(gear.form_diameter, gear.base_diameter)) for gear in pair.gears)
+    return InterferenceMargins(
+        involute=tips.first,
+        pinion_fillet=tips.first - pinion,
+        wheel_fillet=ring - tips.tangent - tips.last,
+        trochoid=tips.trochoid_margin,
+        radial=tips.radial_margin,
+    )
+
+
+# ---------------------------------------------------------------------- what is refused
+
+
+def check_interference(pair: PairData) -> None:
+    """The ring's tip stays off what the pinion has below its base circle, and both tips off each other beside the mesh."""
+    tips = internal_tips(pair)
+    if tips.first <= 0 and (cut := _fillet_cut(pair, Role.PINION)):
+        limit = 2 * math.hypot(pair.wheel.base_diameter / 2, tips.tangent) - 2 * pair.wheel.body.tip_chamfer
+        permitted = (
+            f"must be {ring_tip_limit(pair) or f'below {at_most(-limit)}'} mm: involute interference, the tip reaches"
+            f" {-tips.first:.4g} mm beyond the base tangent point T1 and cuts {cut.depth:.2g} mm into the pinion's"
+            f" root{_clearing(pair, Role.WHEEL)}"
+        )
+        raise GeometryError("wheel.tip_diameter", pair.wheel.tip_diameter, permitted, "mm")
+    if (margin := tips.trochoid_margin) < 0:
+        raise _trochoid_interference(pair, -margin)
+
+
+def ring_tip_limit(pair: PairData) -> str | None:
+    """ "at most" the ring's tip diameter (mm) that fouls nothing of the pinion but perhaps its fillet; None if none does."""
+    root, aside = -pair.centre_distance + pair.pinion.root_diameter / 2, _ASIDE * pair.pinion.normal_module
+
+    def room(tips: InternalTips) -> float:
+        return min(tips.first - aside, tips.trochoid_margin, tips.ring.edges[-1][0] - root - aside)
+
+    limit = _shorter_tip(pair, room)
+    return None if limit is None else f"at most {limit}"
+
+
+def _trochoid_interference(pair: PairData, depth: float) -> GeometryError:
+    """The error, with the shorter tip or the number of teeth of the ring that would do."""
+    why = f"trochoid interference, beside the mesh the tips foul each other by {depth:.4g} mm"
+    tip = _shorter_tip(pair, lambda tips: tips.trochoid_margin)
+    teeth = _more_teeth(pair, lambda tips: tips.trochoid_margin)
+    if tip is not None:
+        other = "" if teeth is None else f"; or wheel.teeth at most {teeth}"
+        return GeometryError("wheel.tip_diameter", pair.wheel.tip_diameter, f"must be at most {tip} mm: {why}{other}", "mm")
+    if teeth is not None:
+        return GeometryError("wheel.teeth", pair.wheel.teeth, f"must be at most {teeth}: {why}")
+    permitted = f"must be farther from the pinion's {pair.pinion.teeth}: {why}"
+    return GeometryError("wheel.teeth", pair.wheel.teeth, permitted)
+
+
+def _shorter_tip(pair: PairData, margin: Callable[[InternalTips], float]) -> str | None:
+    """The longest tip of the ring (its diameter in mm, as text) whose margin is not negative, flanks in contact all along."""
+    profile, tips = pair.wheel.profile, internal_tips(pair)
+    pitch = min(pair.pinion.transverse_base_pitch, tips.last - tips.first)
+    reach = tips.tangent + tips.last - pitch
+    longest = 2 * math.hypot(profile.base_diameter / 2, reach) - 2 * profile.tip_chamfer if reach > 0 else 0.0
+
+    def fits(diameter: float) -> bool:
+        try:
+            return margin(internal_tips(pair, replace(profile, tip_diameter=diameter))) >= 0
+        except GeometryError:
+            return False
+
+    low, high = profile.tip_diameter, longest
+    if high <= low or not fits(high):
+        return None
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (low, middle) if fits(middle) else (middle, high)
+    limit = at_most(-high)
+    return limit if _permitted(pair, lambda: replace(pair.wheel, tip_diameter=float(limit))) else None
+
+
+def _more_teeth(pair: PairData, margin: Callable[[InternalTips], float]) -> int | None:
+    """The nearest number of teeth of the ring, negative, whose margin is not; None where it could not be changed alone."""
+    if is_given(pair.centre_distance) or is_given(pair.wheel.tip_diameter):
+        return None
+    clear = _is_clear(pair)
+    more = range(pair.wheel.tooth_count + 1, pair.wheel.tooth_count + _MOST_STEPS)
+    for teeth in islice(filter(partial(_has_room, pair, margin, clear), more), _MOST_TRIALS):
+        alteration = _tip_alteration(pair, teeth, clear)
+        if _permitted(pair, partial(replace, pair.wheel, teeth=-teeth, tip_alteration=alteration)):
+            return -teeth
+    return None
+
+
+def _has_room(pair: PairData, margin: Callable[[InternalTips], float], clear: bool, teeth: int) -> bool:
+    """Whether a margin would not be negative with so many teeth of the ring."""
+    try:
+        return margin(_sharp_tips(pair, teeth, _tip_alteration(pair, teeth, clear))) >= 0
+    except (InputError, ValueError):  # no such pair, or a tip inside its base circle
+        return False
+
+
+def _sharp_tips(pair: PairData, teeth: int, tip_alteration: float) -> InternalTips:
+    """Those of the same pair with another number of teeth and tip of the ring, but for its tip chamfers, by formula."""
+    pinion, ring = pair.gears
+    share = teeth / ring.tooth_count
+    half_angle = ring.normal_tooth_thickness / (ring.normal_module * teeth) - involute(ring.transverse_pressure_angle)
+    rise = ring.tip_diameter - ring.reference_diameter + 2 * ring.normal_module * (tip_alteration - ring.tip_alteration)
+    tip = -(ring.reference_diameter * share + rise) / 2
+    tips = ToothTips.sharp(teeth, -ring.base_diameter / 2 * share, half_angle, tip)
+    return InternalTips(ToothTips.of(pinion.profile), tips, -_distance_with(pair, teeth))
+
+
+def _distance_with(pair: PairData, teeth: int) -> float:
+    """The centre distance (mm, negative) without backlash for another number of teeth of the ring."""
+    return zero_backlash_centre_distance(
+        normal_module=pair.wheel.normal_module,
+        teeth=PerGear(pair.pinion.teeth, -teeth),
+        helix_angle=pair.wheel.helix_angle,
+        pressure_angle=pair.wheel.rack.pressure_angle,
+        shift_sum=pair.profile_shift_sum,
+    )
+
+
+def _is_clear(pair: PairData) -> bool:
+    """Whether the ring's tip was drawn in just to stay off the pinion's fillet ("clear" in a spec): it follows the teeth."""
+    if pair.wheel.tip_alteration >= 0 or (clear := clear_tip_diameter(pair)) is None:
+        return False
+    return abs(clear - pair.wheel.tip_diameter) <= _ASIDE * pair.wheel.normal_module
+
+
+def _tip_alteration(pair: PairData, teeth: int, clear: bool) -> float:
+    """k of the ring with another number of teeth: its own, or what is then clear. More teeth need less."""
+    ring = pair.wheel
+    if not clear:
+        return ring.tip_alteration
+    given = {each.name: getattr(ring, each.name) for each in fields(GearData)}
+    other = GearData(**given | {"teeth": -teeth, "tip_alteration": 0.0})
+    tip = tip_on_form_circle(other, pair.pinion, _distance_with(pair, teeth))
+    drawn_in = 0.0 if tip is None else min((tip - other.standard_tip_diameter) / (2 * ring.normal_module), 0.0)
+    return max(ring.tip_alteration, drawn_in)
+
+
+def _permitted(pair: PairData, ring: Callable[[], Gear]) -> bool:
+    """Whether the pair may be had with another ring."""
+    try:
+        replace(pair, wheel=ring())
+    except InputError:
+        return False
+    return True
+
+
+# ---------------------------------------------------------------------- what is told
+
+
+def interference_notices(pair: PairData) -> Iterator[Notice]:
+    """Tips that reach fillets, and pinions that cannot be put in along the line of centres."""
+    for role in Role:
+        if (cut := _fillet_cut(pair, role)) is not None:
+            yield Notice("fillet-interference", f"fillet interference: {_fillet_text(pair, role, cut)}")
+        elif _fillet_margin(pair, role) < -ROUNDING * pair.pinion.normal_module:
+            form = f"{role.value}'s root form circle {pair.gears.pick(role).form_diameter:.4f} mm"
+            yield Notice("undercut-contact", f"undercut: contact ends on the {form}, before the {role.mate.value}'s tip does")
+    if (margin := internal_tips(pair).radial_margin) < 0:
+        yield Notice("radial-assembly", f"radial assembly: {_radial_text(pair, -margin)}")
+
+
+def _fillet_margin(pair: PairData, role: Role) -> float:
+    """Roll length (mm) from the root form circle of a gear to the end of its mate's tip."""
+    margins = interference_margins(pair)
+    return margins.pinion_fillet if role is Role.PINION else margins.wheel_fillet
+
+
+def _fillet_text(pair: PairData, role: Role, cut: FilletCut) -> str:
+    """What the tip of its mate does to the fillet of a gear, and the tip that would not."""
+    owner, other, gear, margin = role.value, role.mate.value, pair.gears.pick(role), _fillet_margin(pair, role)
+    form = f"{'outside' if gear.internal else 'below'} its root form circle {gear.form_diameter:.4f} mm"
+    if margin < -ROUNDING * pair.pinion.normal_module:
+        roll = abs(tangent_length(gear.form_diameter, gear.base_diameter)) + (-margin if gear.internal else margin)
+        reached = math.copysign(math.hypot(gear.base_diameter, 2 * max(roll, 0.0)), gear.teeth)
+        text = (
+            f"the {other}'s tip reaches diameter {reached:.4f} mm of the {owner}, {form}, and cuts {cut.depth:.2g} mm into it"
+        )
+    else:
+        at = f"diameter {math.copysign(cut.diameter, gear.teeth):.4f} mm, {form}"
+        text = f"the edge of the {other}'s tip cuts {cut.depth:.2g} mm into the {owner}'s fillet at {at}"
+    return text + _clearing(pair, role.mate)
+
+
+def _clearing(pair: PairData, role: Role) -> str:
+    """The tip of a gear that clears its mate's fillet, for the end of a message."""
+    limit = clear_tip_diameter(pair, role)
+    return (
+        ""
+        if limit is None
+        else f"; {role.value}.tip_diameter at most {at_most(limit)} mm clears the {role.mate.value}'s fillet"
+    )
+
+
+def _radial_text(pair: PairData, depth: float) -> str:
+    text = f"pushed in along the line of centres the pinion fouls the ring's tips by {depth:.4g} mm: it goes in along the axis"
+    if (teeth := _more_teeth(pair, lambda tips: tips.radial_margin)) is not None:
+        return f"{text}; from wheel.teeth = {teeth} on it goes in either way"
+    if (tip := _shorter_tip(pair, lambda tips: tips.radial_margin)) is not None:
+        return f"{text}; with wheel.tip_diameter at most {tip} mm it goes in either way"
+    return text
+
+
+# ---------------------------------------------------------------------- tips that clear fillets
+
+
+def clear_tip_diameter(pair: PairData, role: Role = Role.WHEEL) -> float | None:
+    """The largest tip diameter (mm; negative of a ring) with which a gear stays off its mate's fillet; None where none does.
+
+    Its flank ends on the mate's root form circle, or before, where its edge would still cut the fillet.
+    """
+    gear, mate = pair.gears.pick(role), pair.gears.pick(role.mate)
+    longest = tip_on_form_circle(gear, mate, pair.centre_distance)
+    if longest is None:
+        return None
+
+    def clears(diameter: float) -> bool:
+        try:
+            shortened = replace(gear.profile, tip_diameter=abs(diameter))
+        except GeometryError:
+            return False
+        return _cut(mate.profile, shortened, pair) is None
+
+    if clears(longest):
+        return longest
+    low, high = longest, longest - _SHORTER * gear.normal_module
+    if not clears(high):
+        return None
+    for _ in range(_COARSE_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (low, middle) if clears(middle) else (middle, high)
+    return high
+
+
+def tip_on_form_circle(gear: GearData, mate: Gear, centre_distance: float) -> float | None:
+    """Tip diameter (mm, signed) of a gear whose flank ends on the root form circle of its mate; None where none does.
+
+    |d_Fa2| = 2 sqrt(r_b2^2 + (|T1T2| + t_Ff1)^2) of a ring, d_Fa1 = 2 sqrt(r_b1^2 + (t_Ff2 - |T1T2|)^2) of a pinion.
+    """
+    bases = (gear.base_diameter + mate.base_diameter) / 2
+    tangent = -math.sqrt(max((centre_distance - bases) * (centre_distance + bases), 0.0))
+    reach = tangent - tangent_length(mate.form_diameter, mate.base_diameter)
+    if reach * gear.teeth <= 0:
+        return None
+    return math.copysign(math.hypot(gear.base_diameter, 2 * reach), gear.teeth) + 2 * gear.body.tip_chamfer
+
+
+def _fillet_cut(pair: PairData, role: Role) -> FilletCut | None:
+    """What the tip of its mate cuts from the fillet of a gear."""
+    return _cut(pair.gears.pick(role).profile, pair.gears.pick(role.mate).profile, pair)
+
+
+def _cut(own: ToothProfile, mate: ToothProfile, pair: PairData) -> FilletCut | None:
+    rounding = ROUNDING * pair.pinion.normal_module
+    return internal_fillet_cut(own, mate, centre_distance=-pair.centre_distance, rounding=rounding)
+
 
 ROUNDING_OVERLAP = 1e-4
 """Overlap at the working circle, in normal modules, that comes from shifts printed to four digits: reported, not refused."""

@@ -16,14 +16,11 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.arrays import Floats
-from gearcad.errors import GeometryError
+from gearcad.core.errors import GeometryError, at_most
+from gearcad.core.quantities import Range, Words, require_fields
+from gearcad.core.records import Floats, concise
 from gearcad.geometry.involute import tangent_length
-from gearcad.geometry.limits import at_most
 from gearcad.geometry.profile import ToothProfile
-from gearcad.ranges import Range
-from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
 
 __all__ = [
     "ASSUMED_TRANSITION",

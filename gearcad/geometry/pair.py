@@ -11,13 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad import symbols
-from gearcad.arrays import Floats
-from gearcad.geometry.derived import derive, is_given
-from gearcad.geometry.helix import twist
-from gearcad.geometry.interference import FilletCut, fillet_cut
-from gearcad.geometry.internal_interference import InterferenceMargins
-from gearcad.geometry.internal_mating import clear_tip_diameter, interference_margins, interference_notices
+from gearcad.core import symbols
+from gearcad.core.quantities import derive, is_given, symbols_of
+from gearcad.core.records import Floats, Notice, PerGear, Role, concise, texts
+from gearcad.geometry.gear import Pose, pair_html, wheel_pose
+from gearcad.geometry.gear_data import twist
+from gearcad.geometry.interference import FilletCut, InterferenceMargins, fillet_cut
 from gearcad.geometry.mating import (
     check_centre_distance,
     check_inputs,
@@ -25,23 +24,20 @@ from gearcad.geometry.mating import (
     check_shift_sum,
     check_teeth,
     check_tolerance,
+    clear_tip_diameter,
+    interference_margins,
+    interference_notices,
 )
-from gearcad.geometry.pair_data import PairData
-from gearcad.geometry.path import (
+from gearcad.geometry.pair_data import (
     BaseTangent,
     ContactLineLengths,
     ContactZone,
+    PairData,
     PathOfContact,
     SpecificSliding,
     sliding_along,
     sliding_document,
 )
-from gearcad.geometry.picture import pair_html
-from gearcad.geometry.pose import Pose, wheel_pose
-from gearcad.notice import Notice, texts
-from gearcad.per_gear import PerGear, Role
-from gearcad.reprs import concise
-from gearcad.schema import symbols_of
 
 __all__ = ["GearPair"]
 

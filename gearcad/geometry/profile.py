@@ -1,24 +1,175 @@
-"""ToothProfile: the one exact outline of a tooth, from which solids, drawings and meshes all start."""
+"""ToothProfile: the exact outline of a tooth, external or internal, from which solids, drawings and meshes all start.
+
+Each is evaluated at s in [0, 1] (array of any shape), root side first, and gives the polar form (radius in mm, half
+tooth angle in radians), and the direction of travel. Cartesian points are those of the left flank of tooth 0, which is
+centred on +x, so y > 0; the right flank is the mirror image. Angles are radians: these are the locals of ToothProfile.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import Enum
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.arrays import Floats
-from gearcad.errors import GeometryError, ParameterError, require_number
-from gearcad.geometry.bracketed import root_between
-from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute, Land, parameters_within
-from gearcad.geometry.involute import inverse_involute, involute, involute_at_roll
-from gearcad.geometry.limits import at_least, at_most
-from gearcad.geometry.trochoid import FilletTool
+from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, require_number
+from gearcad.core.records import Floats
+from gearcad.geometry.fillets import FilletTool
+from gearcad.geometry.involute import inverse_involute, involute, involute_at_roll, root_between
 
-__all__ = ["LEAST_LAND", "RADIUS_SLACK", "ToothProfile", "base_half_angle"]
+AIM = 0.98
+"""Share of the chord error that the local rule aims at: where the bend changes along a chord it is off by up to 1 %."""
+
+
+class CurveKind(Enum):
+    """What a piece of the outline is."""
+
+    ROOT = "root"
+    FILLET = "trochoid"
+    INVOLUTE = "involute"
+    CHAMFER = "tip chamfer"
+    TIP = "tip"
+
+
+class PlaneCurve(Protocol):
+    """A piece of any outline, evaluated at s in [0, 1] (array of any shape)."""
+
+    @property
+    def kind(self) -> Enum: ...
+
+    def direction(self, s: ArrayLike) -> Floats:
+        """Direction of travel as an angle from +x (rad)."""
+
+    def points(self, s: ArrayLike) -> Floats:
+        """Cartesian points (..., 2) in mm."""
+
+
+class Curve(PlaneCurve, Protocol):
+    """A piece of the outline of half a tooth, from root to tip on the left flank of tooth 0."""
+
+    @property
+    def kind(self) -> CurveKind: ...
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        """Radius (mm) and half tooth angle (rad) at s."""
+
+
+class _Cartesian:
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        raise NotImplementedError
+
+    def points(self, s: ArrayLike) -> Floats:
+        radius, angle = self.polar(s)
+        return np.stack([radius * np.cos(angle), radius * np.sin(angle)], -1)
+
+
+@dataclass(frozen=True)
+class Land(_Cartesian):
+    """Arc about the gear axis (the root land or the tip land)."""
+
+    kind: CurveKind
+    radius: float
+    first: float
+    last: float
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        s = np.asarray(s, float)
+        return np.full(s.shape, self.radius), self.first + s * (self.last - self.first)
+
+    def direction(self, s: ArrayLike) -> Floats:
+        return self.polar(s)[1] - np.pi / 2
+
+
+@dataclass(frozen=True)
+class Fillet(_Cartesian):
+    """What the tool tip cuts up to theta = `last`; s is linear in arcsinh(tan theta), which spreads the bend."""
+
+    tool: FilletTool
+    last: float
+    half_pitch: float
+    kind: CurveKind = CurveKind.FILLET
+
+    def theta(self, s: ArrayLike) -> Floats:
+        return np.arctan(np.sinh(np.asarray(s, float) * math.asinh(math.tan(self.last))))
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        radius, angle = self.tool.cut(self.theta(s))
+        return radius, self.half_pitch - angle
+
+    def direction(self, s: ArrayLike) -> Floats:
+        return self.tool.direction(self.theta(s), self.half_pitch)
+
+
+@dataclass(frozen=True)
+class Involute(_Cartesian):
+    """Involute between two roll angles (rad); s is linear in the roll angle.
+
+    On an `internal` tooth, whose tip is the end of the lesser roll, the half angle grows outwards.
+    """
+
+    base_radius: float
+    base_half_angle: float
+    first: float
+    last: float
+    internal: bool = False
+    kind: CurveKind = CurveKind.INVOLUTE
+
+    def roll(self, s: ArrayLike) -> Floats:
+        return self.first + np.asarray(s, float) * (self.last - self.first)
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        roll = self.roll(s)
+        turned = involute_at_roll(roll)
+        angle = self.base_half_angle + turned if self.internal else self.base_half_angle - turned
+        return self.base_radius * np.hypot(1.0, roll), angle
+
+    def direction(self, s: ArrayLike) -> Floats:
+        if self.internal:
+            return self.base_half_angle + self.roll(s) - np.pi
+        return self.base_half_angle - self.roll(s)
+
+
+@dataclass(frozen=True)
+class Chamfer(_Cartesian):
+    """Straight tip chamfer at 45 degrees to the radius through its end on the flank; `run` is its radial extent there (mm).
+
+    It runs outwards, or inwards on an `internal` tooth.
+    """
+
+    radius: float
+    angle: float
+    run: float
+    internal: bool = False
+    kind: CurveKind = CurveKind.CHAMFER
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        run = np.asarray(s, float) * self.run
+        along = self.radius - run if self.internal else self.radius + run
+        return np.hypot(along, run), self.angle - np.arctan2(run, along)
+
+    def direction(self, s: ArrayLike) -> Floats:
+        return np.full(np.shape(s), self.angle - (3 if self.internal else 1) * np.pi / 4)
+
+
+def parameters_within(curve: PlaneCurve, chord_error: float) -> Floats:
+    """Parameters s (n,), 0 ... 1, at which a polyline stays within `chord_error` (mm) of the curve.
+
+    Points lie densest where the curve bends most: the local chord is sqrt(8 e / curvature).
+    """
+    fine = np.linspace(0.0, 1.0, 257)
+    points, heading = curve.points(fine), curve.direction(fine)
+    length = np.hypot(*np.diff(points, axis=0).T)
+    turn = np.abs(np.diff(heading))
+    effort = np.r_[0.0, np.cumsum(np.sqrt(turn * length / (8 * AIM * chord_error)))]
+    count = max(1, math.ceil(effort[-1] * (1 - 1e-12)))
+    s: Floats = np.interp(np.linspace(0.0, effort[-1], count + 1), effort, fine)
+    s[0], s[-1] = 0.0, 1.0
+    return s
+
 
 LEAST_LAND = 4e-6
 """Arcs shorter than this (mm) are left out: they are below the tolerance of a solid (and of any machine)."""
@@ -302,3 +453,99 @@ class ToothProfile:
 def base_half_angle(teeth: float, normal_thickness: float, normal_module: float, transverse_pressure_angle: float) -> float:
     """Half tooth angle on the base circle in degrees: s_n/(m_n z) + inv alpha_t (ISO 21771)."""
     return math.degrees(normal_thickness / (normal_module * teeth) + involute(transverse_pressure_angle))
+
+
+@dataclass(frozen=True, kw_only=True)
+class InternalProfile(ToothProfile):
+    """Exact transverse outline of one tooth of a ring: root land outside, fillet, involute, tip chamfer, tip land inside.
+
+    Tooth 0 is centred on +x with its tip towards the axis. Diameters (mm), teeth and roll angles are magnitudes;
+    `base_half_angle` (degrees) is s_n/(m_n |z|) - inv alpha_t, the half tooth angle at R less inv alpha_R, and may be negative.
+    The messages of its errors have the signs of ISO 21771, as users give and read them.
+    """
+
+    internal: ClassVar[bool] = True
+
+    def __repr__(self) -> str:
+        return f"<InternalProfile: {self.teeth:.6g} teeth, diameters {self.root_diameter:.6g} to {self.tip_diameter:.6g} mm>"
+
+    def __post_init__(self) -> None:
+        if self.tip_diameter <= self.base_diameter:
+            permitted = f"must be below {at_most(-self.base_diameter)} mm: an involute begins outside the base circle"
+            raise GeometryError("tip_diameter", -self.tip_diameter, permitted, "mm")
+        if self.tip_diameter >= self.form_diameter:
+            permitted = (
+                f"must be above {at_least(-self.form_diameter)} mm, the root form circle: no involute is left on the flank"
+            )
+            raise GeometryError("tip_diameter", -self.tip_diameter, permitted, "mm")
+        if self.tip_thickness < LEAST_LAND:
+            permitted = f"must be at most {at_most(-self._pointed_diameter)} mm (pointed tooth)"
+            raise GeometryError("tip_diameter", -self.tip_diameter, permitted, "mm")
+        if self.tip_chamfer:
+            self._refuse_wrong_chamfer()
+
+    def _refuse_wrong_chamfer(self) -> None:
+        deepest = (self.form_diameter - self.tip_diameter) / 2
+        if self.tip_chamfer >= deepest:
+            permitted = f"must be below {at_most(deepest)} mm: no involute is left between it and the root form circle"
+            raise GeometryError("tip_chamfer", self.tip_chamfer, permitted, "mm")
+        if self.tip_diameter * self.land_half_angle < LEAST_LAND:
+            permitted = f"must be at most {self._widest_chamfer(deepest)} mm: no tip land is left"
+            raise GeometryError("tip_chamfer", self.tip_chamfer, permitted, "mm")
+
+    @property
+    def tip_form_diameter(self) -> float:
+        """Tip form circle |d_Fa| (mm), where the involute ends: the tip circle and the chamfers."""
+        return self.tip_diameter + 2 * self.tip_chamfer
+
+    @cached_property
+    def _pointed_diameter(self) -> float:
+        """Diameter (mm) at which the flanks meet, and what a land of LEAST_LAND needs; a tooth is pointed inside it."""
+        angle = math.radians(inverse_involute(max(math.radians(-self.base_half_angle), 0.0)))
+        return self.base_diameter / math.cos(angle) + 2 * LEAST_LAND / max(math.tan(angle), 1e-3)
+
+    @cached_property
+    def _flank(self) -> Involute:
+        return Involute(
+            self.base_diameter / 2,
+            math.radians(self.base_half_angle),
+            self._roll(self.form_diameter / 2),
+            self._roll(self.tip_form_diameter / 2),
+            internal=True,
+        )
+
+    def _chamfer_of(self, height: float) -> Chamfer:
+        radius, tip = self.tip_diameter / 2 + height, self.tip_diameter / 2
+        run = (radius - math.sqrt(2 * tip**2 - radius**2)) / 2
+        return Chamfer(radius, float(self._involute_half_angle(radius)), run, internal=True)
+
+    def half_angle(self, radius: ArrayLike) -> Any:
+        """Transverse half tooth angle in degrees at `radius` (mm), on fillet, involute and tip chamfer alike.
+
+        Scalar or array. Raises ParameterError for a radius outside tip circle ... root circle.
+        """
+        given = np.asarray(radius, float)
+        root, tip = self.root_diameter / 2, self.tip_diameter / 2
+        outside = ~((given >= tip * (1 - RADIUS_SLACK)) & (given <= root * (1 + RADIUS_SLACK)))
+        if np.any(outside):
+            worst = float(given[outside].flat[0])
+            raise ParameterError("radius", worst, f"must be from {tip:.10g} to {root:.10g} mm (tip to root circle)", "mm")
+        flat = np.clip(given.ravel(), tip, root)
+        result = np.asarray(self._involute_half_angle(flat))
+        deep = flat > self.form_diameter / 2
+        if np.any(deep):
+            theta = self.tool.theta_at(flat[deep], self._last_theta)
+            result[deep] = self._half_pitch - self.tool.cut(theta)[1]
+        high = flat < self.tip_form_diameter / 2
+        if self.tip_chamfer and np.any(high):
+            start = self._chamfer.radius
+            run = (start - np.sqrt(2 * flat[high] ** 2 - start**2)) / 2
+            result[high] = self._chamfer.angle - np.arctan2(run, start - run)
+        degrees = np.degrees(result).reshape(given.shape)
+        return float(degrees) if degrees.ndim == 0 else degrees
+
+    def _involute_half_angle(self, radius: ArrayLike) -> Any:
+        base = self.base_diameter / 2
+        radius = np.asarray(radius, float)
+        tangent = np.sqrt((radius - base) * (radius + base)) / base
+        return math.radians(self.base_half_angle) + involute_at_roll(tangent)

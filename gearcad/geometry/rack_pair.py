@@ -1,23 +1,36 @@
-"""RackPair: a pinion and a rack, and how they mesh (ISO 21771, the wheel's diameter infinite)."""
+"""RackPair: a pinion and a rack in mesh (ISO 21771, the wheel's diameter infinite).
+
+A rack is a gear of infinite diameter: its pitch line rolls on the pinion's reference circle at any distance, and the pressure
+angle in mesh is that of the rack.
+
+Raises ParameterError or GeometryError, whose limits can be used as they are printed.
+
+As with gears (see `interference`) the classical comparison of lines is not enough: an edge that leaves the flank in time may
+still cut the fillet further down.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad import symbols
-from gearcad.arrays import Floats
-from gearcad.geometry.derived import derive
-from gearcad.geometry.helix import twist
+from gearcad.core import symbols
+from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, format_number, require_name
+from gearcad.core.quantities import NOT_GIVEN, Range, Words, derive, require_fields, symbols_of
+from gearcad.core.records import Floats, Notice, PerGear, concise, texts
+from gearcad.geometry.fits import settled
+from gearcad.geometry.gear import Gear, RackPose
+from gearcad.geometry.gear_data import twist
 from gearcad.geometry.involute import tangent_length
+from gearcad.geometry.mating import ROUNDING_OVERLAP, SAME
 from gearcad.geometry.pair import ROUNDING
-from gearcad.geometry.path import (
+from gearcad.geometry.pair_data import (
     ContactLineLengths,
     ContactZone,
     PathOfContact,
@@ -25,17 +38,254 @@ from gearcad.geometry.path import (
     sliding_along,
     sliding_document,
 )
-from gearcad.geometry.pose import RackPose
-from gearcad.geometry.rack_interference import RackPlace, cut_by_pinion, cut_by_rack
-from gearcad.geometry.rack_mating import check_rack_inputs, check_rack_mates, check_rack_mesh
-from gearcad.geometry.rack_pair_data import RackPairData
-from gearcad.geometry.rack_picture import rack_pair_html
-from gearcad.notice import Notice, texts
-from gearcad.per_gear import PerGear
-from gearcad.reprs import concise
-from gearcad.schema import symbols_of
+from gearcad.geometry.profile import ToothProfile
+from gearcad.geometry.rack import Rack, RackProfile, rack_pair_html
 
-__all__ = ["RackPair"]
+_DISTANCE = Range("mm", 0, None, ends="(]")
+
+
+class OfPinionAndRack(NamedTuple):
+    """A length that both have (mm)."""
+
+    pinion: float
+    rack: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class RackPairData:
+    """The fields of a `RackPair`, unchecked, and what needs no path of contact. Lengths in mm, angles in degrees."""
+
+    pinion: Gear
+    rack: Rack
+    mounting_distance: Annotated[float, _DISTANCE, Words("mounting distance to reference line", "H")] = NOT_GIVEN
+    name: Annotated[str, Words("name")] = "pair"
+
+    @property
+    def pitch_radius(self) -> float:
+        """r of the pinion, on which the rack's pitch line rolls."""
+        return self.pinion.reference_diameter / 2
+
+    @property
+    def pitch_line_height(self) -> float:
+        """Where the pitch line is on the rack, above its reference line: H - r."""
+        return self.mounting_distance - self.pitch_radius
+
+    @property
+    def back_distance(self) -> float:
+        """From the pinion's axis to the rack's back."""
+        return self.mounting_distance + self.rack.height
+
+    @property
+    def common_width(self) -> float:
+        """Width over which they face each other, their middles in one plane."""
+        return min(self.pinion.face_width, self.rack.face_width)
+
+    @property
+    def shifted_distance(self) -> float:
+        """r + x m_n: the mounting distance at which the thinning alone gives the backlash."""
+        return self.pitch_radius + self.pinion.profile_shift * self.pinion.normal_module
+
+    @property
+    def zero_backlash_distance(self) -> float:
+        """The mounting distance without backlash: r + x m_n - (A_s1 + A_s2)/(2 tan alpha_n)."""
+        thinning = self.pinion.tooth_thinning + self.rack.tooth_thinning
+        return self.shifted_distance - thinning / 2 / math.tan(math.radians(self.pinion.rack.pressure_angle))
+
+    @property
+    def tip_alteration(self) -> float:
+        """k of the pinion that keeps the rack's tip clearance: (H - r)/m_n - x, never positive ("auto" in a spec)."""
+        return min(self.pitch_line_height / self.pinion.normal_module - self.pinion.profile_shift, 0.0)
+
+    @property
+    def tip_clearances(self) -> OfPinionAndRack:
+        """Clearance of each one's tip in the other's root."""
+        return OfPinionAndRack(
+            self.mounting_distance + self.rack.root_depth - self.pinion.tip_diameter / 2,
+            self.mounting_distance - self.rack.tip_height - self.pinion.root_diameter / 2,
+        )
+
+    @property
+    def circumferential_backlash(self) -> float:
+        """j_wt along the pitch line: 2 tan alpha_t (H - r - x m_n) and both thinnings (transverse)."""
+        tangent = math.tan(math.radians(self.pinion.transverse_pressure_angle))
+        return settled(2 * tangent * (self.mounting_distance - self.zero_backlash_distance), self.mounting_distance)
+
+    @property
+    def normal_backlash(self) -> float:
+        """j_bn along the base normal: j_wt cos alpha_t cos beta_b."""
+        across = math.cos(math.radians(self.pinion.transverse_pressure_angle))
+        return self.circumferential_backlash * across * math.cos(math.radians(self.pinion.base_helix_angle))
+
+    # ------------------------------------------------------------------ motion
+
+    @property
+    def travel_per_revolution(self) -> float:
+        """pi d: how far the rack moves in a turn of the pinion."""
+        return math.pi * self.pinion.reference_diameter
+
+    @property
+    def travel_per_degree(self) -> float:
+        """How far the rack moves per degree of the pinion."""
+        return self.travel_per_revolution / 360
+
+    def rack_force(self, torque: float) -> float:
+        """Force (N) on the rack along its length for a torque on the pinion (N·m), without losses: 2000 T/d."""
+        return 2000 * torque / self.pinion.reference_diameter
+
+    def torque_for(self, force: float) -> float:
+        """Torque on the pinion (N·m) for a force along the rack (N), without losses."""
+        return force * self.pinion.reference_diameter / 2000
+
+    def rack_speed(self, speed: float) -> float:
+        """Speed of the rack (m/s), which is that of the pitch line, for a speed of the pinion (rpm)."""
+        return self.travel_per_revolution * speed / 60_000
+
+
+def check_rack_inputs(pair: RackPairData) -> None:
+    """The inputs, each by itself."""
+    if not isinstance(pair.pinion, Gear):
+        raise ParameterError("pinion", pair.pinion, "must be a Gear")
+    if not isinstance(pair.rack, Rack):
+        raise ParameterError("rack", pair.rack, "must be a Rack")
+    require_fields(pair)
+    require_name("name", pair.name)
+
+
+def check_rack_mates(pair: RackPairData) -> None:
+    """An external pinion; module, pressure angle and helix angle belong together."""
+    pinion, rack = pair.pinion, pair.rack
+    if pinion.internal:
+        raise GeometryError("pinion.teeth", pinion.teeth, "must be above 0: no rack meshes with a ring")
+    if pinion.double_helix.present:
+        permitted = "must be left out: a rack has one helix"
+        raise GeometryError("pinion.double_helix.gap_width", pinion.double_helix.gap_width, permitted, "mm")
+    for name, unit, one, other in (
+        ("normal_module", "mm", pinion.normal_module, rack.normal_module),
+        ("rack.pressure_angle", "deg", pinion.rack.pressure_angle, rack.rack.pressure_angle),
+    ):
+        if abs(one - other) > SAME:
+            raise GeometryError(f"rack.{name}", other, f"must be {format_number(one)} {unit}, as on the pinion", unit)
+    if abs(rack.helix_angle + pinion.helix_angle) > SAME:
+        permitted = f"must be {format_number(-pinion.helix_angle)} deg, opposite to the pinion"
+        raise GeometryError("rack.helix_angle", rack.helix_angle, permitted, "deg")
+
+
+def check_rack_mesh(pair: RackPairData) -> None:
+    """Flanks do not overlap, tips stay off roots, and some path of contact is left between the tips."""
+    backlash, m = pair.circumferential_backlash, pair.pinion.normal_module
+    if backlash < -ROUNDING_OVERLAP * m:
+        least = at_least(pair.zero_backlash_distance, digits=9)
+        shift = at_most(pair.pinion.profile_shift + (pair.mounting_distance - pair.zero_backlash_distance) / m)
+        permitted = (
+            f"must be at least {least} mm, or pinion.profile_shift at most {shift}: the backlash would be {backlash:.6f} mm"
+        )
+        raise GeometryError("mounting_distance", pair.mounting_distance, permitted, "mm")
+    clearances = pair.tip_clearances
+    if clearances.pinion <= 0:
+        tip = pair.pinion.tip_diameter
+        permitted = f"must be below {at_most(tip + 2 * clearances.pinion)} mm: the tip reaches the rack's root"
+        raise GeometryError("pinion.tip_diameter", tip, permitted, "mm")
+    if clearances.rack <= 0:
+        most = at_most(pair.rack.tip_alteration + clearances.rack / m)
+        permitted = f"must be below {most}: the tip reaches the pinion's root circle"
+        raise GeometryError("rack.tip_alteration", pair.rack.tip_alteration, permitted)
+    if pair.mounting_distance >= (farthest := _farthest(pair)):
+        permitted = f"must be below {at_most(farthest)} mm, where the tips reach each other's flanks"
+        raise GeometryError("mounting_distance", pair.mounting_distance, permitted, "mm")
+
+
+def _farthest(pair: RackPairData) -> float:
+    """The mounting distance at which the path of contact vanishes: the rack's tip form line through the path's last point."""
+    pinion, sine = pair.pinion, math.sin(math.radians(pair.pinion.transverse_pressure_angle))
+    last = tangent_length(pinion.tip_form_diameter, pinion.base_diameter)
+    return pair.pitch_radius * (1 - sine**2) + last * sine + pair.rack.tip_form_height
+
+
+_STEPS = 513
+_FINE = 65
+
+
+class EdgeCut(NamedTuple):
+    """How deep an edge cuts (mm, along pitch line or circle; below 0 it stays clear), and where it is deepest."""
+
+    depth: float
+    place: float
+
+
+class RackPlace(NamedTuple):
+    """How a rack stands to its pinion while their flanks touch (mm).
+
+    `distance` of the reference line from the axis, and how far along the pitch line the middles of two teeth in contact are
+    apart there: half of both transverse thicknesses.
+    """
+
+    distance: float
+    touching: float
+
+
+def cut_by_rack(pinion: ToothProfile, rack: RackProfile, place: RackPlace) -> EdgeCut:
+    """What the tip edges of a rack cut from the pinion's fillet while flanks touch; the place is a diameter (mm) there."""
+    working, reach = pinion.reference_diameter / 2, pinion.form_diameter / 2
+
+    def clearance(height: float, half: float) -> tuple[float, Callable[[Floats], tuple[Floats, Floats]]]:
+        distance = place.distance - height
+        farthest = math.sqrt(max(reach**2 - distance**2, 0.0))
+
+        def clear(t: Floats) -> tuple[Floats, Floats]:
+            # The edge is t beyond the line of centres; the pinion has then rolled by (t + half - place.touching)/r.
+            at = np.clip(np.hypot(distance, t), pinion.root_diameter / 2, reach)
+            turned = (t + half - place.touching) / working
+            return at, (np.arctan2(t, distance) - turned - np.radians(pinion.half_angle(at))) * at
+
+        return farthest, clear
+
+    cuts = []
+    for height, half in _rack_edges(rack):
+        farthest, clear = clearance(height, half)
+        if farthest > 0:
+            at, depth = _deepest(clear, farthest)
+            cuts.append(EdgeCut(depth, 2 * at))
+    return max(cuts, default=EdgeCut(0.0, 0.0))
+
+
+def cut_by_pinion(pinion: ToothProfile, rack: RackProfile, place: RackPlace) -> EdgeCut:
+    """The same of the pinion's tip edges in the rack's fillet; the place is a height over the reference line (mm)."""
+    working = pinion.reference_diameter / 2
+    edges = {(pinion.tip_form_diameter / 2, math.radians(pinion.half_angle(pinion.tip_form_diameter / 2)))}
+    edges.add((pinion.tip_diameter / 2, float(pinion.curves[-1].polar(0.0)[1])))
+    cuts = []
+    for radius, angle in sorted(edges):
+        cosine = (place.distance + rack.form_depth) / radius
+        if cosine >= 1:
+            continue
+
+        def clear(t: Floats, radius: float = radius, angle: float = angle) -> tuple[Floats, Floats]:
+            # The edge is at the angle t, so the pinion has turned by t - angle, and the rack has moved with it.
+            height = np.clip(place.distance - radius * np.cos(t), -rack.root_depth, -rack.form_depth)
+            middle = working * (t - angle) + place.touching
+            return height, middle - radius * np.sin(t) - rack.half_thickness(height)
+
+        at, depth = _deepest(clear, math.acos(cosine))
+        cuts.append(EdgeCut(depth, at))
+    return max(cuts, default=EdgeCut(0.0, 0.0))
+
+
+def _rack_edges(rack: RackProfile) -> list[tuple[float, float]]:
+    """Height and half thickness (mm) at the ends of the flank and of the tip land."""
+    end, tip = rack.tip_height - rack.tip_chamfer, rack.tip_height
+    return sorted({(end, rack.half_thickness_on_flank(end)), (tip, rack.half_thickness(tip))})
+
+
+def _deepest(clear: Callable[[Floats], tuple[Floats, Floats]], farthest: float) -> tuple[float, float]:
+    """Where (the first result) the second one is least between -farthest and farthest, and how far below zero it is."""
+    t = np.linspace(-farthest, farthest, _STEPS)
+    for _ in range(3):
+        at, room = clear(t)
+        worst = int(np.argmin(room))
+        found = float(at[worst]), -float(room[worst])
+        t = np.linspace(t[max(worst - 1, 0)], t[min(worst + 1, t.size - 1)], _FINE)
+    return found
+
 
 FELT = 1e-7
 """Depth in normal modules from which a tip is said to cut a fillet: as ISO 53's root radius is rounded, its racks cut 1e-9."""

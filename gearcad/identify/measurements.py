@@ -1,27 +1,240 @@
-"""Measurements: what one writes down of a gear on the bench, in a file or behind options, under the names of the gauges."""
+"""Measurements of a gear: readings of calipers, pins and rulers, each with its standard uncertainty."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from enum import StrEnum
 from functools import cached_property
+from itertools import pairwise
 from typing import Annotated, Any
 
-from gearcad.errors import ParameterError, is_finite_number, plain_numbers
-from gearcad.identify.measured import (
-    ANGLE,
-    ANGLE_UNCERTAINTY,
-    ANGLES,
-    LENGTH,
-    TEETH,
-    UNCERTAINTY,
-    Gauge,
-    Measured,
-    Reading,
-)
-from gearcad.schema import Words
+from gearcad.core.errors import ParameterError, is_finite_number, plain_numbers, require_whole
+from gearcad.core.quantities import Range, Whole, Words
+from gearcad.core.records import Notice
 
-__all__ = ["Measurements", "Value"]
+LENGTH, ANGLE = Range("mm", 0, 1e6, ends="(]"), Range("deg", -60, 60, ends="()")
+"""What can be read."""
+
+UNCERTAINTY, ANGLE_UNCERTAINTY = Range("mm", 1e-5, 100), Range("deg", 1e-5, 45)
+"""From what gauge blocks have to a guess."""
+
+TEETH = Whole(3, 2000, negative=(-10, "a ring"))
+
+
+class Gauge(StrEnum):
+    """What was measured."""
+
+    TIP_DIAMETER = "tip_diameter"
+    ROOT_DIAMETER = "root_diameter"
+    SPAN = "span"
+    """Over a number of teeth, of spaces on a ring."""
+
+    OVER_PINS = "over_pins"
+    OVER_BALLS = "over_balls"
+    BETWEEN_PINS = "between_pins"
+    BETWEEN_BALLS = "between_balls"
+    HELIX_ANGLE = "helix_angle"
+    """On the reference circle, as a drawing has it."""
+
+    TIP_HELIX_ANGLE = "tip_helix_angle"
+    """On the tip circle, as a gear rolled over paper shows it."""
+
+    CHORDAL_THICKNESS = "chordal_thickness"
+    """By a tooth caliper, at a height below the tip."""
+
+    LEAD = "lead"
+    CENTRE_DISTANCE = "centre_distance"
+    MATE_TIP_DIAMETER = "mate_tip_diameter"
+
+    @property
+    def unit(self) -> str:
+        """Of its readings."""
+        return "deg" if self in ANGLES else "mm"
+
+    @property
+    def sized(self) -> bool:
+        """Whether its readings are over something of a size."""
+        return self in _SIZED
+
+    @property
+    def size_in_words(self) -> str:
+        """What that size is."""
+        if self is Gauge.SPAN:
+            return "teeth spanned"
+        return "height below the tip" if self is Gauge.CHORDAL_THICKNESS else "diameter of pins or balls"
+
+
+ANGLES = (Gauge.HELIX_ANGLE, Gauge.TIP_HELIX_ANGLE)
+_SIZED = {
+    Gauge.SPAN: "span over {:g} {}",
+    Gauge.OVER_PINS: "size over pins of {:g} mm",
+    Gauge.OVER_BALLS: "size over balls of {:g} mm",
+    Gauge.BETWEEN_PINS: "size between pins of {:g} mm",
+    Gauge.BETWEEN_BALLS: "size between balls of {:g} mm",
+    Gauge.CHORDAL_THICKNESS: "chord {:g} mm below the tip",
+}
+_OF_RINGS = (Gauge.BETWEEN_PINS, Gauge.BETWEEN_BALLS)
+_OF_EXTERNAL = (Gauge.OVER_PINS, Gauge.OVER_BALLS, Gauge.CHORDAL_THICKNESS)
+_OF_MATES = (Gauge.CENTRE_DISTANCE, Gauge.MATE_TIP_DIAMETER)
+_OF_HELICES = (*ANGLES, Gauge.LEAD)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """One reading of a gauge: `value` and its standard `uncertainty` (mm, of angles degrees).
+
+    `size` is the number of teeth or spaces of a span, the diameter of pins or balls, or the height of a chord below the tip
+    (mm); other gauges have none. Diameters of a ring are positive, as they are read.
+    """
+
+    gauge: Gauge
+    value: float
+    uncertainty: float
+    size: float = 0.0
+
+    def __post_init__(self) -> None:
+        name, angle = self.gauge.value, self.gauge in ANGLES
+        (ANGLE if angle else LENGTH).require(name, self.value)
+        (ANGLE_UNCERTAINTY if angle else UNCERTAINTY).require(f"{name}.uncertainty", self.uncertainty)
+        if self.gauge is Gauge.SPAN:
+            require_whole("span_teeth", self.size, at_least=1, at_most=TEETH.most)
+        elif self.gauge in _SIZED:
+            LENGTH.require(f"{name}.{self._size}", self.size)
+        for field in ("value", "uncertainty"):
+            object.__setattr__(self, field, float(getattr(self, field)))
+
+    @property
+    def _size(self) -> str:
+        """What the size is."""
+        return "height" if self.gauge is Gauge.CHORDAL_THICKNESS else "diameter"
+
+    @property
+    def place(self) -> tuple[Gauge, float]:
+        """What is measured, and over what."""
+        return self.gauge, self.size
+
+    def label(self, *, ring: bool = False) -> str:
+        """In words."""
+        words = _SIZED.get(self.gauge, self.gauge.value.replace("_", " "))
+        return words.format(self.size, "spaces" if ring else "teeth")
+
+    def to_dict(self) -> dict[str, Any]:
+        """As documents have it."""
+        size = {"teeth": int(self.size)} if self.gauge is Gauge.SPAN else {self._size: self.size}
+        beside = size if self.gauge in _SIZED else {}
+        return {"gauge": self.gauge.value, **beside, "value": self.value, "uncertainty": self.uncertainty}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measured:
+    """A gear on the bench: its number of `teeth` (below 0 of a ring), readings, and the teeth of its mate, if there is one.
+
+    Raises ParameterError for readings that no such gear can have.
+    """
+
+    teeth: int
+    readings: tuple[Reading, ...]
+    mate_teeth: int | None = None
+
+    def __post_init__(self) -> None:
+        for name, number in (("teeth", self.teeth), ("mate_teeth", self.mate_teeth)):
+            if number is not None:
+                TEETH.require(name, number)
+        self._check_gauges()
+        self._check_spans()
+        self._check_mate()
+        if not any(each.gauge not in _OF_HELICES for each in self.readings):
+            permitted = "must be given, or another length: root diameter, span, over pins, centre distance"
+            raise ParameterError("tip_diameter", None, permitted)
+
+    @property
+    def ring(self) -> bool:
+        return self.teeth < 0
+
+    @cached_property
+    def spur(self) -> bool | None:
+        """Whether its helix angle is known to be 0, or not to be; None where nothing is said of it."""
+        said = [each for each in self.readings if each.gauge in _OF_HELICES]
+        return None if not said else any(each.gauge in ANGLES and each.value == 0 for each in said)
+
+    @property
+    def left_hand(self) -> bool:
+        return any(each.gauge in ANGLES and each.value < 0 for each in self.readings)
+
+    @property
+    def spans(self) -> list[Reading]:
+        """Those over teeth or spaces, the fewest first."""
+        return sorted((each for each in self.readings if each.gauge is Gauge.SPAN), key=lambda each: each.size)
+
+    def find(self, gauge: Gauge) -> Reading | None:
+        """The first reading of a gauge."""
+        return next((each for each in self.readings if each.gauge is gauge), None)
+
+    def label(self, reading: Reading) -> str:
+        """A reading in words."""
+        return reading.label(ring=self.ring)
+
+    @property
+    def notices(self) -> Iterable[Notice]:
+        """What the readings leave open, whatever the gear is."""
+        if self._across_tips_less:
+            less = self._across_tips_less
+            text = f"an odd number of teeth: calipers across the tips read about {less:.2g} mm less than the tip diameter"
+            yield Notice("odd-tips", text)
+
+    @property
+    def _across_tips_less(self) -> float:
+        """How much less parallel jaws read across the pointed tips of an odd number of teeth (mm): d_a (1 - cos(pi/z))/2."""
+        tip = self.find(Gauge.TIP_DIAMETER)
+        if tip is None or self.ring or self.teeth % 2 == 0:
+            return 0.0
+        return tip.value * (1 - math.cos(math.pi / self.teeth)) / 2
+
+    def _check_gauges(self) -> None:
+        seen = set()
+        for each in self.readings:
+            if each.place in seen:
+                raise ParameterError(each.gauge.value, each.value, f"must be given once: {self.label(each)} is there already")
+            seen.add(each.place)
+            if each.gauge in (_OF_EXTERNAL if self.ring else _OF_RINGS):
+                kind, way = ("a ring", "between") if self.ring else ("an external gear", "over")
+                raise ParameterError(
+                    each.gauge.value, each.value, f"must be left out: {kind} is measured {way} pins or balls", "mm"
+                )
+        said = [each for each in self.readings if each.gauge in _OF_HELICES]
+        if self.spur and len(said) > 1:
+            raise ParameterError(
+                said[1].gauge.value, said[1].value, "must be left out where a helix angle is 0", said[1].gauge.unit
+            )
+        angles = [each for each in said if each.gauge in ANGLES]
+        if len({each.value < 0 for each in angles}) > 1:
+            permitted = f"must have the sign of the {self.label(angles[0])}, {angles[0].value:g} deg"
+            raise ParameterError(angles[1].gauge.value, angles[1].value, permitted, "deg")
+
+    def _check_spans(self) -> None:
+        for each in self.spans:
+            require_whole("span_teeth", each.size, at_least=1, at_most=abs(self.teeth))
+        for fewer, more in pairwise(self.spans):
+            if more.value <= fewer.value:
+                permitted = f"must be above the span over {fewer.size:g}, {fewer.value:g} mm"
+                raise ParameterError("span", more.value, permitted, "mm")
+        if self.spans and self.ring and self.spur is False:
+            raise ParameterError(
+                "span", self.spans[0].value, "must be left out: a helical ring is measured between balls", "mm"
+            )
+
+    def _check_mate(self) -> None:
+        of_mate = [each for each in self.readings if each.gauge in _OF_MATES]
+        if of_mate and self.mate_teeth is None:
+            raise ParameterError("mate_teeth", None, f"must be given with the {self.label(of_mate[0])}")
+        if self.mate_teeth is not None:
+            if not of_mate:
+                raise ParameterError("centre_distance", None, "must be given with the teeth of the mate")
+            if (self.teeth < 0 and self.mate_teeth < 0) or self.teeth + self.mate_teeth == 0:
+                raise ParameterError("mate_teeth", self.mate_teeth, f"must be of a gear that meshes with {self.teeth} teeth")
+
 
 Value = float | tuple[float, float]
 """A reading, or a reading and its standard uncertainty."""

@@ -1,47 +1,142 @@
-"""Dynamics: what the stiffness of its teeth does to a pair of gears, or to a train."""
+"""Job `dynamics`: vibration of a pair or a train, also of several designs side by side."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, Unpack
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gearcad.check.options import CheckOptions
+from gearcad.core.errors import GeometryError, InputError, ParameterError, SolverError
+from gearcad.core.quantities import with_assumed
+from gearcad.core.records import Notice, PerGear, Role
+from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, TrainDesign
-from gearcad.designs.loaded_pairs import pair_specs
+from gearcad.designs.cells import cell_text, guarded_text, write_csv
+from gearcad.designs.spec_writers import pair_specs
+from gearcad.designs.variations import Variants
 from gearcad.dynamics.engagement import engaged
-from gearcad.dynamics.idle_options import idle_without_levels
-from gearcad.dynamics.levels.result import LevelStudy, finest_first
-from gearcad.dynamics.levels.study import study_levels
-from gearcad.dynamics.options import DynamicsOptions, PairModel
-from gearcad.dynamics.pair import study_contact, study_pair
+from gearcad.dynamics.level_study import study_levels
+from gearcad.dynamics.level_verdict import LevelStudy, finest_first
+from gearcad.dynamics.options import DynamicsOptions, PairModel, idle_without_levels
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
-from gearcad.dynamics.side_by_side import SideBySide
-from gearcad.dynamics.train import expected_train, study_modes, study_train
+from gearcad.dynamics.pair_study import study_contact, study_pair
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
+from gearcad.dynamics.train_study import expected_train, study_modes, study_train
 from gearcad.dynamics.trains.train import Train
-from gearcad.errors import GeometryError, InputError, ParameterError, SolverError
+from gearcad.dynamics.variant_comparison import SideBySide
 from gearcad.geometry import GearPair
-from gearcad.geometry.halves import refuse_halves
-from gearcad.jobs.dynamics_columns import dynamics_columns
-from gearcad.jobs.job import Job, Writer
-from gearcad.jobs.subject import as_design
-from gearcad.jobs.tables import file_name, table_files
+from gearcad.geometry.gear import refuse_halves
+from gearcad.jobs.job import Job, Writer, as_design
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
-from gearcad.notice import Notice
-from gearcad.per_gear import PerGear, Role
-from gearcad.progress import Agenda, Expected, Progress
-from gearcad.schema import with_assumed
 from gearcad.version import __version__
 
-__all__ = ["Dynamics", "Study", "dynamics", "specs_of"]
+
+def table_files(verb: str, tables: Mapping[str, Mapping[str, NDArray[Any] | Sequence[Any]]]) -> dict[str, Writer]:
+    """What writes each of a result's tables, columns by their headings: `VERB-NAME.csv`."""
+    return {file_name(verb, name): partial(_write_table, columns) for name, columns in tables.items()}
+
+
+def file_name(verb: str, table: str) -> str:
+    """That of a table of this name."""
+    return f"{verb}-{table.replace(' ', '-').replace('_', '-')}.csv"
+
+
+def _write_table(columns: Mapping[str, NDArray[Any] | Sequence[Any]], path: Path) -> None:
+    write_csv(zip(*map(_cells, columns.values()), strict=True), map(guarded_text, columns), path)
+
+
+def _cells(values: NDArray[Any] | Sequence[Any]) -> list[str]:
+    """Of a column; nan is a cell without a value."""
+    if isinstance(values, np.ndarray) and values.dtype == float:
+        return [repr(value) if value == value else "" for value in values.tolist()]
+    listed = values.tolist() if isinstance(values, np.ndarray) else values
+    return ["" if isinstance(value, float) and math.isnan(value) else cell_text(value) for value in listed]
+
+
+_OF_PAIRS = (
+    "model stiffness_method mesh_stiffness_mean mesh_stiffness_tangent_mean pinion_inertia wheel_inertia tooth_stiffness"
+    " tooth_damping natural_frequency damping_ratio static_approach contact_ratio resonance_speed_iso6336"
+).split()
+"""What a line has of the document as it is."""
+
+_MOST_FREQUENCIES = 6
+"""Natural frequencies above 0 that a line has of a train."""
+
+
+def dynamics_columns(document: Mapping[str, Any]) -> dict[str, Any]:
+    """Of a pair: inertias and stiffness, its natural frequency, K_v at the speed and the highest. Of a train: its first
+    natural frequencies, K_v of each mesh at the speed and the highest, and the highest overload of each shaft.
+    """
+    if document["model"] not in (model.value for model in PairModel):
+        return _dynamics_columns_of_train(document)
+    found = {name: document[name] for name in _OF_PAIRS if name in document}
+    if document["model"] != PairModel.MESH.value:
+        return {**found, "warnings": document["campbell"]["warnings"]}
+    modes, course = document["modes"], document["course"]
+    (kv,) = course["kv"]
+    (over_speed,) = document["chart"]["kv"].values()
+    highest = max(range(len(over_speed)), key=over_speed.__getitem__)
+    found |= {
+        "natural_frequency": modes["frequency"][modes["rigid"]],
+        "course_speed": course["speed"],
+        "kv": kv,
+        "kv_highest": over_speed[highest],
+        "kv_highest_speed": document["speed"][highest],
+        **dict(_with_errors(document, named=False)),
+    }
+    return {**found, "warnings": document["warnings"]}
+
+
+def _dynamics_columns_of_train(document: Mapping[str, Any]) -> dict[str, Any]:
+    modes = document["modes"]
+    elastic = modes["frequency"][modes["rigid"] :][:_MOST_FREQUENCIES]
+    found = {f"frequency_{number}": each for number, each in enumerate(elastic, 1)}
+    if "chart" in document:
+        greatest, course = document["greatest"], document["course"]
+        found |= {
+            "kv_highest": greatest["factor"],
+            "kv_highest_speed": greatest["speed"],
+            "kv_highest_mesh": greatest["mesh"],
+            "course_speed": course["speed"],
+            **{f"kv.{name}": kv for name, kv in zip(document["chart"]["kv"], course["kv"], strict=True)},
+            **dict(_highest(document, "kv", "kv_highest")),
+            **dict(_highest(document, "shaft_overload", "shaft_overload")),
+            **dict(_with_errors(document, named=True)),
+        }
+    return {**found, "warnings": document["warnings"]}
+
+
+def _highest(document: Mapping[str, Any], of: str, column: str) -> Iterator[tuple[str, float]]:
+    """The highest of each mesh or shaft, running up or down, and its speed; nothing of shafts that carry nothing at rest."""
+    charts = [chart for chart in (document["chart"], document["chart_down"]) if chart is not None]
+    for name in charts[0][of]:
+        over_speed = [
+            max(factors) for factors in zip(*(chart[of][name] for chart in charts), strict=True) if None not in factors
+        ]
+        if over_speed:
+            row = max(range(len(over_speed)), key=over_speed.__getitem__)
+            yield f"{column}.{name}", over_speed[row]
+            yield f"{column}_speed.{name}", document["speed"][row]
+
+
+def _with_errors(document: Mapping[str, Any], *, named: bool) -> Iterator[tuple[str, float]]:
+    """The highest median of K_v and its highest upper quantile, where errors of teeth were drawn; of which mesh, if `named`."""
+    drawn = document.get("tooth_errors")
+    for each in () if drawn is None else drawn["greatest"]:
+        behind = f".{each['mesh']}" if named else ""
+        for column, key in (("kv_errors_median", "median"), ("kv_errors_upper", "upper")):
+            yield column + behind, each[key]
+
 
 Study = TrainStudy | ModalStudy | SideBySide | PairStudy | ContactStudy
 
@@ -236,3 +331,53 @@ def dynamics(
     """
     design = TrainDesign(name=subject.name, train=subject) if isinstance(subject, Train) else subject
     return Dynamics().run(as_design(design, load, **inputs), progress)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DynamicsBeside(Dynamics):
+    """The studies that [dynamics] of each of the `variants` asks for; the design that is run is the first of them."""
+
+    variants: Variants
+
+    def _run(self, design: PairDesign | TrainDesign, progress: Progress | None) -> Study:
+        designs = [self._accepted(each) for each in self.variants.designs]
+        for each in designs:
+            _require_chart(each)
+        count, studies = len(designs), []
+        for number, (label, each) in enumerate(zip(self.variants.labels, designs, strict=True)):
+            own = None if progress is None else partial(_told, progress, label, number, count)
+            studies.append(_over_speed(super()._run(each, own)))
+        of = self.variants
+        return SideBySide(name=design.name, what=of.what, labels=of.labels, studies=tuple(studies), key=of.key)
+
+
+def _told(progress: Progress, label: str, before: int, count: int, step: str, done: float, of: float) -> None:
+    """Tell how far one of several studies is."""
+    progress(f"{label}: {step}", before + done / of, count)
+
+
+def _require_chart(design: PairDesign | TrainDesign) -> None:
+    """Raise ParameterError for what has no chart of K_v, or several."""
+    if isinstance(design, TrainDesign):
+        if design.other_models:
+            listed = ", ".join(each.value for each in design.models)
+            permitted = "must be one word beside other values that vary: write one, or give several by --vary train.model=..."
+            raise ParameterError("train.model", listed, permitted)
+        if not design.train.meshes:
+            raise ParameterError(
+                "vary", None, "needs meshes: without teeth a train has no load over speed to be laid over another"
+            )
+    elif (design.dynamics or DynamicsOptions()).pair_model is PairModel.CONTACT:
+        permitted = (
+            'must be "mesh" to vary something: a contact model has a Campbell diagram, and no K_v over speed to be laid over '
+            "another; give one value at a time by --vary, with a folder of its own for each (-o)"
+        )
+        raise ParameterError("dynamics.model", PairModel.CONTACT.value, permitted)
+
+
+def _over_speed(study: Study) -> TrainStudy:
+    """That of a train, or of a pair as one, with all there is to know of it."""
+    if isinstance(study, PairStudy):
+        return replace(study.study, found=tuple(dict.fromkeys((*study.study.found, *study.notices))))
+    assert isinstance(study, TrainStudy)  # _require_chart has seen to it
+    return study

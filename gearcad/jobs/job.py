@@ -1,24 +1,31 @@
-"""Job: what is done with a design, in one shape - its options are its fields, a result comes out, and files hold that."""
+"""Job: what is done with a design - options are fields, a result comes out, and files hold the result; job `data`."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from enum import Enum
 from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar, Generic, TypeVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeAlias, TypeVar, Unpack, cast
 
-from gearcad.designs.design import Design, DesignKind
-from gearcad.errors import ParameterError, as_path
-from gearcad.notice import Notice
-from gearcad.output import json_text, staged_files
-from gearcad.progress import Agenda, Expected, Progress
-from gearcad.threads import one_thread
+from gearcad.core.errors import ParameterError, as_path
+from gearcad.core.output import json_text, staged_files
+from gearcad.core.records import Notice, PerGear
+from gearcad.core.runtime import Agenda, Expected, Progress, one_thread
+from gearcad.designs.design import Design
+from gearcad.designs.keys import DesignKind
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
+from gearcad.material import Material
 
-__all__ = ["Job", "Writer"]
+if TYPE_CHECKING:
+    from gearcad.designs import Design, Inputs
+    from gearcad.dynamics.trains.train import Train
+    from gearcad.load import Load
+    from gearcad.planetary import PlanetaryTrain, TrainLoad
+
 
 Accepted = TypeVar("Accepted", bound=Design)
 Result = TypeVar("Result")
@@ -130,3 +137,83 @@ def _require_progress(progress: object) -> None:
 def _plain(value: Any) -> Any:
     """As JSON gives it back."""
     return list(value) if isinstance(value, tuple) else value.value if isinstance(value, Enum) else value
+
+
+Subject: TypeAlias = "Design | GearPair | Gear | RackPair | Rack | PlanetaryTrain"
+"""What Python may give to a job."""
+
+
+def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: Unpack[Inputs]) -> Design:
+    """A design as it is, or that of what else may be given, with `inputs` in place of its own. Raises ParameterError.
+
+    All kinds of designs are imported here: a command reads its own from a spec.
+    """
+    from gearcad.designs import Design, GearDesign, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign
+    from gearcad.designs.keys import BESIDE
+    from gearcad.planetary import PlanetaryTrain, TrainLoad
+
+    if isinstance(subject, Gear):
+        subject = GearDesign(name=subject.name, gear=subject)
+    elif isinstance(subject, GearPair):
+        subject = PairDesign(name=subject.name, pair=subject)
+    elif isinstance(subject, Rack):
+        subject = RackDesign(name=subject.name, rack=subject)
+    elif isinstance(subject, RackPair):
+        subject = RackPairDesign(name=subject.name, pair=subject)
+    elif isinstance(subject, PlanetaryTrain):
+        subject = PlanetaryDesign(name=subject.name, train=subject)
+    if not isinstance(subject, Design):
+        permitted = "must be a GearPair, a Gear, a RackPair, a Rack, a PlanetaryTrain, or a design such as gearcad.read gives"
+        raise ParameterError("subject", subject, permitted)
+    kinds = {**BESIDE, **({"load": TrainLoad} if isinstance(subject, PlanetaryDesign) else {})}
+    given: dict[str, Any] = {**inputs, "load": load} if load is not None else {**inputs}
+    for name, value in given.items():
+        if not hasattr(subject, name):
+            known = ", ".join(each for each in BESIDE if hasattr(subject, each))
+            raise ParameterError(name, value, f"is nothing that a {subject.kind.words} has; it has {known}")
+        if name == "material" and isinstance(subject, PairDesign | RackPairDesign) and isinstance(value, PerGear):
+            value.map(_require_material)
+        elif name == "material" and isinstance(subject, PlanetaryDesign) and isinstance(value, Mapping):
+            list(map(_require_material, value.values()))
+        elif value is not None and not isinstance(value, kinds[name]):
+            raise ParameterError(name, value, f"must be a {kinds[name].__name__}")
+    return replace(subject, **given)
+
+
+def _require_material(value: Any) -> None:
+    if not isinstance(value, Material):
+        raise ParameterError("material", value, "must be a Material")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Data(Job[Design, Design]):
+    """The data sheet. Its result is the design itself, whose gears, pair or train know their derived properties."""
+
+    verb = "data"
+    accepts = tuple(DesignKind)
+    why = "every kind has derived quantities"
+    solves = False
+
+    def _run(self, design: Design, _progress: Progress | None) -> Design:
+        return design
+
+    def document(self, result: Design) -> dict[str, Any]:
+        """What data.json holds: inputs and derived properties under their field names (mm, degrees)."""
+        return result.to_dict()
+
+    def notices(self, result: Design) -> Sequence[Notice]:
+        return result.notices
+
+
+def data(subject: Subject | Train, load: Load | None = None, **inputs: Unpack[Inputs]) -> dict[str, Any]:
+    """Every derived quantity of a gear, a rack, a pair or a train with its inputs, nested as data.json has it: mm, degrees.
+
+    >>> from gearcad import Gear
+    >>> data(Gear(teeth=20, normal_module=2, face_width=20))["gear"]["reference_diameter"]
+    40.0
+    """
+    from gearcad.designs import TrainDesign
+    from gearcad.dynamics.trains.train import Train
+
+    job, design = Data(), TrainDesign(name=subject.name, train=subject) if isinstance(subject, Train) else subject
+    return job.document(job.run(as_design(design, load, **inputs)))

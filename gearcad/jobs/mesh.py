@@ -1,35 +1,109 @@
-"""Mesh: finite elements of a design's gears with named sides, as files of other programs."""
+"""Job `mesh`: finite elements of a design's gears with named sides, and decks that run."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, Unpack
 
+from gearcad.check.options import CheckOptions, Model
+from gearcad.check.task import CheckTask, check_task
+from gearcad.core.records import Notice, PerGear, Role
+from gearcad.core.runtime import Agenda, Expected, Progress
+from gearcad.decks.pair import PairDecks
+from gearcad.decks.plane import PlaneDecks, plane_tooth_deck
+from gearcad.decks.solid import SolidDecks, solid_task, solid_tooth_deck
 from gearcad.designs import Design, DesignKind, GearedDesign, Inputs, PairDesign
 from gearcad.geometry import Gear, GearPair
-from gearcad.jobs.contact_zones import contact_zones
-from gearcad.jobs.job import Job, Writer
-from gearcad.jobs.mesh_decks import make_decks
-from gearcad.jobs.subject import as_design
+from gearcad.jobs.job import Job, Writer, as_design
 from gearcad.load import Load
 from gearcad.material import Material, Materials
-from gearcad.meshing.bodies.contact_zone import ContactZone
-from gearcad.meshing.bodies.elements import Element
-from gearcad.meshing.document import mesh_document
-from gearcad.meshing.expected import expected_mesh
-from gearcad.meshing.files.formats import SUFFIXES
-from gearcad.meshing.options import MeshOptions
-from gearcad.meshing.plan import MeshPlan, plan_mesh
-from gearcad.meshing.result import MeshResult
-from gearcad.meshing.room import require_room
-from gearcad.meshing.run import run_mesh
-from gearcad.notice import Notice
-from gearcad.per_gear import PerGear
-from gearcad.progress import Expected, Progress
+from gearcad.meshing.bodies.body_mesh import contacts
+from gearcad.meshing.bodies.element_mesh import Element
+from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.options import SUFFIXES, DeckKind, MeshOptions
+from gearcad.meshing.plan import MeshPlan, expected_mesh, plan_mesh, require_room
+from gearcad.meshing.result import Deck, MeshResult, mesh_document, run_mesh
+from gearcad.rating.contact_stress import base_normal_force, contact_at
 
-__all__ = ["Mesh", "mesh"]
+_EDGES = 4
+"""Edges over the half width of a contact: with one of them the pressure is 2 % low (measured)."""
+
+_REACH = 1.6
+"""Half widths on each side of a contact over which edges stay short."""
+
+_SHORTEST = 0.002
+"""Shortest edge in normal modules: near the base circle flanks are curved most, and contacts narrower than is of any use."""
+
+
+def contact_zones(pair: GearPair, material: Materials, load: Load, roll_angle: float) -> PerGear[Mapping[int, ContactZone]]:
+    """Zones of the teeth of pinion and wheel that touch at a roll angle (deg), which share the load evenly.
+
+    A negative torque presses right flanks. No torque makes no zones.
+    """
+    torque = load.torque * load.application_factor
+    if not torque:
+        return PerGear({}, {})
+    left = torque > 0
+    touching = contacts(pair, roll_angle, left=left)
+    force = base_normal_force(pair, torque) / max(len(touching.pinion), 1)
+
+    def zone(place: float, own: float) -> ContactZone:
+        half = contact_at(pair, material, distance=place, force=force).half_width
+        edge = max(half / _EDGES, _SHORTEST * pair.pinion.normal_module)
+        return ContactZone(length=own, half_width=_REACH * half, edge=edge, left=left)
+
+    whole = pair.base_tangent.length
+    return PerGear(
+        {tooth: zone(place, place) for tooth, place in touching.pinion.items()},
+        {tooth: zone(whole - place, place) for tooth, place in touching.wheel.items()},
+    )
+
+
+def make_decks(design: PairDesign, plan: MeshPlan, progress: Progress | None) -> dict[str, Deck]:
+    """The decks that the options of a plan ask for, by the names of their files.
+
+    Raises ParameterError, GeometryError and SolverError for what cannot be checked.
+    """
+    if not plan.options.decks:
+        return {}
+    makers = dict(_makers(plan.options, *_decks(design, plan)))
+    agenda = Agenda(progress, dict.fromkeys(makers, 1.0))
+    made: dict[str, Deck] = {}
+    for name, make in makers.items():
+        agenda(name)
+        made[name] = make()
+    return made
+
+
+def _decks(design: PairDesign, plan: MeshPlan) -> tuple[PairDecks, Callable[[float, Role], Deck]]:
+    """Decks of the pair, and what makes that of one gear at a roll angle (deg)."""
+    if plan.solid:
+        solid = SolidDecks(solid_task(_task(design, Model.SOLID)))
+        return solid, partial(solid_tooth_deck, solid)
+    plane = PlaneDecks(_task(design, Model.PLANE))
+    return plane, partial(plane_tooth_deck, plane)
+
+
+def _makers(
+    options: MeshOptions, decks: PairDecks, tooth: Callable[[float, Role], Deck]
+) -> Iterator[tuple[str, Callable[[], Deck]]]:
+    """Names of files, and what makes their decks: at the roll angle of the options, or at so many over one base pitch."""
+    count, pitch = options.positions, 360 / decks.pair.pinion.teeth
+    for number in range(count):
+        place = "" if count == 1 else f"_{number + 1:0{len(str(count))}}"
+        angle = options.roll + pitch * ((number + 0.5) / count - 0.5)
+        if DeckKind.PAIR in options.decks:
+            yield f"pair_deck{place}.inp", partial(decks.at, angle)
+        if DeckKind.TOOTH in options.decks:
+            yield from ((f"{role.value}_deck{place}.inp", partial(tooth, angle, role)) for role in Role)
+
+
+def _task(design: PairDesign, model: Model) -> CheckTask:
+    options = replace(design.check or CheckOptions(), model=model.value)
+    load = design.loaded("a deck is of pressed flanks")
+    return check_task(design.pair, design.material or Material(), load, options, design.mounting, design.rating)
 
 
 @dataclass(frozen=True, kw_only=True)

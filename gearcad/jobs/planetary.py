@@ -8,19 +8,17 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple, Unpack
 
+from gearcad.core.errors import ParameterError, require_switch
+from gearcad.core.output import json_text
+from gearcad.core.quantities import with_assumed
+from gearcad.core.records import Notice
+from gearcad.core.runtime import Progress
 from gearcad.designs import Design, DesignKind, Inputs, PlanetaryDesign
-from gearcad.designs.mesh_pairs import MeshPairs
-from gearcad.dynamics.planetary.document import study_document
-from gearcad.dynamics.planetary.result import PlanetaryStudy
-from gearcad.dynamics.planetary.study import study_planetary
-from gearcad.errors import ParameterError, require_switch
-from gearcad.jobs.job import Job, Writer
-from gearcad.jobs.subject import as_design
-from gearcad.notice import Notice
-from gearcad.output import json_text
+from gearcad.designs.spec_writers import MeshPairs
+from gearcad.dynamics.planetary.planetary_result import PlanetaryStudy, study_document
+from gearcad.dynamics.planetary.planetary_study import study_planetary
+from gearcad.jobs.job import Job, Writer, as_design
 from gearcad.planetary import PlanetaryTrain, TrainLoad
-from gearcad.progress import Progress
-from gearcad.schema import with_assumed
 from gearcad.version import __version__
 
 __all__ = ["Planetary", "Studied", "planetary"]

@@ -1,27 +1,51 @@
-"""The verbs of gearcad, in the order of use. A job is entered here, once by its name and once for type checkers.
+"""Verbs of gearcad in the order of use, and where the job of each stands.
 
-Its module `gearcad/jobs/VERB.py` has the class and the function of its name: `Check` is what commands and tables do, `check` is
-`gearcad.check`. A module `gearcad/cli/VERB.py` makes it a command, and a step of `gearcad batch --do`.
-
-What begins without a design is no job, but a function in a module of its name.
+A module of `gearcad.jobs` has the class and the function of a verb: `Check` is what commands and tables do, `check` is
+`gearcad.check`. A function of its name in `gearcad.cli` makes it a command, and a step of `gearcad batch --do`.
 """
 
 from __future__ import annotations
 
-TYPE_CHECKING = False  # as in guard.py
+from importlib import import_module
+
+TYPE_CHECKING = False  # typing takes longer to import than `gearcad` may
 if TYPE_CHECKING:
+    from typing import Any
+
     from gearcad.jobs.build import build as build
-    from gearcad.jobs.check import check as check
-    from gearcad.jobs.data import data as data
     from gearcad.jobs.draw import draw as draw
+    from gearcad.jobs.draw import picture as picture
     from gearcad.jobs.dynamics import dynamics as dynamics
-    from gearcad.jobs.identify import identify as identify
+    from gearcad.jobs.job import Job
+    from gearcad.jobs.job import data as data
     from gearcad.jobs.mesh import mesh as mesh
     from gearcad.jobs.modify import modify as modify
-    from gearcad.jobs.picture import picture as picture
     from gearcad.jobs.planetary import planetary as planetary
-    from gearcad.jobs.rate import rate as rate
-    from gearcad.jobs.stiffness import stiffness as stiffness
+    from gearcad.jobs.searches import identify as identify
+    from gearcad.jobs.strength import check as check
+    from gearcad.jobs.strength import rate as rate
+    from gearcad.jobs.strength import stiffness as stiffness
 
 VERBS = ("data", "build", "draw", "picture", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")
 WITHOUT_DESIGN = ("identify",)
+"""Verbs that begin without a design: functions, and no jobs."""
+
+_MODULES = {
+    "data": "job",
+    "picture": "draw",
+    "check": "strength",
+    "rate": "strength",
+    "stiffness": "strength",
+    "identify": "searches",
+}
+
+
+def module_of(verb: str) -> str:
+    """Return the name of the module of `gearcad.jobs` in which a verb stands."""
+    return _MODULES.get(verb, verb)
+
+
+def job_of(verb: str) -> type[Job[Any, Any]]:
+    """Return the class of the job of a verb, imported when it is asked for."""
+    found: type[Job[Any, Any]] = getattr(import_module(f"gearcad.jobs.{module_of(verb)}"), verb.capitalize())
+    return found

@@ -1,23 +1,165 @@
-"""MeshPlan: what the options of a mesh come to for a gear or a pair, before anything is meshed."""
+"""MeshPlan: how a gear or a pair is meshed, and what time and memory that takes, before anything is meshed."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
-from gearcad.errors import GeometryError, ParameterError
+import numpy as np
+
+from gearcad.core.errors import GeometryError, InputError, ParameterError
+from gearcad.core.records import Notice, PerGear, grouped
+from gearcad.core.runtime import Expected, Share, machine_memory
 from gearcad.geometry import Gear, GearPair
-from gearcad.meshing.bodies.contact_zone import ContactZone
-from gearcad.meshing.bodies.elements import Element
-from gearcad.meshing.bodies.sizing import Amount, body_sizes, factor_for
-from gearcad.meshing.bodies.tetrahedron_sizes import FILLET_ANGLE, TetrahedronGrading
-from gearcad.meshing.gear_plan import GearPlan, PartPlan, SectorsPlan
+from gearcad.meshing.bodies.body_mesh import Amount, body_sizes, expected_amount, factor_for, mesh_body, swept_notices
+from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
+from gearcad.meshing.bodies.exactness import exact_area, exact_volume
+from gearcad.meshing.bodies.gear_faces import FILLET_ANGLE, Stage, TetrahedronGrading
+from gearcad.meshing.bodies.section_mesh import mesh_section
+from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.bodies.tetrahedra import mesh_tetrahedra
 from gearcad.meshing.options import AUTO, Extent, MeshOptions, What
-from gearcad.meshing.section.held import held_radius
-from gearcad.notice import Notice
-from gearcad.per_gear import PerGear
+from gearcad.meshing.outline import MeshSizes, held_radius
+from gearcad.solids.exact.inertia import mass_properties
 
-__all__ = ["MeshPlan", "plan_mesh"]
+_OF_VOLUME = 1e9
+"""Density (kg/m³) whose mass in kg is the volume in mm³."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearPlan(ABC):
+    """A gear and how it is meshed."""
+
+    gear: Gear
+
+    @property
+    @abstractmethod
+    def count(self) -> int:
+        """Teeth that are meshed."""
+
+    @property
+    @abstractmethod
+    def end_radius(self) -> float:
+        """Radius (mm) of the circle where the body ends, which meshes call bore, or rim of a ring; 0 if there is none."""
+
+    @property
+    def amount(self) -> Amount | None:
+        """What it will come to, where that is known."""
+        return None
+
+    @property
+    @abstractmethod
+    def exact(self) -> float:
+        """Area (mm²) or volume (mm³) that the exact gear has where it is meshed."""
+
+    @abstractmethod
+    def mesh(self, share: Share) -> ElementMesh:
+        """The mesh, in the gear's coordinates. Raises ParameterError, GeometryError and SolverError."""
+
+    @property
+    def notices(self) -> Iterable[Notice]:
+        """What to know before using the mesh."""
+        return ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class SectorsPlan(GearPlan):
+    """`teeth` of a gear, None for all, up to `held_radius` (mm), 0 for a full disc; short edges where they touch others."""
+
+    element: Element
+    teeth: int | None
+    held_radius: float
+    sizes: MeshSizes
+    contacts: Mapping[int, ContactZone] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        return self.teeth or self.gear.tooth_count
+
+    @property
+    def end_radius(self) -> float:
+        return self.held_radius
+
+    @property
+    def _solid(self) -> bool:
+        return self.element.shape.dimension == 3
+
+    @cached_property
+    def amount(self) -> Amount:
+        return expected_amount(
+            self.gear,
+            teeth=self.teeth,
+            held_radius=self.held_radius,
+            sizes=self.sizes,
+            element=self.element,
+            contacts=self.contacts,
+        )
+
+    def finer(self, factor: float) -> SectorsPlan:
+        """The same with all edges shorter by a factor, but for those of contacts."""
+        return replace(self, sizes=self.sizes.scaled(factor))
+
+    @property
+    def exact(self) -> float:
+        return self.count * (exact_volume if self._solid else exact_area)(self.gear, self.held_radius)
+
+    def mesh(self, _share: Share) -> ElementMesh:
+        teeth, inner, sizes, kind, zones = self.teeth, self.held_radius, self.sizes, self.element, self.contacts
+        if not self._solid:
+            return mesh_section(self.gear, teeth=teeth, held_radius=inner, sizes=sizes, element=kind, contacts=zones)
+        return mesh_body(self.gear, teeth=teeth, held_radius=inner, sizes=sizes, planes=None, element=kind, contacts=zones)
+
+    @property
+    def notices(self) -> Iterator[Notice]:
+        if self.gear.internal:
+            if self.gear.body.rim_diameter is None:
+                text = f"has no rim diameter: it is meshed out to a diameter of {2 * self.held_radius:.4g} mm"
+                yield Notice("no-rim", text)
+        elif self.held_radius and not self.gear.body.bore:
+            text = f"has no bore: its teeth are meshed down to a diameter of {2 * self.held_radius:.4g} mm"
+            yield Notice("no-bore", text)
+        if self._solid:
+            yield from swept_notices(self.gear)
+        elif self.gear.body.bolt_holes:
+            yield Notice("section-body", "sections of a ring are meshed without its bolt holes; tet10 has them")
+
+
+@dataclass(frozen=True, kw_only=True)
+class PartPlan(GearPlan):
+    """The whole part in tetrahedra: edges of `size` (mm) on teeth, or so many `elements`; some teeth have finer ones."""
+
+    size: float | None
+    elements: int | None
+    grading: TetrahedronGrading = field(default_factory=TetrahedronGrading)
+    refined_teeth: tuple[int, ...] = ()
+
+    @property
+    def count(self) -> int:
+        return self.gear.tooth_count
+
+    @property
+    def end_radius(self) -> float:
+        if self.gear.internal:
+            return (self.gear.body.rim_diameter or 0.0) / 2
+        return self.gear.body.bore / 2
+
+    @property
+    def exact(self) -> float:
+        return mass_properties(self.gear, _OF_VOLUME).mass
+
+    def mesh(self, share: Share) -> ElementMesh:
+        begins = {stage: number / len(Stage) for number, stage in enumerate(Stage)}
+        return mesh_tetrahedra(
+            self.gear,
+            size=self.size,
+            elements=self.elements,
+            grading=self.grading,
+            refined_teeth=self.refined_teeth,
+            stage=lambda stage: share(begins[stage]),
+        )
+
 
 _PART_SIZE = 0.5
 """Usual edge of tetrahedra on teeth, in normal modules."""
@@ -206,3 +348,80 @@ def _require_possible(
     fewest = min(gear.tooth_count for gear in gears.values())
     if extent.what is What.TEETH and extent.teeth is not None and extent.teeth >= fewest:
         raise GeometryError("what", options.what, f"must be of fewer than {fewest} teeth, which the gear has; or ring")
+
+
+_SECONDS = {Element.TRI6: 1e-5, Element.QUAD8: 8e-6, Element.HEX8: 6e-6, Element.HEX20: 1.2e-5}
+"""To mesh, judge and write an element in the usual formats."""
+
+_BEFORE = 0.5
+"""Seconds that it takes at least."""
+
+_COPIES, _IMPORTS = 2.2, 1e8
+"""Memory at the most over that of nodes and elements, and what there is before."""
+
+
+def expected_mesh(plan: MeshPlan) -> Expected | None:
+    """What a mesh is expected to be and to take; None for tetrahedra, of which nobody knows."""
+    amount = plan.amount
+    if amount is None:
+        return None
+    seconds = _BEFORE + _SECONDS[plan.element] * amount.elements
+    makes = f"makes {grouped(amount.elements)} {plan.element.value}, {grouped(amount.nodes)} nodes"
+    return Expected(seconds, expected_memory(amount), makes)
+
+
+def expected_memory(amount: Amount) -> float:
+    """Bytes that meshing, judging and writing so much take at the most."""
+    return _IMPORTS + _COPIES * amount.bytes
+
+
+_MOST_NODES = int(np.iinfo(np.int32).max)
+"""Elements number their nodes so, and files do."""
+
+_MARGIN = 1.25
+"""By how much larger than what would just do a size is that is told: amounts follow sizes roughly."""
+
+
+def require_room(plan: MeshPlan) -> None:
+    """Raise ParameterError, or GeometryError where nobody asks for an amount, for more nodes than can be numbered, or more
+    memory than the machine has. Of tetrahedra nobody knows before.
+    """
+    if plan.element is Element.TRI6:
+        # Triangles are counted by meshing a sector: there must not be too many for that.
+        quads = {
+            name: replace(each, element=Element.QUAD8) for name, each in plan.gears.items() if isinstance(each, SectorsPlan)
+        }
+        _require(replace(plan, gears=quads))
+    _require(plan)
+
+
+def _require(plan: MeshPlan) -> None:
+    amount = plan.amount
+    if amount is None:
+        return
+    nodes, needed, there = _most_nodes(plan), expected_memory(amount), machine_memory()
+    excess = max(nodes / _MOST_NODES, needed / there)
+    if excess > 1:
+        many = f", of which a file numbers at most {_MOST_NODES}" if nodes > _MOST_NODES else ""
+        text = (
+            f"makes {amount.elements:.3g} {plan.element.value} with {amount.nodes:.3g} nodes{many}; "
+            f"they take about {needed / 1e9:.3g} GB of memory, and there are {there / 1e9:.3g} GB"
+        )
+        raise _refusal(plan, text, excess)
+
+
+def _most_nodes(plan: MeshPlan) -> int:
+    """Nodes of the largest file; a pair in mesh is one."""
+    every = [amount.nodes for each in plan.gears.values() if (amount := each.amount) is not None]
+    return sum(every) if plan.pair is not None else max(every)
+
+
+def _refusal(plan: MeshPlan, text: str, excess: float) -> InputError:
+    """The error for what is too large by a factor, with what would do."""
+    options, excess = plan.options, _MARGIN * excess
+    if options.elements is not None:
+        return ParameterError("elements", options.elements, f"{text}; about {options.elements / excess:.2g} would do")
+    if options.size is not None:
+        larger = options.size * excess ** (1 / plan.element.shape.dimension)
+        return ParameterError("size", options.size, f"{text}; about {larger:.2g} mm would do", "mm")
+    return GeometryError("what", plan.options.what, f"{text}; a larger size, or less of the gear, would do")

@@ -1,23 +1,32 @@
-"""MeshResult: the meshes of a design, and what was found of them when they were judged."""
+"""MeshResult: the meshes of a design, judged, and its document for mesh.json."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import nullcontext
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
 
+from gearcad.core.records import Notice, PerGear, Pictured, Role, naming, texts
+from gearcad.core.runtime import Agenda, Progress
 from gearcad.geometry import Gear
-from gearcad.meshing.bodies.exactness import Deviations
-from gearcad.meshing.bodies.measure import Measure, openness, together
-from gearcad.meshing.bodies.mesh import ElementMesh
-from gearcad.meshing.bodies.other_sides import SideDeviations
-from gearcad.meshing.bodies.quality import Quality
-from gearcad.meshing.plan import MeshPlan
-from gearcad.notice import Notice
-from gearcad.reprs import Pictured
-
-__all__ = ["COARSE", "Deck", "Gate", "JudgedMesh", "MeshResult"]
+from gearcad.meshing.bodies.body_mesh import posed
+from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
+from gearcad.meshing.bodies.exactness import Deviations, SideDeviations, deviations, matched_distance, side_deviations
+from gearcad.meshing.bodies.quality import (
+    LARGEST_ASPECT,
+    LEAST_SCALED_JACOBIAN,
+    Measure,
+    Quality,
+    measure_side,
+    openness,
+    quality,
+    require_good,
+    together,
+)
+from gearcad.meshing.plan import GearPlan, MeshPlan
+from gearcad.version import __version__
 
 COARSE = 0.5
 """How far (µm) faces may be from the exact gear between their nodes, where nobody asks for larger ones."""
@@ -180,3 +189,125 @@ class MeshResult(Pictured):
     def verdict(self) -> str:
         """The gates in a word."""
         return "passed" if self.passed else "failed"
+
+
+def mesh_document(result: MeshResult, files: Iterable[str]) -> dict[str, Any]:
+    """Lengths in mm, areas in mm², volumes in mm³, deviations in µm, angles in degrees, memory in bytes.
+
+    "summary" is of all meshes: sums of counts, the worst of all else. "meshes" are by gear, also where a file has both.
+    """
+    plan = result.plan
+    of_pair = {"roll_angle": plan.options.roll} if plan.pair is not None else {}
+    return {
+        "kind": "mesh",
+        "name": result.name,
+        "gearcad": __version__,
+        "what": plan.extent.what.value,
+        "model": "3d" if plan.solid else "2d",
+        "element": plan.element.value,
+        **of_pair,
+        "passed": result.passed,
+        "summary": _summary(result),
+        "meshes": {name: judged.to_dict() for name, judged in result.judged.items()},
+        **({"decks": {name: deck.expected for name, deck in result.decks.items()}} if result.decks else {}),
+        "files": list(files),
+        "notices": [notice.to_dict() for notice in result.notices],
+        "warnings": list(texts(result.notices)),
+    }
+
+
+def _summary(result: MeshResult) -> dict[str, Any]:
+    every = result.judged.values()
+    measured = [judged.quality for judged in every]
+    return {
+        "nodes": sum(judged.nodes for judged in every),
+        "elements": sum(judged.elements for judged in every),
+        "bytes": sum(judged.bytes for judged in every),
+        "least_scaled_jacobian": min(each.least_jacobian for each in measured),
+        "largest_aspect": max(each.largest_aspect for each in measured),
+        "least_angle": min(each.least_angle for each in measured),
+        "node_deviation": max(judged.deviations.nodes for judged in every),
+        "face_deviation": max(judged.deviations.between for judged in every),
+        "mean_offset": max(judged.mean_offset for judged in every),
+    }
+
+
+_MESHING, _JUDGING = "meshing", "judging"
+
+_FOLDED = 1e-6
+"""Least scaled Jacobian below which a mesh is none: such an element has no inside."""
+
+_ON = 1e-9
+"""How far (mm) nodes may be from the exact sides, and from those they are matched with: that is rounding."""
+
+_ON_SOLID = 1e-6
+"""The same of sides of tetrahedra that are no flanks: where these end, nodes are as the edges of the boundary representation
+are, which its kernel knows to 1e-7 mm.
+"""
+
+_CLOSED = 1e-9
+"""What share of the surface may be missing: that is rounding, too."""
+
+
+def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> MeshResult:
+    """Mesh the gears of a plan, judge what comes out, and put pairs in mesh. Raises GeometryError and SolverError."""
+    steps = [f"{step} {role}" for role in plan.gears for step in (_MESHING, _JUDGING)]
+    agenda = Agenda(progress, dict.fromkeys(steps, 1.0))
+    meshes, judged = dict[str, ElementMesh](), dict[str, JudgedMesh]()
+    for role, each in plan.gears.items():
+        agenda(f"{_MESHING} {role}")
+        with naming(Role(role)) if len(plan.gears) > 1 else nullcontext():
+            meshes[role] = each.mesh(agenda.within(f"{_MESHING} {role}"))
+        agenda(f"{_JUDGING} {role}")
+        judged[role] = _judged(meshes[role], each, plan)
+    if plan.pair is not None:
+        gears = PerGear(meshes.pop("pinion"), meshes.pop("wheel"))
+        meshes["pair"] = posed(plan.pair, gears, plan.options.roll, left=plan.left)
+    return MeshResult(name, plan, meshes, judged)
+
+
+def _judged(mesh: ElementMesh, planned: GearPlan, plan: MeshPlan) -> JudgedMesh:
+    """What is found of one gear's mesh. Raises SolverError for one with folded elements."""
+    measured = quality(mesh)
+    require_good(measured, _FOLDED)
+    sides = {name: (len(faces), measure_side(mesh, name)) for name, faces in mesh.sides.items()}
+    judged = JudgedMesh(
+        gear=planned.gear,
+        teeth=planned.count,
+        nodes=len(mesh.points),
+        elements=len(mesh.cells),
+        bytes=mesh.nbytes,
+        sides=sides,
+        matched={cut: len(pairs) for cut, pairs in mesh.matched.items()},
+        quality=measured,
+        deviations=deviations(mesh, planned.gear),
+        others=side_deviations(mesh, planned.gear, planned.end_radius),
+        unmatched=matched_distance(mesh, planned.gear, planned.count),
+        exact=planned.exact,
+    )
+    return replace(judged, gates=tuple(_gates(judged, plan)))
+
+
+def _gates(judged: JudgedMesh, plan: MeshPlan) -> Iterator[Gate]:
+    """What decides. Edges that are straight, or as long as somebody wants, are as far off as comes of that, but area and volume
+    then differ by no more than the faces do between their nodes.
+    """
+    element, off = plan.element, judged.deviations
+    yield Gate("least scaled Jacobian", judged.quality.least_jacobian, LEAST_SCALED_JACOBIAN[element], "", least=True)
+    yield Gate("longest over shortest edge", judged.quality.largest_aspect, LARGEST_ASPECT, "")
+    yield Gate("nodes from the exact flanks and fillets", off.nodes, _ON, "mm")
+    yield Gate("nodes from the other exact sides", judged.others.nodes, _ON_SOLID if element is Element.TET10 else _ON, "mm")
+    if judged.matched:
+        yield Gate("nodes of matched cuts from each other", judged.unmatched, _ON, "mm")
+    yield Gate("share of the surface that is missing or named twice", judged.openness, _CLOSED, "")
+    if element.shape.order == 2 and plan.usual and element is not Element.TET10:
+        yield Gate("flanks and fillets between nodes from the exact ones", off.between, COARSE, "µm")
+    if element.shape.order == 2 and plan.usual:
+        yield Gate("surface from the exact one on the mean", judged.mean_offset, COARSE, "µm")
+    else:
+        yield Gate(
+            "surface on the mean, which is at most as far off as between nodes",
+            judged.mean_offset,
+            judged.greatest_offset,
+            "µm",
+        )

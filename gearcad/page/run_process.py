@@ -1,4 +1,4 @@
-"""The process of one run: it does one job on the text of a spec, tells how far it is, and leaves its files in a folder.
+"""Process of one run: one job on the text of a spec, its progress, and its files in a folder.
 
 It is started by its command line, as the workers of a batch are. It reads one line of JSON and answers by lines of JSON:
 {"expected": ...}, {"step", "done", "whole"}, and last {"result": ...} or {"error": "the line of the command line"}.
@@ -6,24 +6,185 @@ It is started by its command line, as the workers of a batch are. It reads one l
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 import signal
 import sys
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from gearcad.errors import GearcadError, out_of_memory, printable, shown
-from gearcad.guard import die_with
-from gearcad.page.run_kinds import RUNS
-from gearcad.page.texts import design_of
+from gearcad.batch.pool import close_workers, isolated, own_worker
+from gearcad.core.errors import GearcadError, out_of_memory, printable, shown
+from gearcad.core.guard import die_with
+from gearcad.designs.design import Design, files_only_in, tables_of_text
+from gearcad.designs.pair_designs import PairDesign
+from gearcad.designs.reader import design_from_tables
+from gearcad.jobs.job import Job
 
-__all__ = ["Asked", "serve"]
+
+@dataclass(frozen=True, kw_only=True)
+class RunKind:
+    """A job with its options; `report` is the file to read, `taken` the pattern of those to take along.
+
+    `takes` tells for which designs it is, of the kinds that the job accepts.
+    """
+
+    job: Callable[[], Job[Any, Any]]
+    report: str = ""
+    taken: str = "*"
+    made: Callable[[Design], Design] = lambda design: design
+    takes: Callable[[Design], bool] = lambda design: True
+
+    def accepts(self, design: Design) -> bool:
+        """Whether a design is of a kind that it is for."""
+        return design.kind in self.job().accepts and self.takes(design)
+
+
+def _check(model: str) -> Callable[[], Job[Any, Any]]:
+    def job() -> Job[Any, Any]:
+        from gearcad.jobs.strength import Check
+
+        return Check(model=model)
+
+    return job
+
+
+def _stiffness() -> Job[Any, Any]:
+    from gearcad.jobs.strength import Stiffness
+
+    return Stiffness()
+
+
+def _dynamics() -> Job[Any, Any]:
+    from gearcad.jobs.dynamics import Dynamics
+
+    return Dynamics()
+
+
+def _planetary() -> Job[Any, Any]:
+    from gearcad.jobs.planetary import Planetary
+
+    return Planetary()
+
+
+def _rate() -> Job[Any, Any]:
+    from gearcad.jobs.strength import Rate
+
+    return Rate()
+
+
+def _data() -> Job[Any, Any]:
+    from gearcad.jobs.job import Data
+
+    return Data()
+
+
+def _build(*formats: str) -> Callable[[], Job[Any, Any]]:
+    def job() -> Job[Any, Any]:
+        from gearcad.jobs.build import Build
+
+        return Build(formats=formats)  # type: ignore[arg-type]
+
+    return job
+
+
+def _draw(*formats: str) -> Callable[[], Job[Any, Any]]:
+    def job() -> Job[Any, Any]:
+        from gearcad.jobs.draw import Draw
+
+        return Draw(formats=formats)  # type: ignore[arg-type]
+
+    return job
+
+
+def _with_bodies(design: Design) -> Design:
+    """The face load factor by the load distribution of solid bodies."""
+    from gearcad.rating.options import RatingOptions
+
+    if not isinstance(design, PairDesign):
+        return design
+    return replace(design, rating=replace(design.rating or RatingOptions(), face_load_factor="fe"))
+
+
+def _is_pair(design: Design) -> bool:
+    return isinstance(design, PairDesign)
+
+
+ANALYSES = {
+    "check-2d": RunKind(job=_check("2d"), report="report.html"),
+    "check-3d": RunKind(job=_check("3d"), report="report.html"),
+    "rate": RunKind(job=_rate, report="rate.html"),
+    "rate-fe": RunKind(job=_rate, report="rate.html", made=_with_bodies, takes=_is_pair),
+    "stiffness": RunKind(job=_stiffness, report="stiffness.html"),
+    "dynamics": RunKind(job=_dynamics, report="dynamics.html"),
+    "planetary": RunKind(job=_planetary, report="planetary.html"),
+}
+"""Jobs that solve, in the order in which one asks for them."""
+
+DOWNLOADS = {
+    "step": RunKind(job=_build("step"), taken="*.step"),
+    "stl": RunKind(job=_build("stl"), taken="*.stl"),
+    "3mf": RunKind(job=_build("3mf"), taken="*.3mf"),
+    "glb": RunKind(job=_build("glb"), taken="*.glb"),
+    "dxf": RunKind(job=_build("dxf"), taken="*.dxf"),
+    "csv": RunKind(job=_build("csv"), taken="*.csv"),
+    "drawing-pdf": RunKind(job=_draw("pdf"), taken="*.pdf"),
+    "drawing-dxf": RunKind(job=_draw("dxf"), taken="*.dxf"),
+    "drawing-svg": RunKind(job=_draw("svg"), taken="*.svg"),
+    "data": RunKind(job=_data, taken="data.json"),
+}
+"""What is made to be taken along."""
+
+RUNS = ANALYSES | DOWNLOADS
+
+
+def design_of(text: str, name: str, folder: Path) -> Design:
+    """The design of a text, called `name` where it says no other; files that it names are in `folder`. Raises SpecError."""
+    with files_only_in(folder):
+        tables, where = tables_of_text(text, f"{name}.toml", folder)
+        return design_from_tables(tables, where=where, default_name=name)
+
+
+_LONGEST = 120.0
+"""Seconds after which it is given up."""
+
+_NICENESS = 5
+"""The page itself goes before."""
+
+_ASIDE = ThreadPoolExecutor(1, thread_name_prefix="gearcad-aside", initializer=own_worker)
+
+Found = TypeVar("Found")
+
+
+async def found_aside(find: Callable[[Design], Found], design: Design) -> Found:
+    """What a function of a module finds of a design, one of all sessions after the other.
+
+    Raises what it raises, and WorkerLostError where its process is gone.
+    """
+    found: Found = await asyncio.get_running_loop().run_in_executor(_ASIDE, isolated, _found, (find, design), _LONGEST)
+    return found
+
+
+def close_aside() -> None:
+    """The server ends: so does what is being found."""
+    _ASIDE.shutdown(wait=False, cancel_futures=True)
+    close_workers()
+
+
+def _found(asked: tuple[Callable[[Design], Any], Design]) -> Any:
+    """In the process beside the server."""
+    with suppress(AttributeError, OSError):
+        os.setpriority(os.PRIO_PROCESS, 0, _NICENESS)
+    find, design = asked
+    return find(design)
+
 
 _BETWEEN = 0.1
 """Seconds between two lines of progress in one step."""
@@ -31,8 +192,6 @@ _BETWEEN = 0.1
 _LARGEST_FILE = 2 << 30
 """Bytes that one file of a result can have."""
 
-_NICENESS = 5
-"""The page itself goes before."""
 
 _LONGEST_FAULT = 500
 

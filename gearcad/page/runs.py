@@ -1,28 +1,230 @@
-"""Runs: what a session has asked for, one at a time in a process of its own."""
+"""Runs of a session: one at a time in a process of its own; their files, and files from the browser."""
 
 from __future__ import annotations
 
+import json
+import math
+import os
 import queue
 import secrets
 import shutil
+import signal
+import subprocess
+import sys
 import tempfile
 import threading
+import time
+import zipfile
 from collections import deque
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from enum import Enum
+from fnmatch import fnmatch
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
-from gearcad.batch.pool import available_cores
-from gearcad.errors import ParameterError
-from gearcad.page.run import Limits, Run, State
-from gearcad.page.run_process import Asked
-from gearcad.page.run_watch import do_run
+from fastapi import FastAPI, Request, Response
+from fastapi.responses import FileResponse
 
-__all__ = ["Runs", "Turns", "close_all_runs", "runs_of"]
+from gearcad.batch.pool import ONE_THREAD, available_cores
+from gearcad.core.errors import ParameterError, format_number, require_number
+from gearcad.core.guard import death
+from gearcad.core.runtime import Clock, Expected, machine_memory
+from gearcad.page.run_process import RUNS, Asked
+
+GIGABYTE = 1e9
+
+_SHARE_OF_MEMORY = 0.5
+_MOST_MEMORY = 16e9
+
+
+def _most_memory() -> float:
+    """Half of what the machine has; endless where the system does not tell what a process takes."""
+    told = Path("/proc/self/statm").exists()
+    return min(_SHARE_OF_MEMORY * machine_memory(), _MOST_MEMORY) if told else math.inf
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """What one run may take: seconds, and bytes of memory (Linux)."""
+
+    seconds: float = 3600.0
+    memory: float = field(default_factory=_most_memory)
+
+    def __post_init__(self) -> None:
+        require_number("time_limit", self.seconds, "s", above=0)
+        if not math.isinf(self.memory):
+            require_number("memory_limit", self.memory / GIGABYTE, "GB", above=0)
+
+
+class State(Enum):
+    """How far a run is."""
+
+    WAITING = "waiting"
+    RUNNING = "running"
+    DONE = "done"
+    FAILED = "failed"
+    CANCELLED = "cancelled"
+
+    @property
+    def ended(self) -> bool:
+        return self in (State.DONE, State.FAILED, State.CANCELLED)
+
+
+@dataclass
+class Run:
+    """One of them: what was asked, and what its process has told so far. A thread fills it, others read it."""
+
+    number: int
+    asked: Asked
+    given: Mapping[str, str]
+    """What the spec says under its keys, by which runs are told from each other."""
+
+    state: State = State.WAITING
+    step: str = ""
+    share: float = 0.0
+    left: str = ""
+    line: str = ""
+    """The verdict as the command line says it, or the error."""
+
+    name: str = ""
+    """Of the design, as its files are called."""
+
+    figures: Mapping[str, Any] = field(default_factory=dict)
+    notices: tuple[str, ...] = ()
+    files: tuple[str, ...] = ()
+    stop: threading.Event = field(default_factory=threading.Event, repr=False)
+    ended: threading.Event = field(default_factory=threading.Event, repr=False)
+
+    @property
+    def folder(self) -> Path:
+        """Where its files are."""
+        return Path(self.asked.into)
+
+    def file(self, name: str) -> Path | None:
+        """The path of one of its files, if it has one of this name."""
+        return self.folder / name if name in self.files and self.state is State.DONE else None
+
 
 _LOOK = 0.2
-"""Seconds between two looks at whether one that waits is wanted still."""
+"""Seconds between two looks at a process."""
+
+_PAGE_SIZE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
+
+
+def do_run(run: Run, limits: Limits) -> None:
+    """Start the process of a run, hear it, and see that it keeps to its limits."""
+    run.state = State.RUNNING
+    process = _started()
+    lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    assert process.stdin is not None and process.stdout is not None  # Popen was asked for pipes
+    threading.Thread(target=_hear, args=(process.stdout, lines), daemon=True).start()
+    try:
+        with suppress(BrokenPipeError):
+            process.stdin.write(run.asked.line())
+            process.stdin.flush()
+        _follow(run, process, lines, limits)
+    finally:
+        _kill(process)
+        with suppress(OSError):
+            process.stdin.close()
+        status = process.wait()
+    if not run.state.ended:
+        why = death(-status) if status < 0 else f"ended its process (exit status {status})"
+        run.state, run.line = State.FAILED, why
+
+
+def _follow(run: Run, process: subprocess.Popen[bytes], lines: queue.SimpleQueue[bytes], limits: Limits) -> None:
+    """Until it has ended, or must."""
+    end, clock = time.monotonic() + limits.seconds, Clock(None)
+    while not run.state.ended:
+        if run.stop.is_set():
+            run.state = State.CANCELLED
+        elif why := _excess(process, end, limits):
+            run.line, run.state = why, State.FAILED
+        else:
+            with suppress(queue.Empty):
+                line = lines.get(timeout=_LOOK)
+                if not line:
+                    return
+                clock = _take(run, json.loads(line), clock)
+
+
+def _excess(process: subprocess.Popen[bytes], end: float, limits: Limits) -> str:
+    """Which limit it exceeds, in words; "" for none."""
+    if time.monotonic() > end:
+        return f"was stopped at its time limit of {format_number(limits.seconds)} s"
+    if _memory_of(process.pid) > limits.memory:
+        return f"was stopped at its memory limit of {limits.memory / GIGABYTE:.3g} GB"
+    return ""
+
+
+def _take(run: Run, told: Mapping[str, Any], clock: Clock) -> Clock:
+    """What a line of the process tells; the clock by which time left is told."""
+    if "expected" in told:
+        return Clock(Expected(**told["expected"]))
+    if "step" in told:
+        run.step = told["step"]
+        run.share = min(told["done"] / told["whole"], 1.0) if told["whole"] else 0.0
+        run.left = clock.left(run.share)
+    elif "error" in told:
+        run.line, run.state = told["error"], State.FAILED
+    else:
+        result = told["result"]
+        run.line, run.figures = result["conclusion"], dict(_flat(result["figures"]))
+        run.name, run.notices, run.files = result["name"], tuple(result["notices"]), tuple(result["files"])
+        run.share, run.state = 1.0, State.DONE
+    return clock
+
+
+def _flat(figures: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """Under dotted keys as a table of results has them; warnings are told as notices."""
+    for key, value in figures.items():
+        if isinstance(value, Mapping):
+            yield from _flat(value, f"{before}{key}.")
+        elif not isinstance(value, list):
+            yield f"{before}{key}", value
+
+
+def _started() -> subprocess.Popen[bytes]:
+    return subprocess.Popen(
+        [
+            sys.executable,
+            "-c",
+            f"import sys; sys.path[:] = {sys.path!r}; from gearcad.page.run_process import serve; serve()",
+        ],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        env=os.environ | ONE_THREAD,
+        start_new_session=True,
+    )
+
+
+def _hear(pipe: Any, lines: queue.SimpleQueue[bytes]) -> None:
+    """Lines as they come, b"" at the end."""
+    with suppress(OSError, ValueError):
+        for line in pipe:
+            lines.put(line)
+    lines.put(b"")
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    """End a process and all that it has started."""
+    if hasattr(os, "killpg"):
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL)
+    process.kill()
+
+
+def _memory_of(pid: int) -> float:
+    """Bytes that a process has; nothing where the system does not tell."""
+    try:
+        return float(Path(f"/proc/{pid}/statm").read_bytes().split()[1]) * _PAGE_SIZE
+    except (OSError, IndexError, ValueError):
+        return 0.0
+
 
 _PATIENCE = 5.0
 """Seconds that files may take to go."""
@@ -148,3 +350,112 @@ class Runs:
                 shutil.rmtree(run.folder, ignore_errors=True)
             run.ended.set()
         self._folder.cleanup()
+
+
+_POLICY = (
+    "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
+    "font-src data:; form-action 'none'; base-uri 'none'"
+)
+"""A report minds itself: it may run what stands in it, and reach nothing else, this page neither."""
+
+_HEADERS = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer", "Cache-Control": "no-store"}
+
+
+def add_made(app: FastAPI) -> None:
+    """Answer requests for them; a path is looked up among what a run has made, and never used as one."""
+
+    @app.get("/made/{key}/{number}")
+    def files(key: str, number: int) -> Response:
+        run = _run(key, number)
+        return _missing() if run is None else _attached(run)
+
+    @app.get("/made/{key}/{number}/{name}")
+    def report(key: str, number: int, name: str) -> Response:
+        run = _run(key, number)
+        if run is None or name != RUNS[run.asked.kind].report or (path := run.file(name)) is None:
+            return _missing()
+        return FileResponse(path, media_type="text/html", headers={**_HEADERS, "Content-Security-Policy": _POLICY})
+
+
+def taken_along(run: Run) -> tuple[str, Path]:
+    """Name and path of the file that holds what a run has made: the one file, or a zip of several."""
+    kind = run.asked.kind
+    paths = [path for name in run.files if fnmatch(name, RUNS[kind].taken) and (path := run.file(name)) is not None]
+    if len(paths) == 1:
+        return f"{run.name}{paths[0].suffix}", paths[0]
+    packed = run.folder.with_suffix(".zip")
+    if not packed.exists():
+        unfinished = packed.with_suffix(f".{secrets.token_hex(4)}")
+        with zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED) as archive:
+            for path in paths:
+                archive.write(path, path.name)
+        unfinished.replace(packed)
+    return f"{run.name}-{kind}.zip", packed
+
+
+def _run(key: str, number: int) -> Run | None:
+    """A run that has files."""
+    runs = runs_of(key)
+    found = runs.all[number] if runs is not None and 0 <= number < len(runs.all) else None
+    return found if found is not None and found.state is State.DONE and found.files else None
+
+
+def _attached(run: Run) -> Response:
+    name, path = taken_along(run)
+    return FileResponse(path, filename=name, media_type="application/octet-stream", headers=_HEADERS)
+
+
+def _missing() -> Response:
+    return Response("no such file\n", 404, media_type="text/plain")
+
+
+Takers = Mapping[str, tuple[int, Callable[[str, bytes], None]]]
+"""By what a file is: how many bytes it can have, and who takes its name and content."""
+
+_LONGEST_NAME = 200
+_WAITING: dict[str, Takers] = {}
+
+
+def await_files(key: str, takers: Takers | None) -> None:
+    """From here on let files come under a session's key, which nobody else knows; none any more without takers."""
+    if takers is None:
+        _WAITING.pop(key, None)
+    else:
+        _WAITING[key] = takers
+
+
+def add_given(app: FastAPI) -> None:
+    """Take them at this app."""
+
+    @app.post("/given/{key}/{what}")
+    async def given(key: str, what: str, name: str, request: Request) -> Response:
+        if key not in _WAITING or what not in _WAITING[key]:
+            return _told(404, "no such session")
+        most, take = _WAITING[key][what]
+        content = bytearray()
+        async for part in request.stream():
+            content += part
+            if len(content) > most:
+                return _told(413, f"more than {most // 1024} kB")
+        take(name[:_LONGEST_NAME], bytes(content))
+        return _told(200, "taken")
+
+
+def _told(status: int, text: str) -> Response:
+    return Response(text, status, media_type="text/plain")
+
+
+def add_routes(app: FastAPI) -> None:
+    """Answer them at this app, and what is not there, or goes wrong, by a line."""
+    add_made(app)
+    add_given(app)
+    app.add_exception_handler(404, _routes_missing)
+    app.add_exception_handler(Exception, _broken)
+
+
+def _routes_missing(_request: Request, _error: Exception) -> Response:
+    return Response("no such page\n", 404, media_type="text/plain")
+
+
+def _broken(_request: Request, error: Exception) -> Response:
+    return Response(f"failed ({type(error).__name__})\n", 500, media_type="text/plain")

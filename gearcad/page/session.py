@@ -1,39 +1,209 @@
-"""Session: one tab of a browser - its workbench, and the panels that follow it."""
+"""Session: one tab of a browser with its workbench and the panels that follow it."""
 
 from __future__ import annotations
 
+import asyncio
 import secrets
-from collections.abc import Mapping
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
-from nicegui import background_tasks, ui
+from nicegui import app, background_tasks, run, ui
 
-from gearcad.designs.design import DesignKind
-from gearcad.page.beside_design import BesideDesign
-from gearcad.page.components.bar import BarView
-from gearcad.page.following import Following
-from gearcad.page.handed import Handed, hand_over, take_over
-from gearcad.page.links import DESIGN, linked_bench
-from gearcad.page.panels.beside import BesidePanel
-from gearcad.page.panels.bodies import BodiesPanel
-from gearcad.page.panels.files import FilesPanel
-from gearcad.page.panels.inputs import InputsPanel
+from gearcad.designs.design import Design
+from gearcad.designs.keys import DesignKind
+from gearcad.page.components.elements import BarView
+from gearcad.page.panels import Panel
 from gearcad.page.panels.limits import LimitsPanel
-from gearcad.page.panels.roll import RollPanel
 from gearcad.page.panels.runs import RunsPanel
-from gearcad.page.panels.section import SectionPanel
-from gearcad.page.panels.shares import SharesPanel
-from gearcad.page.panels.sheet import SheetPanel
-from gearcad.page.panels.strength import StrengthPanel
+from gearcad.page.panels.sheet_content import StrengthPanel
+from gearcad.page.panels.spec import BesidePanel, FilesPanel, InputsPanel, TextPanel
 from gearcad.page.panels.table import TablePanel
-from gearcad.page.panels.text import TextPanel
+from gearcad.page.panels.views import BodiesPanel, RollPanel, SectionPanel, SharesPanel, SheetPanel
+from gearcad.page.run_process import found_aside
 from gearcad.page.runs import Runs
-from gearcad.page.tabs import Tabs
 from gearcad.page.words import Language, Words, language_of
-from gearcad.page.workbench import TEXT
+from gearcad.page.workbench import DESIGN, TEXT, BesideDesign, linked_bench
 
-__all__ = ["Session"]
+_SECONDS = 60.0
+"""Until nobody comes for it any more."""
+
+
+class Handed(NamedTuple):
+    """A workbench with what is kept beside it, and the runs of its session."""
+
+    beside: BesideDesign
+    runs: Runs
+
+
+_HANDED: dict[str, Handed] = {}
+
+
+def hand_over(handed: Handed) -> str:
+    """Leave it under a key, which nobody else knows; who does not come in time finds nothing."""
+    key = secrets.token_urlsafe(12)
+    _HANDED[key] = handed
+    waiting = threading.Timer(_SECONDS, _drop, (key,))
+    waiting.daemon = True
+    waiting.start()
+    return key
+
+
+def take_over(key: str) -> Handed | None:
+    """What was left under a key, once."""
+    return _HANDED.pop(key, None)
+
+
+def _drop(key: str) -> None:
+    if (left := take_over(key)) is not None:
+        left.runs.close()
+
+
+class Tabs:
+    """A row of titles by their keys; what is put `under` a key is seen while its title is chosen, at first under the first.
+
+    When one is `chosen`, what is to be done `on` its key is.
+    """
+
+    def __init__(self, titles: Mapping[str, str]) -> None:
+        self.chosen = first = next(iter(titles))
+        self._on: dict[str, Callable[[], None]] = {}
+        with (
+            ui.tabs(on_change=lambda event: self._choose(event.value)).props("dense no-caps align=left").classes("tabs") as row
+        ):
+            for key, title in titles.items():
+                ui.tab(key, title)
+        self._panes = {key: ui.element("div").classes("pane") for key in titles}
+        self._row = row
+        row.set_value(first)
+
+    def choose(self, key: str) -> None:
+        """Have what is under a key seen."""
+        self._row.set_value(key)
+
+    def on(self, key: str, do: Callable[[], None]) -> None:
+        """Have something done each time that what is under a key is seen again."""
+        self._on[key] = do
+
+    @contextmanager
+    def under(self, key: str) -> Iterator[None]:
+        """Where elements of a key are put."""
+        with self._panes[key]:
+            yield
+
+    def _choose(self, chosen: str) -> None:
+        self.chosen = chosen
+        for key, pane in self._panes.items():
+            pane.set_visibility(key == chosen)
+        if chosen in self._on:
+            self._on[chosen]()
+
+
+_REST = 0.3
+"""Seconds without a change after which what takes long is begun."""
+
+One = TypeVar("One", bound=Panel[Any])
+
+
+class Following:
+    """What was found for a design that is not the last any more is not shown. A panel that fails says so, the others go on."""
+
+    def __init__(self, design: Callable[[], Design], failed: str) -> None:
+        self._design, self._failed = design, failed
+        self._faults: dict[Panel[Any], ui.label] = {}
+        self._seen: dict[Panel[Any], Callable[[], bool]] = {}
+        self._order: Sequence[Panel[Any]] = ()
+        self._change = 0
+        self._task: asyncio.Task[None] | None = None
+        self._later: asyncio.Task[None] | None = None
+
+    def with_line(self, panel: One, seen: Callable[[], bool] = lambda: True) -> One:
+        """A panel, which follows while it is seen, and after it the place of the line that tells where it fails."""
+        self._faults[panel] = ui.label().classes("panel-fault").props("role=alert")
+        self._seen[panel] = seen
+        return panel
+
+    def begin(self, order: Sequence[Panel[Any]]) -> None:
+        """Let these follow, the quickest first."""
+        self._order = order
+
+    def follow(self) -> None:
+        """The design is another one."""
+        self._change += 1
+        if self._task is None or self._task.done():
+            self._task = background_tasks.create(self._find())
+
+    def look(self, panel: Panel[Any]) -> None:
+        """A panel is seen again."""
+        background_tasks.create(self._show(panel, self._design(), self._change))
+
+    async def compare(self, kept: Callable[[], Design | None]) -> None:
+        """Let panels that compare have what they show of the kept design."""
+        design = kept()
+        for panel in self._order:
+            if panel.compares:
+                found = None if design is None else await self._found(panel, design)
+                if design is not kept():
+                    return
+                panel.keep(found[0] if found else None)
+        self.follow()
+
+    def end(self) -> None:
+        """Nobody looks any more."""
+        for task in (self._task, self._later):
+            if task is not None:
+                task.cancel()
+
+    async def _find(self) -> None:
+        """Until all panels show the last design."""
+        shown = 0
+        while shown != self._change:
+            shown, design = self._change, self._design()
+            for panel in filter(self._is_seen, self._order):
+                if panel.aside(design) is not None:
+                    panel.wait()
+                    continue
+                if not await self._show(panel, design, shown):
+                    break
+        if self._later is None or self._later.done():
+            self._later = background_tasks.create(self._find_later())
+
+    async def _find_later(self) -> None:
+        """What takes long, of the last design: when the hand rests, and without keeping anything else waiting."""
+        shown = 0
+        while shown != self._change:
+            shown, design = self._change, self._design()
+            await asyncio.sleep(_REST)
+            for panel in filter(self._is_seen, self._order):
+                if shown == self._change and panel.aside(design) is not None:
+                    await self._show(panel, design, shown)
+
+    def _is_seen(self, panel: Panel[Any]) -> bool:
+        return self._seen[panel]()
+
+    async def _show(self, panel: Panel[Any], design: Design, change: int) -> bool:
+        """Whether the design was still the last one when this was found."""
+        found = await self._found(panel, design)
+        if change == self._change and found is not None:
+            panel.show(found[0])
+        return change == self._change
+
+    async def _found(self, panel: Panel[Any], design: Design) -> tuple[Any] | None:
+        """What a panel finds, or None where it fails: what gearcad raises, panels tell themselves; this is a fault of ours."""
+        line, aside = self._faults.get(panel), panel.aside(design)
+        try:
+            found = (await (run.io_bound(panel.find, design) if aside is None else found_aside(aside, design)),)
+            if app.is_stopping:  # then nothing was asked of the panel
+                return None
+        except Exception as error:  # whatever it is: the other panels are as good as before
+            if line is not None and not app.is_stopping:
+                line.set_text(f"{self._failed} ({type(error).__name__}: {error})"[:300])
+            return None
+        if line is not None:
+            line.set_text("")
+        return found
 
 
 class Session:

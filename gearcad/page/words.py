@@ -10,7 +10,7 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
-from gearcad.shipped import templates
+from gearcad.core.runtime import templates
 
 __all__ = ["Language", "Words", "language_of"]
 

@@ -1,23 +1,23 @@
-"""Workbench: the text of a spec that is being changed key by key, with every step back; the last good design is never lost."""
+"""Workbench: the text of a spec that is changed key by key, links, the folder of specs, and a second design beside it."""
 
 from __future__ import annotations
 
+import base64
+import binascii
 import re
 import time
-from collections.abc import Callable, Mapping
+import zlib
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from gearcad.core.errors import GearcadError, ParameterError, SpecError
+from gearcad.core.output import staged_files
 from gearcad.designs.cells import CellReader, Layout
-from gearcad.designs.design import Design
-from gearcad.designs.edit import edit_spec
-from gearcad.designs.files import Where, tables_of_text
-from gearcad.designs.keys import Cell
-from gearcad.designs.named_files import files_only_in
-from gearcad.designs.reader import design_from_tables
-from gearcad.errors import GearcadError, SpecError
-
-__all__ = ["TEXT", "Fault", "Workbench"]
+from gearcad.designs.design import Design, Where, files_only_in, require_plain_name, spec_text, tables_of_text
+from gearcad.designs.keys import MAIN_TABLES, Cell
+from gearcad.designs.reader import design_from_tables, edit_spec
+from gearcad.page.run_process import design_of
 
 _MOST_STEPS = 1000
 """Steps back that are kept: the eldest go first."""
@@ -152,3 +152,189 @@ class Workbench:
 def _value(key: str, typed: str) -> Cell | None:
     """What was typed, as a cell of a design table is read, with a decimal point or comma. Raises ParameterError."""
     return CellReader(Layout.SEMICOLON).value(key, typed, 0)
+
+
+DESIGN = "design"
+"""Its name in the address."""
+
+LONGEST = 8000
+"""Characters of a link: what browsers, servers and mails let through."""
+
+LARGEST_TEXT = 1 << 18
+"""Bytes that a link may unfold to."""
+
+_NO_LINK = "is no link of this page, or not all of it"
+_BETWEEN = "\0"
+
+
+def pack(name: str, text: str) -> str:
+    """What stands in the address for a design. Raises ParameterError for a text that no address can hold."""
+    packed = base64.urlsafe_b64encode(zlib.compress(f"{name}{_BETWEEN}{text}".encode(), 9)).decode("ascii").rstrip("=")
+    if len(packed) > LONGEST:
+        raise ParameterError(DESIGN, name, f"must fit into {LONGEST} characters of a link: save it to a file")
+    return packed
+
+
+def unpack(packed: str) -> tuple[str, str]:
+    """Name and text of the design in a link. Raises ParameterError for anything else, and for what unfolds to too much."""
+    try:
+        if len(packed) > LONGEST or not packed.isascii():
+            raise ValueError
+        opened = zlib.decompressobj()
+        content = opened.decompress(base64.b64decode(packed + "=" * (-len(packed) % 4), b"-_", validate=True), LARGEST_TEXT)
+        if not opened.eof or opened.unused_data:
+            raise ValueError
+        name, between, text = content.decode("utf-8").partition(_BETWEEN)
+    except (ValueError, binascii.Error, zlib.error) as error:
+        raise ParameterError(DESIGN, packed, _NO_LINK) from error
+    if not between:
+        raise ParameterError(DESIGN, packed, _NO_LINK)
+    require_plain_name(name)
+    return name, text
+
+
+def linked_bench(packed: str, text: str, name: str, folder: Path) -> Workbench:
+    """A workbench with the design of a link, or with this text where there is none.
+
+    What makes no gear, or is no link at all, is a fault of the text beneath it.
+    """
+    try:
+        linked, of_link = unpack(packed) if packed else (name, text)
+        return Workbench(of_link, linked, folder)
+    except ParameterError as error:
+        bench = Workbench(text, name, folder)
+        bench.blame(str(error))
+    except GearcadError:
+        bench = Workbench(text, name, folder)
+        bench.open(of_link, linked)
+    return bench
+
+
+LARGEST_SPEC = 1 << 18
+LARGEST_TABLE = 1 << 25
+"""Bytes of a file that the page opens."""
+
+SPECS, TABLES = (".toml",), (".csv", ".tsv")
+
+_MOST_LISTED = 500
+
+_KINDS = "|".join(sorted({tables[0] for tables in MAIN_TABLES.values()}))
+_MAIN = re.compile(rf"^\s*(?:\[\s*(?:{_KINDS})\s*[].]|(?:{_KINDS})\s*\.)".encode(), re.MULTILINE)
+"""A line of a spec, and of no other TOML that lies beside one."""
+
+
+class Folder:
+    """Files right in `path`, by their names. What a browser sends is looked up among these, and never used as a path."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def specs(self) -> list[str]:
+        """Its specs, whether they make gears or not; no other TOML."""
+        return [name for name in self.names(SPECS) if self._is_spec(name)]
+
+    def names(self, suffixes: Collection[str]) -> list[str]:
+        """Files with these suffixes, in the order of their names; none that a link finds elsewhere."""
+        try:
+            found = sorted(each.name for each in self.path.iterdir() if each.suffix.lower() in suffixes and self._has(each))
+        except OSError:
+            return []
+        return found[:_MOST_LISTED]
+
+    def find(self, name: str, suffixes: Collection[str], largest: int) -> Path:
+        """The path of one of these files. Raises ParameterError for any other, and for one that is too large."""
+        if name not in self.names(suffixes):
+            raise ParameterError("file", name, "must be one of those in the folder of the page")
+        path = self.path / name
+        if path.stat().st_size > largest:
+            raise ParameterError("file", name, f"must be smaller than {largest // 1024} kB")
+        return path
+
+    def spec(self, name: str) -> str:
+        """The text of one of its specs. Raises ParameterError, SpecError."""
+        return spec_text(self.find(name, SPECS, LARGEST_SPEC))
+
+    def save(self, name: str, text: str, *, replace: bool) -> str:
+        """Write a spec under a plain name, and return that of its file.
+
+        Raises ParameterError for a name that is none or that is taken, unless it may be replaced, OutputError where nothing
+        can be written.
+        """
+        name = name.strip().removesuffix(SPECS[0])
+        require_plain_name(name)
+        file = f"{name}{SPECS[0]}"
+        require_plain_name(file)
+        if not replace and file.casefold() in {each.name.casefold() for each in self.path.iterdir()}:
+            raise TakenError("name", file, "is there; replace it, or give another name")
+        with staged_files(self.path) as staging:
+            (staging / file).write_bytes(text.encode("utf-8"))
+        return file
+
+    def _is_spec(self, name: str) -> bool:
+        try:
+            with (self.path / name).open("rb") as file:
+                return _MAIN.search(file.read(LARGEST_SPEC)) is not None
+        except OSError:
+            return False
+
+    def _has(self, path: Path) -> bool:
+        return not path.name.startswith(".") and path.is_file() and path.resolve().is_relative_to(self.path.resolve())
+
+
+class TakenError(ParameterError):
+    """A name under which there is a file."""
+
+
+def text_of(content: bytes, name: str) -> str:
+    """What a browser has sent as the file of a spec. Raises SpecError."""
+    if len(content) > LARGEST_SPEC:
+        raise SpecError(f"{name}: is no spec: it has more than {LARGEST_SPEC // 1024} kB")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise SpecError(f"{name}: is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
+
+
+class Kept(NamedTuple):
+    """A design, the text that makes it, and what it is called where its text says no name."""
+
+    text: str
+    name: str
+    design: Design
+
+
+class BesideDesign:
+    """What is `kept` beside the design of a workbench `bench`, if anything is."""
+
+    def __init__(self, bench: Workbench) -> None:
+        self.bench, self.folder = bench, Folder(bench.folder)
+        self.kept: Kept | None = None
+
+    @property
+    def design(self) -> Design | None:
+        return None if self.kept is None else self.kept.design
+
+    def keep(self) -> None:
+        """Keep the design that is edited. Raises SpecError while its text makes none."""
+        self.kept = self._present()
+
+    def open(self, file: str) -> None:
+        """Keep that of a spec in the folder. Raises ParameterError, SpecError."""
+        text, name = self.folder.spec(file), file.removesuffix(".toml")
+        self.kept = Kept(text, name, design_of(text, name, self.folder.path))
+
+    def swap(self) -> None:
+        """Edit what was kept, as a step that can be undone, and keep what was edited. Raises SpecError while that is none."""
+        if (kept := self.kept) is not None:
+            self.kept = self._present()
+            self.bench.open(kept.text, kept.name)
+
+    def let_go(self) -> None:
+        """Keep nothing."""
+        self.kept = None
+
+    def _present(self) -> Kept:
+        bench = self.bench
+        if bench.fault is not None and bench.fault.written:
+            raise SpecError(bench.fault.line, bench.fault.key)
+        return Kept(bench.text, bench.name, bench.design)

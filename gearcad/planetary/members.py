@@ -1,18 +1,109 @@
-"""What a planetary train is made of: centrals on the axis, rims of the planets, the carrier, pairs before or behind."""
+"""Members of a planetary train: centrals, rims, carrier, stages; their meshes, materials and load."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Literal
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import Annotated, Any, Literal
 
-from gearcad.errors import GeometryError, ParameterError, require_name
+from gearcad.core.errors import GeometryError, InputError, ParameterError, format_number, require_name
+from gearcad.core.quantities import (
+    APPLICATION_FACTOR,
+    DEVIATION,
+    INERTIA,
+    NOT_GIVEN,
+    OFFSET,
+    SPEED,
+    STIFFNESS,
+    TORQUE,
+    TORSIONAL_STIFFNESS,
+    AssumedNumber,
+    NamedPart,
+    Range,
+    Words,
+    require_fields,
+)
+from gearcad.core.records import Notice, PerGear, Role, concise
 from gearcad.geometry import Gear, GearPair
-from gearcad.geometry.derived import NOT_GIVEN
-from gearcad.ranges import DEVIATION, INERTIA, OFFSET, STIFFNESS, TORSIONAL_STIFFNESS, Range
-from gearcad.reprs import concise
-from gearcad.schema import NamedPart, Words
+from gearcad.geometry.pair_data import PairData
+from gearcad.material import Material, Materials
 
-__all__ = ["Carrier", "Central", "PairStage", "Rim"]
+_EFFICIENCY = Range("", 0.0, 1.0, ends="(]")
+_SHARING = Range("", 1.0, 24.0)
+"""From equal shares to all of it on one planet of as many as there can be."""
+
+TORQUES = ("output_torque", "input_torque", "torque")
+"""Keys of which one gives the torque of a train; `torque` is the old name of one of the others."""
+
+
+def torque_key(instance: Any) -> str:
+    """Return which of TORQUES an object gives. Raises ParameterError unless it is one."""
+    given = [key for key in TORQUES if getattr(instance, key) is not None]
+    if not given:
+        raise ParameterError("output_torque", None, "must be given, in N·m on the output, or input_torque, on the input")
+    if len(given) > 1:
+        value = getattr(instance, given[1])
+        raise ParameterError(given[1], value, f"must be left out beside {given[0]}: one torque follows from the other", "N·m")
+    return given[0]
+
+
+def old_torque_notice(new: str) -> Notice:
+    """Return the notice of a train whose torque is given under its old name, `torque`, in place of `new`."""
+    return Notice("old-name", f"torque is the old name of {new}, which means the same; write {new} instead", where="load")
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrainLoad:
+    """`output_torque` or `input_torque` in N·m, negative if the output drives back, and `speed` of the input in rpm.
+
+    `torque` is the old name of `output_torque`. `mesh_efficiency` is that of every mesh with the carrier at rest: 1 has no
+    losses. `application_factor` K_A multiplies the torque in the ratings, and so does `mesh_load_factor` K_gamma, by how much
+    the planet that carries most carries more than its share; None takes what is computed of the sharing. Raises ParameterError.
+    """
+
+    output_torque: Annotated[float | None, TORQUE, Words("torque on the output", "T")] = None
+    input_torque: Annotated[float | None, TORQUE, Words("torque on the input", "T")] = None
+    torque: Annotated[float | None, TORQUE, Words("torque on the output, old name", "T")] = None
+    speed: Annotated[float, SPEED, Words("speed of the input", "n")] = 0.0
+    mesh_efficiency: Annotated[float, _EFFICIENCY, Words("efficiency of a mesh", "η")] = AssumedNumber(1.0)
+    application_factor: Annotated[float, APPLICATION_FACTOR, Words("application factor", "K_A", "ISO 6336-1")] = AssumedNumber(
+        1.0
+    )
+    mesh_load_factor: Annotated[float | None, _SHARING, Words("mesh load factor of the planets", "K_γ", "ISO 6336-1")] = None
+
+    __repr__ = concise
+
+    def __post_init__(self) -> None:
+        require_fields(self)
+        torque_key(self)
+
+    @property
+    def given_torque(self) -> float:
+        """The torque that is given (N·m), on the output or on the input."""
+        value: float = getattr(self, torque_key(self))
+        return value
+
+    @property
+    def on_input(self) -> bool:
+        """Whether the torque that is given is that of the input."""
+        return self.input_torque is not None
+
+    def times(self, factor: float) -> TrainLoad:
+        """Return the same load with `factor` times its torque."""
+        return replace(self, **{torque_key(self): self.given_torque * factor})
+
+    def torque_words(self, output: str, input_: str) -> str:
+        """Return the torque and the member on which it acts, in words."""
+        return f"{format_number(self.given_torque)} N·m on {input_ if self.on_input else output}"
+
+    @property
+    def notices(self) -> Iterator[Notice]:
+        """What to know of it: that its torque has its old name."""
+        if self.torque is not None:
+            yield old_torque_notice("output_torque")
+
 
 _ANGLE = Range("deg", -360.0, 360.0)
 _MASS = Range("kg", 1e-12, 1e9)
@@ -138,3 +229,116 @@ class PairStage(NamedPart):
 def _require_gear(name: str, gear: object) -> None:
     if not isinstance(gear, Gear):
         raise ParameterError(f"{name}.gear", gear, "must be a Gear")
+
+
+class SetType(Enum):
+    """Sets with one carrier, told apart by which centrals are rings and whether the planets are stepped."""
+
+    A = "A"
+    """Sun, planet, ring."""
+
+    B = "B"
+    """Sun, stepped planet, ring."""
+
+    C = "C"
+    """Sun, stepped planet, sun."""
+
+    D = "D"
+    """Ring, stepped planet, ring."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SetMesh:
+    """The mesh of a central with the rim of a planet: `pair` holds both, the smaller external gear as its pinion."""
+
+    central: Central
+    rim: Rim
+    pair: GearPair
+
+    @property
+    def name(self) -> str:
+        """Such as "sun-planet"."""
+        return self.central.mesh_name
+
+    @property
+    def external(self) -> bool:
+        """Whether the central is a sun."""
+        return not self.central.gear.internal
+
+    @property
+    def central_role(self) -> Role:
+        """Which gear of the pair the central is."""
+        return Role.PINION if self.pair.pinion is self.central.gear else Role.WHEEL
+
+    @property
+    def rim_role(self) -> Role:
+        """Which gear of the pair the planet's is."""
+        return self.central_role.mate
+
+    @property
+    def working_pressure_angle(self) -> float:
+        """alpha_wt in radians."""
+        return math.radians(self.pair.working_transverse_pressure_angle)
+
+    @property
+    def central_base_radius(self) -> float:
+        """r_b of the central (mm), a magnitude."""
+        return base_radius(self.central.gear)
+
+    @property
+    def rim_base_radius(self) -> float:
+        """r_b of the rim (mm)."""
+        return base_radius(self.rim.gear)
+
+    @classmethod
+    def of(cls, central: Central, rim: Rim, centre_distance: float) -> SetMesh:
+        """The mesh at a centre distance (mm, a magnitude; NaN: the one without backlash).
+
+        Raises InputError, whose parameter begins with the mesh's name.
+        """
+        mates, signed = mates_of(central, rim), -centre_distance if central.gear.internal else centre_distance
+        distance = NOT_GIVEN if math.isnan(signed) else signed
+        try:
+            pair = GearPair(pinion=mates.pinion, wheel=mates.wheel, name=mates.name, centre_distance=distance)
+        except InputError as error:
+            raise error.within(mates.name) from None
+        return cls(central=central, rim=rim, pair=pair)
+
+
+def mates_of(central: Central, rim: Rim) -> PairData:
+    """A central and the rim it meshes with, not asked whether they fit: the smaller external gear is the pinion."""
+    first = not central.gear.internal and central.gear.teeth <= rim.gear.teeth
+    pinion, wheel = (central.gear, rim.gear) if first else (rim.gear, central.gear)
+    return PairData(pinion=pinion, wheel=wheel, name=central.mesh_name)
+
+
+def base_radius(gear: Gear) -> float:
+    """r_b of a gear (mm), a magnitude."""
+    return abs(gear.base_diameter) / 2
+
+
+TrainMaterial = Material | Mapping[str, Material]
+"""That of all gears of a train, or of each by its name; steel where that is not there."""
+
+
+def material_of(material: TrainMaterial | None, gear: str) -> Material:
+    """That of a gear, by the name of the central or rim, or of the gear of a stage."""
+    if isinstance(material, Mapping):
+        return material.get(gear, Material())
+    return material or Material()
+
+
+def mesh_material(material: TrainMaterial | None, mesh: SetMesh) -> Materials:
+    """That of the pair of a mesh."""
+    names = {mesh.central_role: mesh.central.name, mesh.rim_role: mesh.rim.name}
+    return _of_pair(material, PerGear.each(lambda role: names[role]))
+
+
+def stage_material(material: TrainMaterial | None, stage: PairStage) -> Materials:
+    """That of the pair of a stage."""
+    return _of_pair(material, stage.pair.gears.map(lambda gear: gear.name))
+
+
+def _of_pair(material: TrainMaterial | None, names: PerGear[str]) -> Materials:
+    pinion, wheel = (material_of(material, name) for name in names)
+    return pinion if pinion == wheel else PerGear(pinion, wheel)

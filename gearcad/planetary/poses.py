@@ -1,20 +1,19 @@
-"""Where every gear of a train stands in mesh: rotation of its tooth 0, place of its axis, height of its teeth."""
+"""Poses of all gears of a planetary train in mesh, the mesh phases of its planets, and harmonics that cancel."""
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from gearcad.geometry.helix import twist
-from gearcad.per_gear import PerGear, Role
-from gearcad.planetary.fitting import Fit, fit_planets, meshing_angle
-from gearcad.planetary.mesh import SetMesh
-from gearcad.planetary.shafts import Link, shafts_of
-from gearcad.planetary.train_data import TrainData
-
-__all__ = ["GearPlace", "PlanetPose", "StagePose", "TrainPose", "assembled", "heights", "train_pose"]
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import PerGear, Role
+from gearcad.geometry import involute
+from gearcad.geometry.gear_data import twist
+from gearcad.planetary.members import SetMesh, TrainLoad
+from gearcad.planetary.train_data import Fit, Link, TrainData, fit_planets, meshing_angle, shafts_of, speeds
 
 
 @dataclass(frozen=True)
@@ -167,3 +166,206 @@ def _mate(link: Link, axis: _Axis) -> tuple[_Axis, float]:
     turn = -axis.turn * inner.teeth / outer.teeth
     distance = abs(stage.pair.centre_distance)
     return _Axis(turn, axis.x + distance * math.cos(psi), axis.y + distance * math.sin(psi)), _degrees(start) + turn
+
+
+_ROUNDING = 1e-10
+"""Base pitches by which a phase may miss a whole pitch and still count as 0."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshPhases:
+    """Where the contacts of a mesh are, in base pitches from 0 to 1, by planets.
+
+    `ahead`: how far contact is past the pitch point in the direction in which it moves, in the middle plane of the teeth (of
+    double helical ones, of the lower half), with the backlash closed towards the flanks that carry, and the planets as they
+    are posed. `relative`: the same less that of planet 0, which stays as the train turns. Contact moves from root to tip of
+    the gear of the pair that drives, `driver`. `left_flanks`: whether those of the planets that carry are the left ones, seen
+    from +z with the tooth up.
+    """
+
+    ahead: tuple[float, ...]
+    relative: tuple[float, ...]
+    driver: Role
+    left_flanks: bool
+
+    @property
+    def cycle(self) -> tuple[float, ...]:
+        """Where each planet is in the mesh cycle of the pair: roll angle of the pinion over that of a base pitch, 0 to 1."""
+        return self.ahead if self.driver is Role.PINION else tuple(_fraction(-each) for each in self.ahead)
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "ahead": list(self.ahead),
+            "relative": list(self.relative),
+            "driver": self.driver.value,
+            "left_flanks": self.left_flanks,
+        }
+
+
+class Drive(NamedTuple):
+    """How a set is driven: the torque on the first central from outside, and its motion against the carrier.
+
+    1 is counter-clockwise, -1 clockwise; where the two are equal the first central drives the planets.
+    """
+
+    sense: int = 1
+    turning: int = 1
+
+
+def drive_of(train: TrainData, load: TrainLoad | None = None) -> Drive:
+    """How a train with a fixed member is driven at a load, of which the signs count; without one, or at rest, its input turns
+    counter-clockwise and drives.
+
+    Losses do not count: what locks itself does not run. Of a differential, which has two inputs, the first central drives.
+    """
+    if train.fixed is None:
+        return Drive()
+    speed = math.copysign(1.0, load.speed) if load and load.speed else 1.0
+    power = math.copysign(1.0, load.given_torque) if load and load.given_torque else 1.0
+    moving = speeds(train, {train.input: speed}).members
+    a, b, c = train.members
+    i0, member = train.basic_ratio, shafts_of(train)[train.input].member
+    torque = power * moving[member] * {a: 1.0, b: -i0, c: i0 - 1}[member]  # T_b = -i_0 T_a, T_a + T_b + T_c = 0
+    return Drive(_sign(torque), _sign(moving[a] - moving[c]))
+
+
+def _sign(value: float) -> int:
+    return 1 if value > 0 else -1
+
+
+def mesh_phases(
+    train: TrainData, drive: Drive | None = None, *, carrier_angle: float = 0.0, central_turn: float = 0.0
+) -> dict[str, MeshPhases]:
+    """The phases of both meshes by their names, in the pose at `carrier_angle` and `central_turn` (degrees; see `train_pose`).
+
+    Without a `drive` the train's input turns counter-clockwise and drives. Raises ParameterError.
+    """
+    sense, turning = drive_of(train) if drive is None else drive
+    for name, value in (("sense", sense), ("turning", turning)):
+        if value not in (1, -1):
+            raise ParameterError(name, value, "must be 1 or -1")
+    first, second = train.meshes
+    same = 1 if train.basic_ratio > 0 else -1  # w_a - w_c = i_0 (w_b - w_c), T_b = -i_0 T_a
+    planets = train_pose(train, carrier_angle, central_turn).planets
+    return {
+        first.name: _phases(first, planets, sense, turning),
+        second.name: _phases(second, planets, -same * sense, same * turning),
+    }
+
+
+def phases_between(first: MeshPhases, second: MeshPhases) -> tuple[float, ...]:
+    """How far the second mesh of each planet is ahead of the first (base pitches, 0 to 1).
+
+    It stays as the train turns where both mesh with the same rim; of stepped planets it is that of the pose.
+    """
+    return tuple(_fraction(b - a) for a, b in zip(first.ahead, second.ahead, strict=True))
+
+
+def _phases(mesh: SetMesh, planets: tuple[PlanetPose, ...], sense: int, turning: int) -> MeshPhases:
+    """Those of a mesh whose central is turned with `sense` and turns with `turning` against the carrier."""
+    outer = 1 if mesh.external else -1
+    ahead = [_ahead(mesh, planet, side=sense * outer, turning=-turning * outer) for planet in planets]
+    return MeshPhases(
+        ahead=tuple(map(_fraction, ahead)),
+        relative=tuple(_fraction(each - ahead[0]) for each in ahead),
+        driver=mesh.central_role if sense == turning else mesh.rim_role,
+        left_flanks=sense * outer > 0,
+    )
+
+
+def _ahead(mesh: SetMesh, planet: PlanetPose, *, side: int, turning: int) -> float:
+    """lambda = z_p (theta +- psi_w - psi - pi e)/2 pi, of a planet that turns counter-clockwise (1) or clockwise (-1).
+
+    theta +- psi_w is where the flank of tooth 0 on its left (1) or right `side` cuts the working circle.
+    """
+    rim = mesh.rim.gear
+    middle = twist(rim, _middle_of_hand(mesh))
+    half = math.radians(rim.base_half_angle) - involute(mesh.pair.working_transverse_pressure_angle)
+    flank = math.radians(planet.rotations[mesh.rim.name]) + middle + side * half
+    towards = math.radians(planet.angle) + math.pi * mesh.external
+    return turning * rim.teeth * (flank - towards) / (2 * math.pi)
+
+
+def _middle_of_hand(mesh: SetMesh) -> float:
+    """Height (mm) above the bottom of the rim's teeth of the middle of the common width, of double helical teeth of the lower
+    half's.
+    """
+    middle = mesh.rim.gear.face_width / 2
+    if not mesh.pair.double_helical:
+        return middle
+    gap = max(gear.double_helix.gap_width or 0.0 for gear in mesh.pair.gears)
+    return middle - gap / 2 - mesh.pair.common_width.width / 4
+
+
+def _fraction(pitches: float) -> float:
+    """From 0 to 1; what only rounding keeps from a whole pitch is 0."""
+    within = pitches % 1.0
+    return 0.0 if within > 1 - _ROUNDING else within
+
+
+HARMONICS = 6
+
+_HARMONICS_ROUNDING = 1e-9
+"""Of what all planets in phase would do."""
+
+
+class Excited(NamedTuple):
+    """Which modes of a set a harmonic shakes: rotational ones, by a torque, and translational ones, by a force.
+
+    Neither: the forces of the planets balance, and only modes in which the members rest are shaken.
+    """
+
+    rotational: bool
+    translational: bool
+
+
+class HarmonicSum(NamedTuple):
+    """Torque and force of a harmonic on a member over those that all planets, in phase and in one direction, would give.
+
+    Torque |sum exp(2 pi i m gamma_n)|/N, force the greater of |sum exp(i (2 pi m gamma_n +- psi_n))|/N.
+    """
+
+    harmonic: int
+    torque: float
+    force: float
+
+    @property
+    def excited(self) -> Excited:
+        """Which modes it shakes."""
+        return Excited(self.torque > 0, self.force > 0)
+
+
+def excited_modes(teeth: int, planets: int, harmonic: int) -> Excited:
+    """Of planets at equal angles, exactly: k = m z mod N is 0 for a torque, 1 or N - 1 for a force; z of the central.
+
+    A planet alone has both.
+    """
+    remainder = harmonic * teeth % planets
+    return Excited(remainder == 0, remainder in (1 % planets, planets - 1))
+
+
+def harmonic_sums(relative: Sequence[float], angles: Sequence[float], harmonics: int = HARMONICS) -> tuple[HarmonicSum, ...]:
+    """Of the harmonics 1, 2, ..., for planets at any `angles` (degrees) with `relative` phases (base pitches)."""
+    psi = [math.radians(angle) for angle in angles]
+    found = []
+    for harmonic in range(1, harmonics + 1):
+        turns = [2 * math.pi * harmonic * phase for phase in relative]
+        torque = _share(turns)
+        forces = (_share([turn + sign * angle for turn, angle in zip(turns, psi, strict=True)]) for sign in (1, -1))
+        found.append(HarmonicSum(harmonic, torque, max(forces)))
+    return tuple(found)
+
+
+def train_harmonics(
+    train: TrainData, phases: dict[str, MeshPhases] | None = None, harmonics: int = HARMONICS
+) -> dict[str, tuple[HarmonicSum, ...]]:
+    """Of both meshes of a train by their names."""
+    phases = mesh_phases(train) if phases is None else phases
+    return {name: harmonic_sums(mesh.relative, train.angles, harmonics) for name, mesh in phases.items()}
+
+
+def _share(turns: Sequence[float]) -> float:
+    """|sum exp(i turn)|/N, 0 where it is rounding."""
+    share = abs(sum(cmath.exp(1j * turn) for turn in turns)) / len(turns)
+    return share if share > _HARMONICS_ROUNDING else 0.0

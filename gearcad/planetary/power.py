@@ -1,21 +1,130 @@
-"""Torques, powers and efficiency of a planetary train under its load."""
+"""Torques, powers, efficiency and tooth forces of a planetary train under its load."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import asdict, dataclass, replace
+from enum import Enum
+from typing import Any, NamedTuple
 
-from gearcad.per_gear import PerGear
-from gearcad.planetary.balance import Balance, balance, rolling_power
-from gearcad.planetary.load import TrainLoad
-from gearcad.planetary.shafts import Shaft, shafts_of
-from gearcad.planetary.speeds import Speeds, speeds
-from gearcad.planetary.train_data import TrainData
-from gearcad.schema import is_assumed
+from gearcad.core.errors import ParameterError, SolverError, require_number
+from gearcad.core.records import PerGear, Role, is_assumed
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.planetary.members import PairStage, SetMesh, TrainLoad, base_radius
+from gearcad.planetary.train_data import Link, Shaft, Speeds, TrainData, shafts_of, speeds, willis_row
 
-__all__ = ["PowerFlow", "efficiency", "lossless_flow", "power_flow"]
+ROUNDING = 1e-12
+"""Share of a speed below which a difference of speeds is rounding."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Balance:
+    """Torques from outside, in the unit of the one that was given, positive counter-clockwise seen from +z.
+
+    `torques` are those on the shafts of the train, `members` on the members of the set (through stages, too), `stages` on
+    the gears of each stage by their shafts.
+    """
+
+    torques: dict[str, float]
+    members: dict[str, float]
+    stages: dict[str, PerGear[float]]
+
+
+def balance(
+    train: TrainData, speeds: Mapping[str, float], ends: Mapping[str, Shaft], known: Shaft, torque: float, eta: float
+) -> Balance:
+    """All torques from the `torque` on the shaft `known`, at `speeds` of which only the signs and their zeros matter.
+
+    `ends` has the shaft of each member on which the world acts; `eta` is the efficiency of every mesh.
+    Raises SolverError where nothing balances it: the train locks itself.
+    """
+    stages = dict.fromkeys((stage.name for stage in train.stages), PerGear(0.0, 0.0))
+    inward = torque
+    for link in reversed(known.path):
+        inward = _passed(stages, link, inward, speeds, eta)
+    members = _members(train, speeds, known.member, inward, eta**2)
+    torques = dict.fromkeys(shafts_of(train), 0.0)
+    for member, value in members.items():
+        outward = value
+        if member == known.member:
+            outward = torque
+        else:
+            for link in ends[member].path:
+                outward = _asked(stages, link, outward, speeds, eta)
+        torques[known.name if member == known.member else ends[member].name] = outward
+    return Balance(torques=torques, members=members, stages=stages)
+
+
+def _passed(stages: dict[str, PerGear[float]], link: Link, torque: float, speeds: Mapping[str, float], eta: float) -> float:
+    """What a torque on the outer shaft of a stage puts on its inner one."""
+    inner, outer = link.teeth
+    through = -torque * inner / outer * _kept(torque * speeds[link.shafts[1]], eta)
+    _note(stages, link, -through, torque)
+    return through
+
+
+def _asked(stages: dict[str, PerGear[float]], link: Link, torque: float, speeds: Mapping[str, float], eta: float) -> float:
+    """The torque on the outer shaft of a stage that puts this one on its inner one."""
+    inner, outer = link.teeth
+    asked = -torque * outer / inner / _kept(torque * speeds[link.shafts[0]], eta)
+    _note(stages, link, -torque, asked)
+    return asked
+
+
+def _kept(power: float, eta: float) -> float:
+    """Power behind a mesh over that before it, seen in the direction in which `power` is positive."""
+    return eta ** ((power > 0) - (power < 0))
+
+
+def _note(stages: dict[str, PerGear[float]], link: Link, inner: float, outer: float) -> None:
+    stages[link.stage.name] = PerGear(outer, inner) if link.outer is Role.PINION else PerGear(inner, outer)
+
+
+def _members(train: TrainData, speeds: Mapping[str, float], known: str, torque: float, eta: float) -> dict[str, float]:
+    """Torques on the members of the set: T_b = -i_0 eta^s T_a, T_a + T_b + T_c = 0, s the sign of T_a (w_a - w_c).
+
+    Where both signs agree with themselves - power that could as well be lost altogether - the one that loses less.
+    """
+    row = willis_row(train)
+    of_a, of_b = (row[central.name] for central in train.centrals)
+    found = []
+    for sign in (1, -1) if rolling_speed(train, speeds) and eta != 1 else (0,):
+        kept = eta**sign
+        shares = dict(zip(row, (float(of_a), of_b * kept, -(of_a + of_b * kept)), strict=True))
+        if not shares[known]:
+            continue
+        torques = {name: torque * share / shares[known] + 0.0 for name, share in shares.items()}
+        if rolling_power(train, torques, speeds) * sign >= 0:
+            found.append(torques)
+    if not found:
+        least = locking_efficiency(train)
+        raise SolverError(
+            f"{known}: no torque elsewhere turns it against its load at a mesh efficiency of {math.sqrt(eta):.6g}: the train "
+            f"locks itself; it turns where meshes keep more than {least:.6g}"
+        )
+    return min(found, key=lambda torques: sum(torques[name] * speeds[name] for name in torques))
+
+
+def rolling_speed(train: TrainData, speeds: Mapping[str, float]) -> float:
+    """w_a - w_c, 0 where the set turns as one but for rounding."""
+    first, carrier = speeds[train.centrals[0].name], speeds[train.carrier.name]
+    difference = first - carrier
+    return difference if abs(difference) > ROUNDING * max(abs(first), abs(carrier)) else 0.0
+
+
+def rolling_power(train: TrainData, torques: Mapping[str, float], speeds: Mapping[str, float]) -> float:
+    """T_a (w_a - w_c): what rolls from the first central to the second as seen from the carrier, in N·m·rpm."""
+    return torques[train.centrals[0].name] * rolling_speed(train, speeds)
+
+
+def locking_efficiency(train: TrainData) -> float:
+    """The efficiency of a mesh up to which the set cannot be driven by a central to turn the carrier; 0: it always can."""
+    of_a, of_b, _ = willis_row(train).values()
+    ratio = -of_b / of_a
+    return math.sqrt(min(ratio, 1 / ratio)) if ratio > 0 else 0.0
+
 
 _WATT = math.pi / 30
 """N·m times rpm."""
@@ -175,3 +284,301 @@ def _efficiency_of_all(found: Balance, signs: Mapping[str, float]) -> float | No
     powers = [torque * signs[name] for name, torque in found.torques.items()]
     entering = sum(power for power in powers if power > 0)
     return -sum(power for power in powers if power < 0) / entering if entering else None
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshForce:
+    """Force in a mesh (N): of a central on one planet, or of the pinion of a stage on its wheel.
+
+    `normal` is its size in the transverse plane, along the line of action: F_bt = T/r_b. The others are its parts at the
+    working pitch circles: `tangential` is positive where it turns counter-clockwise about the central (of a stage: about
+    the pinion), `radial` where it pushes the axes apart, as all but rings do, `axial` along +z.
+    """
+
+    normal: float
+    tangential: float
+    radial: float
+    axial: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PinForce:
+    """Force of one planet's teeth on its pin (N), in the plane of rotation away from the train's axis and counter-clockwise.
+
+    `axial` is what is left along +z. `tilting_radial` and `tilting_tangential` (N·m) are the moment about the middle of the
+    planet's teeth, about the directions of the two forces, of meshes in different planes and of axial forces.
+    `centrifugal` (N, away from the axis, not in `radial`) is the planet's own; None where its mass is not known.
+    """
+
+    radial: float
+    tangential: float
+    axial: float
+    tilting_radial: float
+    tilting_tangential: float
+    centrifugal: float | None
+
+    @property
+    def size(self) -> float:
+        """Of the force in the plane of rotation, with the centrifugal one (N)."""
+        return math.hypot(self.radial + (self.centrifugal or 0.0), self.tangential)
+
+    @property
+    def tilting_moment(self) -> float:
+        """Size of the moment that tilts the planet (N·m)."""
+        return math.hypot(self.tilting_radial, self.tilting_tangential)
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrainForces:
+    """Forces of a planetary train, at the torques that its members bring in where power is lost.
+
+    `meshes` by the name of the mesh, on one planet; `pin` of one planet; `stages` by name, on their wheels.
+    """
+
+    meshes: Mapping[str, MeshForce]
+    pin: PinForce
+    stages: Mapping[str, MeshForce]
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "meshes": {name: asdict(force) for name, force in self.meshes.items()},
+            "pin": asdict(self.pin) | {"size": self.pin.size, "tilting_moment": self.pin.tilting_moment},
+            "stages": {name: asdict(force) for name, force in self.stages.items()},
+        }
+
+
+def forces(train: TrainData, flow: PowerFlow) -> TrainForces:
+    """The forces of a flow of power; each mesh of the set has its N-th part of the torque on its central."""
+    return TrainForces(
+        meshes={mesh.name: _on_planet(train, mesh, flow) for mesh in train.meshes},
+        pin=_on_pin(train, flow),
+        stages={stage.name: _on_wheel(stage, flow) for stage in train.stages},
+    )
+
+
+def _on_planet(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> MeshForce:
+    torque = flow.set_torques[mesh.central.name] / train.planets
+    # Counter-clockwise about the train is clockwise about the planet where it meshes with a sun.
+    turning = -torque if mesh.external else torque
+    return _force(mesh.pair, torque, mesh.central_base_radius, mesh.rim.gear.helix_angle * math.copysign(1, turning))
+
+
+def _on_wheel(stage: PairStage, flow: PowerFlow) -> MeshForce:
+    wheel, torque = stage.pair.wheel, flow.stage_torques[stage.name].wheel
+    # The shaft's torque is held by the teeth, so these turn the wheel the other way.
+    about_pinion = torque if not wheel.internal else -torque
+    return _force(stage.pair, about_pinion, base_radius(wheel), wheel.helix_angle * math.copysign(1, -torque))
+
+
+def _force(pair: GearPair, torque: float, radius: float, helix_angle: float) -> MeshForce:
+    """From a torque (N·m) at a base radius (mm); `helix_angle` of the gear pushed, negative where it is pushed clockwise."""
+    normal = abs(torque) * 1e3 / radius
+    angle = math.radians(pair.working_transverse_pressure_angle)
+    hand = 0.0 if pair.double_helical else math.copysign(math.radians(pair.pinion.base_helix_angle), helix_angle)
+    return MeshForce(
+        normal=normal,
+        tangential=math.copysign(normal * math.cos(angle), torque) + 0.0,
+        radial=normal * math.sin(angle) * (-1 if pair.internal else 1) + 0.0,
+        axial=-normal * math.tan(hand) + 0.0,
+    )
+
+
+def _on_pin(train: TrainData, flow: PowerFlow) -> PinForce:
+    """Sums over both meshes: of a sun at the near side of the planet, of a ring at its far side."""
+    bottom = min(rim.axial_position for rim in train.rims)
+    top = max(rim.axial_position + rim.gear.face_width for rim in train.rims)
+    radial = tangential = axial = about_radial = about_tangential = 0.0
+    for mesh in train.meshes:
+        force = _on_planet(train, mesh, flow)
+        height = mesh.rim.axial_position + mesh.rim.gear.face_width / 2 - (bottom + top) / 2
+        arm = mesh.rim_base_radius / math.cos(mesh.working_pressure_angle) * (-1 if mesh.external else 1)
+        radial, tangential, axial = radial + force.radial, tangential + force.tangential, axial + force.axial
+        about_radial -= height * force.tangential / 1e3
+        about_tangential += (height * force.radial - arm * force.axial) / 1e3
+    return PinForce(
+        radial=radial,
+        tangential=tangential,
+        axial=axial,
+        tilting_radial=about_radial,
+        tilting_tangential=about_tangential,
+        centrifugal=_centrifugal(train, flow),
+    )
+
+
+def _centrifugal(train: TrainData, flow: PowerFlow) -> float | None:
+    """m a w_c^2 of one planet (N)."""
+    mass = train.carrier.planet_mass
+    if mass is None:
+        return None
+    turning = flow.speeds.members[train.carrier.name] * math.pi / 30
+    return mass * train.centre_distance / 1e3 * turning**2
+
+
+_ROUNDING = 1e-9
+"""By how much a K_gamma that is computed may be off."""
+
+_SLOWEST = 1e-6
+"""Least speed of a load (rpm): what differences of speeds leave below it is rounding."""
+
+
+class FactorSource(Enum):
+    """Where K_gamma comes from."""
+
+    GIVEN = "given"
+    COMPUTED = "computed"
+    """Of the errors, stiffnesses and supports of the train."""
+
+    EQUAL = "equal shares"
+    """None was given and none computed: 1."""
+
+
+class MeshLoadFactor(NamedTuple):
+    """K_gamma of ISO 6336-1, and where it comes from."""
+
+    value: float
+    source: FactorSource
+
+
+def mesh_load_factor(train: TrainData, load: TrainLoad, computed: float | None = None) -> MeshLoadFactor:
+    """K_gamma of a train: the one that its load gives, else the one that was `computed`, else 1.
+
+    Raises ParameterError for a given one above the number of planets: then one planet carries all.
+    """
+    if (given := load.mesh_load_factor) is not None:
+        require_number("load.mesh_load_factor", given, at_least=1, at_most=train.planets)
+        return MeshLoadFactor(given, FactorSource.GIVEN)
+    if computed is not None:
+        # The shares have the mean 1: what is nearer to it than solvers are, or below it, is rounding.
+        return MeshLoadFactor(float(computed) if computed > 1 + _ROUNDING else 1.0, FactorSource.COMPUTED)
+    return MeshLoadFactor(1.0, FactorSource.EQUAL)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshLoad:
+    """What the mesh of a central with one planet carries, seen from the carrier.
+
+    The torque of `load` (N·m) is the N-th part of that on the central, on the pair's pinion: positive where it presses the
+    flanks that a pinion which is driven counter-clockwise presses; its speed (rpm) is that of the pinion against the carrier.
+    `application_factor` K_A is the train's, `mesh_load_factor` K_gamma; that of the load is their product. `driver` drives its
+    mate, with the carrier at rest.
+    """
+
+    mesh: SetMesh
+    planets: int
+    load: Load
+    driver: Role
+    application_factor: float
+    mesh_load_factor: MeshLoadFactor
+
+    @property
+    def even(self) -> Load:
+        """The load of a planet that carries its N-th part: with K_A, without K_gamma."""
+        return replace(self.load, application_factor=self.application_factor)
+
+    @property
+    def normal_force(self) -> float:
+        """F_bt of one planet's share, without any factor (N)."""
+        return abs(self.load.torque) * 2000 / self.mesh.pair.pinion.base_diameter
+
+    @property
+    def contacts(self) -> PerGear[int]:
+        """How often a flank of each gear's teeth comes into mesh in one of its turns against the carrier."""
+        return PerGear.each(lambda role: self.planets if role is self.mesh.central_role else 1)
+
+    @property
+    def cycles_per_minute(self) -> PerGear[float]:
+        """Load cycles of a flank of each gear in a minute."""
+        rolled = abs(self.load.speed) * self.mesh.pair.pinion.teeth
+        gears = self.mesh.pair.gears
+        return PerGear.each(lambda role: rolled / gears.pick(role).tooth_count * self.contacts.pick(role))
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON: N·m, rpm and N."""
+        return {
+            "torque": self.load.torque,
+            "speed": self.load.speed,
+            "normal_force": self.normal_force,
+            "K_A": self.application_factor,
+            "K_gamma": self.mesh_load_factor.value,
+            "K_gamma_source": self.mesh_load_factor.source.value,
+            "driver": self.mesh.pair.gears.pick(self.driver).name,
+            "contacts": self.contacts._asdict(),
+            "cycles_per_minute": self.cycles_per_minute._asdict(),
+        }
+
+
+def mesh_loads(train: TrainData, flow: PowerFlow, computed_factor: float | None = None) -> dict[str, MeshLoad]:
+    """Of both meshes of a set by their names, under a flow of power; K_gamma as `mesh_load_factor` has it."""
+    found = mesh_load_factor(train, flow.load, computed_factor)
+    first, second = train.meshes
+    central_drives = _rolling(train, flow) >= 0
+    drivers = {
+        first.name: first.central_role if central_drives else first.rim_role,
+        second.name: second.rim_role if central_drives else second.central_role,
+    }
+    return {mesh.name: _mesh_load(train, mesh, flow, found, drivers[mesh.name]) for mesh in train.meshes}
+
+
+def _mesh_load(train: TrainData, mesh: SetMesh, flow: PowerFlow, found: MeshLoadFactor, driver: Role) -> MeshLoad:
+    """That of one mesh; errors of its load say of which."""
+    factor = flow.load.application_factor
+    try:
+        load = Load(
+            torque=_on_pinion(train, mesh, flow),
+            speed=_pinion_speed(train, mesh, flow),
+            application_factor=factor * found.value,
+        )
+    except ParameterError as error:
+        raise error.within(mesh.name) from error
+    return MeshLoad(
+        mesh=mesh,
+        planets=train.planets,
+        load=load,
+        driver=driver,
+        application_factor=factor,
+        mesh_load_factor=found,
+    )
+
+
+def stage_loads(train: TrainData, flow: PowerFlow) -> dict[str, Load]:
+    """Of the pairs before and behind the set by their names: torque (N·m) of what their wheels carry, on the pinion."""
+    return {
+        stage.name: Load(
+            torque=flow.stage_torques[stage.name].wheel / stage.pair.gear_ratio + 0.0,
+            speed=flow.speeds.members[stage.pinion],
+            application_factor=flow.load.application_factor,
+        )
+        for stage in train.stages
+    }
+
+
+def _on_pinion(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> float:
+    """Torque on the pinion of a mesh (N·m): T_1 = T_2 z_1/z_2 with signed teeth, T_2 that on the central."""
+    ratio = mesh.pair.pinion.teeth / mesh.central.gear.teeth
+    return flow.set_torques[mesh.central.name] / train.planets * ratio + 0.0
+
+
+def _pinion_speed(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> float:
+    """Of the pinion against the carrier (rpm); what is too slow to be a speed is 0."""
+    members = flow.speeds.members
+    central = members[mesh.central.name] - members[train.carrier.name]
+    # A planet is one body, whatever the rim.
+    relative = flow.speeds.planet_relative if mesh.rim_role is Role.PINION else central
+    return relative if abs(relative) >= _SLOWEST else 0.0
+
+
+def _rolling(train: TrainData, flow: PowerFlow) -> float:
+    """Positive where power rolls from the first central to the second, with the carrier at rest; 0 where none rolls.
+
+    Of a train at rest as a positive speed of its input would have it; of a differential that is none.
+    """
+    members = flow.speeds.members
+    if not any(members.values()):
+        try:
+            members = speeds(train, {train.input: 1.0}).members
+        except ParameterError:
+            return 0.0
+    central = train.centrals[0].name
+    relative = members[central] - members[train.carrier.name]
+    return math.copysign(1.0, flow.set_torques[central] * relative) if relative else 0.0

@@ -1,29 +1,22 @@
-"""Pictures of a check over the mesh: pressure and load share along the path of contact, stiffness, error and root stress."""
+"""Pictures of a check: pressure, load share, stiffness, root stress, lines of contact, stress fields, torque and mesh size."""
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearcad.check.plane.result import PlaneCheck
-from gearcad.check.result import CheckResult
+from gearcad.check.pictures import ToothSurface
+from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
+from gearcad.core.records import Floats, PerGear, Role
 from gearcad.geometry import GearPair
 from gearcad.material import Limit, by_gear
-from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, legend_above, prepared, short
+from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, legend_above, new_figure, prepared, short
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-__all__ = [
-    "PATH",
-    "mark_path",
-    "plot_contact_pressure",
-    "plot_load_share",
-    "plot_mesh_stiffness",
-    "plot_root_stress",
-    "plot_transmission_error",
-]
+    from matplotlib.tri import Triangulation
 
 
 PATH = "place on the line of action, from T$_1$, in mm"
@@ -136,3 +129,318 @@ def mark_path(axes: Axes, pair: GearPair) -> None:
     for name, place in pair.path_of_contact._asdict().items():
         axes.axvline(place, color=MARKED, linewidth=0.9, zorder=0.5)
         axes.text(place, 0.985, f" {name}", transform=across, ha="left", va="top", fontsize=9, color=DARK)
+
+
+_COLOUR_MAP = "viridis"
+
+_ROUNDED = 6
+"""Decimals (mm) of places that count as one."""
+
+_GAP = 3.0
+"""Edges of triangles longer than so many times the distance between neighbours span a hole in the map."""
+
+_ACROSS = "across the face, from the middle of the common width, in mm"
+
+
+def plot_line_loads(result: SolidCheck, ax: Axes | None = None) -> Axes:
+    """Line load over the plane of action, and the lines of contact of the position with the greatest pressure, or load."""
+    axes = new_figure().subplots() if ax is None else ax
+    cells = result.cells
+    cells = cells.only(~cells.on_edge | (cells.line_load > 0))
+    _map(axes, cells.place, cells.across, cells.line_load, result.summary.line_load_max, "line load in N/mm")
+    for contact in result.shown.position.contacts:
+        axes.plot(contact.line.nominal, contact.line.across, color="white", linewidth=1.2, linestyle="--")
+    axes.set_xlabel(PATH)
+    axes.set_ylabel("across the face in mm")
+    mark_path(axes, result.pair)
+    return axes
+
+
+def plot_contact_pattern(result: SolidCheck, role: Role, ax: Axes | None = None) -> Axes:
+    """Greatest pressure of the cycle at every place of the flank of a gear, in the flank's outline.
+
+    Contact of edges is left out.
+    """
+    axes = new_figure().subplots() if ax is None else ax
+    cells, own = result.cells, result.pair.gears.pick(role)
+    cells = cells.only(~cells.on_edge)
+    _map(
+        axes,
+        cells.heights.pick(role),
+        cells.rolls.pick(role),
+        cells.pressure,
+        result.summary.contact_pressure,
+        "pressure in MPa",
+    )
+    form = own.flank_form
+    z, roll = np.array([0, 1, 1, 0, 0]) * form.width, np.array([0, 0, 1, 1, 0]) * (form.last - form.first) + form.first
+    axes.plot(z, roll, color=DARK, linewidth=1.2, label=f"flank of the {role.value}, tip above")
+    root = result.along_face.roots.pick(role)
+    for height, words in ((root.low, "ends of the common width"), (root.high, None)):
+        axes.axvline(height, color=MARKED, linestyle=":", linewidth=1.2, label=words)
+    axes.set_xlabel("along the axis, z in mm")
+    axes.set_ylabel("roll length in mm")
+    legend_above(axes, 2)
+    return axes
+
+
+def _map(axes: Axes, x: Floats, y: Floats, values: Floats, most: float | None, words: str) -> None:
+    """Greatest values at every place as colours, which end at the greatest away from edges, if there is one."""
+    (x, y), found = _greatest(x, y, values)
+    most = float(found.max()) if most is None else most
+    drawn = axes.tripcolor(_joined(x, y), found, shading="gouraud", vmin=0, vmax=most, cmap=_COLOUR_MAP)
+    drawn.set_rasterized(True)
+    axes.figure.colorbar(drawn, ax=axes, label=words, extend="max" if found.max() > most else "neither")
+
+
+def _greatest(x: Floats, y: Floats, values: Floats) -> tuple[Floats, Floats]:
+    """Places (2, m), each once, and the greatest value there: an edge touches at the same place many times."""
+    places, index = np.unique(np.stack([x, y], -1).round(_ROUNDED), axis=0, return_inverse=True)
+    found = np.zeros(len(places))
+    np.maximum.at(found, index.ravel(), values)
+    return places.T, found
+
+
+def _joined(x: Floats, y: Floats) -> Triangulation:
+    """Triangles between places, but for those that would span a hole."""
+    from matplotlib.tri import Triangulation
+
+    triangles = Triangulation(x, y)
+    corners = np.stack([x, y], -1)[triangles.triangles]
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(axis=1)
+    triangles.set_mask(longest > _GAP * float(np.median(longest)))
+    return triangles
+
+
+def plot_lines_share(result: SolidCheck, ax: Axes | None = None) -> Axes:
+    """Part of the load that a pair of teeth carries, over the place where its line of contact crosses the middle."""
+    axes = prepared(ax, PATH, "share of the load")
+    axes.plot(result.load_share.places, result.load_share.shares, color=SERIES[0], label="finite elements")
+    axes.set_ylim(0, 1.05)
+    mark_path(axes, result.pair)
+    legend_above(axes, 1)
+    return axes
+
+
+def plot_harmonics(result: SolidCheck, ax: Axes | None = None) -> Axes:
+    """Amplitudes of the transmission error at the tooth frequency and its multiples."""
+    axes = prepared(ax, "harmonic of the tooth frequency", "amplitude in µm")
+    amplitudes = result.summary.transmission_error_harmonics
+    bars = axes.bar(np.arange(len(amplitudes)) + 1, amplitudes, width=0.6, color=SERIES[0])
+    axes.bar_label(bars, [short(each) for each in amplitudes], fontsize=9, padding=2)
+    axes.set_ylim(0, 1.15 * max(amplitudes))
+    axes.set_xticks(np.arange(len(amplitudes)) + 1)
+    return axes
+
+
+def plot_load_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
+    """Load per width over the face width, mean of the cycle, with its own mean."""
+    axes = prepared(ax, _ACROSS, "load per width in N/mm")
+    along, factor = result.along_face, result.summary.face_load_factor
+    axes.step(along.across, along.load, where="mid", color=SERIES[0], label="mean of all positions")
+    mean = along.mean
+    axes.axhline(mean, color=DARK, linestyle="--", linewidth=1.2, label=f"over the width: {short(mean)} N/mm")
+    axes.axhline(factor * mean, color=DARK, linestyle=":", linewidth=1.2, label=rf"$K_{{H\beta}}$ = {factor:.3f}")
+    axes.set_ylim(bottom=0)
+    legend_above(axes, 3)
+    return axes
+
+
+def plot_root_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
+    """Greatest root tension of the cycle along the face of both gears; what stands out beyond the common width is pale."""
+    axes, part = prepared(ax, _ACROSS, "root tension in MPa"), result.rating.edition.part(3)
+    for role, (words, colour, marker) in GEARS.items():
+        root = result.along_face.roots.pick(role)
+        factor = result.summary.root_face_load_factor.pick(role)
+        axes.plot(root.across, root.stress, color=colour, linewidth=1.0, alpha=0.4)
+        inside = root.common
+        label = rf"{words}, $K_{{F\beta}}$ = {factor:.2f}"
+        axes.plot(root.across[inside], root.stress[inside], color=colour, marker=marker, markersize=3.5, label=label)
+        standard = result.rating.root_stresses.pick(role)
+        axes.axhline(standard, color=colour, linestyle=":", linewidth=1.4, label=f"{words}, {part}: {standard:.0f} MPa")
+    axes.set_ylim(bottom=0)
+    legend_above(axes, 2)
+    return axes
+
+
+_TEETH_SHOWN = 3.6
+_ZONE = 3.0
+"""Half the width of the pictures: in normal modules for the teeth, in half widths for the contact."""
+
+_ON_WHITE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 2.0}
+
+_OVER = 1.1
+"""The end of the colours of the teeth, in greatest stresses of the fillets."""
+
+_LEAST_ANGLE = 20.0
+"""Tangent angle (deg) from which on a fillet is the root."""
+
+
+def plot_stress_field(result: PlaneCheck, ax: Axes | None = None) -> Axes:
+    """Von Mises stress of both gears in mesh; colours end a little above the greatest of the fillets."""
+    position = result.shown.position
+    most = max(abs(stress.stress) for stress in (*position.tension, *position.compression))
+    module = result.pair.pinion.normal_module
+    return _plot_field(result, ax, _TEETH_SHOWN * module, _OVER * most, PerGear((0.12, 0.5), (0.88, 0.5)))
+
+
+def plot_contact_zone(result: PlaneCheck, ax: Axes | None = None) -> Axes:
+    """Von Mises stress around the contact of `plot_stress_field`, some half widths wide."""
+    reach, most = _ZONE * result.shown.contact.hertz_half_width, result.stress_field.greatest
+    return _plot_field(result, ax, reach, most, PerGear((0.5, 0.06), (0.5, 0.94)))
+
+
+def _plot_field(result: PlaneCheck, ax: Axes | None, reach: float, most: float, names: PerGear[tuple[float, float]]) -> Axes:
+    """Fields within `reach` (mm) of the contact, colours up to `most` (MPa), the gears' names at parts of the axes."""
+    axes, stress = new_figure().subplots() if ax is None else ax, result.stress_field
+    for field in stress.fields:
+        drawn = axes.tripcolor(
+            *field.points.T, field.triangles, field.von_mises, shading="gouraud", vmin=0, vmax=most, cmap=_COLOUR_MAP
+        )
+        drawn.set_rasterized(True)
+        axes.plot(*field.outline.T, color=DARK, linewidth=0.9)
+    extend = "max" if stress.greatest > most else "neither"
+    axes.figure.colorbar(drawn, ax=axes, label="von Mises stress in MPa", extend=extend)
+    axes.set_aspect("equal")
+    axes.set_xlim(stress.x - 1.45 * reach, stress.x + 1.45 * reach)
+    axes.set_ylim(stress.y - reach, stress.y + reach)
+    sense = "away from the ring's" if result.pair.internal else "towards the wheel's"
+    axes.set_xlabel(f"from the pinion's axis {sense} in mm")
+    axes.set_ylabel("across in mm")
+    for role, place in names.items():
+        axes.text(*place, role.value, transform=axes.transAxes, ha="center", va="center", fontsize=9, bbox=_ON_WHITE)
+    return axes
+
+
+def plot_fillets(result: PlaneCheck, ax: Axes | None = None) -> Axes:
+    """Stress along both fillets of each gear at its worst position, over the tangent's angle to the middle of the tooth."""
+    axes = prepared(ax, "tangent angle, from the middle of the tooth, in °", "stress along the fillet in MPa")
+    for role, (words, colour, marker) in GEARS.items():
+        curves, found = result.fillet_curves.pick(role), result.root_peaks.pick(role)
+        for kind, curve, style in (("tension", curves.tension, "-"), ("compression", curves.compression, "--")):
+            root = curve.angles >= _LEAST_ANGLE
+            axes.plot(curve.angles[root], curve.stresses[root], color=colour, linestyle=style, label=f"{words}, {kind}")
+        all_round = " of all teeth" if result.bending.pick(role) else ""
+        label = f"{words}, greatest{all_round}: {found.tangent_angle:.0f}°"
+        axes.plot([found.tangent_angle], [found.stress], marker, color=colour, label=label)
+    for angle in sorted({root.section.lean for root in result.rating.roots}):
+        axes.axvline(angle, color=MARKED, linestyle=":", label=f"{angle:g}°, ISO 6336-3")
+    axes.axhline(0, color=MARKED, linewidth=0.8)
+    legend_above(axes, 3)
+    return axes
+
+
+def plot_depth_profile(result: PlaneCheck, ax: Axes | None = None) -> Axes:
+    """Stresses below the middle of the worst contact by the pressures found (lines), and by Hertz (dots)."""
+    axes = prepared(ax, "depth below the flank in mm", "stress in MPa")
+    profile = result.depth_profile
+    depth = profile.found.depth
+    for (name, words), colour in zip(_DEPTH_WORDS.items(), SERIES, strict=True):
+        axes.plot(depth, getattr(profile.found, name), color=colour, linewidth=1.3, label=words)
+        axes.plot(depth[::10], getattr(profile.hertz, name)[::10], "o", color=colour, markersize=3.5, markerfacecolor="none")
+    axes.plot([], [], "o", color=DARK, markersize=3.5, markerfacecolor="none", label="dots: Hertz")
+    axes.axhline(0, color=MARKED, linewidth=0.8)
+    axes.set_xlim(left=0)
+    legend_above(axes, 3)
+    return axes
+
+
+_DEPTH_WORDS = {
+    "sigma_x": r"$\sigma_x$, along the profile",
+    "sigma_y": r"$\sigma_y$, along the tooth",
+    "sigma_z": r"$\sigma_z$, into the tooth",
+    "largest_shear": r"$\tau$, greatest shear",
+    "von_mises": "von Mises",
+}
+"""Stresses of a depth profile as the legend has them."""
+
+
+COLOUR_MAP = "viridis"
+
+YAW, PITCH = 50.0, 25.0
+"""From where a tooth is looked at (deg): turned about its height so that the loaded flank shows, and tilted towards us."""
+
+_AXES = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+"""To the right, up and towards us, of a tooth seen along its axis: it stands upright."""
+
+
+def viewed(points: Floats) -> Floats:
+    """Points (n, 3) as they are seen: to the right, up, and towards us."""
+    yaw, pitch = math.radians(YAW), math.radians(PITCH)
+    turn = np.array([[math.cos(yaw), 0, math.sin(yaw)], [0, 1, 0], [-math.sin(yaw), 0, math.cos(yaw)]])
+    tilt = np.array([[1, 0, 0], [0, math.cos(pitch), -math.sin(pitch)], [0, math.sin(pitch), math.cos(pitch)]])
+    result: Floats = points @ (tilt @ turn @ _AXES).T
+    return result
+
+
+def plot_tooth(surface: ToothSurface, ax: Axes | None = None) -> Axes:
+    """A still picture: triangles that face us, the farthest first."""
+    from matplotlib.collections import PolyCollection
+
+    axes = new_figure().subplots() if ax is None else ax
+    seen = viewed(surface.points)[surface.triangles]
+    normals = np.cross(seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0])
+    order = np.argsort(seen[:, :, 2].mean(axis=1))
+    order = order[normals[order, 2] > 0]
+    values = surface.von_mises[surface.triangles].mean(axis=1)
+    drawn = PolyCollection(list(seen[order, :, :2]), array=values[order], cmap=COLOUR_MAP, edgecolors="face", linewidths=0.3)
+    drawn.set_clim(0, surface.most)
+    axes.add_collection(drawn)
+    axes.figure.colorbar(drawn, ax=axes, label="von Mises stress in MPa", extend="max")
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    axes.set_axis_off()
+    return axes
+
+
+_TORQUE = "torque on the pinion in N·m"
+_MARKERS = ("o", "s", "^")
+
+
+def plot_sweep_pressure(result: CheckResult, ax: Axes | None = None) -> Axes:
+    """Greatest contact pressure over torque, beside the square root that Hertz has for a load shared in the same way."""
+    axes = prepared(ax, _TORQUE, "peak pressure in MPa")
+    torques, pressures = _swept(result, "contact_pressure")
+    fine = np.linspace(0, torques[-1], 100)
+    words = "as the square root of the torque"
+    axes.plot(fine, pressures[-1] * np.sqrt(fine / torques[-1]), color=PALE, linewidth=3.5, label=words)
+    axes.plot(torques, pressures, "o", color=SERIES[0], label="finite elements")
+    axes.set_ylim(bottom=0)
+    axes.set_xlim(left=0)
+    legend_above(axes, 2)
+    return axes
+
+
+def plot_sweep_stiffness(result: CheckResult, ax: Axes | None = None) -> Axes:
+    """Mean mesh stiffness and M/phi of each gear over torque, as parts of their values at the greatest torque."""
+    axes = prepared(ax, _TORQUE, "part of the value at full torque in %")
+    torques, stiffness = _swept(result, "mesh_stiffness")
+    axes.plot(torques, 100 * stiffness / stiffness[-1], "^-", color=DARK, label=f"mesh: {short(stiffness[-1])} N/(mm µm)")
+    _, turning = _swept(result, "torsional_stiffness")
+    for (gear, colour, marker), values in zip(GEARS, turning.T, strict=True):
+        words = rf"$M/\varphi$, {gear}: {short(values[-1])} N·m/rad"
+        axes.plot(torques, 100 * values / values[-1], marker=marker, linestyle="--", color=colour, label=words)
+    axes.axhline(100, color=MARKED, linewidth=0.8)
+    axes.set_xlim(left=0)
+    legend_above(axes, 2)
+    return axes
+
+
+def plot_convergence(result: CheckResult, ax: Axes | None = None) -> Axes:
+    """Difference of each quantity from its value on the finest mesh, over the refinement of the mesh."""
+    axes = prepared(ax, "refinement of the mesh (1: the check itself)", "difference from the finest mesh in %")
+    for each, colour, marker in zip(result.convergence, SERIES, _MARKERS, strict=False):
+        difference = 100 * (np.array(each.values) / each.values[-1] - 1)
+        axes.plot(each.factors, difference, marker=marker, color=colour, label=each.quantity)
+    axes.axhline(0, color=MARKED, linewidth=0.8)
+    axes.set_xscale("log", base=2)
+    axes.set_xticks(result.convergence[0].factors, [f"{factor:g}" for factor in result.convergence[0].factors])
+    axes.minorticks_off()
+    legend_above(axes, 3)
+    return axes
+
+
+def _swept(result: CheckResult, name: str) -> tuple[Floats, Floats]:
+    """Torques (N·m) in rising order, and a quantity at each; NaN where there is none."""
+    points = result.trends.points
+    return np.array([point.torque for point in points]), np.array([getattr(point, name) for point in points], float)

@@ -10,7 +10,7 @@ from importlib import import_module
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-from gearcad.errors import InputError, ParameterError
+from gearcad.core.errors import InputError, ParameterError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,29 +18,29 @@ if TYPE_CHECKING:
 __all__ = ["plot", "shown_in_notebook"]
 
 _FIRST: dict[str, tuple[str, Callable[[Any], Any]]] = {
-    "Gear": ("gear.plot_gear", lambda it: it),
-    "GearPair": ("pair.plot_pair", lambda it: it),
-    "PlanetaryTrain": ("planetary.scheme.plot_scheme", lambda it: it),
-    "ElementMesh": ("mesh.plot_mesh", lambda it: it),
-    "MeshResult": ("mesh.plot_mesh", lambda it: next(iter(it.meshes.values()))),
-    "PlaneCheck": ("stresses.plot_stress_field", lambda it: it),
-    "SolidCheck": ("lines.plot_line_loads", lambda it: it),
-    "MeshCycle": ("speeds.plot_cycle", lambda it: it),
-    "StiffnessComparison": ("stiffness.plot_stiffness", lambda it: it),
-    "StrengthRating": ("strength.plot_life", lambda it: it),
-    "TrainStrength": ("strength.plot_safeties", lambda it: it),
-    "SideBySide": ("side_by_side.plot_beside", lambda it: it),
-    "Identification": ("measured.plot_residuals", lambda it: it),
-    "TrainStudy": ("speeds.plot_factors", lambda it: it),
-    "PairStudy": ("speeds.plot_factors", lambda it: it.study),
-    "SpeedSpectra": ("campbell.plot_campbell", lambda it: it),
-    "ContactStudy": ("campbell.plot_campbell", lambda it: it.study),
-    "PlanetaryStudy": ("planetary.scheme.plot_scheme", lambda it: it.train),
+    "Gear": ("plot_gear", lambda it: it),
+    "GearPair": ("plot_pair", lambda it: it),
+    "PlanetaryTrain": ("plot_scheme", lambda it: it),
+    "ElementMesh": ("plot_mesh", lambda it: it),
+    "MeshResult": ("plot_mesh", lambda it: next(iter(it.meshes.values()))),
+    "PlaneCheck": ("plot_stress_field", lambda it: it),
+    "SolidCheck": ("plot_line_loads", lambda it: it),
+    "MeshCycle": ("plot_cycle", lambda it: it),
+    "StiffnessComparison": ("plot_stiffness", lambda it: it),
+    "StrengthRating": ("plot_life", lambda it: it),
+    "TrainStrength": ("plot_safeties", lambda it: it),
+    "SideBySide": ("plot_beside", lambda it: it),
+    "Identification": ("plot_residuals", lambda it: it),
+    "TrainStudy": ("plot_factors", lambda it: it),
+    "PairStudy": ("plot_factors", lambda it: it.study),
+    "SpeedSpectra": ("plot_campbell", lambda it: it),
+    "ContactStudy": ("plot_campbell", lambda it: it.study),
+    "PlanetaryStudy": ("plot_scheme", lambda it: it.train),
     "Proposal": (
-        "gear.plot_modification",
+        "plot_modification",
         lambda it: next(gear for gear in it.pair.gears if gear.modification.present),
     ),
-    "Sizing": ("sizing.plot_front", lambda it: it),
+    "Sizing": ("plot_front", lambda it: it),
 }
 """By the name of a class: the function that draws it, and what of it that takes."""
 
@@ -59,9 +59,8 @@ def plot(shown: object, ax: Axes | None = None) -> Axes:
     """
     for kind in type(shown).__mro__:
         if kind.__name__ in _FIRST:
-            place, part = _FIRST[kind.__name__]
-            module, _, function = place.rpartition(".")
-            drawn: Axes = getattr(import_module(f"gearcad.plots.{module}"), function)(part(shown), ax=ax)
+            function, part = _FIRST[kind.__name__]
+            drawn: Axes = getattr(import_module("gearcad.plots"), function)(part(shown), ax=ax)
             return drawn
     raise ParameterError("shown", type(shown).__name__, f"must be one of {', '.join(_FIRST)}")
 

@@ -12,7 +12,7 @@ from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox, BboxBase
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
 
 __all__ = ["FittedFigure"]
 

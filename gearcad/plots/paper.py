@@ -1,30 +1,48 @@
-"""The paper of the pictures of a check: size, colours, axes, and the words that several pictures share."""
+"""Paper of the pictures: size, colours, axes, labels."""
 
 from __future__ import annotations
 
 import math
+import re
+import textwrap
 from typing import TYPE_CHECKING, Any
 
-from gearcad.per_gear import PerGear
+from gearcad.core.records import PerGear
+from gearcad.designs.variations import column_symbol
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = [
-    "DARK",
-    "FIGURE_INCHES",
-    "GEARS",
-    "MARKED",
-    "PALE",
-    "SERIES",
-    "draw_limit",
-    "layered",
-    "legend_above",
-    "new_figure",
-    "prepared",
-    "short",
-]
+
+def axis_label(key: str) -> str:
+    """Words, symbol (as mathtext) and unit of a column: "pinion: tip diameter $d_{\\mathrm{a}}$ in mm"."""
+    found = column_symbol(key)
+    if found is None:
+        return plain(key)
+    owner, symbol = found
+    unit = {"deg": "°"}.get(symbol.unit, symbol.unit)
+    parts = (owner and f"{plain(owner)}:", symbol.words, mathtext(symbol.symbol), unit and f"in {unit}")
+    return " ".join(part for part in parts if part)
+
+
+def mathtext(symbol: str) -> str:
+    """The symbol with its index upright: h_aP* becomes $h_{\\mathrm{aP}}^{*}$, and T1A $T_1A$."""
+    if not symbol:
+        return ""
+    body, _, index = symbol.rstrip("*").partition("_")
+    body = re.sub(r"(?<=[A-Z])(\d)", r"_\1", body)
+    return f"${body}" + (f"_{{\\mathrm{{{index}}}}}" if index else "") + ("^{*}$" if symbol.endswith("*") else "$")
+
+
+def plain(text: str) -> str:
+    """A text of the user's, not to be taken for mathtext."""
+    return text.replace("$", r"\$")
+
+
+def wrapped(text: str, width: int) -> str:
+    return "\n".join(textwrap.wrap(text, width, break_long_words=False, break_on_hyphens=False))
+
 
 GEARS = PerGear(("pinion", "#0072b2", "o"), ("wheel", "#d55e00", "s"))
 """Name, colour and marker of the gears. Colours are those of Okabe and Ito, which the colour-blind can tell apart."""

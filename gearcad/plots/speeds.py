@@ -1,38 +1,24 @@
-"""Pictures of a train over speed: dynamic factors of meshes, overload of shafts; its course at one speed; a mesh cycle."""
+"""Pictures over speed: dynamic factors, overload of shafts, displacements, bearing loads, tooth errors."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.arrays import Floats
-from gearcad.dynamics.charts.chart import KvChart
+from gearcad.core.records import Floats
+from gearcad.dynamics.response.kv_chart import KvChart
+from gearcad.dynamics.tooth_errors.error_result import BAND, ErrorStudy
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.plots.labels import plain
-from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, PALE, SERIES, layered, legend_above, new_figure, prepared
+from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, PALE, SERIES, layered, legend_above, new_figure, plain, prepared
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-__all__ = [
-    "SPEED_WORDS",
-    "course_inches",
-    "finish_speeds",
-    "mark_modes",
-    "mark_parting",
-    "plot_course",
-    "plot_cycle",
-    "plot_factors",
-    "plot_shaft_overload",
-    "shade_unstable",
-    "speed_ranges",
-    "tooth_axis",
-]
 
 
 SPEED_WORDS = "speed of the pinion in rpm"
@@ -263,3 +249,152 @@ def plot_cycle(cycle: MeshCycle, ax: Axes | None = None) -> Axes:
     axes.set_xlim(float(cycle.roll_angle[0]), float(cycle.roll_angle[-1]))
     legend_above(axes, 3)
     return axes
+
+
+_PANEL, _ABOVE = 2.3, 0.7
+"""Inches of a panel, and of the axis above."""
+
+_DISPLACEMENTS_WIDE = 50.0
+"""Ratio of the greatest value to the median of those of all speeds above which an axis is logarithmic."""
+
+Curve = Callable[[KvChart], Floats]
+
+
+def displacement_inches(study: TrainStudy) -> tuple[float, float]:
+    """Size of a figure of displacements."""
+    return FIGURE_INCHES[0], _PANEL * (3 if study.up.bearings is not None else 2) + _ABOVE
+
+
+def plot_displacements(study: TrainStudy, figure: Figure | None = None) -> Figure:
+    """Amplitudes of the inertias' turns, of the approach of the flanks, and of travels on bearings; running down dashed."""
+    of = new_figure(displacement_inches(study)) if figure is None else figure
+    up = study.up
+    panels = of.subplots(3 if up.bearings is not None else 2, 1, sharex=True)
+    _draw(panels[0], study, up.displacements.inertia_names, "turn in arcsec", lambda chart: chart.displacements.turns)
+    _draw(panels[1], study, up.mesh_names, "approach y in µm", lambda chart: chart.displacements.approaches)
+    if up.bearings is not None:
+        gears = up.bearings.gears
+        _draw(panels[2], study, gears, "travel along the\nline of action in µm", _travels)
+    _finish(panels, study)
+    return of
+
+
+def _travels(chart: KvChart) -> Floats:
+    assert chart.bearings is not None  # whoever asks has them
+    return chart.bearings.travels_along
+
+
+def bearing_inches() -> tuple[float, float]:
+    """Size of a figure of bearings."""
+    return FIGURE_INCHES[0], 3.3 + _ABOVE
+
+
+def plot_bearings(study: TrainStudy, figure: Figure | None = None) -> Figure:
+    """Greatest force on the bearings of each gear over speed, and at rest."""
+    of = new_figure(bearing_inches()) if figure is None else figure
+    panel, loads = of.subplots(), study.up.bearings
+    assert loads is not None  # a pair on bearings has them
+    _draw(panel, study, loads.gears, "greatest force on the bearings in N", _forces)
+    panel.axhline(float(loads.static[0]), color=MARKED, linewidth=1.0, linestyle="--", label="at rest, and mean")
+    panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
+    _finish([panel], study)
+    return of
+
+
+def _forces(chart: KvChart) -> Floats:
+    assert chart.bearings is not None  # whoever asks has them
+    return chart.bearings.greatest
+
+
+def _draw(axes: Axes, study: TrainStudy, names: Sequence[str], words: str, curve: Curve) -> None:
+    """A curve for each name, running up, and dashed running down."""
+    prepared(axes, "", words)
+    drawn = curve(study.up)
+    for number, (name, width) in enumerate(zip(names, layered(len(names)), strict=True)):
+        colour = SERIES[number % len(SERIES)]
+        axes.plot(study.speeds, drawn[:, number], color=colour, linewidth=width, label=plain(name))
+        if study.down is not None:
+            axes.plot(study.speeds, curve(study.down)[:, number], "--", color=colour, linewidth=1.1)
+    drawn = drawn[np.isfinite(drawn)]
+    if drawn.size and drawn.min() > 0 and drawn.max() > _DISPLACEMENTS_WIDE * np.median(drawn):
+        axes.set_yscale("log")
+    else:
+        axes.set_ylim(bottom=0)
+    shade_unstable(axes, study.speeds, study.up)
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
+
+
+def _finish(panels: Sequence[Axes], study: TrainStudy) -> None:
+    """Speeds below, tooth frequency above, lines where natural frequencies are met."""
+    for panel in panels:
+        panel.set_xlim(float(study.speeds[0]), float(study.speeds[-1]))
+        mark_modes(panel, study)
+    panels[-1].set_xlabel("speed of the pinion in rpm")
+    tooth_axis(panels[0], study)
+
+
+def plot_tooth_errors(study: TrainStudy, ax: Axes | None = None) -> Axes:
+    """Median and band of every mesh, nominal teeth dashed, and the smooth stiffness of the other charts as a thin line.
+
+    Raises ValueError for a study without tooth errors of their own.
+    """
+    if study.errors is None:
+        raise ValueError(f"no tooth errors were drawn for {study.name}")
+    found, axes = study.errors, prepared(ax, SPEED_WORDS, "dynamic factor $K_{\\mathrm{v}}$")
+    several = len(found.mesh_names) > 1
+    if study.up.standard is not None:
+        axes.plot(study.speeds, study.up.standard, color=MARKED, linewidth=2.2, label="ISO 6336-1, Method B")
+    for mesh, name in enumerate(found.mesh_names):
+        _draw_mesh(axes, found, mesh, f"{plain(name)}, " if several else "")
+        _draw_smooth(axes, study, mesh)
+    axes.set_xlim(float(found.speeds[0]), float(found.speeds[-1]))
+    _tooth_errors_set_height(axes, study, found)
+    _mark_restless(axes, found)
+    mark_modes(axes, study)
+    finish_speeds(axes, study)
+    return axes
+
+
+def _draw_mesh(axes: Axes, found: ErrorStudy, mesh: int, owner: str) -> None:
+    colour, speeds = SERIES[mesh % len(SERIES)], found.speeds
+    many = found.samples > 1
+    if many:
+        lower, upper = found.band
+        words = f"{owner}{100 * BAND[0]:g} % to {100 * BAND[1]:g} %"
+        axes.fill_between(speeds, lower[:, mesh], upper[:, mesh], color=colour, alpha=0.25, linewidth=0, label=words)
+    middle = "median" if many else "with errors" if found.grade is not None else "single teeth"
+    axes.plot(speeds, found.median[:, mesh], color=colour, linewidth=1.4, label=f"{owner}{middle}")
+    if found.grade is not None:
+        axes.plot(speeds, found.nominal[:, mesh], "--", color=colour, linewidth=1.1, label=f"{owner}without errors")
+
+
+def _draw_smooth(axes: Axes, study: TrainStudy, mesh: int) -> None:
+    """K_v of the other charts, where teeth without errors do not have the same."""
+    assert study.errors is not None  # whoever draws has seen to it
+    found, smooth = study.errors, study.up.factors[:, mesh]
+    inside = (study.speeds >= found.speeds[0]) & (study.speeds <= found.speeds[-1])
+    others = [found.median[:, mesh], found.nominal[:, mesh]]
+    apart = [np.abs(np.interp(study.speeds, found.speeds, each) - smooth)[inside] for each in others]
+    if not inside.any() or min(float(each.max()) for each in apart) < _APART * max(float(np.ptp(smooth[inside])), 0.02):
+        return
+    known = "smooth" in axes.get_legend_handles_labels()[1]
+    colour = SERIES[mesh % len(SERIES)]
+    axes.plot(study.speeds, smooth, ":", color=colour, linewidth=1.2, label="" if known else "smooth")
+
+
+def _tooth_errors_set_height(axes: Axes, study: TrainStudy, found: ErrorStudy) -> None:
+    inside = (study.speeds >= found.speeds[0]) & (study.speeds <= found.speeds[-1])
+    drawn: list[Floats] = [found.median, found.nominal, *found.band, study.up.factors[inside]]
+    if study.up.standard is not None:
+        drawn.append(study.up.standard[inside])
+    values = np.concatenate([each.ravel() for each in drawn])
+    lowest, highest = min(1.0, float(values.min())), float(max(values.max(), 1.0))
+    axes.set_ylim(lowest - 0.04 * (highest - lowest), lowest + _ROOM * max(highest - lowest, 0.02))
+
+
+def _mark_restless(axes: Axes, found: ErrorStudy) -> None:
+    """Ranges in which most motions did not settle."""
+    label = "most do not settle"
+    for start, end in speed_ranges(found.speeds, found.restless):
+        axes.axvspan(start, end, color=PALE, alpha=0.45, linewidth=0, label=label, zorder=0)
+        label = ""

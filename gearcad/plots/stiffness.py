@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.plots.check import mark_path
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, legend_above, new_figure, prepared

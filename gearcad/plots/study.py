@@ -10,10 +10,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearcad.errors import ParameterError, format_number
-from gearcad.output import staged_files
-from gearcad.plots.labels import axis_label, plain, wrapped
-from gearcad.plots.paper import new_figure, prepared
+from gearcad.core.errors import ParameterError, format_number
+from gearcad.core.output import staged_files
+from gearcad.plots.paper import axis_label, new_figure, plain, prepared, wrapped
 from gearcad.plots.table_data import Column, Points, read_points
 
 if TYPE_CHECKING:

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from gearcad import symbols
+from gearcad.core import symbols
+from gearcad.core.errors import ParameterError, SpecError, format_number, shown_path
 from gearcad.designs.cells import plain_number, plain_text
-from gearcad.designs.columns import column_symbol
 from gearcad.designs.keys import KEYS
-from gearcad.errors import ParameterError, SpecError, format_number, shown_path
+from gearcad.designs.variations import column_symbol
 
 if TYPE_CHECKING:
     import numpy as np

@@ -1,4 +1,4 @@
-"""DynamicFactor: what K_v of ISO 6336-1:2006, Method B (clause 6.5), goes by; its equations are in `resonance`.
+"""DynamicFactor: the inputs of K_v by ISO 6336-1:2006, Method B (clause 6.5).
 
 Stiffness per face width in N/(mm·µm), mass per face width in kg/mm, deviations in µm, specific load F_t K_A/b in N/mm.
 """
@@ -11,22 +11,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.arrays import Floats
-from gearcad.errors import ParameterError, plain_numbers, require_number, require_whole
+from gearcad.core.errors import ParameterError, plain_numbers, require_number, require_whole
+from gearcad.core.records import Floats, Notice, PerGear, texts
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
-from gearcad.notice import Notice, texts
-from gearcad.per_gear import PerGear
-from gearcad.rating.deviations import accuracy_grades, base_pitch_deviations, profile_form_deviations
-from gearcad.rating.iso6336_1 import MeshStiffness
-from gearcad.rating.iso6336_5 import EnduranceLimits, endurance_limits_of
-from gearcad.rating.options import RatingOptions
-from gearcad.rating.rate import rate
-from gearcad.rating.resonance import dynamic_factor_b, resonance_speed
-from gearcad.rating.running_in import FlankWear, RunningIn, running_in_relief
-
-__all__ = ["DynamicFactor", "flank_wear", "reduced_mass"]
+from gearcad.rating.load_factor_formulas import FlankWear, RunningIn, dynamic_factor_b, resonance_speed, running_in_relief
+from gearcad.rating.material_limits import EnduranceLimits, endurance_limits_of
+from gearcad.rating.nominal_rating import rate
+from gearcad.rating.options import RatingOptions, accuracy_grades, base_pitch_deviations, profile_form_deviations
+from gearcad.rating.tooth_stiffness import MeshStiffness
 
 _FINE = 5
 """The coarsest accuracy grade whose tip relief counts."""

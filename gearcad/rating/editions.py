@@ -1,10 +1,21 @@
-"""Edition: which standard a rating follows, where the standards differ."""
+"""Editions of the standards, and the kinds of numbers that their formulas take: of both gears, or arrays of many variants.
+
+Their texts were not at hand: Y_beta is by one public transcription, f_eps and f_ZCa are as remembered.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator, Sequence
 from enum import StrEnum
+from typing import Any, TypeVar, cast
 
-__all__ = ["Edition"]
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Bools, Floats, Notice, PerGear
+from gearcad.geometry import FlankModification
 
 
 class Edition(StrEnum):
@@ -26,3 +37,146 @@ class Edition(StrEnum):
     def dated_part(self, number: int) -> str:
         """The same with its year, such as ISO 6336-3:2006."""
         return f"{self.part(number)}:{self.partition(':')[2]}"
+
+
+Values = TypeVar("Values", float, float | Floats)
+"""Numbers give a number; where one of them is an array the others broadcast against it, and an array comes out."""
+
+
+def bounded(values: Values, least: float, most: float) -> Values:
+    """Values, none below `least` and none above `most`."""
+    return number_or_array(values, np.clip(values, least, most))
+
+
+def chosen(condition: bool | Bools, values: Values, others: Values) -> Values:
+    """The values where the condition holds, else the others."""
+    return number_or_array(values, np.where(condition, values, others))
+
+
+def power(base: Values, exponent: Values) -> Values:
+    """Base, positive, to the exponent: `**` of two numbers could be complex to a type checker."""
+    return number_or_array(base, np.power(base, exponent))
+
+
+def magnitude(values: Values) -> Values:
+    """Without the sign."""
+    return number_or_array(values, np.abs(values))
+
+
+def root(values: Values) -> Values:
+    """Square root."""
+    return number_or_array(values, np.sqrt(values))
+
+
+def interpolated(values: Values, points: Sequence[tuple[float, float]]) -> Values:
+    """Straight lines through points (x, y) with rising x, level beyond them."""
+    x, y = zip(*points, strict=True)
+    return number_or_array(values, np.interp(values, x, y))
+
+
+def interpolated_over_log(values: Values, points: Sequence[tuple[float, float]]) -> Values:
+    """Straight lines over the logarithm of x, of points with rising x, level beyond them; 0 and less are before the first."""
+    x, y = zip(*points, strict=True)
+    return number_or_array(values, np.interp(np.log(np.maximum(values, x[0])), np.log(x), y))
+
+
+def interpolated_in_logs(values: Values, points: Sequence[tuple[float, float]]) -> Values:
+    """The same over logarithms of both x and y."""
+    return number_or_array(values, np.exp(interpolated_over_log(values, [(x, math.log(y)) for x, y in points])))
+
+
+def number_or_array(_: Values, found: NDArray[Any]) -> Values:
+    """Found values as the type of those they come from: one alone is a number, not an array."""
+    return cast(Values, found if found.ndim else found.item())
+
+
+_FIFTH = 5
+"""The grade that equations hold for."""
+
+
+def graded(fifth: Values, grade: int) -> Values:
+    """A tolerance of grade 5 in another, √2 times as much from each to the next.
+
+    It is rounded as the standard has it: to whole µm above 10, to halves from 5 on, to tenths below.
+    """
+    exact = fifth * math.sqrt(2) ** (grade - _FIFTH)
+    step = np.where(np.greater(exact, 10), 1.0, np.where(np.greater_equal(exact, 5), 0.5, 0.1))
+    return number_or_array(exact, np.round(np.floor(exact / step + 0.5) * step, 1))
+
+
+def mean_of_range(values: Values, limits: Sequence[float]) -> Values:
+    """Geometric mean of the range that holds a value, whose upper limit belongs to it; beyond the last one it stays."""
+    upper = np.searchsorted(limits[1:], values) + 1
+    table = np.asarray(limits, dtype=float)
+    middle = np.sqrt(table[upper - 1] * table[np.minimum(upper, len(table) - 1)])
+    return number_or_array(values, np.where(np.less_equal(values, table[-1]), middle, values))
+
+
+Both = float | tuple[float, float]
+
+
+def both(value: Both) -> PerGear[float]:
+    """The numbers of both gears."""
+    return PerGear(*value) if isinstance(value, tuple) else PerGear(value, value)
+
+
+def take_both(instance: Any, *fields: str) -> None:
+    """Let lists among fields of a frozen object be pairs of floats. Raises ParameterError for one of another length."""
+    for field in fields:
+        value = getattr(instance, field)
+        if not isinstance(value, list | tuple):
+            continue
+        if len(value) != len(PerGear._fields):
+            raise ParameterError(field, list(value), "must be a number for both gears, or a list [pinion, wheel]")
+        object.__setattr__(instance, field, tuple(map(float, value)))
+
+
+RECALLED = ("Z_B", "Z_D", "Y_F", "Y_beta", "Y_DT")
+"""Symbols of what is to be verified in a rating by this edition."""
+
+_UNMODIFIED = FlankModification()
+
+
+def load_distribution_factor(virtual_contact_ratio: Values, overlap_ratio: Values) -> Values:
+    """f_eps of Y_F: what one tooth has of the load, by eps_alphan and eps_beta.
+
+    Without overlap 1, and 0.7 from eps_alphan = 2 on. With it sqrt(1 - eps_beta + eps_beta/eps_alphan), from eps_alphan = 2 on
+    sqrt((1 - eps_beta)/2 + eps_beta/eps_alphan), and sqrt(1/eps_alphan) from eps_beta = 1 on.
+    """
+    alone = chosen(virtual_contact_ratio < 2, 1.0, 0.5)
+    overlap = chosen(overlap_ratio < 1, overlap_ratio, 1.0)
+    helical = power(alone * (1 - overlap) + overlap / virtual_contact_ratio, 0.5)
+    return chosen(overlap_ratio > 0, helical, chosen(virtual_contact_ratio < 2, 1.0, 0.7))
+
+
+def helix_angle_divisor(helix_angle: Values) -> Values:
+    """cos^3 beta, by which Y_beta is divided (-3, (66)), |beta| at most 30 deg."""
+    return number_or_array(helix_angle, np.cos(np.radians(bounded(helix_angle, -30, 30))) ** 3)
+
+
+def modification_factor(helix_angle: Values, *, modified: bool) -> Values:
+    """f_ZCa, by which Z_B and Z_D are multiplied (-2): 1 with an adequate profile modification, else 1.07, of spur gears 1.2.
+
+    Whether it multiplies the stress or the load was not known: the stress is the greater.
+    """
+    return chosen(helix_angle == 0, 1.0 if modified else 1.2, 1.0 if modified else 1.07)
+
+
+def relieved(pinion: FlankModification, wheel: FlankModification = _UNMODIFIED) -> bool:
+    """Whether profiles are taken back where contact begins and where it ends, which is taken to be adequate."""
+    crowned = max(pinion.profile_crowning, wheel.profile_crowning) > 0
+    return crowned or bool((pinion.tip_relief or wheel.root_relief) and (wheel.tip_relief or pinion.root_relief))
+
+
+def edition_notices(edition: Edition, *, modified: bool) -> Iterator[Notice]:
+    """That the edition of 2019 is known at second hand only, and what it was asked of the profiles."""
+    if edition is not Edition.ISO_2019:
+        return
+    text = (
+        "ISO 6336:2019: f_eps in Y_F, Y_beta/cos³β, Y_DT = 1 beside f_eps, and f_ZCa in Z_B and Z_D are not from its own text,"
+        " which was not at hand: verify them before they decide"
+    )
+    yield Notice("edition-2019-to-verify", text)
+    if not modified:
+        text = "sigma_H: profiles are not taken back at both ends of the contact, so ISO 6336:2019 raises Z_B and Z_D by f_ZCa"
+        yield Notice("profile-not-modified", text)

@@ -1,31 +1,169 @@
-"""The root section of a tooth: by the equations of ISO 6336-3:2006 for hobs, or on the fillet that the tool really generates.
+"""Root section of a tooth by ISO 6336-3:2006, or of the fillet that the tool really generates; virtual gears; rings; racks.
+
+Lengths in mm, angles in degrees; equations are those of ISO 6336-3:2006. A spur gear is its own virtual gear; the equations
+hold for rings with the signs of ISO 21771.
 
 An external tooth is cut where tangents at 30 degrees to its middle touch the fillet, that of a ring at 60 degrees. The
 standard's E, G, H and theta describe the very trochoid of a hob that gear.profile is made of, so both ways give the same
 section there. For the roots of rings and shaped gears the standard has a substitute rack, which is far from a shaper cutter
 (see `ring_formula`); their section is taken from the generated fillet. That is ours: no clause of the standard says so.
 
-Lengths in mm, angles in degrees; equations are those of ISO 6336-3:2006.
+They are shown beside the section of the generated fillet, which rates the ring: the substitute rack is far from the cutter
+where the profile shift is large. To be verified: the formulas are as remembered, and as they agree with values computed
+elsewhere; z_n is signed throughout, rho_F included, as the generated fillet wants it.
+
+Lengths in mm, angles in degrees, but in units of the normal module and radians inside the formulas.
+
+The standard has no clause on racks. Its equations of external gears have this limit: tangents at 30 degrees to the middle of
+the tooth, in the normal section, and a load that leans by the pressure angle. Lengths in mm, angles in degrees.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.arrays import Floats
-from gearcad.errors import GeometryError
-from gearcad.geometry import Gear
-from gearcad.geometry.bracketed import root_between
-from gearcad.geometry.tooling import corner_radius, shaped
-from gearcad.geometry.trochoid import FilletTool
-from gearcad.rating.virtual import LoadPoint, VirtualGear
-from gearcad.rating.virtual_tool import virtual_tool
+from gearcad.core.errors import GeometryError
+from gearcad.core.records import Floats
+from gearcad.geometry import Gear, Rack, involute
+from gearcad.geometry.fillets import FilletTool, ShaperTip, ToolTip
+from gearcad.geometry.gear_data import corner_radius, shaped
+from gearcad.geometry.involute import inverse_involute, root_between
 
-__all__ = ["RootSection", "generated_section", "hob_section", "lean_of", "root_section", "tangent_angle", "tool_half_width"]
+
+@dataclass(frozen=True, kw_only=True)
+class VirtualGear:
+    """Spur gear with the teeth of a helical gear's normal section. Lengths in mm, the pressure angle in degrees.
+
+    `teeth` z_n is any number. `tooth_angle` s_n/(m_n z_n) is the half tooth angle on the reference circle, in degrees.
+    Of a ring number of teeth, diameters and half tooth angles are negative.
+    """
+
+    normal_module: float
+    pressure_angle: float
+    teeth: float
+    reference_diameter: float
+    base_diameter: float
+    tip_diameter: float
+    tooth_angle: float
+
+    @classmethod
+    def of(cls, gear: Gear) -> VirtualGear:
+        """z_n (21), d_n (24), d_bn (26), d_an = d_n + d_a - d (27), with the tip form circle for d_a."""
+        m_n, z_n, alpha_n = gear.normal_module, gear.virtual_teeth, gear.rack.pressure_angle
+        d_n = m_n * z_n
+        return cls(
+            normal_module=m_n,
+            pressure_angle=alpha_n,
+            teeth=z_n,
+            reference_diameter=d_n,
+            base_diameter=d_n * math.cos(math.radians(alpha_n)),
+            tip_diameter=d_n + gear.tip_form_diameter - gear.reference_diameter,
+            tooth_angle=math.degrees(gear.normal_tooth_thickness / d_n),
+        )
+
+    @property
+    def side(self) -> float:
+        """The sign of its diameters."""
+        return math.copysign(1.0, self.teeth)
+
+    def half_angle(self, diameter: float) -> float:
+        """Half tooth angle (degrees) of the involute at a diameter (mm) that is not inside the base circle."""
+        at = math.degrees(math.acos(min(self.base_diameter / diameter, 1.0)))
+        return self.tooth_angle + math.degrees(involute(self.pressure_angle) - involute(at))
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadPoint:
+    """Outer point of single pair contact on the virtual gear: diameter d_en (mm), angles alpha_en, gamma_e, alpha_Fen (deg).
+
+    Diameter and half angle are negative on a ring.
+    """
+
+    diameter: float
+    pressure_angle: float
+    half_angle: float
+    load_angle: float
+
+    def to_dict(self) -> dict[str, float]:
+        """Values under their symbols."""
+        return {"d_en": self.diameter, "alpha_Fen": self.load_angle}
+
+
+def load_point(virtual: VirtualGear, virtual_contact_ratio: float) -> LoadPoint:
+    """Where a single pair carries at the greatest lever, for the virtual contact ratio eps_alphan = eps_alpha/cos^2 beta_b.
+
+    d_en = 2 sqrt((sqrt(d_an^2/4 - d_bn^2/4) - p_bn (eps_alphan - 1))^2 + d_bn^2/4) (28), p_bn = pi m_n cos alpha_n;
+    alpha_en = arccos(d_bn/d_en) (29), gamma_e = s_n/(m_n z_n) + inv alpha_n - inv alpha_en (30),
+    alpha_Fen = alpha_en - gamma_e (31). On a ring the root of (28) is negative, as all lengths from its base circle are.
+    """
+    r_an, r_bn = virtual.tip_diameter / 2, virtual.base_diameter / 2
+    p_bn = math.pi * virtual.normal_module * math.cos(math.radians(virtual.pressure_angle))
+    side = virtual.side
+    along = side * math.sqrt((r_an - r_bn) * (r_an + r_bn)) - p_bn * (virtual_contact_ratio - 1)
+    d_en = side * 2 * math.hypot(along, r_bn)
+    alpha_en = math.degrees(math.atan2(side * along, side * r_bn))
+    gamma_e = virtual.half_angle(d_en)
+    return LoadPoint(diameter=d_en, pressure_angle=alpha_en, half_angle=gamma_e, load_angle=alpha_en - gamma_e)
+
+
+def virtual_tool(gear: Gear, virtual: VirtualGear) -> FilletTool:
+    """The tip of the tool, set to cut the virtual gear; of a spur gear its very own.
+
+    A hob stays what it is; a shaper cutter becomes its own virtual spur gear, with z_0 z_n/z teeth, the same shift and corner.
+    Raises GeometryError where that cannot reach the virtual gear's root.
+    """
+    tool = gear.profile.tool
+    if not gear.helix_angle:
+        return tool
+    if isinstance(tool, ToolTip):
+        return replace(tool, helix_angle=0.0, reference_radius=virtual.reference_diameter / 2)
+    return _virtual_shaper(gear, virtual, tool.radius) if isinstance(tool, ShaperTip) else tool
+
+
+def _virtual_shaper(gear: Gear, virtual: VirtualGear, radius: float) -> ShaperTip:
+    """With a corner of `radius` (mm). Without cutter the gear's own counterpart, at its axis."""
+    m, angle, own = gear.normal_module, math.radians(virtual.pressure_angle), gear.cutter.teeth is None
+    z_n = virtual.teeth
+    z_0 = abs(z_n) if gear.cutter.teeth is None else gear.cutter.teeth * z_n / gear.teeth
+    shift = -gear.profile_shift if own else gear.cutter.profile_shift
+    apart = 0.0 if own else _centre_distance(gear, virtual, z_0)
+    root = abs(virtual.reference_diameter + gear.root_diameter - gear.reference_diameter) / 2
+    thickness = m * (math.pi / 2 + 2 * shift * math.tan(angle)) + gear.tooth_thinning
+    tip = ShaperTip(
+        radius=radius,
+        base_radius=z_0 * m / 2 * math.cos(angle),
+        base_half_angle=thickness / (m * z_0) + involute(virtual.pressure_angle),
+        helix_angle=0.0,
+        centre_distance=apart,
+        root_radius=root,
+        teeth=abs(z_n),
+        cutter_teeth=z_0,
+        internal=gear.internal,
+    )
+    if not tip.feasible:
+        raise _unreachable(gear)
+    return tip
+
+
+def _centre_distance(gear: Gear, virtual: VirtualGear, cutter_teeth: float) -> float:
+    """a_0 (mm), by inv alpha_w0 = inv alpha_n + 2 tan alpha_n (x + x_0)/(z_n + z_n0)."""
+    teeth, angle = virtual.teeth + cutter_teeth, math.radians(virtual.pressure_angle)
+    shift = gear.profile_shift + gear.cutter.profile_shift
+    working = involute(virtual.pressure_angle) + 2 * math.tan(angle) * shift / teeth
+    if working <= 0:
+        raise _unreachable(gear)
+    apart = abs(teeth) * gear.normal_module / 2
+    return apart * math.cos(angle) / math.cos(math.radians(inverse_involute(working)))
+
+
+def _unreachable(gear: Gear) -> GeometryError:
+    permitted = "must be others for a rating: in the normal section the cutter does not reach the root of the virtual gear"
+    return GeometryError("cutter.teeth", gear.cutter.teeth, permitted)
+
 
 _LEAN, _RING_LEAN = 30.0, 60.0
 """Angle (deg) between the middle of the tooth and the tangents at the section, of external teeth and of rings."""
@@ -189,3 +327,114 @@ class _GeneratedFillet:
         near = theta + _STEP * _OFFSETS
         (x, y), lean = self.points(near), self.lean(near)
         return float(math.hypot(_SLOPE @ x, _SLOPE @ y) / abs(_SLOPE @ lean))
+
+
+def substitute_radius(gear: Gear, cutter_teeth: int) -> float:
+    """rho_fPv (mm) of the rack that stands for the cutter: rho_fP + (x_0 + h_fP - rho_fP)^1.95/(3.156 1.036^z_0) in m_n."""
+    rho, reach = corner_radius(gear), gear.cutter.profile_shift + gear.dedendum
+    return gear.normal_module * (rho + math.pow(max(reach - rho, 0.0), 1.95) / (3.156 * math.pow(1.036, cutter_teeth)))
+
+
+def ring_section(gear: Gear, virtual: VirtualGear, load: LoadPoint, radius: float) -> RootSection | None:
+    """The section at the 60-degree tangents of a ring whose substitute rack has a tip of `radius` rho_fPv (mm).
+
+    G = rho_fPv - h_fP + x, H = (2/z_n) (pi/2 - E) - pi/6, theta as of external gears; then
+    s_Fn = z_n sin(pi/6 - theta) + G/cos theta - rho_fPv, rho_F = rho_fPv + 2 G^2/(cos theta (z_n cos^2 theta - 2 G)),
+    h_Fe = ((cos gamma_e - sin gamma_e tan alpha_Fen) d_en - z_n cos(pi/6 - theta) - sqrt(3) (G/cos theta - rho_fPv))/2.
+    None where they give no section.
+    """
+    m_n, z_n, rho = gear.normal_module, virtual.teeth, radius / gear.normal_module
+    g = rho - gear.dedendum + gear.profile_shift
+    h = 2 / z_n * (math.pi / 2 - _half_width(gear, rho)) - math.pi / 6
+    theta = tangent_angle(g, h, z_n)
+    if theta is None:
+        return None
+    centre = g / math.cos(theta) - rho
+    s_fn = z_n * math.sin(math.pi / 6 - theta) + centre
+    rho_f = rho + 2 * g**2 / (math.cos(theta) * (z_n * math.cos(theta) ** 2 - 2 * g))
+    gamma_e, alpha_fen = math.radians(load.half_angle), math.radians(load.load_angle)
+    lever = (math.cos(gamma_e) - math.sin(gamma_e) * math.tan(alpha_fen)) * load.diameter / m_n
+    h_fe = (lever - z_n * math.cos(math.pi / 6 - theta) - math.sqrt(3) * centre) / 2
+    if min(s_fn, rho_f, h_fe) <= 0:
+        return None
+    return RootSection(
+        tangent_angle=math.degrees(theta),
+        chord=m_n * s_fn,
+        fillet_radius=m_n * rho_f,
+        moment_arm=m_n * h_fe,
+        on_fillet=True,
+        lean=lean_of(gear),
+    )
+
+
+def _half_width(gear: Gear, rho: float) -> float:
+    """E/m_n = pi/4 - h_fP tan alpha_n - (1 - sin alpha_n) rho/cos alpha_n, and half the thinning; `rho` in normal modules."""
+    alpha_n = math.radians(gear.rack.pressure_angle)
+    corner = (1 - math.sin(alpha_n)) * rho / math.cos(alpha_n)
+    return math.pi / 4 - gear.dedendum * math.tan(alpha_n) - corner + gear.tooth_thinning / gear.normal_module / 2
+
+
+_RACK_ROOT_LEAN = math.radians(30)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RackLoadPoint(LoadPoint):
+    """Outer point of single pair contact on a rack, `height` (mm) above its reference line."""
+
+    height: float
+
+    def to_dict(self) -> dict[str, float]:
+        """Values under their symbols: there is no diameter."""
+        return {"h_en": self.height, "alpha_Fen": self.load_angle}
+
+
+def virtual_rack(rack: Rack) -> VirtualGear:
+    """The normal section of a rack: a gear of infinite size."""
+    return VirtualGear(
+        normal_module=rack.normal_module,
+        pressure_angle=rack.rack.pressure_angle,
+        teeth=math.inf,
+        reference_diameter=math.inf,
+        base_diameter=math.inf,
+        tip_diameter=math.inf,
+        tooth_angle=0.0,
+    )
+
+
+def rack_load_point(rack: Rack, virtual_contact_ratio: float) -> RackLoadPoint:
+    """Where a single pair carries at the greatest lever: eps_alphan - 1 base pitches down the line of action from the tip."""
+    angle = math.radians(rack.rack.pressure_angle)
+    down = (virtual_contact_ratio - 1) * rack.normal_pitch * math.cos(angle) * math.sin(angle)
+    return RackLoadPoint(
+        diameter=math.inf,
+        pressure_angle=rack.rack.pressure_angle,
+        half_angle=0.0,
+        load_angle=rack.rack.pressure_angle,
+        height=rack.tip_form_height - down,
+    )
+
+
+def rack_section(rack: Rack, load: RackLoadPoint) -> RootSection:
+    """The section at the 30-degree tangents, and the arm at which the load bends it.
+
+    The middle of the fillet's arc is u = s_n/2 + (h_f - rho) tan alpha_n + rho/cos alpha_n from the middle of the tooth. Raises
+    GeometryError for a rack without fillets, or whose load passes below the section.
+    """
+    angle, rho = math.radians(rack.rack.pressure_angle), rack.root_radius * rack.normal_module
+    if rho <= 0:
+        raise GeometryError("rack.rack.root_radius", 0.0, "must be above 0 for a rating: stress has no limit in a sharp corner")
+    depth = rack.root_depth - rho
+    u = rack.normal_tooth_thickness / 2 + depth * math.tan(angle) + rho / math.cos(angle)
+    half_chord, foot = u - rho * math.cos(_RACK_ROOT_LEAN), -depth - rho * math.sin(_RACK_ROOT_LEAN)
+    half_thickness = rack.normal_tooth_thickness / 2 - load.height * math.tan(angle)
+    arm = load.height - half_thickness * math.tan(angle) - foot
+    if arm <= 0:
+        permitted = "must be less for a rating: the load passes below the root section, and does not bend the tooth"
+        raise GeometryError("rack.rack.pressure_angle", rack.rack.pressure_angle, permitted, "deg")
+    return RootSection(
+        tangent_angle=90 - math.degrees(_RACK_ROOT_LEAN),
+        chord=2 * half_chord,
+        fillet_radius=rho,
+        moment_arm=arm,
+        on_fillet=angle <= _RACK_ROOT_LEAN,
+    )

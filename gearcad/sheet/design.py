@@ -6,16 +6,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from typing import Any
 
-from gearcad.designs.design import Design, DesignKind
-from gearcad.designs.keys import BESIDE, FIELDS, Fields
-from gearcad.errors import format_number
+from gearcad.core.errors import format_number
+from gearcad.core.quantities import symbols_of
+from gearcad.core.records import is_assumed, is_usual
+from gearcad.core.symbols import Symbol
+from gearcad.designs.design import Design
+from gearcad.designs.keys import BESIDE, FIELDS, DesignKind, Fields
 from gearcad.geometry import Rack
 from gearcad.material import Material
-from gearcad.schema import is_assumed, is_usual, symbols_of
-from gearcad.sheet.blocks import ABSENT, Row, Section, Sheet, block, flattened
-from gearcad.sheet.gears import gear_section, rack_section
-from gearcad.sheet.pairs import pair_section
-from gearcad.symbols import Symbol
+from gearcad.sheet.blocks import ABSENT, Row, Section, Sheet, block, flattened, gear_section, pair_section, rack_section
 
 __all__ = ["sheet_of"]
 
@@ -26,7 +25,7 @@ def sheet_of(design: Design) -> Sheet:
     """A column for each gear, then the pair, material, load, mounting and rating, then the notices."""
     document = design.to_dict()
     if design.kind is DesignKind.TRAIN:
-        from gearcad.sheet.train import train_sections
+        from gearcad.sheet.trains import train_sections
 
         title = f"train, {len(document['inertia'])} inertias"
         return Sheet(design.name, title, "lengths in mm", "", tuple(train_sections(document)), design.notices)
@@ -44,8 +43,8 @@ def _sections(design: Design, document: Mapping[str, Any]) -> Iterator[Section]:
     yield pair_section({"": pair} if pair else {})
     fields: Fields = FIELDS
     if design.kind is DesignKind.PLANETARY:
-        from gearcad.designs.planetary_keys import PLANETARY as fields
-        from gearcad.sheet.planetary import planetary_sections
+        from gearcad.designs.train_keys import PLANETARY as fields
+        from gearcad.sheet.trains import planetary_sections
 
         yield from planetary_sections(document["planetary"])
     yield _material_section(document)

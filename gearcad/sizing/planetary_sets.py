@@ -1,26 +1,206 @@
-"""Planetary sets for a task: tooth numbers for the ratio, then module and face width for the safeties that are asked for."""
+"""Planetary sets for a task: tooth numbers for the ratio, then module and face width for the required safeties."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from typing import Any, NamedTuple
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from gearcad.dynamics.planetary.masses import MemberMass, TrainMasses
-from gearcad.dynamics.planetary.mesh_rating import rate_train
-from gearcad.errors import InputError, SolverError
+from gearcad.core.errors import InputError, ParameterError, SolverError
+from gearcad.core.quantities import AssumedNumber, Range, Whole, Words, require_fields
+from gearcad.core.records import Notice, Verdict, concise
+from gearcad.core.runtime import Agenda, Expected, Progress
+from gearcad.dynamics.planetary.planar_model import MemberMass, TrainMasses
+from gearcad.dynamics.planetary.planetary_strength import PUBLISHED, PublishedFactor, TrainStrength, rate_train
 from gearcad.geometry import Body, Gear
+from gearcad.geometry.gear_parts import ISO_54_I
+from gearcad.material import Material
 from gearcad.planetary import Central, PlanetaryTrain, TrainLoad
-from gearcad.planetary.mesh_loads import mesh_loads
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.members import old_torque_notice, torque_key
+from gearcad.planetary.power import mesh_loads, power_flow
 from gearcad.planetary.search import Candidate, search
-from gearcad.progress import Agenda, Expected, Progress
-from gearcad.sizing.set_task import SetSizeTask
-from gearcad.sizing.sized_set import SizedSet, SizedSets
+from gearcad.planetary.tooth_numbers import SearchTask
+from gearcad.rating.material_limits import EnduranceLimits, endurance_limits
+from gearcad.rating.options import RatingOptions
+from gearcad.rating.strength import Part
+from gearcad.sizing.proposals import unjudged_scuffing
 
-__all__ = ["expected", "size_sets"]
+_TORQUE = Range("N·m", 1e-6, 1e9)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SetSizeTask:
+    """What a set has to do: `sets` has the ratio and what its teeth may be, in modules of 1 mm; the torque (N·m) is
+    `input_torque` or `output_torque`, and `speed` (rpm) is that of the input. `torque` is the old name of `input_torque`.
+
+    All gears are of one `material`, rings of `ring_material` if there is one. K_gamma is that of rules for the number of
+    planets (ABS), unless `mesh_load_factor` is given. Face widths are at most `width_ratio` times the diameter of the smallest
+    gear, `max_diameter` is the most over all teeth. Of the sets that the search finds the first `considered` are sized.
+    Raises ParameterError.
+    """
+
+    sets: SearchTask
+    input_torque: Annotated[float | None, _TORQUE, Words("torque on the input", "T")] = None
+    output_torque: Annotated[float | None, _TORQUE, Words("torque on the output", "T")] = None
+    torque: Annotated[float | None, _TORQUE, Words("torque on the input, old name", "T")] = None
+    speed: Annotated[float, Range("rpm", 1e-3, 1e6), Words("speed of the input", "n")]
+    material: Material
+    ring_material: Material | None = None
+    application_factor: Annotated[float, Range("", 0.1, 10.0), Words("application factor", "K_A", "ISO 6336-1")] = (
+        AssumedNumber(1.0)
+    )
+    mesh_load_factor: Annotated[float | None, Range("", 1.0, 24.0), Words("mesh load factor", "K_γ", "ISO 6336-1")] = None
+    rating: RatingOptions = field(default=RatingOptions())
+    modules: tuple[float, ...] = (0.5, 0.6, 0.8, *ISO_54_I)
+    max_diameter: Annotated[float | None, Range("mm", 1.0, 1e5), Words("most diameter over all teeth")] = None
+    considered: Annotated[int, Whole(1, 10_000), Words("tooth numbers that are sized roughly")] = 120
+    width_ratio: Annotated[float, Range("", 0.1, 3.0), Words("most face width over the smallest diameter", "b/d")] = 1.0
+
+    __repr__ = concise
+
+    def __post_init__(self) -> None:
+        require_fields(self)
+        torque_key(self)
+        if not self.modules or any(not 0.05 <= each <= 100 for each in self.modules):
+            raise ParameterError("modules", list(self.modules), "must be numbers from 0.05 to 100 mm", "mm")
+        object.__setattr__(self, "modules", tuple(sorted(set(self.modules))))
+        for name, material in (("material", self.material), ("ring_material", self.ring_material or self.material)):
+            limits = _limits(name, material)
+            for limit, value in (("contact_endurance_limit", limits.contact), ("root_endurance_limit", limits.root)):
+                if value is None:
+                    permitted = 'must be given, in MPa, or a material of ISO 6336-5 such as "Eh MQ": nothing can be sized'
+                    raise ParameterError(f"{name}.{limit}", None, permitted)
+
+    @property
+    def given_torque(self) -> tuple[str, float]:
+        """The key of the load that a set has, and its torque (N·m)."""
+        key = torque_key(self)
+        value: float = getattr(self, key)
+        return "input_torque" if key == "torque" else key, value
+
+    @property
+    def torque_words(self) -> str:
+        """The torque and where it acts, in words."""
+        key, value = self.given_torque
+        return f"{value:g} N·m on the {key.removesuffix('_torque')}"
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know of it: that its torque has its old name."""
+        return () if self.torque is None else (old_torque_notice("input_torque"),)
+
+    def material_of(self, name: str) -> Material:
+        """That of a gear."""
+        return (self.ring_material or self.material) if name.startswith("ring") else self.material
+
+    def factor(self, planets: int) -> float:
+        """K_gamma of a number of planets."""
+        if self.mesh_load_factor is not None:
+            return min(self.mesh_load_factor, float(planets))
+        found = PUBLISHED[0].of(planets)
+        return min((found or PublishedFactor(source="", factor=1.0, recalled=False)).factor, float(planets))
+
+
+def _limits(name: str, material: Material) -> EnduranceLimits:
+    """Endurance limits; errors begin with the name of the field. Raises ParameterError."""
+    try:
+        return endurance_limits(material)
+    except ParameterError as error:
+        raise ParameterError(error.parameter.replace("material", name, 1), error.value, error.permitted, error.unit) from error
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizedSet:
+    """A set with its module and face width, made: the `train`, its `load`, and what it bears."""
+
+    candidate: Candidate
+    train: PlanetaryTrain
+    load: TrainLoad
+    materials: dict[str, Material]
+    strength: TrainStrength
+    mass: float
+
+    @property
+    def name(self) -> str:
+        """Such as A-24-21-66-n3-m2-b30."""
+        return self.train.name
+
+    @cached_property
+    def margins(self) -> dict[Part, float]:
+        """The least safety of flanks and of roots over what is required."""
+        options = self.strength.options
+        required = {Part.FLANK: options.required_safety_flank, Part.ROOT: options.required_safety_root}
+        return {part: least / required[part] for part, least in self.least.items()}
+
+    @cached_property
+    def least(self) -> dict[Part, float]:
+        """The least safety of all flanks, and of all roots."""
+        found = {}
+        for part in Part:
+            known = [gear.least(part) for gear in self.strength.members.values()]
+            found[part] = min((each.safety for each in known if each is not None), default=0.0)
+        return found
+
+    @property
+    def bears(self) -> float:
+        """By how much more torque it could be loaded, about: flank stress grows with its root."""
+        return min(self.margins[Part.FLANK] ** 2, self.margins[Part.ROOT])
+
+    @property
+    def holds(self) -> bool:
+        """Whether all was judged and has the safety that is required."""
+        return self.strength.strength is Verdict.PASSED
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON: mm, kg."""
+        return {
+            **self.candidate.to_dict(),
+            "name": self.name,
+            "module": self.candidate.task.module,
+            "face_width": self.candidate.task.width,
+            "mass": self.mass,
+            "safety": {part.value: value for part, value in self.least.items()},
+            "members": {name: gear.to_dict() for name, gear in self.strength.members.items()},
+            "K_gamma": self.load.mesh_load_factor,
+            "notices": [notice.to_dict() for notice in self.strength.notices],
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizedSets:
+    """The lightest sets that hold, lightest first; `considered` are tooth numbers that were sized roughly, `refused` those that
+    none of the modules lets hold, or that cannot be made."""
+
+    task: SetSizeTask
+    found: tuple[SizedSet, ...]
+    considered: int
+    refined: int
+    refused: dict[str, str]
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What was not given and goes into the rating of what was found, in words."""
+        return tuple(dict.fromkeys(text for each in self.found for text in each.strength.assumed))
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "kind": "planetary sizes",
+            "ratio": self.task.sets.ratio,
+            "torque": self.task.given_torque[1],
+            "torque_of": self.task.given_torque[0].removesuffix("_torque"),
+            "speed": self.task.speed,
+            "found": [each.to_dict() for each in self.found],
+            "assumed": list(self.assumed),
+            "not_judged": {} if (why := unjudged_scuffing(self.task.rating)) is None else {"scuffing": why},
+            "considered": self.considered,
+            "refined": self.refined,
+            "refused": dict(self.refused),
+        }
+
 
 REFINED, MORE = 2, 10
 """Of these, as many times the sets that are asked for, and some more, are given a module and a width."""

@@ -1,29 +1,381 @@
-"""The rating of many variants at once: safeties, masses and temperatures, where the scalar rating would have them."""
+"""Rating of many variants at once: load factors, safeties, masses and temperatures.
+
+Deviations in µm, loads per face width in N/mm. Each factor sees the load times all those before it.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats, Indices, Wholes
-from gearcad.per_gear import PerGear
-from gearcad.rating.both import both
-from gearcad.rating.iso6336_1 import material_factor, pair_modulus
-from gearcad.rating.iso6336_2 import elasticity_of
-from gearcad.rating.scuffing.heat import mating_factor, thermo_elastic_factor
-from gearcad.rating.scuffing.integral import IntegralTemperature
-from gearcad.rating.scuffing.oil import LUBRICATION, Oil
-from gearcad.rating.scuffing.scuffing import RZ_OVER_RA, USUAL_ROUGHNESS
-from gearcad.rating.scuffing.sliding import SlidingMesh
-from gearcad.sizing.geometry import ManyPairs
-from gearcad.sizing.loads import ManyLoadFactors
-from gearcad.sizing.rated import Rated, disc_mass
-from gearcad.sizing.resistance import Strengths
-from gearcad.sizing.stresses import NominalStresses
+from gearcad.core.records import Bools, Floats, Indices, PerGear, Role, Wholes
+from gearcad.rating.contact_stress import elasticity_of
+from gearcad.rating.dynamic_factor import flank_wear
+from gearcad.rating.editions import Both, both
+from gearcad.rating.load_factor_formulas import (
+    UNLOADED_ENDS,
+    FlankWear,
+    arrangement_factor,
+    body_mass,
+    dynamic_factor_b,
+    dynamic_factor_c,
+    face_load_factor,
+    flank_limit,
+    helix_factors,
+    initial_misalignment,
+    least_misalignment,
+    manufacturing_misalignment,
+    pair_mass,
+    proven_misalignment,
+    resonance_speed,
+    root_face_load_factor,
+    root_limit,
+    running_in_relief,
+    shaft_deflection,
+    shaft_term,
+    speed_measure,
+    transverse_load_factor,
+    within,
+)
+from gearcad.rating.options import AlphaDeviation, ContactPattern, RatingOptions
+from gearcad.rating.scuffing import RZ_OVER_RA, USUAL_ROUGHNESS
+from gearcad.rating.scuffing_temperatures import (
+    LUBRICATION,
+    IntegralTemperature,
+    Oil,
+    SlidingMesh,
+    mating_factor,
+    thermo_elastic_factor,
+)
+from gearcad.rating.tolerances import GearTolerances
+from gearcad.rating.tooth_stiffness import material_factor, pair_modulus
+from gearcad.sizing.geometry import Columns, ManyPairs, Numbers
+from gearcad.sizing.stresses import NominalStresses, Strengths
 from gearcad.sizing.task import SizeTask
 
-__all__ = ["RATED", "nominal_of", "rate_many"]
+_FINE = 5
+"""The coarsest accuracy grade whose tip relief, from running in, counts."""
+
+_FIFTH = 5
+"""The accuracy grade whose f_Hbeta stands for what lies opposite to the deflection of the shafts (7.5, (53))."""
+
+
+@dataclass(frozen=True)
+class ManyLoadFactors:
+    """Of pairs with face widths under the load of a task, by its options. `nominal` has their stiffness."""
+
+    task: SizeTask
+    nominal: NominalStresses
+
+    @property
+    def pairs(self) -> ManyPairs:
+        """The pairs."""
+        return self.nominal.pairs
+
+    @property
+    def _options(self) -> RatingOptions:
+        return self.task.rating
+
+    @cached_property
+    def _wear(self) -> FlankWear:
+        return flank_wear(self.task.materials)
+
+    @cached_property
+    def speed(self) -> Numbers:
+        """v (m/s) at the reference circle."""
+        return math.pi * self.pairs.diameters.pinion * abs(self.task.load.speed) / 60_000
+
+    @cached_property
+    def outer_load(self) -> Numbers:
+        """F_t K_A K_gamma/b."""
+        return self.nominal.specific_load
+
+    @cached_property
+    def total_contact_ratio(self) -> Numbers:
+        """eps_gamma."""
+        return self.pairs.contact_ratio + self.nominal.overlap_ratio
+
+    # ------------------------------------------------------------------ deviations
+
+    def _tolerances(self, grade: int) -> PerGear[GearTolerances[Numbers]]:
+        """Of both gears; nan where the standard has none."""
+        pairs, accuracy = self.pairs, self._options.accuracy
+
+        def of(teeth: Numbers, diameter: Numbers) -> GearTolerances[Numbers]:
+            return GearTolerances(
+                accuracy=accuracy,
+                grade=grade,
+                teeth=teeth,
+                reference_diameter=diameter,
+                normal_module=pairs.normal_module,
+                face_width=self.nominal.width,
+                helix_angle=pairs.helix_angle,
+            )
+
+        return PerGear(*map(of, pairs.teeth, pairs.diameters))
+
+    def _deviations(self, given: Both | None, tolerance: Callable[[GearTolerances[Numbers]], Numbers]) -> PerGear[Numbers]:
+        """Those given, else those of the grade."""
+        if given is not None:
+            return PerGear(*(np.asarray(value, float) for value in both(given)))
+        return PerGear(*map(tolerance, self._tolerances(self._options.accuracy_grade)))
+
+    @cached_property
+    def base_pitch_deviation(self) -> Numbers:
+        """f_pb, the larger of both gears."""
+        across = np.cos(self.pairs.transverse_angle)
+        return _larger(self._deviations(self._options.base_pitch_deviation, lambda each: across * each.single_pitch))
+
+    @cached_property
+    def profile_form_deviation(self) -> Numbers:
+        """f_falpha, the larger of both gears."""
+        return _larger(self._deviations(self._options.profile_form_deviation, lambda each: each.profile_form))
+
+    @cached_property
+    def helix_slope_deviations(self) -> PerGear[Numbers]:
+        """f_Hbeta."""
+        return self._deviations(self._options.helix_slope_deviation, lambda each: each.helix_slope)
+
+    @property
+    def known(self) -> Bools:
+        """Where the standard has all tolerances that the factors go by."""
+        options = self._options
+        needed: list[Numbers] = []
+        if options.face_load_factor == "C":
+            needed += self.helix_slope_deviations
+        if options.dynamic_factor == "B" or options.transverse_load_factor == "B":
+            needed += [self.base_pitch_deviation, self.profile_form_deviation]
+        result: Bools = np.isfinite(sum(needed, np.zeros_like(self.outer_load)))
+        return result
+
+    # ------------------------------------------------------------------ K_v
+
+    @cached_property
+    def dynamic(self) -> Numbers:
+        """K_v."""
+        method = self._options.dynamic_factor
+        if method == "C":
+            measure = speed_measure(self.speed, self.pairs.teeth.pinion, self.pairs.ratio)
+            grade, edition = self._options.accuracy_grade, self._options.standard
+            return dynamic_factor_c(self.outer_load, measure, self.nominal.overlap_ratio, grade, edition)
+        return self._by_resonance if method == "B" else np.full_like(self.outer_load, method)
+
+    @property
+    def _by_resonance(self) -> Numbers:
+        f_pb, f_fa, stiff = self.base_pitch_deviation, self.profile_form_deviation, self.nominal.single / self.outer_load
+        resonance = resonance_speed(self.pairs.teeth.pinion, self.nominal.mesh_alpha, self.mass)
+        return dynamic_factor_b(
+            abs(self.task.load.speed) / resonance,
+            self.outer_load,
+            self.total_contact_ratio,
+            pitch_effect=stiff * (f_pb - self._wear.alpha(f_pb, self.speed)),
+            profile_effect=stiff * (f_fa - self._wear.alpha(f_fa, self.speed)),
+            relief_effect=np.abs(1 - stiff * self._tip_relief),
+        )
+
+    @cached_property
+    def mass(self) -> Numbers:
+        """m_red (kg/mm) of both bodies, solid discs."""
+        return pair_mass(self._body(Role.PINION), self._body(Role.WHEEL))
+
+    def _body(self, role: Role) -> Numbers:
+        sizes = (self.pairs.tip_diameters, self.pairs.root_diameters, self.pairs.base_diameters)
+        tip, root, base = (each.pick(role) for each in sizes)
+        solid: Numbers = 0.0
+        density: Numbers = self.task.materials.pick(role).density
+        return body_mass(tip, root, base, solid, density)
+
+    @property
+    def _tip_relief(self) -> float:
+        """C_a (µm) that running in makes, which counts for fine grades alone."""
+        limits = [each.contact or 0.0 for each in self.task.limits]
+        return 0.0 if self._options.accuracy_grade > _FINE else sum(map(running_in_relief, limits)) / 2
+
+    # ------------------------------------------------------------------ K_Hbeta, K_Fbeta
+
+    @cached_property
+    def _mean_load(self) -> Numbers:
+        """F_m/b."""
+        return self.outer_load * self.dynamic
+
+    @cached_property
+    def face_flank(self) -> Numbers:
+        """K_Hbeta."""
+        given = self._options.face_load_factor
+        if not isinstance(given, str):
+            return np.full_like(self.outer_load, given)
+        initial = self._misalignment
+        left = initial - self._wear.beta(initial, self.speed)
+        return face_load_factor(left, 0.85 * self.nominal.mesh_alpha, self._mean_load)
+
+    @property
+    def _misalignment(self) -> Numbers:
+        """F_beta_x."""
+        options, slopes = self._options, self.helix_slope_deviations
+        factors = helix_factors(options.helix_modification, options.standard)
+        least = least_misalignment(self._mean_load, _larger(slopes))
+        if options.contact_pattern is ContactPattern.PROVEN:
+            pinion, wheel = (each.helix_slope for each in self._tolerances(_FIFTH))
+            fifth: Numbers = np.minimum(pinion, wheel)
+            compensation = options.given_compensation
+            return proven_misalignment(self._deflection, fifth if compensation is None else compensation, factors, least)
+        given = options.manufacturing_misalignment
+        made = manufacturing_misalignment(*slopes) if given is None else given
+        return initial_misalignment(self._deflection, made, factors, least)
+
+    @property
+    def _deflection(self) -> Numbers:
+        """f_sh."""
+        options, d_1 = self._options, self.pairs.diameters.pinion
+        if options.shaft_deflection is not None:
+            return options.shaft_deflection
+        bent: Numbers = 0.0
+        if options.pinion_offset and options.bearing_span is not None and options.shaft_diameter is not None:
+            shaft = options.shaft_diameter
+            place = arrangement_factor(options.pinion_place, options.stiffening, d_1 / shaft)
+            bent = shaft_term(place, options.bearing_span, options.pinion_offset, d_1, shaft)
+        compliance = helix_factors(options.helix_modification, options.standard).compliance
+        return shaft_deflection(self._mean_load, self.nominal.width, d_1, shaft_term=bent, compliance=compliance)
+
+    @property
+    def face_root(self) -> Numbers:
+        """K_Fbeta."""
+        if self._options.helix_modification in UNLOADED_ENDS:
+            return self.face_flank
+        pairs = self.pairs
+        tips = zip(pairs.tip_diameters, pairs.root_diameters, strict=True)
+        height = _larger(PerGear(*((tip - root) / 2 for tip, root in tips)))
+        return root_face_load_factor(self.face_flank, self.nominal.width / height)
+
+    # ------------------------------------------------------------------ K_Halpha, K_Falpha
+
+    @cached_property
+    def _transverse(self) -> Numbers:
+        f_pb, f = self.base_pitch_deviation, np.maximum(self.base_pitch_deviation, self.profile_form_deviation)
+        runs_in = f_pb if self._options.alpha_deviation_rule is AlphaDeviation.KISSSOFT_2017 else f
+        worn, load = self._wear.alpha(runs_in, self.speed), self._mean_load * self.face_flank
+        return transverse_load_factor(self.total_contact_ratio, self.nominal.mesh_alpha, f, worn, load)
+
+    @property
+    def transverse_flank(self) -> Numbers:
+        """K_Halpha."""
+        given, ratio = self._options.transverse_load_factor, self.pairs.contact_ratio
+        if not isinstance(given, str):
+            return np.full_like(self.outer_load, given)
+        limit = flank_limit(self.total_contact_ratio, ratio, self.nominal.contact_ratio_factor)
+        return within(self._transverse, limit)
+
+    @property
+    def transverse_root(self) -> Numbers:
+        """K_Falpha."""
+        given = self._options.transverse_load_factor
+        if not isinstance(given, str):
+            return np.full_like(self.outer_load, given)
+        return within(self._transverse, root_limit(self.total_contact_ratio, self.pairs.contact_ratio))
+
+    # ------------------------------------------------------------------ all of them
+
+    @cached_property
+    def flank(self) -> Numbers:
+        """K_A K_gamma K_v K_Hbeta K_Halpha."""
+        return self.nominal.outer_factor * self.dynamic * self.face_flank * self.transverse_flank
+
+    @cached_property
+    def root(self) -> Numbers:
+        """K_A K_gamma K_v K_Fbeta K_Falpha."""
+        return self.nominal.outer_factor * self.dynamic * self.face_root * self.transverse_root
+
+
+def _larger(values: PerGear[Numbers]) -> Numbers:
+    """The larger of both gears."""
+    result: Numbers = np.maximum(values.pinion, values.wheel)
+    return result
+
+
+FLANK, ROOT, SCUFFING, MASS = REQUIRED = ("flank safety", "root safety", "scuffing safety", "mass")
+"""What is required of variants that have a rating, in words."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rated(Columns):
+    """Pairs with a face width `width` (mm), arrays (n,). `order` is the place of each in the whole search.
+
+    `flank_safeties` S_H, `root_safeties` S_F; `margin` is the least of S_H/S_Hmin and S_F/S_Fmin, `mass` (kg) that of both
+    gears, `temperature` (°C) the integral temperature, nan without a speed, `load_factors` K_A K_gamma K_v K_Hbeta K_Halpha.
+    """
+
+    order: Wholes
+    pairs: ManyPairs
+    width: Floats
+    mass: Floats
+    overlap_ratio: Floats
+    flank_safeties: PerGear[Floats]
+    root_safeties: PerGear[Floats]
+    margin: Floats
+    temperature: Floats
+    load_factors: Floats
+
+    @property
+    def total_contact_ratio(self) -> Floats:
+        """eps_gamma."""
+        return self.pairs.contact_ratio + self.overlap_ratio
+
+    @property
+    def sliding(self) -> Floats:
+        """Greatest specific sliding of both gears, a magnitude."""
+        result: Floats = np.max(np.abs(self.pairs.sliding), axis=0)
+        return result
+
+    @property
+    def ripple(self) -> Floats:
+        """How much the length of the lines of contact changes over the mesh, over its mean."""
+        return line_ripple(self.pairs.contact_ratio, self.overlap_ratio)
+
+    def meets(self, condition: str, task: SizeTask) -> Bools:
+        """Where one of the REQUIRED is as it must be."""
+        if condition == MASS:
+            return np.ones(len(self.order), bool) if task.max_mass is None else self.mass <= task.max_mass
+        if condition == SCUFFING:
+            most = task.most_temperature
+            return np.ones(len(self.order), bool) if most is None else self.temperature <= most
+        flank = condition == FLANK
+        least = task.rating.required_safety_flank if flank else task.rating.required_safety_root
+        result: Bools = np.minimum(*(self.flank_safeties if flank else self.root_safeties)) >= least
+        return result
+
+    def safe(self, task: SizeTask) -> Bools:
+        """Where all are."""
+        result: Bools = np.logical_and.reduce([self.meets(each, task) for each in REQUIRED])
+        return result
+
+
+def line_ripple(contact_ratio: Floats, overlap_ratio: Floats) -> Floats:
+    """(l_max - l_min)/l_mean of all lines of contact: what noise goes by before the transmission error is known.
+
+    Lines are b/cos beta_b long at eps_beta >= 1 only in part, but what is beyond whole numbers p, q of both ratios is all that
+    changes: min(p, q) - max(0, p + q - 1), over eps_alpha eps_beta. Of a spur pair the limit, 1/eps_alpha.
+    """
+    p, q = np.mod(contact_ratio, 1.0), np.mod(overlap_ratio, 1.0)
+    changing = np.minimum(p, q) - np.maximum(p + q - 1, 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        helical = changing / (contact_ratio * overlap_ratio)
+    return np.where(overlap_ratio > 0, helical, np.where(p > 0, 1 / contact_ratio, 0.0))
+
+
+def disc_mass(pairs: ManyPairs, width: Floats, densities: PerGear[float]) -> Floats:
+    """Mass of both gears (kg), each a disc whose section is midway between those of its tip and its root circle.
+
+    That is within 1 % of the mass of the exact solids.
+    """
+    parts = zip(pairs.tip_diameters, pairs.root_diameters, densities, strict=True)
+    sections = sum(math.pi / 8 * (tip**2 + root**2) * density for tip, root, density in parts)
+    return np.asarray(sections * 1e-9) * width
+
 
 RATED = "range of the rating"
 """Words of what a variant is removed by that has no rating: deviations, root section or single contact out of all range."""

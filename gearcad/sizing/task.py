@@ -8,21 +8,16 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Annotated, Any
 
-from gearcad.errors import ParameterError, is_finite_number
+from gearcad.core.errors import ParameterError, is_finite_number
+from gearcad.core.quantities import LENGTH, Range, Whole, Words, require_fields
+from gearcad.core.records import PerGear, concise, naming
 from gearcad.geometry import ISO53_A, BasicRack
-from gearcad.geometry.iso54 import ISO_54_I, ISO_54_II
+from gearcad.geometry.gear_parts import ISO_54_I, ISO_54_II
 from gearcad.load import Load
 from gearcad.material import Material, MaterialGroup
-from gearcad.per_gear import PerGear, naming
-from gearcad.ranges import LENGTH, Range, Whole
-from gearcad.rating.iso6336_5 import EnduranceLimits, endurance_limits
-from gearcad.rating.load_factor_options import BearingArrangement
-from gearcad.rating.options import RatingOptions
-from gearcad.rating.scuffing.heat import structure_factor
-from gearcad.rating.scuffing.limits import ScuffingLimits
-from gearcad.rating.scuffing.oil import Oil
-from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
+from gearcad.rating.material_limits import EnduranceLimits, endurance_limits
+from gearcad.rating.options import BearingArrangement, RatingOptions
+from gearcad.rating.scuffing_temperatures import Oil, ScuffingLimits, structure_factor
 
 __all__ = ["ISO_54_I", "ISO_54_II", "MOST_VARIANTS", "Criterion", "SizeTask"]
 

@@ -1,4 +1,8 @@
-"""The two methods that take a tooth for a beam on an elastic body: potential energy, and Weber and Banaschek.
+"""Mesh stiffness with the tooth as a beam on an elastic body: potential energy, and Weber and Banaschek.
+
+The section is that of the virtual spur gear in the normal section (ISO 6336-3:2006, 6.2.2); a spur gear is its own.
+x runs along the centre line of the tooth from the gear's axis, h is the half thickness there (mm). Angles in radians: these
+are the locals of the formulas of beam methods.
 
 In a helical pair a slice is cut across the lines of contact: the tooth's normal section under F_n/l = F_bt/b, whose
 deflection delta_n is delta_t = delta_n/cos beta_b along the transverse line of action. Compliances of the section over
@@ -9,26 +13,225 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
+from numpy.polynomial import Chebyshev
 
-from gearcad.arrays import Floats
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.records import Floats, Notice, PerGear, Role
+from gearcad.geometry import Gear, ToothProfile
+from gearcad.geometry.involute import involute_at_roll
+from gearcad.geometry.profile import Curve, Fillet, Involute, base_half_angle
 from gearcad.load import Load
 from gearcad.material import Material
-from gearcad.notice import Notice
-from gearcad.per_gear import PerGear, Role
-from gearcad.rating.rim import RIM_LIMIT
-from gearcad.stiffness.foundation import sainsot_foundation, sainsot_range, weber_foundation
-from gearcad.stiffness.section import BeamLoad, BeamTooth
-from gearcad.stiffness.slice_method import SliceMethod
-from gearcad.stiffness.slices import SinglePair
+from gearcad.rating.root_section import VirtualGear, virtual_tool
+from gearcad.rating.tooth_stiffness import RIM_LIMIT
+from gearcad.stiffness.method import SinglePair, SliceMethod
 
-__all__ = ["BeamMethod", "PotentialEnergy", "WeberBanaschek"]
+_GAUSS = np.polynomial.legendre.leggauss(24)
+_DEGREE = 48
+"""Of the polynomial for the fillet's x: its slope is right to 1e-11."""
+
+_TABLE, _NEWTON = 128, 5
+"""Steps of a curve's table, and of Newton's rule in one of them."""
+
+Slope = Callable[[Floats], Floats]
+"""dx/ds at s."""
+
+
+@dataclass(frozen=True)
+class BeamLoad:
+    """Loads normal to the flank, each (n,): contact point (x, h) in mm, angle to the normal of the centre line (rad).
+
+    `crossing` is the x where the line of the force crosses the centre line (mm).
+    """
+
+    x: Floats
+    h: Floats
+    angle: Floats
+
+    @property
+    def crossing(self) -> Floats:
+        """u = x_c - h_c tan alpha_F."""
+        result: Floats = self.x - self.h * np.tan(self.angle)
+        return result
+
+    @property
+    def to_centre_line(self) -> Floats:
+        """k = h_c/cos alpha_F: distance from the contact to the centre line along the force (mm)."""
+        result: Floats = self.h / np.cos(self.angle)
+        return result
+
+
+@dataclass(frozen=True)
+class BeamTooth:
+    """A tooth between its root circle and its tip form circle."""
+
+    base_radius: float
+    base_half_angle: float
+    root_radius: float
+    fillet: Fillet
+    flank: Involute
+
+    @classmethod
+    def from_gear(cls, gear: Gear) -> BeamTooth:
+        """The tooth of a gear. Raises GeometryError where the virtual gear has no tooth."""
+        profile = gear.profile if not gear.helix_angle else _virtual_profile(gear)
+        fillet = next(curve for curve in profile.curves if isinstance(curve, Fillet))
+        flank = next(curve for curve in profile.curves if isinstance(curve, Involute))
+        base = profile.base_diameter / 2
+        return cls(base, math.radians(profile.base_half_angle), profile.root_diameter / 2, fillet, flank)
+
+    # ------------------------------------------------------------------ the root
+
+    @cached_property
+    def root_half_angle(self) -> float:
+        """theta_f: half tooth angle on the root circle, where the fillet leaves it (rad)."""
+        return float(self.fillet.polar(0.0)[1])
+
+    @cached_property
+    def root_chord(self) -> tuple[float, float]:
+        """x and h where the fillet leaves the root circle (mm)."""
+        x, h = self.fillet.points(0.0)
+        return float(x), float(h)
+
+    # ------------------------------------------------------------------ the load
+
+    def load_at(self, curvature: Floats) -> BeamLoad:
+        """The load where the involute's radius of curvature is `curvature` (n,) in mm, at the tip for one beyond it.
+
+        At the tip circle a helical flank has a radius of curvature up to 1 % larger than that of its virtual gear.
+        """
+        roll = np.minimum(curvature / self.base_radius, self.flank.last)
+        half = self.base_half_angle - involute_at_roll(roll)
+        radius = self.base_radius * np.hypot(1.0, roll)
+        return BeamLoad(radius * np.cos(half), radius * np.sin(half), np.arctan(roll) - half)
+
+    # ------------------------------------------------------------------ integrals along the centre line
+
+    def integrals(self, upper: Floats, crossing: Floats) -> tuple[Floats, Floats]:
+        """int (crossing - x)^2/h^3 dx and int dx/h, each (n,), from the root to `upper` (n,) in mm.
+
+        Both are 0 for an upper end below the root.
+        """
+        bend = float(self.flank.points(0.0)[0])
+        below = np.where(upper < bend, _place(self.fillet, self._fillet_slope, np.minimum(upper, bend)), 1.0)
+        above = np.where(upper > bend, _place(self.flank, self._flank_slope, np.maximum(upper, bend)), 0.0)
+        # All loads beyond the fillet share its points: they are (1, m) then.
+        ends = below if (below < 1).any() else np.ones(1)
+        pieces = ((self.fillet, self._fillet_slope, ends), (self.flank, self._flank_slope, above))
+        found = [_piece(curve, slope, end, crossing) for curve, slope, end in pieces]
+        return found[0][0] + found[1][0], found[0][1] + found[1][1]
+
+    @cached_property
+    def _fillet_slope(self) -> Slope:
+        """dx/ds of the fillet."""
+        fit: Slope = Chebyshev.interpolate(lambda s: self.fillet.points(s)[..., 0], _DEGREE, domain=[0, 1]).deriv()
+        return fit
+
+    def _flank_slope(self, s: Floats) -> Floats:
+        roll = self.flank.roll(s)
+        rate = self.flank.last - self.flank.first
+        result: Floats = self.base_radius * roll * np.cos(self.base_half_angle - roll) * rate
+        return result
+
+
+def _piece(curve: Curve, slope: Slope, ends: Floats, crossing: Floats) -> tuple[Floats, Floats]:
+    """Both integrals along a curve from s = 0 to `ends`."""
+    node, weight = (_GAUSS[0] + 1) / 2, _GAUSS[1] / 2
+    # Two panels, points dense towards the end: there the tooth is thinnest.
+    v = np.r_[node / 2, node / 2 + 0.5]
+    spread, rate = v * (2 - v), np.r_[weight, weight] * (1 - v)
+    s = ends[:, None] * spread
+    points = curve.points(s)
+    x, inverse = points[..., 0], 1 / points[..., 1]
+    along = slope(s) * inverse * (ends[:, None] * rate)
+    cubic: Floats = (along * ((crossing[:, None] - x) * inverse) ** 2).sum(-1)
+    return cubic, along.sum(-1)
+
+
+def _place(curve: Curve, slope: Slope, x: Floats) -> Floats:
+    """s in [0, 1] where the curve is at x (n,), its nearer end where it is nowhere: Newton's rule within a table's steps."""
+    table = np.linspace(0.0, 1.0, _TABLE + 1)
+    known = curve.points(table)[:, 0]
+    step = np.clip(np.searchsorted(known, x) - 1, 0, _TABLE - 1)
+    low, high = table[step], table[step + 1]
+    s = np.clip(np.interp(x, known, table), low, high)
+    for _ in range(_NEWTON):
+        rate = slope(s)
+        s = np.clip(s - (curve.points(s)[:, 0] - x) / np.where(rate > 0, rate, 1.0), low, high)
+    return s
+
+
+def _virtual_profile(gear: Gear) -> ToothProfile:
+    """The tooth that the gear's own tool would cut on the virtual spur gear of z_n teeth (ISO 6336-3:2006, (21) ... (27))."""
+    virtual = VirtualGear.of(gear)
+    d_n = virtual.reference_diameter
+    return ToothProfile(
+        teeth=virtual.teeth,
+        reference_diameter=d_n,
+        base_diameter=virtual.base_diameter,
+        tip_diameter=virtual.tip_diameter,
+        root_diameter=d_n + gear.root_diameter - gear.reference_diameter,
+        base_half_angle=base_half_angle(virtual.teeth, gear.normal_tooth_thickness, gear.normal_module, virtual.pressure_angle),
+        tool=virtual_tool(gear, virtual),
+    )
+
+
+_SAINSOT = np.array(
+    [
+        [-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045],
+        [60.111e-5, 28.100e-3, -83.431e-4, -9.9256e-3, 0.1624, 0.9086],
+        [-50.952e-5, 185.50e-3, 0.0538e-4, 53.300e-3, 0.2895, 0.9236],
+        [-6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904],
+    ]
+)
+"""A ... F of L*, M*, P*, Q* (Sainsot, Velex and Duverger 2004, table 1)."""
+
+_ANGLES, _RIMS = (0.01, 0.12), (1.4, 7.0)
+"""theta_f (rad) and h_f that the series was fitted to."""
+
+
+def sainsot_foundation(tooth: BeamTooth, load: BeamLoad, material: Material, rim: float) -> Floats:
+    """1/(k_f) (n,) of an elastic ring under a tooth (Sainsot, Velex, Duverger, J. Mech. Des. 126 (2004), (3) ... (5)).
+
+    cos^2 a_F/E [L* (u/S)^2 + M* u/S + P* (1 + Q* tan^2 a_F)], u from the root circle to where the force crosses the centre
+    line, S = 2 r_f theta_f; `rim` h_f = r_f/r_i is the root radius over that where the body is held.
+    """
+    angle = tooth.root_half_angle
+    series = _SAINSOT @ np.array([1 / angle**2, rim**2, rim / angle, 1 / angle, rim, 1.0])
+    lever = (load.crossing - tooth.root_radius) / (2 * tooth.root_radius * angle)
+    return _polynomial(load, lever, *series) / material.youngs_modulus
+
+
+def sainsot_range(tooth: BeamTooth, rim: float) -> Iterator[Notice]:
+    """Where the tooth leaves the range of the series."""
+    for name, value, (low, high) in (("theta_f", tooth.root_half_angle, _ANGLES), ("h_f", rim, _RIMS)):
+        if not low <= value <= high:
+            text = f"{name} = {value:.4g} is outside the {low:g} ... {high:g} of Sainsot's foundation"
+            yield Notice("foundation-range", text)
+
+
+def weber_foundation(tooth: BeamTooth, load: BeamLoad, material: Material) -> Floats:
+    """Compliance (n,) of an elastic half-plane under the root chord (Weber and Banaschek 1953).
+
+    (1 - nu^2) cos^2 a_F/E [18/pi (u/S)^2 + 2 (1 - 2 nu)/(1 - nu) u/S + 4.8/pi (1 + (1 - nu)/2.4 tan^2 a_F)].
+    """
+    x, h = tooth.root_chord
+    nu = material.poisson_ratio
+    factors = (18 / math.pi, 2 * (1 - 2 * nu) / (1 - nu), 4.8 / math.pi, (1 - nu) / 2.4)
+    return _polynomial(load, (load.crossing - x) / (2 * h), *factors) * (1 - nu**2) / material.youngs_modulus
+
+
+def _polynomial(load: BeamLoad, lever: Floats, square: float, linear: float, shear: float, axial: float) -> Floats:
+    """cos^2 a_F [square lever^2 + linear lever + shear (1 + axial tan^2 a_F)]."""
+    across, along = np.cos(load.angle) ** 2, np.sin(load.angle) ** 2
+    result: Floats = across * (square * lever**2 + linear * lever + shear) + shear * axial * along
+    return result
 
 
 @dataclass(frozen=True, kw_only=True)

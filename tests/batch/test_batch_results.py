@@ -12,13 +12,12 @@ from support.batches import GEARS, MIXED, PAIRS, read_results, rows_of, write_ta
 
 from gearcad.batch import Decimal, Summary, run_table
 from gearcad.batch import run as run_module
+from gearcad.core.errors import OutputError, ParameterError
 from gearcad.designs import read_spec
-from gearcad.designs.csv_cells import cell_text
+from gearcad.designs.cells import cell_text
 from gearcad.designs.table import open_table
-from gearcad.errors import OutputError, ParameterError
 from gearcad.jobs.build import Build
-from gearcad.jobs.data import Data
-from gearcad.jobs.job import Job
+from gearcad.jobs.job import Data, Job
 from gearcad.solids import FileOptions, Format
 
 pytestmark = pytest.mark.usefixtures("kept_workers")

@@ -10,12 +10,10 @@ import pytest
 from support.batches import PAIRS, write_table
 from support.designs import starter_specs
 
-from gearcad.batch.manifest import inputs_hash
-from gearcad.batch.row import Checked, Status, Task, check_rows, make_row
-from gearcad.batch.stages import stages
+from gearcad.batch.row import Checked, Status, Task, check_rows, inputs_hash, make_row, stages
 from gearcad.designs import read_spec
 from gearcad.designs.table import Row, open_table
-from gearcad.jobs.data import Data
+from gearcad.jobs.job import Data
 
 SPECS = starter_specs()
 

@@ -25,10 +25,10 @@ from gearcad.batch import Summary, run_table
 from gearcad.batch import pool as pool_module
 from gearcad.batch import run as run_module
 from gearcad.batch.row import Status, Task, make_row
+from gearcad.core.errors import ParameterError
 from gearcad.designs.table import open_table
-from gearcad.errors import ParameterError
 from gearcad.jobs.build import Build
-from gearcad.jobs.data import Data
+from gearcad.jobs.job import Data
 from gearcad.solids import Format
 
 distributed = pytest.importorskip("distributed")

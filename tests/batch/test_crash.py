@@ -18,11 +18,11 @@ from support.batches import lies, read_results, snapshot, write_table
 from support.processes import PATIENCE, below, run_batch, send_to_all, start_batch, wait_for_end, wait_until
 
 from gearcad.batch import run_table
+from gearcad.batch.pool import close_workers, isolated
 from gearcad.batch.row import Status, Task, make_row
-from gearcad.batch.worker import close_workers, isolated
 from gearcad.designs.table import open_table
 from gearcad.jobs.build import Build
-from gearcad.jobs.data import Data
+from gearcad.jobs.job import Data
 from gearcad.solids import Format
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")

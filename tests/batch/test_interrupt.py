@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from gearcad.batch.interrupt import remembered_interrupt
+from gearcad.batch.pool import remembered_interrupt
 
 
 class PressedAtItsEnd:

@@ -10,9 +10,9 @@ import pytest
 from support.batches import lies, made_now, read_results, write_table
 
 from gearcad.batch import Summary, run_table
-from gearcad.designs.columns import column_symbol
+from gearcad.designs.variations import column_symbol
 from gearcad.jobs import VERBS, job_of
-from gearcad.jobs.stiffness import Stiffness
+from gearcad.jobs.strength import Stiffness
 
 pytestmark = pytest.mark.usefixtures("kept_workers")
 

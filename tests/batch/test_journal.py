@@ -8,8 +8,8 @@ from pathlib import Path
 
 import psutil
 
-from gearcad.batch.journal import Journal
 from gearcad.batch.row import Record, Status
+from gearcad.batch.run import Journal
 from gearcad.designs.table import Row
 
 ROW = Row(2, "a", {"gear.teeth": 20}, (), (), "table.csv", ("name", "gear.teeth"))
@@ -59,8 +59,8 @@ def test_memory_does_not_grow_with_the_rows() -> None:
 
 FILL = """
 from dataclasses import replace
-from gearcad.batch.journal import Journal
-from gearcad.errors import OutputError
+from gearcad.batch.run import Journal
+from gearcad.core.errors import OutputError
 from gearcad.designs.table import Row
 journal = Journal()
 row = Row(2, "a", {"gear.rack": "x" * 100_000}, (), (), "table.csv", ("name", "gear.rack"))

@@ -14,7 +14,7 @@ from support.batches import GEARS, made_now, snapshot, write_table
 
 import gearcad
 from gearcad.batch import run_table
-from gearcad.batch.manifest import MANIFEST, Manifest, Part, inputs_hash, read_manifest
+from gearcad.batch.row import MANIFEST, Manifest, Part, inputs_hash, read_manifest
 from gearcad.jobs.build import Build
 from gearcad.solids import Format
 
@@ -60,7 +60,7 @@ def test_hash_is_of_the_source_too(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     copy = Path(shutil.copytree(Path(gearcad.__file__).parent, tmp_path / "gearcad"))
 
     def hash_there() -> str:
-        code = "from gearcad.batch.manifest import MANIFEST, Manifest, Part, inputs_hash, read_manifest; print(inputs_hash({}))"
+        code = "from gearcad.batch.row import MANIFEST, Manifest, Part, inputs_hash, read_manifest; print(inputs_hash({}))"
         environment = os.environ | {"PYTHONPATH": str(tmp_path)}
         return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment).stdout
 

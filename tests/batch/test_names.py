@@ -7,7 +7,7 @@ from support.batches import read_results
 
 from gearcad import SpecError
 from gearcad.batch import run_table
-from gearcad.jobs.data import Data
+from gearcad.jobs.job import Data
 
 pytestmark = pytest.mark.usefixtures("kept_workers")
 

@@ -13,8 +13,7 @@ from support.batches import GEARS, PAIRS, lies, made_now, read_results, snapshot
 from gearcad.batch import Summary, run_table
 from gearcad.batch import run as run_module
 from gearcad.jobs.build import Build
-from gearcad.jobs.data import Data
-from gearcad.jobs.job import Job
+from gearcad.jobs.job import Data, Job
 from gearcad.solids import FileOptions, Format
 
 pytestmark = pytest.mark.usefixtures("kept_workers")

@@ -15,10 +15,10 @@ from support.batches import GEARS, lies, read_results, snapshot, write_table
 from support.processes import PATIENCE, run_batch, start_batch, wait_until
 
 from gearcad.batch import run_table
-from gearcad.errors import OutputError
+from gearcad.core.errors import OutputError
+from gearcad.core.output import mark_folder
 from gearcad.jobs.build import Build
-from gearcad.jobs.data import Data
-from gearcad.output import mark_folder
+from gearcad.jobs.job import Data
 from gearcad.solids import Format
 
 pytestmark = pytest.mark.usefixtures("kept_workers")

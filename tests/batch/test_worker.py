@@ -15,8 +15,7 @@ from support import jobs
 from support.processes import PATIENCE, wait_for_end, wait_until
 
 from gearcad import GeometryError, SpecError
-from gearcad.batch.pool import open_pool
-from gearcad.batch.worker import WorkerLostError, close_workers, isolated
+from gearcad.batch.pool import WorkerLostError, close_workers, isolated, open_pool
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 
@@ -208,7 +207,7 @@ def test_ctrl_c_leaves_no_process_and_no_thread_whenever_it_comes(seconds: float
 
 _PARENT = """
 import sys
-from gearcad.batch.worker import isolated
+from gearcad.batch.pool import isolated
 from support import jobs
 isolated(jobs.echo, 1, 60)
 print("ready", flush=True)

@@ -21,12 +21,10 @@ import pytest
 from support.batches import write_table
 from support.variants import variants
 
-from gearcad.batch.row import Task, make_row
-from gearcad.batch.stages import stages
+from gearcad.batch.row import Task, make_row, stages
 from gearcad.designs.table import open_table
 from gearcad.jobs.build import Build
-from gearcad.jobs.data import Data
-from gearcad.jobs.job import Job
+from gearcad.jobs.job import Data, Job
 
 pytestmark = pytest.mark.benchmark_suite
 

@@ -40,8 +40,8 @@ from dataclasses import replace
 from gearcad.meshing import Element
 from gearcad.meshing.bodies.body_mesh import mesh_body
 from gearcad.meshing.bodies.quality import quality
-from gearcad.meshing.bodies.sizing import body_sizes, expected_amount, factor_for
-from gearcad.meshing.files.formats import write
+from gearcad.meshing.bodies.body_mesh import body_sizes, expected_amount, factor_for
+from gearcad.meshing.options import write
 
 gear = replace(gear, modification=relief)
 what = dict(teeth=None, held_radius=gear.body.bore / 2, element=Element.HEX20)

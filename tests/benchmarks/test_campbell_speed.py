@@ -16,8 +16,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from support.pairs import THESIS_SPEEDS, thesis_model
 
-from gearcad.dynamics.tooth_springs.campbell import campbell
-from gearcad.dynamics.tooth_springs.contact_model import ContactModel
+from gearcad.dynamics.time_domain.campbell import campbell
+from gearcad.dynamics.time_domain.contact_model import ContactModel
 
 pytestmark = pytest.mark.benchmark_suite
 

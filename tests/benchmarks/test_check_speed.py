@@ -25,7 +25,7 @@ from support.brute import nodal_compliance
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.meshing.section import MeshSizes
+from gearcad.meshing.outline import MeshSizes
 pair = GearPair(
     pinion=Gear(teeth=18, normal_module=1.5, face_width=10, profile_shift=0.3422, tip_alteration=-0.0104),
     wheel=Gear(teeth=161, normal_module=1.5, face_width=10, profile_shift=0.1682, tip_alteration=-0.0104),

@@ -13,11 +13,10 @@ from typing import Any
 import pytest
 
 from gearcad.designs import read_spec
-from gearcad.designs.kinds.train import TrainDesign
-from gearcad.dynamics.excitation.sources import train_excitation
-from gearcad.dynamics.in_time.motion import MovingSystem
-from gearcad.dynamics.in_time.speed_course import Course
-from gearcad.dynamics.trains.lines import system
+from gearcad.designs.train_designs import TrainDesign
+from gearcad.dynamics.time_domain.motion import Course, MovingSystem
+from gearcad.dynamics.trains.mesh_excitation import train_excitation
+from gearcad.dynamics.trains.shaft_lines import system
 
 pytestmark = pytest.mark.benchmark_suite
 

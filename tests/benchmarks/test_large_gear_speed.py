@@ -14,10 +14,9 @@ import numpy as np
 import pytest
 
 from gearcad import Body, Gear
-from gearcad.solids.colours import STEEL
+from gearcad.solids.body_plan import STEEL
 from gearcad.solids.exact.kernel import kernel_solid
-from gearcad.solids.exact.products import SolidProduct
-from gearcad.solids.exact.solid import gear_boundary
+from gearcad.solids.exact.solid import SolidProduct, gear_boundary
 from gearcad.solids.files.step import write_product
 
 pytestmark = pytest.mark.benchmark_suite

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from gearcad.designs import TrainDesign, read_spec
-from gearcad.dynamics.levels.study import study_levels
+from gearcad.dynamics.level_study import study_levels
 from gearcad.dynamics.trains.train import TrainModel
 
 pytestmark = pytest.mark.benchmark_suite

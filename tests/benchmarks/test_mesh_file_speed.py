@@ -23,7 +23,7 @@ import json, re, sys, time
 from pathlib import Path
 import numpy as np
 from gearcad.meshing import Element, ElementMesh, Faces
-from gearcad.meshing.files.formats import write
+from gearcad.meshing.options import write
 
 def block(n):
     shape, every = Element.HEX20.shape, 2 * n + 1

@@ -13,9 +13,9 @@ from support.dense_sharing import dense_sharing
 from support.sets import alm_train
 from support.sharing_trains import Trapezoid, output_torque, sun_set
 
-from gearcad.dynamics.planetary.running import run_train
-from gearcad.dynamics.planetary.sharing import share_load
-from gearcad.dynamics.planetary.torsion import torsional_stiffness
+from gearcad.dynamics.planetary.load_sharing import share_load
+from gearcad.dynamics.planetary.planetary_statics import torsional_stiffness
+from gearcad.dynamics.planetary.quasi_static_run import run_train
 from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
 
 pytestmark = pytest.mark.benchmark_suite

@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 from support.mode_trains import MASSES, TRAINS, on_springs
 
-from gearcad.dynamics.charts.over_speed import over_speed
-from gearcad.dynamics.excitation.mesh_curves import square_stiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
-from gearcad.dynamics.planetary.driven import planetary_system
-from gearcad.dynamics.planetary.modes import planetary_modes
-from gearcad.dynamics.planetary.springs import train_springs
+from gearcad.dynamics.planetary.planar_model import train_springs
+from gearcad.dynamics.planetary.planetary_excitation import planetary_system
+from gearcad.dynamics.planetary.planetary_modes import planetary_modes
+from gearcad.dynamics.response.speed_charts import over_speed
+from gearcad.dynamics.trains.mesh_excitation import Excitation, MeshExcitation, square_stiffness
 
 pytestmark = pytest.mark.benchmark_suite
 

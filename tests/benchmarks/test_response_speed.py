@@ -11,13 +11,11 @@ import numpy as np
 import pytest
 from support.responses import VARIATION, cosine, oscillator, preloaded, two_stages
 
-from gearcad.dynamics.charts.chart import KvChart
-from gearcad.dynamics.charts.kv import kv_chart
-from gearcad.dynamics.excitation.mesh_curves import square_stiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
-from gearcad.dynamics.response.branch import trace
-from gearcad.dynamics.response.linear import periodic_response
-from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.response.branch_continuation import trace
+from gearcad.dynamics.response.kv_chart import KvChart, kv_chart
+from gearcad.dynamics.response.linear_response import periodic_response
+from gearcad.dynamics.trains.mesh_excitation import Excitation, MeshExcitation, square_stiffness
+from gearcad.dynamics.trains.shaft_lines import System
 
 pytestmark = pytest.mark.benchmark_suite
 

@@ -9,7 +9,7 @@ import pytest
 from support.coarse import PAIRS, TORQUES, coarse_model
 from threadpoolctl import threadpool_limits
 
-from gearcad.contact.optimum.start import start_search
+from gearcad.contact.modification_search import start_search
 from gearcad.geometry import ReliefShape
 
 pytestmark = pytest.mark.benchmark_suite

@@ -20,12 +20,12 @@ import gmsh, skfem, scipy.interpolate, scipy.linalg, scipy.sparse
 from dataclasses import replace
 from threadpoolctl import threadpool_limits
 from gearcad import FlankModification, Material, Mounting
-from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.shared.bodies import Cuts
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import solid_pair
 from gearcad.designs import read_spec
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
 import tempfile, pathlib
 with tempfile.TemporaryDirectory() as folder:
     spec = pathlib.Path(folder) / "volvo-13-44.toml"

@@ -19,8 +19,8 @@ from threadpoolctl import threadpool_limits
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
 from gearcad.contact.shared.bodies import BodyModel
+from gearcad.core.records import PerGear
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.per_gear import PerGear
 from gearcad.stiffness import CLOSED_FORMS, METHODS, PotentialEnergy, StiffnessMethod
 
 pytestmark = pytest.mark.benchmark_suite

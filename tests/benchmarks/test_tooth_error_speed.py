@@ -14,11 +14,11 @@ import pytest
 from support.trains import one_stage
 
 from gearcad import Load, Material
+from gearcad.core.runtime import templates
 from gearcad.designs import read_spec
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.pair import study_pair
-from gearcad.dynamics.train import study_train
-from gearcad.shipped import templates
+from gearcad.dynamics.pair_study import study_pair
+from gearcad.dynamics.train_study import study_train
 from gearcad.stiffness import METHODS
 
 pytestmark = pytest.mark.benchmark_suite

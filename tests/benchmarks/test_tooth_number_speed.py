@@ -6,8 +6,9 @@ from typing import Any
 
 import pytest
 
-from gearcad.planetary.mesh import SetType
-from gearcad.planetary.search import SearchTask, search
+from gearcad.planetary.members import SetType
+from gearcad.planetary.search import search
+from gearcad.planetary.tooth_numbers import SearchTask
 
 pytestmark = pytest.mark.benchmark_suite
 

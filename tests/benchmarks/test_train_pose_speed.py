@@ -9,7 +9,7 @@ import pytest
 from support.planetary import thesis_train
 
 from gearcad.planetary import PlanetaryTrain
-from gearcad.planetary.harmonics import train_harmonics
+from gearcad.planetary.poses import train_harmonics
 
 pytestmark = pytest.mark.benchmark_suite
 

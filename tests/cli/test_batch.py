@@ -1,4 +1,4 @@
-"""`gearcad batch` as a user meets it: what it prints and where, exit statuses, progress, all faults at once."""
+"""`gearcad batch` as a user meets it: what it prints and where, exit statuses, job, all faults at once."""
 
 import csv
 import json
@@ -49,8 +49,8 @@ def test_results_are_on_stdout_and_the_rest_on_stderr() -> None:
     result = batch("table.csv", "--do", "data", "-j", "1")
     assert result.stdout.splitlines() == [f"output/table/{name}" for name in ("results.csv", "columns.csv", "results.parquet")]
     assert all(Path(line).is_file() for line in result.stdout.splitlines())
-    progress, count = result.stderr.splitlines()
-    assert re.fullmatch(r"making: 3 of 3 rows, 0 failed, \S+ rows/s", progress)
+    job, count = result.stderr.splitlines()
+    assert re.fullmatch(r"making: 3 of 3 rows, 0 failed, \S+ rows/s", job)
     assert re.fullmatch(COUNT, count) and count.startswith("3 rows ok, 0 failed in ")
 
 
@@ -179,9 +179,9 @@ def test_status_of_the_process() -> None:
 
 
 def test_progress_is_a_line_now_and_then_without_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    from gearcad.cli import progress
+    from gearcad.cli import job
 
-    monkeypatch.setattr(progress, "_SECONDS_BETWEEN_LINES", 0.0)
+    monkeypatch.setattr(job, "_SECONDS_BETWEEN_LINES", 0.0)
     write_table(Path("table.csv"), (*GEARS, *(f"row {n},{20 + n},1,2," for n in range(57))))
     lines = batch("table.csv", "--do", "data", "-j", "1").stderr.splitlines()
     checking = [line for line in lines if line.startswith("checking: ")]

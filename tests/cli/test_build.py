@@ -54,10 +54,10 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
     for home in (
         "step.write_product",
-        "stl.write_stl",
-        "three_mf.write_3mf",
-        "glb.write_glb",
-        "pictures.three_views.write_picture",
+        "formats.write_stl",
+        "scenes.write_3mf",
+        "scenes.write_glb",
+        "studio.write_picture",
         "dxf.write_dxf",
         "points.write_points",
     ):

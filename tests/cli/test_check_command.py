@@ -11,8 +11,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
-from gearcad.jobs.check import Check
-from gearcad.verdict import NOT_ASKED_WORDS
+from gearcad.core.records import NOT_ASKED_WORDS
+from gearcad.jobs.strength import Check
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
@@ -56,7 +56,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def no_report(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is solved and drawn for it, which takes longer than all that is asked here; tests of reports have it."""
-    monkeypatch.setattr(import_module("gearcad.jobs.check"), "Check", partial(Check, report=False))
+    monkeypatch.setattr(import_module("gearcad.jobs.strength"), "Check", partial(Check, report=False))
 
 
 def spec(text: str) -> str:

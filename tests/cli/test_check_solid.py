@@ -21,9 +21,9 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from gearcad import FlankModification, Gear, GearPair
 from gearcad.cli import main
-from gearcad.contact.shared.loaded_left import loaded_left
-from gearcad.jobs.check import Check
-from gearcad.verdict import NOT_ASKED_WORDS
+from gearcad.contact.shared.line_of_action import loaded_left
+from gearcad.core.records import NOT_ASKED_WORDS
+from gearcad.jobs.strength import Check
 
 HELICAL = """
 [pair]
@@ -239,7 +239,7 @@ def test_spur_gears_as_solids_carry_as_in_the_plane(tmp_path: Path, monkeypatch:
     plain = "\n".join(line for line in changed.splitlines() if not line.startswith(("modification", "misalignment")))
     Path("spur.toml").write_text(f"{plain}\nconvergence = 'off'\n", encoding="utf-8")
     solid = json.loads(run("check", "spur.toml", "--quiet", "--json", "--model", "3d").stdout)
-    monkeypatch.setattr(import_module("gearcad.jobs.check"), "Check", partial(Check, report=False))
+    monkeypatch.setattr(import_module("gearcad.jobs.strength"), "Check", partial(Check, report=False))
     plane = json.loads(run("check", "spur.toml", "--quiet", "--json").stdout)
     assert (solid["model"], plane["model"]) == ("3d", "2d")
     assert solid["convergence"] == plane["convergence"] == []

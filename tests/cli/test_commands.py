@@ -12,7 +12,7 @@ from click.testing import CliRunner, Result
 import gearcad
 from gearcad.cli import main
 from gearcad.designs import read_spec
-from gearcad.designs.starters import starters
+from gearcad.designs.reader import starters
 
 VOLVO = "volvo-13-44"
 PLANETARY = ["planetary-24-21-66", "planetary-alm", "planetary-alm-in-phase", "planetary-differential"]
@@ -96,12 +96,12 @@ def test_new_to_an_impossible_place_is_one_line(output: str) -> None:
 
 
 def test_starters_are_found_in_an_installed_package_too(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    import gearcad.shipped
+    import gearcad.core.runtime
 
     package = tmp_path / "site" / "gearcad"
     (package / "templates").mkdir(parents=True)
     (package / "templates" / "only.toml").write_text("# The only one.\n")
-    monkeypatch.setattr(gearcad.shipped, "PACKAGE", package)
+    monkeypatch.setattr(gearcad.core.runtime, "PACKAGE", package)
     assert starters() == {"only": "The only one"}
 
 

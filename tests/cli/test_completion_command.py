@@ -13,7 +13,7 @@ from click.shell_completion import ShellComplete
 from click.testing import CliRunner
 
 from gearcad.cli import main
-from gearcad.cli.completion import VARIABLE
+from gearcad.cli.basics import VARIABLE
 
 
 def completed(*words: str) -> list[str]:

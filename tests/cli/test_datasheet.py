@@ -6,13 +6,14 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from gearcad import Body, Gear, Rack, symbols
-from gearcad.cli.datasheet import plain_datasheet, print_datasheet
+from gearcad import Body, Gear, Rack
+from gearcad.cli.basics import plain_datasheet, print_datasheet
+from gearcad.core import symbols
+from gearcad.core.quantities import symbols_of
 from gearcad.designs import GearDesign, read_spec
 from gearcad.designs.design import Design
 from gearcad.geometry import ShaperCutter
-from gearcad.schema import symbols_of
-from gearcad.sheet import gears, pairs
+from gearcad.sheet import blocks
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
@@ -24,12 +25,12 @@ def sheet(design: Design, width: int = 80) -> str:
 
 
 def test_every_quantity_has_its_place() -> None:
-    gear = {key for keys in gears._GEAR_BLOCKS.values() for key in keys.split()}
-    pair = {key for keys in pairs._PAIR_BLOCKS.values() for key in keys.split()} | set(symbols.PER_GEAR)
+    gear = {key for keys in blocks._GEAR_BLOCKS.values() for key in keys.split()}
+    pair = {key for keys in blocks._PAIR_BLOCKS.values() for key in keys.split()} | set(symbols.PER_GEAR)
     assert gear == {*symbols_of(Gear), *symbols.GEAR} - {"name"}
     of_racks = {"mounting_distance", "tip_clearances.pinion", *symbols.RACK_PAIR, *symbols.DRIVE}
     assert pair == {"centre_distance", "centre_distance_tolerance", "axial_offset", *symbols.PAIR, *of_racks}
-    rack = {key for keys in gears._RACK_BLOCKS.values() for key in keys.split()}
+    rack = {key for keys in blocks._RACK_BLOCKS.values() for key in keys.split()}
     assert rack == {*symbols_of(Rack), *symbols.RACK} - {"name"}
 
 

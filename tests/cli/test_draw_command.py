@@ -13,7 +13,7 @@ import gearcad
 from gearcad import Gear, ParameterError
 from gearcad.cli import main
 from gearcad.designs import read_spec
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
 from gearcad.jobs.draw import Draw
 
 STARTERS = (
@@ -89,7 +89,7 @@ def test_a_pair_has_a_sheet_for_each_gear_and_one_for_both(tmp_path: Path) -> No
 
 
 def test_a_train_has_a_sheet_for_each_gear_that_differs(tmp_path: Path) -> None:
-    from gearcad.jobs.drawn import drawn_gears
+    from gearcad.jobs.draw import drawn_gears
 
     assert [gear.role for gear in drawn_gears(read_spec(_spec("planetary-24-21-66", tmp_path)))] == ["sun", "ring", "planet"]
     found = {gear.role: gear for gear in drawn_gears(read_spec(_spec("planetary-alm", tmp_path)))}

@@ -11,12 +11,12 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
-from gearcad.dynamics.in_time.transient_options import TransientOptions
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.train import study_train
+from gearcad.dynamics.time_domain.transient_result import TransientOptions
+from gearcad.dynamics.train_study import study_train
 from gearcad.dynamics.trains.members import Inertia, Mesh
 from gearcad.dynamics.trains.train import Train
-from gearcad.report.dynamics.report import dynamics_html
+from gearcad.report.dynamics import dynamics_html
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

@@ -11,17 +11,16 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
+from gearcad.core.errors import SolverError
+from gearcad.core.records import PerGear
 from gearcad.designs import PairDesign, TrainDesign, read_spec
-from gearcad.designs.kinds.train_pairs import DesignedPair
+from gearcad.designs.train_designs import DesignedPair
 from gearcad.dynamics.engagement import engaged
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.response.flexibility import flexibility
-from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
-from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.members import Inertia, Mesh
-from gearcad.dynamics.trains.train import Train
-from gearcad.errors import SolverError
-from gearcad.per_gear import PerGear
+from gearcad.dynamics.trains.shaft_lines import system
+from gearcad.dynamics.trains.steady_response import flexibility
+from gearcad.dynamics.trains.train import EngagedMesh, Train
 
 PAIR = """[pair]
 name = "steep"

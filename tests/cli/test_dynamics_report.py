@@ -12,17 +12,17 @@ from matplotlib.figure import Figure
 
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.pair import study_contact, study_pair
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
-from gearcad.dynamics.train import study_train
+from gearcad.dynamics.pair_study import study_contact, study_pair
 from gearcad.dynamics.train_result import TrainStudy
+from gearcad.dynamics.train_study import study_train
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft, StiffnessWave
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.plots.paper import short
 from gearcad.plots.speeds import plot_course, plot_cycle, plot_factors, plot_shaft_overload
 from gearcad.plots.trains import plot_energies, plot_shapes
 from gearcad.report import write_dynamics_report
-from gearcad.report.dynamics.tables import MOST_PEAKS, peak_table, shaft_table
+from gearcad.report.dynamics_tables import MOST_PEAKS, peak_table, shaft_table
 from gearcad.stiffness import METHODS
 
 NASTY_NAME = 'a <b>"train"</b> & $more$'
@@ -83,7 +83,7 @@ def pages(
     """The reports of all three, as they are written; without the layout of figures, which takes most of the time."""
     folder, found = tmp_path_factory.mktemp("reports"), {}
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("gearcad.report.check.figures.new_figure", lambda inches: Figure(figsize=inches))
+        patch.setattr("gearcad.report.document.new_figure", lambda inches: Figure(figsize=inches))
         for name, study in (("train", train), ("pair", pair), ("contact", contact)):
             write_dynamics_report(study, NASTY_NAME, folder / f"{name}.html")
             found[name] = (folder / f"{name}.html").read_text(encoding="utf-8")

@@ -12,12 +12,11 @@ from click.testing import CliRunner
 
 from gearcad.cli import main
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.tables import stacked
-from gearcad.dynamics.train import study_train
+from gearcad.dynamics.result_tables import stacked
+from gearcad.dynamics.train_study import study_train
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.train import Train, TrainModel
-from gearcad.jobs.dynamics import Dynamics
-from gearcad.jobs.tables import table_files
+from gearcad.jobs.dynamics import Dynamics, table_files
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

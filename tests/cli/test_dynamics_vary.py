@@ -10,17 +10,15 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from gearcad.arrays import Floats
 from gearcad.cli import main
-from gearcad.cli.side_by_side import beside_lines
+from gearcad.cli.dynamics import beside_lines
+from gearcad.core.records import Floats
 from gearcad.designs import PairDesign
-from gearcad.designs.starters import starter_text
-from gearcad.designs.variants import read_variants
-from gearcad.dynamics.side_by_side import SideBySide
-from gearcad.jobs.dynamics import Dynamics
-from gearcad.jobs.dynamics_beside import DynamicsBeside
-from gearcad.jobs.dynamics_columns import dynamics_columns
-from gearcad.plots.side_by_side import plot_errors_beside
+from gearcad.designs.reader import starter_text
+from gearcad.designs.variations import read_variants
+from gearcad.dynamics.variant_comparison import SideBySide
+from gearcad.jobs.dynamics import Dynamics, DynamicsBeside, dynamics_columns
+from gearcad.plots.trains import plot_errors_beside
 
 _, STARTER = starter_text("train-1-stage")
 ONE_STAGE = STARTER.replace("speed_to = 16000.0 ", "speed_to = 9000.0\nspeeds = 20\nharmonics = 2 #")

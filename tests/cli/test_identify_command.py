@@ -9,11 +9,11 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
+from gearcad.core.quantities import schema_of
 from gearcad.designs import GearDesign, read_spec
-from gearcad.designs.measured import read_measurements
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
+from gearcad.designs.spec_writers import read_measurements
 from gearcad.identify import Measurements
-from gearcad.schema import schema_of
 
 READINGS = "--teeth 24 --tip-diameter 52.02 --root-diameter 43.01 --span 3:15.40 --span 4:21.30"
 

@@ -13,9 +13,9 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
+from gearcad.core.errors import ParameterError
 from gearcad.designs import TrainDesign, read_spec
 from gearcad.dynamics.trains.train import TrainModel
-from gearcad.errors import ParameterError
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 TRAIN = (TEMPLATES / "train-1-stage.toml").read_text(encoding="utf-8") + "speeds = 120\n"

@@ -111,7 +111,7 @@ def test_helical_gears_are_bodies(here: Path) -> None:
 
 
 def test_a_mesh_that_falls_short_is_written_and_told(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.meshing.run.LEAST_SCALED_JACOBIAN", {Element.QUAD8: 0.99})
+    monkeypatch.setattr("gearcad.meshing.result.LEAST_SCALED_JACOBIAN", {Element.QUAD8: 0.99})
     result = run("mesh", spec(GEAR), "--what", "sector", "--format", "vtu", status=1)
     assert "FAILED: gear: least scaled Jacobian: 0." in result.stdout and "some: mesh failed" in result.stdout
     assert (document()["passed"], document()["meshes"]["gear"]["passed"]) == (False, False)

@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
-from gearcad.contact.optimum.start import _Sampling
+from gearcad.contact.modification_search import _Sampling
 from gearcad.designs import read_spec
 
 SPEC = """\
@@ -52,10 +52,10 @@ def run(*arguments: str) -> Result:
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 3)
-    monkeypatch.setattr("gearcad.contact.optimum.search._STARTS", 1)
+    monkeypatch.setattr("gearcad.contact.modification_search._GENERATIONS", 3)
+    monkeypatch.setattr("gearcad.contact.modification_search._STARTS", 1)
     monkeypatch.setattr("gearcad.jobs.modify._ROUNDS", 2)
-    monkeypatch.setattr("gearcad.contact.optimum.start._HELICAL", _Sampling(12, 16, 0))
+    monkeypatch.setattr("gearcad.contact.modification_search._HELICAL", _Sampling(12, 16, 0))
     return tmp_path
 
 
@@ -104,7 +104,7 @@ def told(figures: dict[str, Any], name: str) -> None:
 
 
 def test_it_prints_before_and_after_and_warns(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 1)
+    monkeypatch.setattr("gearcad.contact.modification_search._GENERATIONS", 1)
     result = run("modify", spec(SPEC), "-o", "other.toml", "--torque", "-30", "--pressure", "150", "--shape", "linear")
     assert result.exit_code == 0, result.output
     lines = result.stdout.splitlines()

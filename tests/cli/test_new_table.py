@@ -7,8 +7,8 @@ from click.testing import CliRunner, Result
 
 from gearcad.cli import main
 from gearcad.designs import open_table
-from gearcad.designs.starters import starters
-from gearcad.drawing.frame import SheetTemplate
+from gearcad.designs.reader import starters
+from gearcad.drawing.sheet_template import SheetTemplate
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

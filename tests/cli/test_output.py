@@ -13,11 +13,12 @@ import pytest
 from click.testing import CliRunner
 from support.processes import PATIENCE, hear_interrupts, wait_until
 
-from gearcad import ParameterError, output
+from gearcad import ParameterError
 from gearcad.cli import main
-from gearcad.designs.starters import starter_text
+from gearcad.core import output
+from gearcad.core.output import MARK, json_text, locked, mark_folder, staged_files
+from gearcad.designs.reader import starter_text
 from gearcad.jobs.mesh import Mesh
-from gearcad.output import MARK, json_text, locked, mark_folder, staged_files
 
 
 def everything(folder: Path) -> list[str]:
@@ -89,7 +90,7 @@ def test_json_refuses_what_is_no_json() -> None:
 MOVES_SLOWLY = """
 import sys, time
 from pathlib import Path
-from gearcad.output import staged_files
+from gearcad.core.output import staged_files
 
 replace = Path.replace
 pause = 0.2 if sys.argv[1] == "x" else 0.01

@@ -12,7 +12,7 @@ from click.testing import CliRunner, Result
 from gearcad.cli import main
 from gearcad.designs import PlanetaryDesign
 from gearcad.designs.table import open_table
-from gearcad.planetary.mesh import SetType
+from gearcad.planetary.members import SetType
 from gearcad.planetary.power import efficiency
 
 KINDS = {

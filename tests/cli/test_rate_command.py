@@ -14,10 +14,9 @@ from gearcad import read
 from gearcad.batch import Summary
 from gearcad.batch.run import falls_short
 from gearcad.cli import main
-from gearcad.designs.columns import column_symbol
-from gearcad.jobs.rate import Rate
-from gearcad.jobs.rate_columns import rate_columns
-from gearcad.shipped import templates
+from gearcad.core.runtime import templates
+from gearcad.designs.variations import column_symbol
+from gearcad.jobs.strength import Rate, rate_columns
 
 REDUCER = (templates() / "reducer-21-43.toml").read_text(encoding="utf-8")
 
@@ -25,7 +24,7 @@ REDUCER = (templates() / "reducer-21-43.toml").read_text(encoding="utf-8")
 @pytest.fixture(autouse=True)
 def _no_reports(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures take longer than all else."""
-    monkeypatch.setattr("gearcad.jobs.rate._write_report", lambda _result, _name, path: path.write_text(""))
+    monkeypatch.setattr("gearcad.jobs.strength._write_report", lambda _result, _name, path: path.write_text(""))
 
 
 def run(spec: Path, *options: str) -> Result:

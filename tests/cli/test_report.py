@@ -14,13 +14,13 @@ from support.checks import NASTY_NAME, small_check
 
 from gearcad import __version__
 from gearcad.check.comparison import ComparisonRole
-from gearcad.check.document import check_document, reported_document
-from gearcad.check.plane.explanation import root_at_single_contact
-from gearcad.output import json_text
-from gearcad.per_gear import PerGear
+from gearcad.check.explanation import root_at_single_contact
+from gearcad.check.result import check_document, reported_document
+from gearcad.core.output import json_text
+from gearcad.core.records import PerGear
 from gearcad.plots.paper import short
 from gearcad.report import report_html, write_report
-from gearcad.report.check.plane import PlaneSections
+from gearcad.report.check import PlaneSections
 
 _PICTURES = 14
 

@@ -14,7 +14,7 @@ import pytest
 from support.checks import NASTY_NAME, small_solid_check
 
 from gearcad.check.comparison import ComparisonRole
-from gearcad.per_gear import PerGear, Role
+from gearcad.core.records import PerGear, Role
 from gearcad.plots.paper import short
 from gearcad.report import report_html
 

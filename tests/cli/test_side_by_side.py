@@ -10,17 +10,17 @@ import numpy as np
 import pytest
 
 from gearcad.cli.dynamics import _lines
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Notice
 from gearcad.designs import TrainDesign, read_spec
-from gearcad.dynamics.side_by_side import SideBySide
-from gearcad.dynamics.train import study_train
+from gearcad.dynamics.train_study import study_train
 from gearcad.dynamics.trains.train import TrainModel
-from gearcad.errors import ParameterError
-from gearcad.notice import Notice
+from gearcad.dynamics.variant_comparison import SideBySide
 from gearcad.plots import plot
 from gearcad.plots.paper import short
-from gearcad.plots.side_by_side import plot_factors_beside, plot_overloads_beside
+from gearcad.plots.trains import plot_factors_beside, plot_overloads_beside
 from gearcad.report import write_dynamics_report
-from gearcad.report.dynamics.side_by_side import greatest_table, resonance_table
+from gearcad.report.dynamics import greatest_table, resonance_table
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 LABELS = ("exact", "isolated <1>")

@@ -104,7 +104,7 @@ def test_the_advice_follows_the_condition_that_took_the_last(tmp_path: Path) -> 
 
 
 def test_what_safeties_go_by_and_what_was_not_judged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.sizing.sized.FRONT_SAMPLE", 2)
+    monkeypatch.setattr("gearcad.sizing.proposals.FRONT_SAMPLE", 2)
     found = run("-o", tmp_path, by="scuffing", max_mass="100")
     said = found.stderr
     document = json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))

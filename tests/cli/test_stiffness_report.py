@@ -13,12 +13,12 @@ from support.checks import NASTY_NAME, small_check, small_solid_check
 
 from gearcad import Body, Gear, GearPair, Load, Material
 from gearcad.check.result import CheckResult
-from gearcad.errors import GeometryError
-from gearcad.notice import Notice
+from gearcad.core.errors import GeometryError
+from gearcad.core.records import Notice
 from gearcad.plots.paper import short
 from gearcad.plots.stiffness import plot_load_dependence, plot_parts, plot_parts_of_all, plot_stiffness
+from gearcad.report import check as stiffness
 from gearcad.report import stiffness_html, write_stiffness_report
-from gearcad.report.stiffness import report as stiffness
 from gearcad.stiffness import CLOSED_FORMS, METHODS, StiffnessComparison, compare_methods
 
 _SOFTER = 0.8
@@ -209,6 +209,6 @@ def test_a_check_without_other_methods_says_why(monkeypatch: pytest.MonkeyPatch)
     def fail(*_given: object, **_named: object) -> None:
         raise error
 
-    monkeypatch.setattr("gearcad.check.stiffness.compare_methods", fail)
+    monkeypatch.setattr("gearcad.check.result.compare_methods", fail)
     methods = replace(small_check()).stiffness_methods  # of a copy that was not asked before
     assert stiffness.section_of_check(methods) == methods.to_dict()["reason"] == str(error)

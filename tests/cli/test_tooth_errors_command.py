@@ -16,28 +16,26 @@ from support.trains import one_stage
 
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.cli import main
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Role
 from gearcad.dynamics.engagement import engaged
-from gearcad.dynamics.excitation.deviations import ErrorDistribution
-from gearcad.dynamics.excitation.sources import train_excitation
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.pair import study_pair
-from gearcad.dynamics.tooth_errors.result import BAND, ErrorStudy, ToothLaw
-from gearcad.dynamics.tooth_errors.sampling import Sampling
-from gearcad.dynamics.tooth_errors.sources import engaged_teeth, mesh_teeth, pair_teeth
-from gearcad.dynamics.tooth_errors.study import ErrorPlan, study_errors
-from gearcad.dynamics.train import study_train
+from gearcad.dynamics.pair_study import study_pair
+from gearcad.dynamics.tooth_errors.error_result import BAND, ErrorStudy, ToothLaw
+from gearcad.dynamics.tooth_errors.error_sources import engaged_teeth, mesh_teeth, pair_teeth
+from gearcad.dynamics.tooth_errors.error_study import ErrorPlan, Sampling, study_errors
 from gearcad.dynamics.train_result import TrainStudy
-from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
-from gearcad.dynamics.trains.lines import system
+from gearcad.dynamics.train_study import study_train
 from gearcad.dynamics.trains.members import Inertia, Mesh
-from gearcad.dynamics.trains.train import Train
-from gearcad.errors import ParameterError
+from gearcad.dynamics.trains.mesh_excitation import train_excitation
+from gearcad.dynamics.trains.shaft_lines import system
+from gearcad.dynamics.trains.tooth_deviations import ErrorDistribution
+from gearcad.dynamics.trains.train import EngagedMesh, Train
 from gearcad.jobs.dynamics import Dynamics
-from gearcad.per_gear import Role
-from gearcad.plots.tooth_errors import plot_tooth_errors
+from gearcad.plots.speeds import plot_tooth_errors
 from gearcad.report import write_dynamics_report
-from gearcad.report.dynamics.tooth_errors import error_table
-from gearcad.report.sentences import sentences
+from gearcad.report.document import sentences
+from gearcad.report.dynamics import error_table
 from gearcad.stiffness import METHODS
 
 TEMPLATES = Path(__file__).parents[2] / "templates"

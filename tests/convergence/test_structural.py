@@ -17,13 +17,13 @@ from support.brute import nodal_compliance
 import gearcad.contact.plane.pair as flexible_pairs
 from gearcad import Gear, GearPair, Material
 from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.elasticity import PlaneElasticity
 from gearcad.contact.plane.flank import flank_compliance
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.plane.ring import assemble
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.chain import Cuts
-from gearcad.meshing.section import MeshSizes, mesh_sector
+from gearcad.contact.plane.sector import PlaneElasticity
+from gearcad.contact.shared.bodies import BodyModel, Cuts
+from gearcad.meshing.outline import MeshSizes
+from gearcad.meshing.sector import mesh_sector
 
 TORQUE = 12.7
 THREE_TEETH = BodyModel(teeth=3)

@@ -9,11 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from gearcad import symbols
+from gearcad.core import symbols
+from gearcad.core.quantities import FieldSchema, schema_of
 from gearcad.designs.keys import FIELDS, SHARED
-from gearcad.designs.planetary_keys import PLANETARY
-from gearcad.designs.train_keys import TRAIN
-from gearcad.schema import FieldSchema, schema_of
+from gearcad.designs.train_keys import PLANETARY, TRAIN
 
 DOCS = Path(__file__).parents[2] / "docs"
 sys.path.insert(0, str(DOCS))

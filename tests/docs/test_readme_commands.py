@@ -12,7 +12,7 @@ import pytest
 from click import Context
 
 from gearcad.cli import main
-from gearcad.designs.starters import starter_text, starters
+from gearcad.designs.reader import starter_text, starters
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "docs"))

@@ -7,9 +7,8 @@ from typing import Any
 import pytest
 from support.awaited import awaited
 
-from gearcad.errors import ParameterError
-from gearcad.page.access import Access, require_token
-from gearcad.page.fences import Fences
+from gearcad.core.errors import ParameterError
+from gearcad.page.server import Access, Fences, require_token
 
 HERE = "127.0.0.1:8765"
 TOKEN = "t" * 43

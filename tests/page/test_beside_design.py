@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from gearcad.errors import GearcadError, ParameterError
-from gearcad.page.beside_design import BesideDesign
-from gearcad.page.workbench import Workbench
+from gearcad.core.errors import GearcadError, ParameterError
+from gearcad.page.workbench import BesideDesign, Workbench
 
 GEAR = '[gear]\nname = "{name}"\nteeth = {teeth}\nnormal_module = 2.0\nface_width = 10.0\n'
 

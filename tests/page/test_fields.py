@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
+from gearcad.core.runtime import templates
 from gearcad.page.fields import fields_of, given_texts, used_texts
 from gearcad.page.workbench import Workbench
-from gearcad.shipped import templates
 
 
 def _bench(name: str) -> Workbench:

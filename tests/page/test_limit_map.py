@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gearcad.page.limit_map import LimitMap, limit_map
+from gearcad.core.runtime import templates
+from gearcad.page.fields import LimitMap, limit_map
 from gearcad.page.workbench import Workbench
-from gearcad.shipped import templates
-from gearcad.sizing.shift_map import Free, LimitKind
+from gearcad.sizing.geometry import Free, LimitKind
 
 
 def _bench(name: str) -> Workbench:

@@ -8,13 +8,12 @@ import sys
 import pytest
 from support.awaited import awaited
 
+from gearcad.core.errors import ParameterError
+from gearcad.core.runtime import templates
 from gearcad.designs.design import Design
 from gearcad.designs.reader import read_spec
-from gearcad.errors import ParameterError
-from gearcad.page.aside import found_aside
-from gearcad.page.panels.figures import Figures
-from gearcad.page.panels.strength import strength_figures
-from gearcad.shipped import templates
+from gearcad.page.panels.sheet_content import Figures, strength_figures
+from gearcad.page.run_process import found_aside
 
 
 def place(_design: Design) -> tuple[int, bool]:

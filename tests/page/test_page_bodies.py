@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearcad.designs.kinds.pair import PairDesign
+from gearcad.core.runtime import templates
+from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.reader import read_spec
-from gearcad.page.panels.bodies_content import bodies_of, surface_of
-from gearcad.shipped import templates
+from gearcad.page.panels.drawn_data import bodies_of, surface_of
 
 
 def test_what_did_not_change_is_the_same_surface() -> None:

@@ -11,12 +11,12 @@ from pathlib import Path
 
 import pytest
 
-from gearcad.output import mark_folder
-from gearcad.page.ending import _PREFIX, _bury_the_dead, _hold
+from gearcad.core.output import mark_folder
+from gearcad.page.server import _PREFIX, _bury_the_dead, _hold
 
 PROGRAM = """
 import tempfile, time
-from gearcad.page.ending import ending
+from gearcad.page.server import ending
 with ending():
     tempfile.mkstemp()
     print(tempfile.gettempdir(), flush=True)

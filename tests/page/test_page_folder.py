@@ -8,12 +8,12 @@ import pytest
 from support.awaited import awaited
 from support.designs import starter_specs
 
+from gearcad.core.errors import GearcadError, ParameterError, SpecError
+from gearcad.core.runtime import templates
 from gearcad.designs.design import LONGEST_NAME
-from gearcad.designs.starters import starter_text
-from gearcad.errors import GearcadError, ParameterError, SpecError
-from gearcad.page.folder import LARGEST_SPEC, SPECS, TABLES, Folder, TakenError, text_of
-from gearcad.page.given import add_given, await_files
-from gearcad.shipped import templates
+from gearcad.designs.reader import starter_text
+from gearcad.page.runs import add_given, await_files
+from gearcad.page.workbench import LARGEST_SPEC, SPECS, TABLES, Folder, TakenError, text_of
 
 PAIR = starter_text("fzg-c")[1]
 NO_NAMES = [

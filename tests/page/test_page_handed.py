@@ -7,12 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from gearcad.designs.starters import starter_text
-from gearcad.page import handed
-from gearcad.page.beside_design import BesideDesign
-from gearcad.page.handed import Handed, hand_over, take_over
+from gearcad.designs.reader import starter_text
+from gearcad.page import session
 from gearcad.page.runs import Runs, runs_of
-from gearcad.page.workbench import Workbench
+from gearcad.page.session import Handed, hand_over, take_over
+from gearcad.page.workbench import BesideDesign, Workbench
 
 
 def _left() -> Handed:
@@ -29,7 +28,7 @@ def test_what_is_left_is_taken_once() -> None:
 
 
 def test_runs_that_nobody_takes_over_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(handed, "_SECONDS", 0.01)
+    monkeypatch.setattr(session, "_SECONDS", 0.01)
     left = _left()
     key = hand_over(left)
     end = time.monotonic() + 10

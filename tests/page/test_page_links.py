@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from gearcad.designs.starters import starter_text, starters
-from gearcad.errors import ParameterError
-from gearcad.page.links import LARGEST_TEXT, LONGEST, linked_bench, pack, unpack
+from gearcad.core.errors import ParameterError
+from gearcad.designs.reader import starter_text, starters
+from gearcad.page.workbench import LARGEST_TEXT, LONGEST, linked_bench, pack, unpack
 
 PAIR = starter_text("fzg-c")[1]
 

@@ -11,10 +11,9 @@ from typing import Any
 import pytest
 from support.awaited import awaited
 
-from gearcad.designs.starters import starter_text
-from gearcad.page.beside import changes_between, figures_beside, verb_of
-from gearcad.page.run import State
-from gearcad.page.runs import Runs
+from gearcad.designs.reader import starter_text
+from gearcad.page.panels.runs import changes_between, figures_beside, verb_of
+from gearcad.page.runs import Runs, State
 from gearcad.page.words import Language, Words
 
 pytest.importorskip("nicegui")
@@ -42,7 +41,7 @@ def client() -> Callable[[str], Any]:
     import httpx
     from fastapi import FastAPI
 
-    from gearcad.page.made import add_made
+    from gearcad.page.runs import add_made
 
     app = FastAPI()
     add_made(app)

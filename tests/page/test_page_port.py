@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
 from gearcad.page.server import LOCAL, _held
 
 

@@ -7,14 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from gearcad.batch.results import Decimal, write_results
 from gearcad.batch.row import Record, Status, flat_document
+from gearcad.batch.run import write_results
+from gearcad.core.errors import SpecError
+from gearcad.designs.cells import Decimal
 from gearcad.designs.design import Design
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
 from gearcad.designs.table import Row, open_table
-from gearcad.errors import SpecError
-from gearcad.page.results import MOST_ROWS, ResultsTable, read_results
-from gearcad.page.texts import design_of
+from gearcad.page.panels.table import MOST_ROWS, ResultsTable, read_results
+from gearcad.page.run_process import design_of
 
 FIGURES = {"check": {"passed": True, "contact_pressure": 1000.5}, "rate": {"S_H": {"pinion": 1.25}, "strength": "passed"}}
 

@@ -15,12 +15,10 @@ import pytest
 from click.testing import CliRunner
 
 from gearcad.cli import main
-from gearcad.designs.starters import starter_text
-from gearcad.errors import ParameterError
-from gearcad.page.run import Limits, Run, State
+from gearcad.core.errors import ParameterError
+from gearcad.designs.reader import starter_text
 from gearcad.page.run_process import _LARGEST_FILE
-from gearcad.page.run_watch import _kill
-from gearcad.page.runs import Runs, Turns, close_all_runs
+from gearcad.page.runs import Limits, Run, Runs, State, Turns, _kill, close_all_runs
 
 ENOUGH = 60.0
 PAIR = starter_text("fzg-c")[1]

@@ -8,10 +8,9 @@ import pytest
 from click.testing import CliRunner
 
 from gearcad.cli import main
-from gearcad.designs.starters import starter_text
-from gearcad.page.run import State
-from gearcad.page.run_kinds import RUNS
-from gearcad.page.runs import Runs
+from gearcad.designs.reader import starter_text
+from gearcad.page.run_process import RUNS
+from gearcad.page.runs import Runs, State
 
 LONG = 900.0
 """Seconds that a run may take."""

@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
+from gearcad.core.runtime import templates
 from gearcad.designs.reader import read_spec
-from gearcad.page.panels.section import section_in
-from gearcad.page.panels.section_content import section_of
-from gearcad.page.panels.section_parts import plain
+from gearcad.page.panels.drawn_data import plain, section_of
+from gearcad.page.panels.views import section_in
 from gearcad.page.words import Language, Words
-from gearcad.shipped import templates
 
 CHORD = 2e-4
 """Of the outlines, in normal modules."""

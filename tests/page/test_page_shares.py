@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from gearcad.designs.kinds.planetary import PlanetaryDesign
+from gearcad.core.runtime import templates
+from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.designs.reader import read_spec
-from gearcad.page.panels.shares import shares_of
-from gearcad.shipped import templates
+from gearcad.page.panels.views import shares_of
 
 
 def test_only_trains_with_planets_have_shares() -> None:

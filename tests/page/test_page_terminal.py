@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 
-from gearcad.page.terminal import Lines
+from gearcad.page.server import Lines
 
 
 class _Clock:

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from gearcad.designs.starters import starter_text
-from gearcad.errors import SpecError
-from gearcad.page.texts import design_of
+from gearcad.core.errors import SpecError
+from gearcad.designs.reader import starter_text
+from gearcad.page.run_process import design_of
 from gearcad.page.workbench import Workbench
 
 PAIR = starter_text("fzg-c")[1]

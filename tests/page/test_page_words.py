@@ -7,16 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from gearcad import symbols
+from gearcad.core import symbols
+from gearcad.core.runtime import PACKAGE
 from gearcad.designs.keys import FIELDS, SPEEDS
-from gearcad.designs.planetary_keys import PLANETARY
-from gearcad.designs.train_keys import MAIN, PARTS, TRAIN
+from gearcad.designs.train_keys import MAIN, PLANETARY, TRAIN, TRAIN_PARTS
 from gearcad.page.fields import part_title, table_title, words_of
-from gearcad.page.panels import bodies_content, sheet_notices, sheet_words
-from gearcad.page.panels import strength as rating
+from gearcad.page.panels import drawn_data, sheet_content
+from gearcad.page.panels import sheet_content as rating
 from gearcad.page.words import Language, Words, language_of
-from gearcad.sheet import gears, pairs, strength, train
-from gearcad.shipped import PACKAGE
+from gearcad.sheet import blocks, trains
 
 _SAME = {"name", "Text"}
 
@@ -70,7 +69,7 @@ def _words_of_symbols() -> set[str]:
     tables = [value for name in symbols.__all__ if isinstance(value := getattr(symbols, name), dict)]
     of_trains = (symbols.TRAIN, *symbols.TRAIN_PARTS.values())
     found = [symbol for table in (*tables, *of_trains) for symbol in table.values() if isinstance(symbol, symbols.Symbol)]
-    found += [field.symbol for table in (MAIN, *PARTS) for field in TRAIN[table].values()]
+    found += [field.symbol for table in (MAIN, *TRAIN_PARTS) for field in TRAIN[table].values()]
     return {symbol.words for symbol in found}
 
 
@@ -78,13 +77,13 @@ def _titles_of_sheets() -> set[str]:
     """Blocks of data sheets."""
     single = {"Gear mesh", "Safety", "Least safeties", "Planetary train", "Train", "Material", "Load", "Mounting", "Rating"}
     return single.union(
-        gears._GEAR_BLOCKS,
-        gears._RACK_BLOCKS,
-        pairs._PAIR_BLOCKS,
-        train._TITLES.values(),
-        strength.FACTORS,
-        strength._SHORT.values(),
-        (*sheet_words._KINDS, *sheet_words._VALUES, *sheet_words._QUANTITIES, rating._NO_RATING, bodies_content._NO_BODIES),
+        blocks._GEAR_BLOCKS,
+        blocks._RACK_BLOCKS,
+        blocks._PAIR_BLOCKS,
+        trains._TITLES.values(),
+        trains.FACTORS,
+        trains._SHORT.values(),
+        (*sheet_content._KINDS, *sheet_content._VALUES, *sheet_content._QUANTITIES, rating._NO_RATING, drawn_data._NO_BODIES),
     )
 
 
@@ -126,4 +125,4 @@ def test_what_is_permitted_is_said_where_there_are_words_for_it(end: str, said: 
 
 
 def test_notices_about_fields_have_german_names() -> None:
-    assert Words.of(Language.GERMAN).notices.keys() == sheet_notices._ABOUT.keys()
+    assert Words.of(Language.GERMAN).notices.keys() == sheet_content._ABOUT.keys()

@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from gearcad.designs.reader import read_spec
-from gearcad.page.beside import figures_beside
-from gearcad.page.panels.runs import expected_of
-from gearcad.page.run import Run
+from gearcad.page.panels.runs import expected_of, figures_beside
 from gearcad.page.run_process import Asked
+from gearcad.page.runs import Run
 from gearcad.page.words import Language, Words
 
 TEMPLATES = Path(__file__).parents[2] / "templates"

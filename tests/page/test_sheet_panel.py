@@ -7,14 +7,19 @@ from typing import Any
 
 import pytest
 
+from gearcad.core.records import Notice
 from gearcad.designs.design import Design
 from gearcad.designs.reader import design_from_tables, read_spec
-from gearcad.notice import Notice
-from gearcad.page.panels.figures import shown_figures
-from gearcad.page.panels.sheet import sheet_figures
-from gearcad.page.panels.sheet_content import cells_of, changed_cells, shown_sections
-from gearcad.page.panels.sheet_notices import shown_notices
-from gearcad.page.panels.sheet_words import called, quantity_in
+from gearcad.page.panels.sheet_content import (
+    called,
+    cells_of,
+    changed_cells,
+    quantity_in,
+    shown_figures,
+    shown_notices,
+    shown_sections,
+)
+from gearcad.page.panels.views import sheet_figures
 from gearcad.page.words import Language, Words
 from gearcad.sheet import sheet_of
 from gearcad.sheet.blocks import flattened

@@ -11,10 +11,9 @@ import pytest
 
 from gearcad.designs.design import Design
 from gearcad.designs.reader import read_spec
-from gearcad.jobs.rate import Rate
+from gearcad.jobs.strength import Rate
 from gearcad.load import Load
-from gearcad.page.panels.figures import Figures, shown_figures
-from gearcad.page.panels.strength import strength_figures, warm_up
+from gearcad.page.panels.sheet_content import Figures, shown_figures, strength_figures, warm_up
 from gearcad.page.words import Language, Words
 from gearcad.page.workbench import Workbench
 from gearcad.rating.options import RatingOptions

@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 import tomlkit
 
-from gearcad.designs.reader import read_spec
-from gearcad.designs.starters import starter_text
-from gearcad.errors import SpecError
+from gearcad.core.errors import SpecError
+from gearcad.designs.reader import read_spec, starter_text
 from gearcad.page.workbench import Fault, Workbench
 
 SPEC = """\

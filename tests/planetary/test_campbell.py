@@ -10,12 +10,18 @@ import pytest
 from support.mode_trains import MASSES, TRAINS, lin_parker_train, masses_of, on_springs
 from support.planetary import thesis_train
 
-from gearcad.dynamics.planetary.campbell import LineKind, PlanetaryCampbell, modal_shares, planetary_campbell
-from gearcad.dynamics.planetary.modes import ModeKind, planetary_modes
-from gearcad.dynamics.planetary.springs import train_springs
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.dynamics.planetary.planar_model import train_springs
+from gearcad.dynamics.planetary.planetary_modes import (
+    LineKind,
+    ModeKind,
+    PlanetaryCampbell,
+    modal_shares,
+    planetary_campbell,
+    planetary_modes,
+)
 from gearcad.planetary import PlanetaryTrain
-from gearcad.planetary.harmonics import train_harmonics
+from gearcad.planetary.poses import train_harmonics
 
 STIFFNESS = (400.0, 500.0)
 

@@ -7,9 +7,9 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from gearcad.arrays import Bools, Floats
-from gearcad.dynamics.planetary.equilibrium import Equilibrium
-from gearcad.errors import SolverError
+from gearcad.core.errors import SolverError
+from gearcad.core.records import Bools, Floats
+from gearcad.dynamics.planetary.planetary_statics import Equilibrium
 
 EXACT = 1e-9
 

@@ -10,8 +10,7 @@ import pytest
 from support.sets import alm_train, gear, unchecked_set
 
 from gearcad.planetary import Carrier, Central, Rim, TrainLoad
-from gearcad.planetary.forces import TrainForces, forces
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.power import TrainForces, forces, power_flow
 from gearcad.planetary.train_data import TrainData
 
 

@@ -13,9 +13,8 @@ from support.mode_trains import TRAINS
 from support.planetary import thesis_train
 
 from gearcad.planetary import Central, PlanetaryTrain, Rim
-from gearcad.planetary.speeds import speeds
-from gearcad.plots.planetary.front import plot_front
-from gearcad.plots.planetary.ladder import plot_ladder
+from gearcad.planetary.train_data import speeds
+from gearcad.plots.planetary import plot_front, plot_ladder
 
 THINNING = 0.15
 """Of all teeth (mm): more than pictures leave out of an outline."""

@@ -7,8 +7,8 @@ import math
 import pytest
 from support.planetary import simple_train, thesis_train
 
-from gearcad.planetary.fitting import permitted_steps
-from gearcad.planetary.harmonics import Excited, excited_modes, harmonic_sums, train_harmonics
+from gearcad.planetary.poses import Excited, excited_modes, harmonic_sums, train_harmonics
+from gearcad.planetary.train_data import permitted_steps
 
 RULE = {
     (24, 3): "RRRRRR",

@@ -12,17 +12,15 @@ from click.testing import CliRunner
 
 from gearcad import Material, ParameterError, read
 from gearcad.cli import main
+from gearcad.core.errors import GeometryError, SpecError
+from gearcad.core.runtime import templates
 from gearcad.designs import PlanetaryDesign
 from gearcad.designs.table import open_table
-from gearcad.errors import GeometryError, SpecError
 from gearcad.planetary import PlanetaryTrain, TrainLoad, drive_of
 from gearcad.planetary.power import lossless_flow, power_flow
-from gearcad.planetary.search import SearchTask
-from gearcad.shipped import templates
-from gearcad.sizing.planetary_sets import size_sets
-from gearcad.sizing.set_task import SetSizeTask
-from gearcad.solids.carrier_plan import carrier_plan
-from gearcad.solids.train_layout import TrainLayout
+from gearcad.planetary.tooth_numbers import SearchTask
+from gearcad.sizing.planetary_sets import SetSizeTask, size_sets
+from gearcad.solids.train_plan import TrainLayout, carrier_plan
 
 EXACT = 1e-12
 """Relative: torques that follow from each other by a balance of a few terms."""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support.loaded_trains import alm_set, simple_set
 
-from gearcad.dynamics.planetary.masses import MemberMass, train_masses
+from gearcad.dynamics.planetary.planar_model import MemberMass, train_masses
 from gearcad.geometry import Body, Gear
 from gearcad.material import Material
 from gearcad.planetary import Carrier, PlanetaryTrain

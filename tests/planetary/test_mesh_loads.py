@@ -7,12 +7,10 @@ import pytest
 from support.loaded_trains import alm_set, simple_set
 from support.sets import alm_train
 
-from gearcad.errors import ParameterError
-from gearcad.per_gear import PerGear, Role
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import PerGear, Role
 from gearcad.planetary import PlanetaryTrain, TrainLoad
-from gearcad.planetary.forces import forces
-from gearcad.planetary.mesh_loads import FactorSource, MeshLoad, mesh_load_factor, mesh_loads
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.power import FactorSource, MeshLoad, forces, mesh_load_factor, mesh_loads, power_flow
 
 _RPM = math.pi / 30
 

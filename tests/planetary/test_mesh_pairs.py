@@ -8,8 +8,8 @@ import pytest
 from support.loaded_trains import alm_set, pre_stage, simple_set
 
 from gearcad import Load, Material, check, dynamics, rate, stiffness
+from gearcad.core.errors import ParameterError
 from gearcad.designs import MeshPairs, PairDesign, PlanetaryDesign, design_from_tables
-from gearcad.errors import ParameterError
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.rating.editions import Edition
 from gearcad.rating.options import RatingOptions

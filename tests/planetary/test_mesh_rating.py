@@ -8,16 +8,15 @@ import pytest
 from support.loaded_trains import alm_set, simple_set
 from support.sets import alm_train
 
-from gearcad.dynamics.planetary.masses import train_masses
-from gearcad.dynamics.planetary.mesh_rating import TrainRating, rate_train
+from gearcad.core.records import PerGear
+from gearcad.dynamics.planetary.planar_model import train_masses
+from gearcad.dynamics.planetary.planetary_strength import TrainRating, rate_train
 from gearcad.load import Load
 from gearcad.material import Material, MaterialGroup
-from gearcad.per_gear import PerGear
 from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
-from gearcad.planetary.mesh_loads import mesh_loads, stage_loads
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.power import mesh_loads, power_flow, stage_loads
 from gearcad.rating.dynamic_factor import DynamicFactor
-from gearcad.rating.rate import rate
+from gearcad.rating.nominal_rating import rate
 
 STEEL = Material(group=MaterialGroup.CASE_HARDENED)
 

@@ -8,17 +8,15 @@ import pytest
 from support.cut_flanks import Contacts, contacts
 from support.loaded_trains import alm_set, simple_set
 
-from gearcad.dynamics.planetary.mesh_stiffness import NOMINAL_STRESS, MeshStiffness, mesh_stiffness, train_stiffness
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.records import Role
+from gearcad.dynamics.planetary.planetary_excitation import NOMINAL_STRESS, MeshStiffness, mesh_stiffness, train_stiffness
 from gearcad.geometry import DoubleHelix, Gear
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.per_gear import Role
 from gearcad.planetary import Central, PlanetaryTrain, Rim, SetMesh, TrainLoad
-from gearcad.planetary.mesh_loads import mesh_loads
-from gearcad.planetary.phases import Drive, drive_of, mesh_phases
-from gearcad.planetary.poses import train_pose
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.poses import Drive, drive_of, mesh_phases, train_pose
+from gearcad.planetary.power import mesh_loads, power_flow
 from gearcad.stiffness import StrainEnergy
 
 INTERPOLATED = 5e-5

@@ -10,12 +10,9 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 from support.mode_trains import MASSES, TRAINS, lin_parker_train, on_springs
 
-from gearcad.dynamics.planetary.eigenspaces import mass_diagonal
-from gearcad.dynamics.planetary.masses import MemberMass, TrainMasses
-from gearcad.dynamics.planetary.modes import ModeKind, PlanetaryModes, planetary_modes
-from gearcad.dynamics.planetary.planar import PlanarTrain
-from gearcad.dynamics.planetary.springs import springs_of, train_springs
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
+from gearcad.dynamics.planetary.planar_model import MemberMass, PlanarTrain, TrainMasses, springs_of, train_springs
+from gearcad.dynamics.planetary.planetary_modes import ModeKind, PlanetaryModes, mass_diagonal, planetary_modes
 
 STIFFNESS = (400.0, 500.0)
 ELASTIC = {"support": 60.0, "pin": 200.0, "torsion": 1e5}

@@ -11,8 +11,8 @@ from scipy.optimize import brentq
 from support.planetary import gear, simple_train, thesis_train
 
 from gearcad import Gear, GearPair
-from gearcad.errors import ParameterError
-from gearcad.geometry.helix import twist
+from gearcad.core.errors import ParameterError
+from gearcad.geometry.gear_data import twist
 from gearcad.planetary import Drive, MeshPhases, PlanetaryTrain, TrainLoad, drive_of, mesh_phases, phases_between
 from gearcad.planetary.power import power_flow
 

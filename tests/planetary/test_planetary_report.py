@@ -15,14 +15,14 @@ from support.planetary import simple_train
 
 from gearcad.designs import PlanetaryDesign, read_spec
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.planetary.mesh_stiffness import QUICK
-from gearcad.dynamics.planetary.result import PlanetaryStudy
-from gearcad.dynamics.planetary.study import study_planetary
+from gearcad.dynamics.planetary.planetary_excitation import QUICK
+from gearcad.dynamics.planetary.planetary_result import PlanetaryStudy
+from gearcad.dynamics.planetary.planetary_study import study_planetary
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.plots.paper import short
 from gearcad.report import planetary_html, write_planetary_report
-from gearcad.report.check.figures import figure_address
-from gearcad.report.planetary.build import mesh_table
+from gearcad.report.document import figure_address
+from gearcad.report.planetary_tables import mesh_table
 from gearcad.stiffness.methods import METHODS
 
 OWN = METHODS[QUICK]
@@ -47,7 +47,7 @@ def quick() -> Iterator[None]:
     """Mean mesh stiffnesses in place of computed courses, and pictures that are not written."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(METHODS, QUICK, METHODS["iso6336"])
-        patch.setattr("gearcad.report.planetary.sections.figure_address", _drawn_only)
+        patch.setattr("gearcad.report.planetary.figure_address", _drawn_only)
         yield
 
 
@@ -73,8 +73,8 @@ def alm() -> PlanetaryStudy:
 def page(alm: PlanetaryStudy, tmp_path_factory: pytest.TempPathFactory) -> str:
     path = tmp_path_factory.mktemp("report") / "planetary.html"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("gearcad.report.planetary.sections.figure_address", figure_address)
-        patch.setattr("gearcad.report.check.figures.new_figure", lambda inches: Figure(figsize=inches))  # without layout
+        patch.setattr("gearcad.report.planetary.figure_address", figure_address)
+        patch.setattr("gearcad.report.document.new_figure", lambda inches: Figure(figsize=inches))  # without layout
         write_planetary_report(alm, NASTY_NAME, path)
     return path.read_text(encoding="utf-8")
 

@@ -12,7 +12,7 @@ from support.ring_mesh import CHORD_ERROR
 
 from gearcad import BasicRack, Gear, GearPair
 from gearcad.geometry import DoubleHelix
-from gearcad.geometry.halves import halves
+from gearcad.geometry.gear import halves
 from gearcad.planetary import Central, GearPlace, PairStage, PlanetaryTrain, Rim
 
 POLYGONS = 8 * CHORD_ERROR

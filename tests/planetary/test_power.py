@@ -8,12 +8,10 @@ from typing import Any
 import pytest
 from support.sets import alm_train, gear, stage, unchecked_set
 
-from gearcad.errors import GeometryError, ParameterError, SolverError
+from gearcad.core.errors import GeometryError, ParameterError, SolverError
 from gearcad.planetary import Central, PlanetaryTrain, Rim, TrainLoad
 from gearcad.planetary.power import PowerFlow, efficiency, power_flow
-from gearcad.planetary.shafts import shafts_of
-from gearcad.planetary.speeds import speeds
-from gearcad.planetary.train_data import TrainData
+from gearcad.planetary.train_data import TrainData, shafts_of, speeds
 
 
 def plain(**fields: Any) -> TrainData:

@@ -13,28 +13,23 @@ from scipy.linalg import eigh
 from support.mode_trains import MASSES, TRAINS, masses_of, on_springs
 from support.planetary import simple_train
 
-from gearcad.arrays import Complexes, Floats
-from gearcad.dynamics.charts.over_speed import over_speed
-from gearcad.dynamics.charts.resonances import settled
-from gearcad.dynamics.excitation.deviations import TransmissionError
-from gearcad.dynamics.excitation.mesh_curves import CosineStiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.records import Complexes, Floats
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.planetary.driven import planetary_excitation, planetary_system
-from gearcad.dynamics.planetary.eigenspaces import mass_diagonal
-from gearcad.dynamics.planetary.folding import fold, planets_alike
-from gearcad.dynamics.planetary.mesh_stiffness import train_stiffness
-from gearcad.dynamics.planetary.modes import ModeKind, planetary_modes
-from gearcad.dynamics.planetary.response import PlanetaryResponse, planetary_response
-from gearcad.dynamics.planetary.running import run_train
-from gearcad.dynamics.planetary.springs import SpringKind, TrainSprings, train_springs
-from gearcad.dynamics.response.flexibility import static_state
-from gearcad.dynamics.response.linear import periodic_response
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.dynamics.planetary.planar_model import SpringKind, TrainSprings, train_springs
+from gearcad.dynamics.planetary.planetary_excitation import planetary_excitation, planetary_system, train_stiffness
+from gearcad.dynamics.planetary.planetary_modes import ModeKind, mass_diagonal, planetary_modes
+from gearcad.dynamics.planetary.planetary_response import PlanetaryResponse, fold, planetary_response, planets_alike
+from gearcad.dynamics.planetary.quasi_static_run import run_train
+from gearcad.dynamics.response.linear_response import periodic_response
+from gearcad.dynamics.response.speed_charts import over_speed
+from gearcad.dynamics.response.speed_curves import settled
+from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, Excitation, MeshExcitation
+from gearcad.dynamics.trains.steady_response import static_state
+from gearcad.dynamics.trains.tooth_deviations import TransmissionError
 from gearcad.planetary import PlanetaryTrain, TrainLoad
-from gearcad.planetary.mesh_loads import mesh_loads
-from gearcad.planetary.phases import mesh_phases
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.poses import mesh_phases
+from gearcad.planetary.power import mesh_loads, power_flow
 
 STIFFNESS = (400.0, 500.0)
 ELASTIC = {"support": 60.0, "pin": 200.0}

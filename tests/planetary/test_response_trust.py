@@ -12,19 +12,16 @@ from support.transient import integrate
 
 import gearcad
 from gearcad.cli.planetary import _frequency_lines
-from gearcad.dynamics.operating import OperatingRange, RangeSource
-from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.planetary.masses import train_masses
-from gearcad.dynamics.planetary.mesh_stiffness import MeshStiffness, train_stiffness
-from gearcad.dynamics.planetary.response import PlanetaryResponse, planetary_response
-from gearcad.dynamics.planetary.response_notices import errors_left_out
-from gearcad.dynamics.planetary.sharing import share_load
-from gearcad.dynamics.planetary.study import study_planetary
+from gearcad.dynamics.options import DynamicsOptions, OperatingRange, RangeSource
+from gearcad.dynamics.planetary.load_sharing import share_load
+from gearcad.dynamics.planetary.planar_model import train_masses
+from gearcad.dynamics.planetary.planetary_excitation import MeshStiffness, train_stiffness
+from gearcad.dynamics.planetary.planetary_response import PlanetaryResponse, errors_left_out, planetary_response
+from gearcad.dynamics.planetary.planetary_study import study_planetary
 from gearcad.geometry import Gear
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim, TrainLoad
-from gearcad.planetary.mesh_loads import mesh_loads
-from gearcad.planetary.power import power_flow
-from gearcad.report.planetary.vibration import sections_of_vibration
+from gearcad.planetary.power import mesh_loads, power_flow
+from gearcad.report.planetary import sections_of_vibration
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 LOAD = TrainLoad(torque=300.0, speed=1500.0)

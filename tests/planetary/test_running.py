@@ -12,16 +12,14 @@ from support.loaded_trains import simple_set
 from support.sets import alm_train
 from support.sharing_trains import Square, Trapezoid
 
-from gearcad.dynamics.planetary.mesh_stiffness import train_stiffness
-from gearcad.dynamics.planetary.rolling import CycleCourse
-from gearcad.dynamics.planetary.running import run_train
-from gearcad.dynamics.planetary.torsion import torsional_stiffness, twist_of
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
+from gearcad.dynamics.planetary.planetary_excitation import train_stiffness
+from gearcad.dynamics.planetary.planetary_statics import torsional_stiffness, twist_of
+from gearcad.dynamics.planetary.quasi_static_run import CycleCourse, run_train
 from gearcad.load import Load
 from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
-from gearcad.planetary.mesh_loads import mesh_loads
-from gearcad.planetary.phases import drive_of, mesh_phases
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.poses import drive_of, mesh_phases
+from gearcad.planetary.power import mesh_loads, power_flow
 from gearcad.stiffness.methods import METHODS
 
 DENSE = 1e-5

@@ -14,10 +14,9 @@ from gearcad import Gear, GearPair
 from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
 from gearcad.planetary.power import power_flow
 from gearcad.plots.paper import new_figure
-from gearcad.plots.planetary.callouts import spread
-from gearcad.plots.planetary.scheme import plot_scheme, scheme_inches
-from gearcad.plots.planetary.skeleton import Plan, Stroke, Weight, plan_of
-from gearcad.report.planetary.loads import speed_table
+from gearcad.plots.planetary import spread
+from gearcad.plots.planetary_scheme import Plan, Stroke, Weight, plan_of, plot_scheme, scheme_inches
+from gearcad.report.planetary_tables import speed_table
 
 LONG = "a name that is far longer than any column of a picture has room for, and goes on and on"
 """A name of more lines than are shown."""

@@ -10,16 +10,14 @@ import pytest
 from support.tooth_loops import loops
 
 from gearcad import Gear
-from gearcad.errors import ParameterError
-from gearcad.geometry.internal_mating import internal_tips
+from gearcad.core.errors import ParameterError
+from gearcad.geometry.mating import internal_tips
 from gearcad.geometry.pair_data import PairData
-from gearcad.planetary.fitting import SetTeeth
-from gearcad.planetary.mesh import SetType
+from gearcad.planetary.members import SetType
 from gearcad.planetary.power import efficiency
-from gearcad.planetary.search import SearchTask, search
-from gearcad.planetary.search.conditions import _tip_margin
-from gearcad.planetary.search.grid import grids
-from gearcad.planetary.search.sizes import MeshSizes
+from gearcad.planetary.search import search
+from gearcad.planetary.tooth_numbers import MeshSizes, SearchTask, _tip_margin, grids
+from gearcad.planetary.train_data import SetTeeth
 
 A, B, C, D = SetType
 

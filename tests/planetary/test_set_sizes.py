@@ -6,18 +6,16 @@ from typing import Any
 
 import pytest
 
+from gearcad.core.errors import ParameterError, SolverError
 from gearcad.designs.reader import read_spec
-from gearcad.designs.sized_sets import write_sized_set, write_sized_sets
+from gearcad.designs.spec_writers import write_sized_set, write_sized_sets
 from gearcad.designs.table import open_table
-from gearcad.errors import ParameterError, SolverError
 from gearcad.material import Material
-from gearcad.planetary.materials import material_of
-from gearcad.planetary.search import SearchTask
+from gearcad.planetary.members import material_of
+from gearcad.planetary.tooth_numbers import SearchTask
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import Part
-from gearcad.sizing.planetary_sets import made, size_sets
-from gearcad.sizing.set_task import SetSizeTask
-from gearcad.sizing.sized_set import SizedSets
+from gearcad.sizing.planetary_sets import SetSizeTask, SizedSets, made, size_sets
 
 EH = Material(name="Eh MQ")
 

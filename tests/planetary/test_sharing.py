@@ -12,15 +12,13 @@ from support.mode_trains import TRAINS
 from support.sets import alm_train
 from support.sharing_trains import output_torque, sun_set
 
-from gearcad.dynamics.planetary.published import published_factors
-from gearcad.dynamics.planetary.sharing import share_load
-from gearcad.dynamics.planetary.statics import train_statics
-from gearcad.dynamics.planetary.torsion import TwistSource, torsional_stiffness
-from gearcad.errors import GeometryError, ParameterError, SolverError
+from gearcad.core.errors import GeometryError, ParameterError, SolverError
+from gearcad.dynamics.planetary.load_sharing import share_load
+from gearcad.dynamics.planetary.planetary_statics import TwistSource, torsional_stiffness, train_statics
+from gearcad.dynamics.planetary.planetary_strength import published_factors
 from gearcad.geometry import Gear, GearPair
 from gearcad.planetary import Carrier, PairStage, PlanetaryTrain, TrainLoad
-from gearcad.planetary.forces import forces
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.power import forces, power_flow
 
 DENSE = 1e-5
 """Of the mean force: what open meshes of the one matrix still carry, and rigid pins that are 1e8 N/µm there."""

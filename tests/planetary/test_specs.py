@@ -6,12 +6,10 @@ from pathlib import Path
 import pytest
 from scipy.optimize import brentq
 
+from gearcad.core.errors import ParameterError, SpecError
 from gearcad.designs import DesignKind, PlanetaryDesign, Row, open_table, read_spec
-from gearcad.designs.columns import column_of_train
-from gearcad.designs.planetary_keys import PLANETARY
-from gearcad.designs.spec_values import spec_values
-from gearcad.designs.variations import read_variation
-from gearcad.errors import ParameterError, SpecError
+from gearcad.designs.train_keys import PLANETARY
+from gearcad.designs.variations import column_of_train, read_variation, spec_values
 
 PLAIN = """
 [planetary]

@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 from support.mode_trains import TRAINS, on_springs
 
-from gearcad.arrays import Floats
-from gearcad.dynamics.planetary.planar import held_members
-from gearcad.dynamics.planetary.springs import SpringKind, TrainSprings, train_springs
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Floats
+from gearcad.dynamics.planetary.planar_model import SpringKind, TrainSprings, held_members, train_springs
 from gearcad.geometry import GearPair
 from gearcad.planetary import PairStage, PlanetaryTrain
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from gearcad.designs.reader import read_spec
-from gearcad.jobs.rate import Rate
-from gearcad.page.panels.figures import Figures
-from gearcad.page.panels.strength import strength_figures
+from gearcad.jobs.strength import Rate
+from gearcad.page.panels.sheet_content import Figures, strength_figures
 
 
 def test_every_mesh_has_its_own_sections() -> None:

@@ -8,12 +8,12 @@ from dataclasses import replace
 import pytest
 from support.planetary import gear, simple_train, thesis_train
 
-from gearcad.errors import GeometryError, InputError, ParameterError
+from gearcad.core.errors import GeometryError, InputError, ParameterError
+from gearcad.core.quantities import NOT_GIVEN, is_given
 from gearcad.geometry import GearPair
-from gearcad.geometry.derived import NOT_GIVEN, is_given
 from gearcad.planetary import Central, PairStage, PlanetaryTrain, Rim
-from gearcad.planetary.assembly import fitting_planets, fitting_teeth
-from gearcad.planetary.fitting import SetTeeth, fit_planets
+from gearcad.planetary.train import fitting_planets, fitting_teeth
+from gearcad.planetary.train_data import SetTeeth, fit_planets
 
 
 def refused(**changes: object) -> str:

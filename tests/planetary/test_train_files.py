@@ -21,12 +21,11 @@ from support.gltf import Glb
 from support.train_solids import alm_train, simple_set, small_train
 
 from gearcad.planetary import PlanetaryTrain
-from gearcad.planetary.speeds import speeds
+from gearcad.planetary.train_data import speeds
 from gearcad.solids import FileOptions, Format
-from gearcad.solids.exact.cad import cad_solid
-from gearcad.solids.files.train_products import TrainProduct
-from gearcad.solids.files.train_turning import turning_of
-from gearcad.solids.train_layout import TrainLayout
+from gearcad.solids.exact.solid import cad_solid
+from gearcad.solids.files.train_products import TrainProduct, turning_of
+from gearcad.solids.train_plan import TrainLayout
 
 COARSE = FileOptions(chord_error=0.05)
 
@@ -129,7 +128,7 @@ def test_another_reader_plays_the_animation_alike(tmp_path: Path) -> None:
 @pytest.mark.parametrize("turns", [1.0, -8.9444, 60.0])
 def test_keyframes_are_so_dense_that_nothing_takes_the_short_way(turns: float) -> None:
     """Interpolated on the sphere or along the chord, as some viewers do, a wheel is never 0.01 degrees off."""
-    from gearcad.solids.files.turning import Turning, quaternions
+    from gearcad.solids.files.scenes import Turning, quaternions
 
     shares = Turning(duration=10.0, turns={"wheel": turns}).keyframes()
     keys = quaternions(2 * math.pi * turns * shares)

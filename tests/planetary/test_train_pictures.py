@@ -12,21 +12,24 @@ from support.mode_trains import MASSES, TRAINS, on_springs
 from support.planetary import simple_train
 
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.planetary.campbell import planetary_campbell
-from gearcad.dynamics.planetary.mesh_stiffness import MeshStiffness, train_stiffness
-from gearcad.dynamics.planetary.modes import ModeKind, planetary_modes
-from gearcad.dynamics.planetary.response import planetary_response
-from gearcad.dynamics.planetary.running import run_train
-from gearcad.dynamics.planetary.sharing import share_load
-from gearcad.dynamics.planetary.springs import train_springs
-from gearcad.dynamics.planetary.torsion import torsional_stiffness
+from gearcad.dynamics.planetary.load_sharing import share_load
+from gearcad.dynamics.planetary.planar_model import train_springs
+from gearcad.dynamics.planetary.planetary_excitation import MeshStiffness, train_stiffness
+from gearcad.dynamics.planetary.planetary_modes import ModeKind, planetary_campbell, planetary_modes
+from gearcad.dynamics.planetary.planetary_response import planetary_response
+from gearcad.dynamics.planetary.planetary_statics import torsional_stiffness
+from gearcad.dynamics.planetary.quasi_static_run import run_train
 from gearcad.planetary import PlanetaryTrain, TrainLoad
-from gearcad.plots.planetary.campbell import KIND_COLOURS, plot_train_campbell
-from gearcad.plots.planetary.modes import plot_modes, shown_families
-from gearcad.plots.planetary.phases import plot_phases
-from gearcad.plots.planetary.response import plot_response
-from gearcad.plots.planetary.running import plot_running, shown_pitches
-from gearcad.plots.planetary.sharing import plot_sharing, plot_torsion
+from gearcad.plots.planetary import plot_phases, plot_sharing, plot_torsion
+from gearcad.plots.planetary_vibration import (
+    KIND_COLOURS,
+    plot_modes,
+    plot_response,
+    plot_running,
+    plot_train_campbell,
+    shown_families,
+    shown_pitches,
+)
 
 FLEXIBLE = {"support": 60.0, "pin": 200.0, "torsion": 1e5}
 MEANS = (400.0, 500.0)

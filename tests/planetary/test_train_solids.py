@@ -17,7 +17,7 @@ from support.train_solids import TrainSolids, sets, simple_set, small_train
 from gearcad import Body, GeometryError
 from gearcad.planetary import PlanetaryTrain
 from gearcad.solids import train_assembly, write_step
-from gearcad.solids.train_layout import Standing
+from gearcad.solids.train_plan import Standing
 
 TOUCH = 1e-6
 """mm: flanks are within 1 nm of exact ones, distances of the kernel within a few tenths of a micrometre."""

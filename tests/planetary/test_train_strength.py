@@ -7,17 +7,15 @@ from typing import Any
 import pytest
 from support.loaded_trains import alm_set, pre_stage, simple_set
 
-from gearcad.dynamics.planetary.masses import train_masses
-from gearcad.dynamics.planetary.mesh_rating import TrainRating, rate_train
+from gearcad.core.records import PerGear, Role, Verdict
+from gearcad.dynamics.planetary.planar_model import train_masses
+from gearcad.dynamics.planetary.planetary_strength import TrainRating, rate_train
 from gearcad.material import Material, MaterialGroup
-from gearcad.per_gear import PerGear, Role
 from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
-from gearcad.planetary.mesh_loads import mesh_loads, stage_loads
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.power import mesh_loads, power_flow, stage_loads
 from gearcad.plots import plot
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import Part, rate_strength
-from gearcad.verdict import Verdict
 
 EH = Material(name="Eh MQ")
 LIFE = RatingOptions(life=10_000.0)

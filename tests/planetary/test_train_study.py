@@ -12,12 +12,12 @@ from support.loaded_trains import simple_set
 
 import gearcad
 from gearcad.cli import main
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Notice, joined
 from gearcad.designs import PlanetaryDesign, read_spec
-from gearcad.dynamics.planetary.mesh_stiffness import QUICK
-from gearcad.dynamics.planetary.result import PARTS, PlanetaryStudy
-from gearcad.errors import ParameterError
+from gearcad.dynamics.planetary.planetary_excitation import QUICK
+from gearcad.dynamics.planetary.planetary_result import PARTS, PlanetaryStudy
 from gearcad.jobs.planetary import Planetary, Studied
-from gearcad.notice import Notice, joined
 from gearcad.planetary import TrainLoad
 from gearcad.rating.options import RatingOptions
 from gearcad.stiffness.methods import METHODS

@@ -11,29 +11,28 @@ from typing import Any
 import pytest
 
 from gearcad import Material, read
+from gearcad.core.quantities import FieldSchema
+from gearcad.core.records import is_assumed
+from gearcad.core.runtime import templates
 from gearcad.designs import Design, PairDesign, PlanetaryDesign
 from gearcad.designs.keys import FIELDS
-from gearcad.designs.mesh_pairs import MeshPairs
-from gearcad.designs.pair_text import pair_text
-from gearcad.designs.planetary_keys import PLANETARY
-from gearcad.jobs.drawn import drawn_gears
-from gearcad.jobs.rate import Rate
+from gearcad.designs.spec_writers import MeshPairs, pair_text
+from gearcad.designs.train_keys import PLANETARY
+from gearcad.jobs.draw import drawn_gears
+from gearcad.jobs.strength import Rate
 from gearcad.mounting import Mounting
-from gearcad.page.last import of_last
-from gearcad.page.panels.figures import shown_figures
-from gearcad.page.panels.sheet import sheet_figures
-from gearcad.page.panels.strength import strength_figures
+from gearcad.page.panels.drawn_data import of_last
+from gearcad.page.panels.sheet_content import shown_figures, strength_figures
+from gearcad.page.panels.views import sheet_figures
 from gearcad.page.words import Language, Words
 from gearcad.planetary import TrainLoad
 from gearcad.planetary.power import power_flow
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import StrengthRating
-from gearcad.report.check.tables import load_rows
-from gearcad.report.planetary.loads import power_rows
-from gearcad.report.strength.report import rate_html
-from gearcad.schema import FieldSchema, is_assumed
+from gearcad.report.document import load_rows
+from gearcad.report.planetary_tables import power_rows
+from gearcad.report.strength import rate_html
 from gearcad.sheet import sheet_of
-from gearcad.shipped import templates
 
 SHAPES = ("rack.", "body.end_chamfer_angle")
 """Keys whose defaults are the shape of a gear: it is made so."""

@@ -8,12 +8,10 @@ import numpy as np
 import pytest
 
 from gearcad import Gear
-from gearcad.contact.solid.dissection import Halves, dissected
-from gearcad.contact.solid.half_turn import HalfTurn
-from gearcad.meshing.section import MeshSizes
-from gearcad.meshing.section.outline import Side
-from gearcad.meshing.section.quads import mesh_quads
-from gearcad.meshing.section.swept import SweptMesh, sweep
+from gearcad.contact.solid.dissection import HalfTurn, Halves, dissected
+from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.quads import mesh_quads
+from gearcad.meshing.sector import SweptMesh, sweep
 
 GEAR = Gear(teeth=20, normal_module=2.0, face_width=20, helix_angle=15)
 SIZES = MeshSizes(flank=0.6, corner=0.3, fillet=0.3, outline=0.6, cut=0.5, rim=4.0, growth=0.45)

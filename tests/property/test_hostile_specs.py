@@ -12,12 +12,12 @@ import pytest
 from hypothesis import given, settings
 from support.hostile import CHEAP, hostile_rows, hostile_specs, physical_specs, put, run_politely, toml_text
 
+from gearcad.core.errors import SpecError
+from gearcad.core.output import json_text
+from gearcad.core.quantities import TORQUE
 from gearcad.designs import read_spec
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
 from gearcad.designs.table import open_table
-from gearcad.errors import SpecError
-from gearcad.output import json_text
-from gearcad.ranges import TORQUE
 
 FZG = tomllib.loads(starter_text("fzg-c")[1]) | {"check": CHEAP}
 TRAIN = tomllib.loads(starter_text("train-1-stage")[1])

@@ -10,17 +10,16 @@ import numpy as np
 import pytest
 from support.dense_trains import DenseTrain, dense_train, isolated_rpm, random_drive
 
-from gearcad.arrays import Floats
-from gearcad.dynamics.levels.agreement import SHIFT, Difference
-from gearcad.dynamics.levels.result import LevelStudy
-from gearcad.dynamics.levels.study import study_levels
-from gearcad.dynamics.levels.verdict import LevelStatus, LevelVerdict
+from gearcad.core.errors import GeometryError
+from gearcad.core.records import Floats
+from gearcad.dynamics.level_agreement import SHIFT, Difference
+from gearcad.dynamics.level_study import study_levels
+from gearcad.dynamics.level_verdict import LevelStatus, LevelStudy, LevelVerdict
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.response.flexibility import static_state
-from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.members import Shaft
+from gearcad.dynamics.trains.shaft_lines import system
+from gearcad.dynamics.trains.steady_response import static_state
 from gearcad.dynamics.trains.train import Train, TrainModel
-from gearcad.errors import GeometryError
 
 TOLERANCE = 0.05
 

@@ -14,12 +14,10 @@ import numpy as np
 import pytest
 from support.sets import stage, unchecked_set
 
-from gearcad.errors import SolverError
+from gearcad.core.errors import SolverError
 from gearcad.planetary import TrainLoad
-from gearcad.planetary.forces import forces
-from gearcad.planetary.power import power_flow
-from gearcad.planetary.speeds import speeds
-from gearcad.planetary.train_data import TrainData
+from gearcad.planetary.power import forces, power_flow
+from gearcad.planetary.train_data import TrainData, speeds
 
 TYPES = "ABCD"
 

@@ -14,7 +14,7 @@ from support.sections import COARSE
 from support.strategies import MODIFICATIONS, build_gear, gear_inputs, modified
 
 from gearcad import Gear
-from gearcad.errors import GeometryError, InputError, SolverError
+from gearcad.core.errors import GeometryError, InputError, SolverError
 from gearcad.meshing.bodies import Element, ElementMesh
 from gearcad.meshing.bodies.body_mesh import mesh_body
 from gearcad.meshing.bodies.exactness import deviations

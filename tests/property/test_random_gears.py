@@ -12,8 +12,8 @@ from hypothesis import event, given, settings
 from support.strategies import build_gear, gear_inputs, names_a_field
 
 from gearcad import Gear
-from gearcad.errors import InputError
-from gearcad.geometry.curves import CurveKind
+from gearcad.core.errors import InputError
+from gearcad.geometry.profile import CurveKind
 
 ROUNDING = 1e-12
 """Relative rounding of radii and angles."""

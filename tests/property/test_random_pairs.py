@@ -14,7 +14,7 @@ from support.clearance import turn_to_touch
 from support.strategies import build_pair, pair_inputs
 
 from gearcad import GearPair
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError
 
 TOUCH = 1e-7
 """In normal modules, along the working circle: what the search along curves and the touching turn leave."""

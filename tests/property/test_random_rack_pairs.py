@@ -16,7 +16,7 @@ from support.rack_clearance import travel_to_touch
 from support.strategies import build_rack_pair, rack_pair_inputs
 
 from gearcad import RackPair
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError
 
 TOUCH = 1e-7
 """In normal modules: what the search along curves and the touching travel leave; also what counts as interference."""

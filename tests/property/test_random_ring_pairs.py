@@ -18,8 +18,8 @@ from support.ring_mesh import CHORD_ERROR, RingMesh
 from support.ring_pairs import build_ring_pair, ring_pair_inputs
 
 from gearcad import GearPair
-from gearcad.arrays import Floats
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError
+from gearcad.core.records import Floats
 from gearcad.geometry.pair_data import PairData
 
 STEP = 2e-3

@@ -15,10 +15,10 @@ from support.envelope import Cutter, half_space_angle
 from support.strategies import HELIX, MODULE, PRESSURE_ANGLE, SHIFT
 
 from gearcad import BasicRack, Body, Gear
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError
 from gearcad.geometry import ShaperCutter
-from gearcad.geometry.curves import CurveKind, Involute
-from gearcad.geometry.shaper import ShaperTip
+from gearcad.geometry.fillets import ShaperTip
+from gearcad.geometry.profile import CurveKind, Involute
 
 ROUNDING = 1e-12
 """Relative rounding of radii and angles."""

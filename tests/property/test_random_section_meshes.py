@@ -16,14 +16,13 @@ from support.sections import COARSE
 from support.strategies import MODIFICATIONS, build_gear, gear_inputs, modified
 
 from gearcad import Gear
-from gearcad.errors import GeometryError, InputError, SolverError
-from gearcad.geometry.helix import twist
+from gearcad.core.errors import GeometryError, InputError, SolverError
+from gearcad.geometry.gear_data import twist
 from gearcad.meshing.bodies import Element, ElementMesh
-from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.exactness import deviations
-from gearcad.meshing.bodies.measure import measure_side, measure_whole
-from gearcad.meshing.bodies.quality import quality, require_good
+from gearcad.meshing.bodies.quality import measure_side, measure_whole, quality, require_good
 from gearcad.meshing.bodies.section_mesh import mesh_section
+from gearcad.meshing.bodies.sectors import ContactZone
 
 BULGE = 2e-4
 """How far edges may be from the exact outline between nodes, in normal modules."""

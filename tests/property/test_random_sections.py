@@ -13,11 +13,9 @@ from support.strategies import build_gear, gear_inputs
 
 from gearcad import Gear
 from gearcad.contact.solid.pair import SolidSizes
-from gearcad.errors import GeometryError, InputError
-from gearcad.meshing.section.layout import SectorLayout
-from gearcad.meshing.section.outline import Side
-from gearcad.meshing.section.quads import QuadMesh, mesh_quads
-from gearcad.meshing.section.quality import scaled_jacobians
+from gearcad.core.errors import GeometryError, InputError
+from gearcad.meshing.outline import Side
+from gearcad.meshing.quads import QuadMesh, SectorLayout, mesh_quads, scaled_jacobians
 
 SIZES = SolidSizes().section
 

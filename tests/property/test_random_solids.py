@@ -11,7 +11,7 @@ from support.exact import solid_volume
 from support.strategies import build_gear, gear_inputs, names_a_field
 
 from gearcad import Gear
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError
 from gearcad.solids import gear_solid, tessellate
 
 VOLUME_TOLERANCE = 1e-7  # 0.1 ppm

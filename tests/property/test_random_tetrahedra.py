@@ -8,10 +8,9 @@ from support.modified import removed_volume
 from support.modifying import random_gear
 
 from gearcad.meshing.bodies.exactness import deviations
-from gearcad.meshing.bodies.measure import measure_whole
-from gearcad.meshing.bodies.quality import quality, require_good
+from gearcad.meshing.bodies.gear_faces import TetrahedronGrading
+from gearcad.meshing.bodies.quality import measure_whole, quality, require_good
 from gearcad.meshing.bodies.tetrahedra import mesh_tetrahedra
-from gearcad.meshing.bodies.tetrahedron_sizes import TetrahedronGrading
 
 EXACT = 1e-9
 """mm: what is promised of nodes."""

@@ -16,7 +16,7 @@ from support.planetary import MeshWitness
 from support.random_trains import build_train, train_inputs
 from support.ring_mesh import CHORD_ERROR
 
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError
 from gearcad.planetary import PlanetaryTrain, TrainPose
 from gearcad.planetary.poses import assembled, train_pose
 from gearcad.planetary.train_data import TrainData

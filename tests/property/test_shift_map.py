@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gearcad.core.errors import GeometryError, ParameterError, SpecError
+from gearcad.core.records import Role
 from gearcad.designs.reader import design_from_tables
-from gearcad.errors import GeometryError, ParameterError, SpecError
 from gearcad.geometry import Gear
-from gearcad.per_gear import Role
-from gearcad.sizing.shift_map import Axis, Free, Limit, LimitKind, ShiftMap, gear_map, pair_map
+from gearcad.sizing.geometry import Axis, Free, Limit, LimitKind, ShiftMap, gear_map, pair_map
 
 _ROUNDING = 1e-9
 _SHIFTS = np.array([-0.93, -0.41, -0.07, 0.23, 0.61, 0.98, 1.37])

@@ -13,9 +13,8 @@ from gearcad.rating import RatingOptions
 from gearcad.rating.strength import rate_strength
 from gearcad.sizing import ISO_54_I, SizedPair, SizeTask
 from gearcad.sizing.geometry import ManyPairs, distance_for, shift_sum_at
-from gearcad.sizing.limits import LIMITS
-from gearcad.sizing.rated import Rated
-from gearcad.sizing.rating import rate_many
+from gearcad.sizing.rating import Rated, rate_many
+from gearcad.sizing.search import LIMITS
 
 SAME = 1e-9
 """The same formulas in another order: 1e-13 is usual."""

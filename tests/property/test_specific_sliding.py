@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from gearcad import BasicRack, Gear, GearPair, Load, Material, Rack, RackPair, plots
 from gearcad.cli import main
 from gearcad.rating.strength import rate_strength
-from gearcad.report.strength.report import rate_html
+from gearcad.report.strength import rate_html
 
 EXACT = 1e-9
 """Relative: the same velocities by two ways."""

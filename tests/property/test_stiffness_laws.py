@@ -14,12 +14,11 @@ from support.stiffness import THESIS_LOAD, thesis_pair
 from support.strategies import build_pair, pair_inputs
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.chain import Cuts
-from gearcad.errors import GearcadError
+from gearcad.contact.shared.bodies import BodyModel, Cuts
+from gearcad.core.errors import GearcadError
+from gearcad.core.records import PerGear
 from gearcad.geometry import ShaperCutter
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.per_gear import PerGear
 from gearcad.stiffness import CLOSED_FORMS, METHODS, PlaneStrainContact, PotentialEnergy, StrainEnergy, WeberBanaschek
 
 SMALL = BodyModel(teeth=3, cuts=Cuts.FIXED)

@@ -13,15 +13,13 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from support.trains import one_stage, random_trains, two_stages
 
-from gearcad.dynamics.train import study_train
-from gearcad.dynamics.trains.lines import system
+from gearcad.core.errors import InputError
+from gearcad.core.records import PerGear
+from gearcad.dynamics.train_study import study_train
 from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
-from gearcad.dynamics.trains.modes import count_below, natural_modes
-from gearcad.dynamics.trains.parts import static_forces
-from gearcad.dynamics.trains.shafts import dynamic_inertia, dynamic_stiffness, element_matrices
-from gearcad.dynamics.trains.train import Train
-from gearcad.errors import InputError
-from gearcad.per_gear import PerGear
+from gearcad.dynamics.trains.shaft_lines import dynamic_inertia, dynamic_stiffness, element_matrices, system
+from gearcad.dynamics.trains.train import Train, static_forces
+from gearcad.dynamics.trains.train_modes import count_below, natural_modes
 
 QUICK = settings(max_examples=30, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 

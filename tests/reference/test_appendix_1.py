@@ -14,7 +14,7 @@ import pytest
 from scipy.optimize import brentq
 from support.cases import case
 
-from gearcad.geometry.trochoid import ToolTip
+from gearcad.geometry.fillets import ToolTip
 
 ARC = 1e-6
 """mm: the tolerance of the listed deviations."""

@@ -19,9 +19,9 @@ from support.sections import COARSE
 from gearcad import Gear
 from gearcad.meshing.bodies import Element, ElementMesh
 from gearcad.meshing.bodies.body_mesh import mesh_body
-from gearcad.meshing.bodies.conversions import skfem_mesh
+from gearcad.meshing.bodies.element_mesh import skfem_mesh
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.section import MeshSizes
+from gearcad.meshing.outline import MeshSizes
 
 YOUNG, POISSON = 206e3, 0.3
 SHEAR = YOUNG / 2 / (1 + POISSON)

@@ -10,8 +10,8 @@ from support.cases import case, diameters, half_unit
 from support.published import Published
 
 from gearcad import BasicRack, Gear, GearPair
+from gearcad.core.records import PerGear
 from gearcad.geometry import inverse_involute, involute, profile_shift_sum, zero_backlash_centre_distance
-from gearcad.per_gear import PerGear
 
 VERIFIED = 1e-9
 """mm, degrees or ratios: what the project promises against verified values."""

@@ -14,12 +14,12 @@ from support.boxes import box
 from support.plane_matrix import stiffness_matrix
 
 from gearcad import Gear
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
+from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.material import Material
 from gearcad.meshing import Element, ElementMesh, MeshSizes
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.files.inp import write_inp
-from gearcad.meshing.section import SectorMesh
+from gearcad.meshing.files import write_inp
+from gearcad.meshing.sector import SectorMesh
 
 CCX = shutil.which("ccx")
 

@@ -13,12 +13,11 @@ import gearcad
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
-from gearcad.decks.comparison import Deviations, deviations
-from gearcad.decks.plane import PLANE_SIZES, PlaneDecks
-from gearcad.decks.plane_tooth import plane_tooth_deck
+from gearcad.core.records import Role
+from gearcad.decks.calculix import Deviations, deviations
+from gearcad.decks.plane import PLANE_SIZES, PlaneDecks, plane_tooth_deck
 from gearcad.designs import PairDesign, read_spec
 from gearcad.geometry import FlankModification
-from gearcad.per_gear import Role
 
 pytestmark = needs_ccx
 

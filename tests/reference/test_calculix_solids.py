@@ -14,14 +14,13 @@ import gearcad
 from gearcad import Body, Gear, GearPair, Load, Material
 from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
-from gearcad.decks.comparison import Deviations, deviations
-from gearcad.decks.solid import SolidDecks, solid_task
-from gearcad.decks.solid_tooth import solid_tooth_deck
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Role
+from gearcad.decks.calculix import Deviations, deviations
+from gearcad.decks.solid import SolidDecks, solid_task, solid_tooth_deck
 from gearcad.designs import PairDesign, read_spec
-from gearcad.errors import ParameterError
 from gearcad.geometry import FlankModification
 from gearcad.meshing import MeshSizes
-from gearcad.per_gear import Role
 
 TEMPLATES = Path(gearcad.__file__).parents[1] / "templates"
 

@@ -15,19 +15,17 @@ import pytest
 
 from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Load, Material, check
 from gearcad.check.comparison import Comparison, ComparisonRole, Subject, verdict
-from gearcad.check.document import check_document
 from gearcad.check.notices import _corners
 from gearcad.check.options import CheckOptions
-from gearcad.check.plane.summary import PlaneSummary, summarise_plane
 from gearcad.check.relief_start import relief_starts, start_comparisons, start_notice, start_notices
+from gearcad.check.result import check_document
+from gearcad.check.summary import PlaneSummary, summarise_plane
 from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.pair import plane_pair
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.plane.sector import Plane
+from gearcad.contact.shared.bodies import BodyModel, Cuts
+from gearcad.core.records import PerGear, Role, Verdict
 from gearcad.geometry import ReliefShape
-from gearcad.per_gear import PerGear, Role
-from gearcad.verdict import Verdict
 
 TORQUE = 12.7
 TRIAL = 0.015

@@ -7,10 +7,10 @@ import pytest
 
 import gearcad
 from gearcad import Body, Gear
+from gearcad.core.errors import GeometryError, InputError
 from gearcad.designs import open_table, read_spec
-from gearcad.errors import GeometryError, InputError
-from gearcad.geometry.din6885 import depth_allowance, keyway_of
-from gearcad.geometry.iso286 import limit_deviations
+from gearcad.geometry.fits import limit_deviations
+from gearcad.geometry.gear_parts import depth_allowance, keyway_of
 from gearcad.solids.facets.tessellation import tessellate
 
 # Keyway sizing chart of Martin Sprocket & Gear (2007), metric column: above, to, groove width W, T2.

@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 from support.responses import cosine, two_stages
 
+from gearcad.core.runtime import templates
 from gearcad.designs import read_spec
-from gearcad.dynamics.charts.kv import kv_chart
-from gearcad.dynamics.excitation.meshes import Excitation
-from gearcad.dynamics.response.linear import periodic_response
-from gearcad.dynamics.train import study_train
-from gearcad.shipped import templates
+from gearcad.dynamics.response.kv_chart import kv_chart
+from gearcad.dynamics.response.linear_response import periodic_response
+from gearcad.dynamics.train_study import study_train
+from gearcad.dynamics.trains.mesh_excitation import Excitation
 
 THREE_DIGITS = 0.005
 

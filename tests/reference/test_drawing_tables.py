@@ -2,8 +2,7 @@
 
 import pytest
 
-from gearcad.geometry.iso286 import limit_deviations
-from gearcad.geometry.tooth_allowance import tooth_thickness_allowance
+from gearcad.geometry.fits import limit_deviations, tooth_thickness_allowance
 from gearcad.rating.tolerances import Accuracy, GearTolerances
 
 SIZES = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315)

@@ -15,13 +15,12 @@ from scipy.special import mathieu_a, mathieu_b
 from support.floquet import floquet_multipliers, monodromy
 from support.responses import STIFFNESS, VARIATION, cosine, isolated, oscillator, preloaded, two_stages
 
-from gearcad.dynamics.charts.kv import kv_chart
-from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
-from gearcad.dynamics.response.branch import trace
-from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.response.linear import periodic_response
-from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.response.branch_continuation import trace
+from gearcad.dynamics.response.kv_chart import kv_chart
+from gearcad.dynamics.response.linear_response import periodic_response
+from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, CurveStiffness, Excitation, MeshExcitation
+from gearcad.dynamics.trains.shaft_lines import System
+from gearcad.dynamics.trains.steady_response import Direction
 
 COMPONENT_MODES = [3719.28572070, 14682.88891153, 64.56267647]
 """Of the two shafts, clamped at the far end with their gear at the other: two of the first, one of the second (1/s)."""

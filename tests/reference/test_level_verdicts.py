@@ -9,9 +9,8 @@ import pytest
 from support.trains import SHORT, one_stage
 
 from gearcad.designs import TrainDesign, read_spec
-from gearcad.dynamics.levels.result import LevelStudy
-from gearcad.dynamics.levels.study import study_levels
-from gearcad.dynamics.levels.verdict import LevelStatus
+from gearcad.dynamics.level_study import study_levels
+from gearcad.dynamics.level_verdict import LevelStatus, LevelStudy
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.train import Train, TrainModel
 

@@ -7,7 +7,7 @@ import pytest
 from support.mode_trains import lin_parker_train, masses_of
 from support.published import Published
 
-from gearcad.dynamics.planetary.modes import ModeKind, PlanetaryModes, planetary_modes
+from gearcad.dynamics.planetary.planetary_modes import ModeKind, PlanetaryModes, planetary_modes
 
 PRINTED = 4e-4
 """What is left of frequencies printed with one decimal."""

@@ -9,10 +9,9 @@ import pytest
 from support.sets import alm_train
 from support.sharing_trains import SUN_FORCE, output_torque, sun_set
 
-from gearcad.dynamics.planetary.sharing import LoadSharing, share_load
+from gearcad.dynamics.planetary.load_sharing import LoadSharing, share_load
 from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
-from gearcad.planetary.forces import forces
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.power import forces, power_flow
 
 CLOSED = 1e-9
 """Exactly held supports leave the closed forms nothing but rounding."""

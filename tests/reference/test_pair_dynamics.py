@@ -15,11 +15,9 @@ from scipy.linalg import expm
 from support.pairs import THESIS_SPEEDS, Witness, thesis_model, thesis_pair
 from support.published import Published
 
-from gearcad.dynamics.tooth_springs.campbell import campbell
-from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
-from gearcad.dynamics.tooth_springs.contact_model import EngagedPairs
-from gearcad.dynamics.tooth_springs.history import Start
-from gearcad.dynamics.tooth_springs.motion import time_history
+from gearcad.dynamics.time_domain.campbell import campbell
+from gearcad.dynamics.time_domain.contact_model import EngagedPairs
+from gearcad.dynamics.time_domain.time_history import CampbellStudy, Start, time_history
 
 DIGITS = 1e-7
 """Relative, for recomputed numbers with eight digits."""

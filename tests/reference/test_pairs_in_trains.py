@@ -13,15 +13,15 @@ import pytest
 from support.hand_drive import ByHand, Drive
 
 from gearcad import Gear, GearPair
-from gearcad.arrays import Floats
+from gearcad.core.errors import GeometryError
+from gearcad.core.records import Floats
 from gearcad.dynamics import DynamicsOptions, Inertia, Mesh, Shaft, Train
-from gearcad.dynamics.charts.over_speed import over_speed
 from gearcad.dynamics.engagement import engaged
-from gearcad.dynamics.excitation.sources import train_excitation
-from gearcad.dynamics.response.periodic import PeriodicResponse
-from gearcad.dynamics.trains.lines import system
-from gearcad.dynamics.trains.modes import natural_modes
-from gearcad.errors import GeometryError
+from gearcad.dynamics.response.speed_charts import over_speed
+from gearcad.dynamics.trains.mesh_excitation import train_excitation
+from gearcad.dynamics.trains.shaft_lines import system
+from gearcad.dynamics.trains.steady_response import PeriodicResponse
+from gearcad.dynamics.trains.train_modes import natural_modes
 
 SAME = 1e-4
 """Of amplitudes, and of forces at rest: some ten times what harmonics and steps leave."""

@@ -9,10 +9,8 @@ from support.published import Published
 from support.sets import alm_train, unchecked_set
 
 from gearcad.planetary import TrainLoad
-from gearcad.planetary.forces import forces
-from gearcad.planetary.power import efficiency, power_flow
-from gearcad.planetary.shafts import willis_row
-from gearcad.planetary.speeds import speeds
+from gearcad.planetary.power import efficiency, forces, power_flow
+from gearcad.planetary.train_data import speeds, willis_row
 
 MESH_EFFICIENCY = math.sqrt(0.985 * 0.99)
 

@@ -13,8 +13,8 @@ import pytest
 from support.sets import alm_train
 from support.sharing_trains import Trapezoid
 
-from gearcad.dynamics.planetary.running import Running, run_train
-from gearcad.dynamics.planetary.sharing import share_load
+from gearcad.dynamics.planetary.load_sharing import share_load
+from gearcad.dynamics.planetary.quasi_static_run import Running, run_train
 from gearcad.planetary import Carrier, TrainLoad
 
 COURSES = {

@@ -16,11 +16,11 @@ import gearcad
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.contact.shared.loaded import Cycle
-from gearcad.contact.shared.relief_start import onsets, start_lengths
+from gearcad.contact.shared.local_contact import onsets, start_lengths
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
+from gearcad.core.records import PerGear, Role
 from gearcad.geometry import GearPair
-from gearcad.per_gear import PerGear, Role
 
 TORQUE = 200.0
 
@@ -123,12 +123,12 @@ def test_no_internal_length_decides_the_pressure(monkeypatch: pytest.MonkeyPatch
     before = greatest(SolidCycle(solid(), TORQUE))
     plane_before = greatest(PlaneCycle(plane(), TORQUE))
     for name, value in (
-        ("gearcad.contact.solid.contact_lines.BEND", 0.025),
+        ("gearcad.contact.solid.line_contact.BEND", 0.025),
         ("gearcad.contact.solid.relief_start._STEP", 0.5e-4),
-        ("gearcad.contact.shared.relief_start._OF_TRANSITION", 16),
-        ("gearcad.contact.shared.relief_start._OF_WIDTH", 96),
-        ("gearcad.contact.shared.relief_start._STEPS", 12),
-        ("gearcad.contact.plane.contact_pairs._OF_TRANSITION", 16),
+        ("gearcad.contact.shared.local_contact._OF_TRANSITION", 16),
+        ("gearcad.contact.shared.local_contact._OF_WIDTH", 96),
+        ("gearcad.contact.shared.local_contact._STEPS", 12),
+        ("gearcad.contact.plane.pair._OF_TRANSITION", 16),
         ("gearcad.contact.plane.pair._CELLS", 132),
     ):
         monkeypatch.setattr(name, value)

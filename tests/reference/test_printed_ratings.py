@@ -14,7 +14,7 @@ from support.specs import figures, rate_document
 
 from gearcad.material import MaterialGroup
 from gearcad.rating.factors import flank_points
-from gearcad.rating.strength.spectrum import damage_sum, permissible_cycles, safety_at_failure
+from gearcad.rating.strength.duty import damage_sum, permissible_cycles, safety_at_failure
 
 _PRINTED = json.loads((Path(__file__).parents[1] / "data" / "rating_printed.json").read_text(encoding="utf-8"))
 _CASES = {entry["id"]: entry for entry in _PRINTED["cases"]}

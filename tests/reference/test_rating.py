@@ -12,8 +12,8 @@ from support.ratings import pair_of, rated, rating_case
 
 from gearcad import BasicRack, GearPair
 from gearcad.rating import Edition, Rating
-from gearcad.rating.iso6336_1 import mesh_stiffness_alpha, mesh_stiffness_beta
-from gearcad.rating.iso6336_2 import contact_ratio_factor
+from gearcad.rating.contact_stress import contact_ratio_factor
+from gearcad.rating.tooth_stiffness import mesh_stiffness_alpha, mesh_stiffness_beta
 
 FORMULA = 1e-11
 """Relative: the same formulas evaluated twice; a swapped index changes c'_th by 7e-4."""

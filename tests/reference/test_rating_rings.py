@@ -5,10 +5,8 @@ import pytest
 from gearcad import Body, Gear, GearPair, Load, Material, rate
 from gearcad.geometry import ShaperCutter
 from gearcad.rating import VirtualGear, contact_at
-from gearcad.rating.iso6336_3 import form_factor
-from gearcad.rating.ring_formula import ring_section, substitute_radius
-from gearcad.rating.root_section import root_section
-from gearcad.rating.virtual import load_point
+from gearcad.rating.root_section import load_point, ring_section, root_section, substitute_radius
+from gearcad.rating.root_stress import form_factor
 
 PRINTED = 6e-4
 """Relative: four or more digits."""

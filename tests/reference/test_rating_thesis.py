@@ -11,7 +11,7 @@ from support.ratings import pair_of, rating_case, rating_of
 
 from gearcad import Load, Material
 from gearcad.rating import LineContact, contact_at, rate, reduced_modulus, reduced_radius
-from gearcad.rating.iso6336_1 import (
+from gearcad.rating.tooth_stiffness import (
     basic_rack_factor,
     low_load_factor,
     mesh_stiffness_alpha,

@@ -18,9 +18,9 @@ from support.cases import half_unit
 from support.published import Published
 
 from gearcad import BasicRack, Gear, GearPair
+from gearcad.core.records import Role
 from gearcad.geometry import ShaperCutter
-from gearcad.geometry.internal_interference import InternalTips, ToothTips
-from gearcad.per_gear import Role
+from gearcad.geometry.interference import InternalTips, ToothTips
 
 EXACT = 1e-10
 

@@ -12,10 +12,10 @@ from support.envelope import Cutter, half_space_angle
 
 from gearcad import BasicRack, Gear
 from gearcad.geometry import ShaperCutter
-from gearcad.geometry.curves import CurveKind
-from gearcad.geometry.internal_interference import InternalTips, ToothTips
-from gearcad.geometry.shaper import ShaperTip
-from gearcad.geometry.tooling import full_corner_radius
+from gearcad.geometry.fillets import ShaperTip
+from gearcad.geometry.gear_data import full_corner_radius
+from gearcad.geometry.interference import InternalTips, ToothTips
+from gearcad.geometry.profile import CurveKind
 
 ENVELOPE = 1e-12
 """mm, what the project promises being 1e-9: closed form and brute force agree to rounding, 5e-14 mm."""

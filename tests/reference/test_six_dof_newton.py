@@ -9,12 +9,11 @@ import pytest
 from support.free_bodies import FreeBodies, Period
 from support.responses import cosine
 
-from gearcad.arrays import Floats
-from gearcad.dynamics.charts.chart import KvChart
-from gearcad.dynamics.charts.kv import kv_chart
-from gearcad.dynamics.charts.over_speed import over_speed
-from gearcad.dynamics.response.linear import periodic_response
-from gearcad.dynamics.trains.six_dof import PairOnBearings
+from gearcad.core.records import Floats
+from gearcad.dynamics.response.kv_chart import KvChart, kv_chart
+from gearcad.dynamics.response.linear_response import periodic_response
+from gearcad.dynamics.response.speed_charts import over_speed
+from gearcad.dynamics.trains.pair_on_bearings import PairOnBearings
 
 PAIR = PairOnBearings(
     masses=(0.8, 3.1),

@@ -11,8 +11,8 @@ import pytest
 from support.specs import rate_document, read_tables
 
 from gearcad import Load, Material
+from gearcad.core.records import PerGear
 from gearcad.designs import PairDesign
-from gearcad.per_gear import PerGear
 from gearcad.rating import RatingOptions
 from gearcad.sizing import SizedPair, SizeTask, search_pairs
 

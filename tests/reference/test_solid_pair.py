@@ -11,14 +11,13 @@ from support.hertz import hertz_ellipse
 
 from gearcad import FlankModification, Gear, GearPair, Material, Mounting
 from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.pair import plane_pair
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.plane.sector import Plane
+from gearcad.contact.shared.bodies import BodyModel, Cuts
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
-from gearcad.meshing.section import MeshSizes
-from gearcad.per_gear import Role
+from gearcad.core.records import Role
+from gearcad.meshing.outline import MeshSizes
 
 STEEL = Material()
 SECTORS = BodyModel(teeth=3, cuts=Cuts.FIXED)

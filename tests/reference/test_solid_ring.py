@@ -11,17 +11,15 @@ from support.hertz import hertz_ellipse
 
 from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting
 from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.pair import plane_pair
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.chain import Cuts
-from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.contact.solid.field import solid_field
+from gearcad.contact.plane.sector import Plane
+from gearcad.contact.shared.bodies import BodyModel, Cuts
+from gearcad.contact.solid.cycle import SolidCycle, solid_field
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
+from gearcad.core.records import PerGear, Role
 from gearcad.geometry import ShaperCutter
-from gearcad.geometry.curves import CurveKind
-from gearcad.meshing.section import MeshSizes
-from gearcad.per_gear import PerGear, Role
+from gearcad.geometry.profile import CurveKind
+from gearcad.meshing.outline import MeshSizes
 
 STEEL = Material()
 SECTORS = BodyModel(teeth=3, cuts=Cuts.FIXED)

@@ -12,13 +12,12 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from gearcad import Material
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.shared.bodies import BodyModel, Cuts
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
+from gearcad.core.records import PerGear
 from gearcad.designs import read_spec
-from gearcad.designs.starters import starter_text
-from gearcad.per_gear import PerGear
+from gearcad.designs.reader import starter_text
 from gearcad.rating import rate
 
 pytestmark = pytest.mark.long

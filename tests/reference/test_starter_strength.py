@@ -18,8 +18,8 @@ import pytest
 from gearcad import Material, read
 from gearcad.check.options import CheckOptions
 from gearcad.check.run import check_pair
+from gearcad.core.runtime import templates
 from gearcad.rating import RatingOptions
-from gearcad.shipped import templates
 
 RATIOS = {"fzg-c": (0.906, 0.889), "reducer-21-43": (0.946, 0.929), "ring-22-70": (0.931, 0.697)}
 

@@ -11,8 +11,8 @@ from support.stiffness import THESIS_LOAD, stiffness_case, thesis_pair
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.per_gear import PerGear, Role
-from gearcad.rating.iso6336_1 import mesh_stiffness_alpha, mesh_stiffness_beta
+from gearcad.core.records import PerGear, Role
+from gearcad.rating.tooth_stiffness import mesh_stiffness_alpha, mesh_stiffness_beta
 from gearcad.stiffness import MethodB, PotentialEnergy, WeberBanaschek
 
 COMPONENT, MEAN = 1e-7, 1e-4

@@ -33,18 +33,16 @@ from support.published import Published
 from support.stiffness import THESIS_LOAD, thesis_pair
 
 from gearcad import Load, Material
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 from gearcad.contact.plane.flank import PlaneCompliance
 from gearcad.contact.plane.pair import PlanePair, flank_body
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.plane.sector import Plane, PlaneElasticity
+from gearcad.contact.shared.bodies import BodyModel, Cuts
 from gearcad.contact.shared.line_of_action import line_of_action
+from gearcad.core.records import PerGear
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.per_gear import PerGear
 from gearcad.stiffness import METHODS, PlaneStrainContact, PlaneStressContact, SolidContact, StrainEnergy
-from gearcad.stiffness.contact import PlaneContact
-from gearcad.stiffness.slices import SinglePair
-from gearcad.stiffness.strain_energy import WeightedBody
+from gearcad.stiffness.finite_elements import PlaneContact, WeightedBody
+from gearcad.stiffness.method import SinglePair
 
 ROW = 0.011
 """Relative, mean, greatest and smallest: the conditions above meet the rows within 1.0 %."""

@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from support.sets import alm_train
 
-from gearcad.arrays import Floats
-from gearcad.dynamics.planetary.torsion import TwistSource, torsional_stiffness, twist_of
+from gearcad.core.records import Floats
+from gearcad.dynamics.planetary.planetary_statics import TwistSource, torsional_stiffness, twist_of
 from gearcad.planetary import TrainLoad
-from gearcad.planetary.forces import forces
-from gearcad.planetary.power import power_flow
+from gearcad.planetary.power import forces, power_flow
 
 TORQUE = 1600.0
 

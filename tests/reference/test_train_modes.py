@@ -11,12 +11,10 @@ from scipy.optimize import brentq
 from support.published import Published
 from support.trains import SHORT, one_stage, two_stages
 
-from gearcad.dynamics.trains.lines import lines_of, system
 from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
-from gearcad.dynamics.trains.modes import count_below, natural_modes
-from gearcad.dynamics.trains.parts import static_forces
-from gearcad.dynamics.trains.shafts import twist_shapes
-from gearcad.dynamics.trains.train import Train
+from gearcad.dynamics.trains.shaft_lines import lines_of, system, twist_shapes
+from gearcad.dynamics.trains.train import Train, static_forces
+from gearcad.dynamics.trains.train_modes import count_below, natural_modes
 
 CONTINUOUS = (1641.12352431, 10077.48060731, 12708.28743912, 19523.94715846, 20154.95062324, 28022.64288784)
 """Roots (1/s) of the frequency equation of two clamped shafts and their mesh, bracketed on a fine scan: eight decimals."""

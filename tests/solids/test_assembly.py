@@ -13,10 +13,10 @@ from OCP.BRepAdaptor import BRepAdaptor_Surface
 from support.rings import RingSection
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError
+from gearcad.core.records import PerGear
 from gearcad.geometry import ShaperCutter
-from gearcad.per_gear import PerGear
 from gearcad.solids import pair_assembly, write_step
-from gearcad.solids.exact.assembly import PartNames, part_names
+from gearcad.solids.exact.assemblies import PartNames, part_names
 
 TIP_ALTERATION = -0.007246444637613869  # (80 - a_d)/2.5 - (0.107 - 0.378)
 

@@ -13,9 +13,8 @@ from support.exact import distance_to_section, section_area
 from support.samples import SAMPLES
 
 from gearcad import Body, Gear, ParameterError
-from gearcad.geometry.curves import CurveKind
-from gearcad.solids.files.contour import gear_contour
-from gearcad.solids.files.dxf import write_dxf
+from gearcad.geometry.profile import CurveKind
+from gearcad.solids.files.dxf import gear_contour, write_dxf
 
 ACCURACY = 0.0005  # mm, the default
 EXACT = 1e-9  # mm: joints and lands are exact but for rounding

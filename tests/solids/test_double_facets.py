@@ -11,8 +11,8 @@ import trimesh
 from support.exact import distance_to_section
 
 from gearcad import BasicRack, Body, FlankModification, Gear
-from gearcad.geometry.double_helix import DoubleHelix
-from gearcad.geometry.halves import halves
+from gearcad.geometry.gear import halves
+from gearcad.geometry.gear_parts import DoubleHelix
 from gearcad.solids import gear_solid
 from gearcad.solids.facets.tessellation import tessellate
 

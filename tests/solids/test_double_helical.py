@@ -15,8 +15,8 @@ from scipy.spatial import cKDTree
 from support.exact import chamfered_volume, distance_to_section, toothed_volume
 
 from gearcad import BasicRack, Body, FlankModification, Gear
-from gearcad.geometry.double_helix import DoubleHelix
-from gearcad.geometry.halves import halves
+from gearcad.geometry.gear import halves
+from gearcad.geometry.gear_parts import DoubleHelix
 from gearcad.solids import gear_solid, write_step
 
 _HUB = Body(bore=20, keyway_width=6, keyway_depth=2.8, hub_diameter=32, hub_length=4)

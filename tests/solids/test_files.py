@@ -18,7 +18,7 @@ from support.part21_text import checked_text
 from support.step_witness import product_tree
 
 from gearcad import Body, Gear, GearPair, Rack, __version__
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
 from gearcad.solids import (
     Part,
     gear_solid,

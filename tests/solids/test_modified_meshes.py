@@ -18,7 +18,7 @@ from gearcad import BasicRack, Gear
 from gearcad.geometry.modification import FlankModification
 from gearcad.solids import tessellate, write_stl
 from gearcad.solids.facets.tessellation import Facets
-from gearcad.solids.files.contour import gear_contour
+from gearcad.solids.files.dxf import gear_contour
 from gearcad.solids.files.points import gear_points
 
 CHORD_ERROR = 0.001  # mm

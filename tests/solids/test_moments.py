@@ -13,15 +13,14 @@ import pytest
 
 from gearcad import Body, FlankModification, Gear, Rack
 from gearcad.geometry import DoubleHelix
-from gearcad.solids.carrier_plan import CarrierPlan
-from gearcad.solids.exact.boundary import Boundary, Recorder
-from gearcad.solids.exact.carrier import carrier_boundary
-from gearcad.solids.exact.forms import level_plane
+from gearcad.solids.exact.boundary import Boundary, Recorder, level_plane
+from gearcad.solids.exact.inertia import moments
 from gearcad.solids.exact.kernel import kernel_solid
-from gearcad.solids.exact.moments import moments
 from gearcad.solids.exact.rack_solid import rack_boundary
 from gearcad.solids.exact.solid import gear_boundary
-from gearcad.solids.exact.tubes import tube
+from gearcad.solids.exact.teeth import tube
+from gearcad.solids.files.train_products import carrier_boundary
+from gearcad.solids.train_plan import CarrierPlan
 
 SAME = 1e-10
 """Relative: faces may miss their common edges by 1 nm, and the kernel integrates curved faces to 3e-11."""

@@ -15,22 +15,17 @@ from scipy.spatial import cKDTree
 from support.train_solids import alm_train, simple_set, small_train
 
 from gearcad import Body, Gear, GearPair, Rack, RackPair
-from gearcad.errors import OutputError
-from gearcad.planetary.speeds import speeds
+from gearcad.core.errors import OutputError
+from gearcad.planetary.train_data import speeds
 from gearcad.solids import Facets, FileOptions, tessellate, tessellate_rack
-from gearcad.solids.files.part import Part
-from gearcad.solids.files.pictures import opengl
-from gearcad.solids.files.pictures.cutaway import Cut, Cutaway, CutFacets, cut_away
-from gearcad.solids.files.pictures.edges import Edges
-from gearcad.solids.files.pictures.images import Animation, write_animation
-from gearcad.solids.files.pictures.loops import MOST_FRAMES, come_round, frames_for
-from gearcad.solids.files.pictures.settings import Product
-from gearcad.solids.files.pictures.shot import Shot, loop_of
-from gearcad.solids.files.pictures.views import View
-from gearcad.solids.files.products import GearProduct, PairProduct
-from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
+from gearcad.solids.files import studio
+from gearcad.solids.files.cutaway import Cut, Cutaway, CutFacets, View, cut_away
+from gearcad.solids.files.products import GearProduct, PairProduct, RackPairProduct, RackProduct
+from gearcad.solids.files.scenes import Part
+from gearcad.solids.files.shot import MOST_FRAMES, Product, Shot, come_round, frames_for, loop_of
+from gearcad.solids.files.studio import Animation, Edges, write_animation
 from gearcad.solids.files.train_products import TrainProduct
-from gearcad.solids.train_layout import TrainLayout
+from gearcad.solids.train_plan import TrainLayout
 
 COARSE = FileOptions(chord_error=0.05)
 
@@ -306,9 +301,9 @@ def test_without_opengl_one_line_says_what_is_missing(monkeypatch: pytest.Monkey
         opened.append(name)
         raise OSError(name)
 
-    monkeypatch.setattr(opengl.ctypes, "CDLL", missing)
+    monkeypatch.setattr(studio.ctypes, "CDLL", missing)
     with pytest.raises(OutputError, match=r"no OpenGL here.*libegl1") as caught:
-        opengl.require_opengl(Window())  # type: ignore[arg-type]
+        studio.require_opengl(Window())  # type: ignore[arg-type]
     assert "\n" not in str(caught.value) and opened
-    monkeypatch.setattr(opengl.ctypes, "CDLL", opened.append)
-    opengl.require_opengl(Window())  # type: ignore[arg-type]
+    monkeypatch.setattr(studio.ctypes, "CDLL", opened.append)
+    studio.require_opengl(Window())  # type: ignore[arg-type]

@@ -20,10 +20,10 @@ from support.racks import rack_height, rack_volume, section_area
 from support.strategies import build_rack, rack_inputs
 
 from gearcad import BasicRack, Body, Gear, Rack, RackPair
-from gearcad.errors import InputError, ParameterError
+from gearcad.core.errors import InputError, ParameterError
 from gearcad.solids import rack_assembly, rack_solid, tessellate_rack, write_rack_dxf, write_rack_points, write_step
 from gearcad.solids.exact.inertia import rack_mass
-from gearcad.solids.files.rack_contour import rack_contour
+from gearcad.solids.files.dxf import rack_contour
 
 VOLUME_TOLERANCE = 1e-7  # 0.1 ppm
 ON_SURFACE = 1e-9  # mm: planes, cylinders and ellipses are exact

@@ -17,9 +17,9 @@ from support.samples import SAMPLES
 
 from gearcad import Body, FlankModification, Gear, GearPair, GeometryError, ParameterError
 from gearcad.geometry import ShaperCutter
-from gearcad.geometry.curves import Curve, CurveKind
-from gearcad.geometry.helix import twist
-from gearcad.geometry.shaper import ShaperTip
+from gearcad.geometry.fillets import ShaperTip
+from gearcad.geometry.gear_data import twist
+from gearcad.geometry.profile import Curve, CurveKind
 from gearcad.solids import FileOptions, write_3mf, write_glb, write_stl
 from gearcad.solids.exact.inertia import mass_properties
 from gearcad.solids.facets.tessellation import Facets, tessellate

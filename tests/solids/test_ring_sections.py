@@ -15,8 +15,7 @@ from support.exact import distance_to_section
 from support.ring_samples import RINGS, SHAPED
 
 from gearcad import Gear
-from gearcad.solids.files.contour import gear_contour
-from gearcad.solids.files.dxf import write_dxf
+from gearcad.solids.files.dxf import gear_contour, write_dxf
 from gearcad.solids.files.points import gear_points
 
 ACCURACY = 0.0005  # mm, of both files

@@ -12,7 +12,7 @@ from support.step_witness import product_tree
 
 from gearcad import Gear, GearPair
 from gearcad.solids import gear_solid, pair_assembly, write_step
-from gearcad.solids.colours import PART_COLOURS, STEEL
+from gearcad.solids.body_plan import PART_COLOURS, STEEL
 
 SAME = 1e-9
 """Relative: booleans of planes and round walls are exact."""

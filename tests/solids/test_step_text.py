@@ -15,25 +15,18 @@ from support.strategies import build_gear, gear_inputs
 from support.train_solids import simple_set, small_train
 
 from gearcad import Body, Gear, GearPair, Rack
+from gearcad.core.errors import InputError
 from gearcad.designs import read_spec
-from gearcad.errors import InputError
 from gearcad.geometry import DoubleHelix, RackPair
-from gearcad.jobs.products import products_of
+from gearcad.jobs.build import products_of
 from gearcad.solids import FileOptions, rack_solid, write_step
-from gearcad.solids.carrier_plan import CarrierPlan
-from gearcad.solids.colours import BRIGHT_STEEL
-from gearcad.solids.exact.assembly import pair_product
-from gearcad.solids.exact.cad import cad_assembly, cad_solid
-from gearcad.solids.exact.carrier import carrier_boundary, carrier_solid
-from gearcad.solids.exact.products import AssembledProduct, Product, SolidProduct
-from gearcad.solids.exact.rack_assembly import rack_product
+from gearcad.solids.body_plan import BRIGHT_STEEL
+from gearcad.solids.exact.assemblies import pair_product, rack_product
 from gearcad.solids.exact.rack_solid import rack_boundary
-from gearcad.solids.exact.solid import gear_boundary
-from gearcad.solids.exact.train_assembly import train_product
-from gearcad.solids.files.part21 import real
-from gearcad.solids.files.step import write_product
-from gearcad.solids.files.step_kernel import write_by_kernel
-from gearcad.solids.train_plan import TrainPlan
+from gearcad.solids.exact.solid import AssembledProduct, Product, SolidProduct, cad_assembly, cad_solid, gear_boundary
+from gearcad.solids.files.step import real, write_by_kernel, write_product
+from gearcad.solids.files.train_products import carrier_boundary, carrier_solid, train_product
+from gearcad.solids.train_plan import CarrierPlan, TrainPlan
 
 SAME = 1e-9
 """Relative: booleans of planes and round walls are exact."""

@@ -14,15 +14,13 @@ from support.modified import depth_off, removed_volume, unturned
 from support.modifying import modified
 
 from gearcad import Body, Gear
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
 from gearcad.geometry import HubSide
 from gearcad.meshing.bodies import ElementMesh
-from gearcad.meshing.bodies.brep import Stage
 from gearcad.meshing.bodies.exactness import deviations
-from gearcad.meshing.bodies.measure import measure_side, measure_whole
-from gearcad.meshing.bodies.quality import quality, require_good
+from gearcad.meshing.bodies.gear_faces import Stage, TetrahedronGrading
+from gearcad.meshing.bodies.quality import measure_side, measure_whole, quality, require_good
 from gearcad.meshing.bodies.tetrahedra import mesh_tetrahedra
-from gearcad.meshing.bodies.tetrahedron_sizes import TetrahedronGrading
 
 EXACT = 1e-9
 """mm: what is promised of nodes."""
@@ -155,7 +153,7 @@ def test_linear_fields_are_exact(thin: ElementMesh) -> None:
     from skfem import Basis, ElementTetP2, condense, solve
     from skfem.models.poisson import laplace
 
-    from gearcad.meshing.bodies.conversions import skfem_mesh
+    from gearcad.meshing.bodies.element_mesh import skfem_mesh
 
     mesh = skfem_mesh(thin)
     basis = Basis(mesh, ElementTetP2())

@@ -8,7 +8,7 @@ from itertools import permutations
 import numpy as np
 
 from gearcad.meshing import Element, ElementMesh, Faces
-from gearcad.meshing.bodies.mesh import joined
+from gearcad.meshing.bodies.element_mesh import joined
 
 SIZE = np.array([3.0, 2.0, 1.0])
 """Lengths of the box (mm) along x, y, z; a plane one has no z."""

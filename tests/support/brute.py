@@ -10,10 +10,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from gearcad.arrays import Floats
-from gearcad.contact.plane.elasticity import PlaneElasticity
 from gearcad.contact.plane.flank import PlaneCompliance, flank_of
 from gearcad.contact.plane.ring import Ring
+from gearcad.contact.plane.sector import PlaneElasticity
+from gearcad.core.records import Floats
 from gearcad.geometry import Gear
 
 __all__ = ["NodalCompliance", "nodal_compliance"]

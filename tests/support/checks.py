@@ -6,24 +6,18 @@ from dataclasses import replace
 from functools import lru_cache
 
 from gearcad import Body, Gear, GearPair, Load, Material, Mounting
-from gearcad.check.convergence import Convergence
-from gearcad.check.extremes import PLANE, SOLID
+from gearcad.check.convergence import Convergence, SweepPoint
+from gearcad.check.gates import compare_plane, compare_solid
 from gearcad.check.options import CheckOptions
-from gearcad.check.plane.judge import compare_plane
-from gearcad.check.plane.result import PlaneCheck
-from gearcad.check.plane.summary import summarise_plane
-from gearcad.check.solid.judge import compare_solid
-from gearcad.check.solid.pictures import tooth_stresses
-from gearcad.check.solid.result import SolidCheck
-from gearcad.check.solid.summary import summarise_solid
-from gearcad.check.sweep import SweepPoint
+from gearcad.check.pictures import tooth_stresses
+from gearcad.check.result import PlaneCheck, SolidCheck
+from gearcad.check.summary import PLANE, SOLID, summarise_plane, summarise_solid
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.core.records import Notice, PerGear
 from gearcad.geometry import FlankModification
-from gearcad.notice import Notice
-from gearcad.per_gear import PerGear
 from support.coarse import coarse_model
 
 __all__ = ["NASTY_NAME", "small_check", "small_solid_check"]

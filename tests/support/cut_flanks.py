@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats, Role
 from gearcad.geometry import Gear
-from gearcad.per_gear import Role
 from gearcad.planetary import SetMesh
 
 __all__ = ["Contacts", "contacts"]

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad import Gear, GearPair, Material
-from gearcad.geometry.curves import CurveKind
+from gearcad.geometry.profile import CurveKind
 
 __all__ = ["Found", "dense_contact"]
 

@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.arrays import Bools, Floats
-from gearcad.dynamics.planetary.springs import SpringKind, TrainSprings, train_springs
+from gearcad.core.records import Bools, Floats
+from gearcad.dynamics.planetary.planar_model import SpringKind, TrainSprings, train_springs
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.planetary.power import power_flow
 

@@ -14,7 +14,7 @@ from random import Random
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
 from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.train import Train
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gearcad.designs.starters import NO_DESIGNS, starters
-from gearcad.shipped import templates
+from gearcad.core.runtime import templates
+from gearcad.designs.reader import NO_DESIGNS, starters
 
 __all__ = ["starter_specs"]
 

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from gearcad import Gear
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
 
 __all__ = ["Cutter", "half_space_angle"]
 

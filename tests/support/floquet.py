@@ -6,10 +6,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from gearcad.arrays import Complexes, Floats
-from gearcad.dynamics.excitation import Excitation
-from gearcad.dynamics.trains import System
-from gearcad.errors import SolverError
+from gearcad.core.errors import SolverError
+from gearcad.core.records import Complexes, Floats
+from gearcad.dynamics.trains.mesh_excitation import Excitation
+from gearcad.dynamics.trains.shaft_lines import System
 
 __all__ = ["floquet_multipliers", "monodromy"]
 

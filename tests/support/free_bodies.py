@@ -13,8 +13,8 @@ from functools import cached_property
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from gearcad.arrays import Floats
-from gearcad.dynamics.trains.six_dof import PairOnBearings
+from gearcad.core.records import Floats
+from gearcad.dynamics.trains.pair_on_bearings import PairOnBearings
 
 __all__ = ["FreeBodies", "Period"]
 

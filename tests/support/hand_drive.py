@@ -14,7 +14,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from gearcad import GearPair, Load
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.stiffness.methods import METHODS
 

@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 from gearcad.cli import main
 from gearcad.designs.keys import KEYS
-from gearcad.designs.planetary_keys import PLANETARY
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
+from gearcad.designs.train_keys import PLANETARY
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
 
 __all__ = ["CHEAP", "hostile_rows", "hostile_specs", "physical_specs", "put", "run_politely", "toml_text"]

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn
 
-from gearcad.batch import manifest
+from gearcad.batch import row
 from gearcad.batch.row import Record, Task, make_row
 
 __all__ = [
@@ -141,11 +141,11 @@ def make_row_or_die(task: Task) -> Record:
 
 def make_row_of_another_gearcad(task: Task) -> Record:
     """Make the row with a gearcad whose source differs."""
-    ours, manifest._gearcad_hash = manifest._gearcad_hash, lambda: "other"
+    ours, row._gearcad_hash = row._gearcad_hash, lambda: "other"
     try:
         return make_row(task)
     finally:
-        manifest._gearcad_hash = ours
+        row._gearcad_hash = ours
 
 
 def kill_before_write(number: int, inside: Path) -> None:

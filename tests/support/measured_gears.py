@@ -10,14 +10,14 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad import BasicRack, Gear
-from gearcad.errors import InputError
-from gearcad.geometry.derived import NOT_GIVEN
-from gearcad.geometry.iso54 import ISO_54_I, ISO_54_II
-from gearcad.geometry.shift import zero_backlash_centre_distance
+from gearcad.core.errors import InputError
+from gearcad.core.quantities import NOT_GIVEN
+from gearcad.core.records import PerGear
+from gearcad.geometry.gear_parts import ISO_54_I, ISO_54_II
+from gearcad.geometry.pair_data import zero_backlash_centre_distance
 from gearcad.identify import Candidate, Gauge, Measured, Reading
-from gearcad.identify.candidate import on_involute
-from gearcad.identify.unknowns import Unknown
-from gearcad.per_gear import PerGear
+from gearcad.identify.candidates import on_involute
+from gearcad.identify.standards import Unknown
 
 NOISE, ANGLE_NOISE = 0.02, 1.0
 """Standard deviations: of lengths (mm), as calipers have it, and of the helix angle that paper shows (degrees)."""

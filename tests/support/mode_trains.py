@@ -6,9 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from gearcad.dynamics.planetary.masses import MemberMass, TrainMasses
-from gearcad.dynamics.planetary.planar import MeshLine, PlanarMember, PlanarTrain
-from gearcad.dynamics.planetary.springs import TrainSprings, springs_of
+from gearcad.dynamics.planetary.planar_model import (
+    MemberMass,
+    MeshLine,
+    PlanarMember,
+    PlanarTrain,
+    TrainMasses,
+    TrainSprings,
+    springs_of,
+)
 from gearcad.geometry import Gear
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from gearcad import Gear, GearPair
-from gearcad.dynamics.tooth_springs.contact_model import ContactModel, EngagedPairs, disc_inertia
+from gearcad.dynamics.time_domain.contact_model import ContactModel, EngagedPairs, disc_inertia
 
 __all__ = ["THESIS_SPEEDS", "Witness", "thesis_model", "thesis_pair"]
 

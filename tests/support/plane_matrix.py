@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 import scipy.sparse
 
-from gearcad.arrays import Floats, Wholes
-from gearcad.contact.plane.dissection import node_dofs
-from gearcad.contact.plane.elasticity import PlaneElasticity, element_stiffness
-from gearcad.meshing.section import SectorMesh
+from gearcad.contact.plane.sector import PlaneElasticity, element_stiffness, node_dofs
+from gearcad.core.records import Floats, Wholes
+from gearcad.meshing.sector import SectorMesh
 
 __all__ = ["stiffness_matrix", "summed"]
 

@@ -9,9 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from gearcad import Gear, GearPair
-from gearcad.arrays import Floats
-from gearcad.geometry.helix import twist
-from gearcad.per_gear import PerGear
+from gearcad.core.records import Floats, PerGear
+from gearcad.geometry.gear_data import twist
 from gearcad.planetary import Central, GearPlace, PairStage, PlanetaryTrain, Rim, SetMesh, TrainPose
 from gearcad.planetary.train_data import TrainData
 from support.ring_mesh import CHORD_ERROR, HalfTooth, RingMesh

@@ -9,10 +9,10 @@ from typing import Any
 from hypothesis import strategies as st
 
 from gearcad import BasicRack, Gear
-from gearcad.geometry.shift import profile_shift_sum, zero_backlash_centre_distance
-from gearcad.per_gear import PerGear
+from gearcad.core.records import PerGear
+from gearcad.geometry.pair_data import profile_shift_sum, zero_backlash_centre_distance
 from gearcad.planetary import Central, PlanetaryTrain, Rim
-from gearcad.planetary.clearances import most_planets
+from gearcad.planetary.train import most_planets
 from gearcad.planetary.train_data import TrainData
 
 __all__ = ["build_train", "train_inputs"]

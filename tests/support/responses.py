@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearcad.dynamics.excitation.mesh_curves import CosineStiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
-from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, Excitation, MeshExcitation
+from gearcad.dynamics.trains.shaft_lines import System
 
 MOMENT, RADIUS = 2256.0, 0.0507
 STATIC_FORCE = MOMENT / RADIUS

@@ -8,12 +8,11 @@ from typing import Any
 from hypothesis import strategies as st
 
 from gearcad import BasicRack, Body, Gear
+from gearcad.core.records import PerGear
 from gearcad.geometry import ShaperCutter, zero_backlash_centre_distance
 from gearcad.geometry.gear_data import GearData
-from gearcad.geometry.internal_mating import tip_on_form_circle
-from gearcad.geometry.pair_data import PairData
-from gearcad.geometry.shift import shift_sum_limit
-from gearcad.per_gear import PerGear
+from gearcad.geometry.mating import tip_on_form_circle
+from gearcad.geometry.pair_data import PairData, shift_sum_limit
 
 __all__ = ["build_ring_pair", "ring_pair_inputs"]
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from gearcad import BasicRack, Body, FlankModification, Gear, GearcadError
 from gearcad.geometry import ShaperCutter
-from gearcad.geometry.walls import LEAST_RIM, least_rim_diameter
+from gearcad.geometry.gear_data import LEAST_RIM, least_rim_diameter
 
 __all__ = ["RINGS", "SHAPED", "random_ring"]
 

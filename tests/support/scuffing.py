@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from gearcad import Gear, GearPair, Load, Material
+from gearcad.core.records import PerGear, Role
 from gearcad.material import MaterialGroup
-from gearcad.per_gear import PerGear, Role
 from gearcad.rating import RatingOptions
 from gearcad.rating.scuffing import Scuffing, scuffing
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearcad.meshing.section import MeshSizes
+from gearcad.meshing.outline import MeshSizes
 
 __all__ = ["COARSE"]
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
 from gearcad.geometry import BasicRack, Gear
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
 

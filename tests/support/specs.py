@@ -9,7 +9,7 @@ from typing import Any
 
 from gearcad.designs import Design
 from gearcad.designs.reader import read_spec
-from gearcad.jobs.rate import Rate
+from gearcad.jobs.strength import Rate
 
 __all__ = ["figures", "rate_document", "read_tables", "spec_text"]
 

@@ -9,7 +9,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Rack, RackPair
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError
 from gearcad.geometry import HubSide
 from support.modified import roll_ends
 

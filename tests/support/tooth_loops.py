@@ -8,14 +8,14 @@ from dataclasses import replace
 from itertools import product
 from typing import NamedTuple
 
-from gearcad.errors import GeometryError
+from gearcad.core.errors import GeometryError
+from gearcad.core.records import PerGear
 from gearcad.geometry import Gear, GearPair
-from gearcad.geometry.shift import profile_shift_sum, zero_backlash_centre_distance
-from gearcad.per_gear import PerGear
-from gearcad.planetary.fitting import SetTeeth, fit_planets
-from gearcad.planetary.mesh import SetType
+from gearcad.geometry.pair_data import profile_shift_sum, zero_backlash_centre_distance
+from gearcad.planetary.members import SetType
 from gearcad.planetary.power import efficiency
-from gearcad.planetary.search import SearchTask
+from gearcad.planetary.tooth_numbers import SearchTask
+from gearcad.planetary.train_data import SetTeeth, fit_planets
 from support.sets import unchecked_set
 
 __all__ = ["loops"]

@@ -11,7 +11,7 @@ from OCP.BRepExtrema import BRepExtrema_DistShapeShape
 from gearcad import Body, Gear, GearPair
 from gearcad.planetary import Central, PairStage, PlanetaryTrain, Rim, SetMesh
 from gearcad.solids.exact.solid import gear_solid
-from gearcad.solids.train_layout import Standing, TrainLayout
+from gearcad.solids.train_plan import Standing, TrainLayout
 
 __all__ = ["TrainSolids", "alm_train", "sets", "simple_set", "small_train", "stepped_set"]
 

@@ -12,12 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.arrays import Floats, Indices
-from gearcad.dynamics.excitation.meshes import Excitation
-from gearcad.dynamics.response.driven import Driven, pressed
-from gearcad.dynamics.response.flexibility import static_state
-from gearcad.dynamics.trains.system import System
-from gearcad.errors import ParameterError, SolverError, require_number
+from gearcad.core.errors import ParameterError, SolverError, require_number
+from gearcad.core.records import Floats, Indices
+from gearcad.dynamics.trains.mesh_excitation import Excitation
+from gearcad.dynamics.trains.shaft_lines import System
+from gearcad.dynamics.trains.steady_response import Driven, pressed, static_state
 
 __all__ = ["Transient", "integrate"]
 

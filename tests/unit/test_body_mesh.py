@@ -15,10 +15,9 @@ from support.sections import COARSE
 
 from gearcad import Body, Gear, ParameterError
 from gearcad.meshing.bodies import Element, ElementMesh
-from gearcad.meshing.bodies.body_mesh import mesh_body, swept_notices
-from gearcad.meshing.bodies.layers import body_planes
+from gearcad.meshing.bodies.body_mesh import body_planes, mesh_body, swept_notices
 from gearcad.meshing.bodies.quality import quality
-from gearcad.meshing.section import MeshSizes
+from gearcad.meshing.outline import MeshSizes
 
 EXACT = 1e-9
 """mm: the promise; rounding is below 1e-13."""

@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import brentq
 
 from gearcad import SolverError
-from gearcad.geometry.bracketed import root_between
+from gearcad.geometry.involute import root_between
 
 
 def functions(chance: random.Random) -> Callable[[float], float]:

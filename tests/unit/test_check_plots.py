@@ -6,19 +6,24 @@ import numpy as np
 import pytest
 from support.checks import small_check
 
-from gearcad.contact.plane.field import contact_frame, tooth_field
-from gearcad.meshing.section.outline import Side
-from gearcad.per_gear import PerGear, Role
+from gearcad.contact.plane.cycle import contact_frame, tooth_field
+from gearcad.core.records import PerGear, Role
+from gearcad.meshing.outline import Side
 from gearcad.plots.check import (
     plot_contact_pressure,
+    plot_contact_zone,
+    plot_convergence,
+    plot_depth_profile,
+    plot_fillets,
     plot_load_share,
     plot_mesh_stiffness,
     plot_root_stress,
+    plot_stress_field,
+    plot_sweep_pressure,
+    plot_sweep_stiffness,
     plot_transmission_error,
 )
 from gearcad.plots.paper import new_figure, short
-from gearcad.plots.stresses import plot_contact_zone, plot_depth_profile, plot_fillets, plot_stress_field
-from gearcad.plots.trends import plot_convergence, plot_sweep_pressure, plot_sweep_stiffness
 
 _ALL = (
     plot_contact_pressure,

@@ -9,12 +9,10 @@ from support.checks import small_check, small_solid_check
 from support.coarse import coarse_model
 
 from gearcad import Load, Material, Mounting
-from gearcad.check.face import face_factors
-from gearcad.check.judge import standards
+from gearcad.check.gates import compare_solid, standards
 from gearcad.check.options import CheckOptions
-from gearcad.check.solid.judge import compare_solid
-from gearcad.check.solid.summary import summarise_solid
-from gearcad.check.task import CheckTask
+from gearcad.check.summary import summarise_solid
+from gearcad.check.task import CheckTask, face_factors
 from gearcad.contact.solid.cycle import SolidCycle
 
 _UNEVEN = 0.05

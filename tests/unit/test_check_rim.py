@@ -12,10 +12,9 @@ from gearcad.check.comparison import Subject
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.holding import Hold
-from gearcad.errors import ParameterError
-from gearcad.per_gear import PerGear
+from gearcad.contact.shared.bodies import BodyModel, Hold
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import PerGear
 
 LIMIT = 300.0
 """MPa: above the greatest root tension of the thin rim at half the load, below its compression."""

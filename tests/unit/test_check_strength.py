@@ -14,24 +14,20 @@ from support.checks import small_check, small_solid_check
 
 from gearcad import Gear, Load, Material, Mounting, read
 from gearcad.batch.run import falls_short
-from gearcad.check.comparison import ComparisonRole, Subject, verdict
-from gearcad.check.document import check_document
-from gearcad.check.result import CheckResult
-from gearcad.check.strength import strength_comparisons
+from gearcad.check.comparison import ComparisonRole, Subject, strength_comparisons, verdict
+from gearcad.check.result import CheckResult, check_document
+from gearcad.core.output import json_text
+from gearcad.core.quantities import schema_of
+from gearcad.core.records import Verdict
 from gearcad.designs import PairDesign
+from gearcad.drawing.drawing_subjects import DrawnGear, material_text
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.subject import DrawnGear
-from gearcad.drawing.treatment import material_text
 from gearcad.drawing.words import Language, Words
-from gearcad.jobs.rate import Rate
-from gearcad.jobs.rate_columns import rate_columns
-from gearcad.output import json_text
-from gearcad.page.panels.strength import strength_figures
+from gearcad.jobs.strength import Rate, rate_columns
+from gearcad.page.panels.sheet_content import strength_figures
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import Part
 from gearcad.report import report_html
-from gearcad.schema import schema_of
-from gearcad.verdict import Verdict
 
 EXACT = 1e-12
 

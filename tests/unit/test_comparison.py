@@ -11,12 +11,10 @@ from support.checks import small_check
 
 from gearcad import Load, Material
 from gearcad.check.comparison import Comparison, Subject, agrees, at_most, beside, verdict
-from gearcad.check.judge import compare_common
-from gearcad.cli.verdict import print_verdict
-from gearcad.notice import Notice
-from gearcad.output import json_text
-from gearcad.per_gear import PerGear
-from gearcad.verdict import NOT_ASKED_WORDS, Verdict
+from gearcad.check.gates import compare_common
+from gearcad.cli.strength import print_verdict
+from gearcad.core.output import json_text
+from gearcad.core.records import NOT_ASKED_WORDS, Notice, PerGear, Verdict
 
 
 def gate(computed: float | None, subject: Subject = Subject.NUMERICS, reason: str = "") -> Comparison:

@@ -11,8 +11,8 @@ from support.cases import volvo_pair
 from support.clearance import turn_to_touch
 
 from gearcad import ISO53_A, BasicRack, Body, Gear, GearPair, GeometryError, ShiftSplit
+from gearcad.core.records import PerGear
 from gearcad.geometry import profile_shift_sum, split_profile_shift
-from gearcad.per_gear import PerGear
 
 
 def _pair(z: tuple[int, int], *, x: tuple[float, float] = (0.0, 0.0), helix: float = 0.0, **common: float) -> GearPair:

@@ -10,12 +10,11 @@ import pytest
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
-from gearcad.decks.plane import PlaneDecks
-from gearcad.decks.plane_tooth import plane_tooth_deck
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError
+from gearcad.core.records import Role
+from gearcad.decks.plane import PlaneDecks, plane_tooth_deck
 from gearcad.geometry import FlankModification
 from gearcad.mounting import Mounting
-from gearcad.per_gear import Role
 
 
 def _pair(**changes: object) -> GearPair:

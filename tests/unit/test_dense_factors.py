@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from gearcad.arrays import Floats
-from gearcad.contact.solid.dense import factorise, solve_above, solve_aside, solved_rows, subtract_product, subtract_square
+from gearcad.contact.solid.fronts import factorise, solve_above, solve_aside, solved_rows, subtract_product, subtract_square
+from gearcad.core.records import Floats
 
 ROUNDING = 1e-13
 """Of matrices with condition numbers of about 10."""

@@ -12,8 +12,8 @@ import pytest
 from gearcad import Gear, GeometryError, ParameterError, SpecError
 from gearcad.batch.study import plan_study
 from gearcad.designs import design_from_tables, read_spec
-from gearcad.designs.design import DesignKind
-from gearcad.designs.trials import fault_alone, missing_faults
+from gearcad.designs.keys import DesignKind
+from gearcad.designs.table import fault_alone, missing_faults
 
 INCH = 25.4
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from gearcad import Gear, GearPair
-from gearcad.errors import InputError
-from gearcad.geometry.double_helix import DoubleHelix
-from gearcad.geometry.halves import halves
+from gearcad.core.errors import InputError
+from gearcad.geometry.gear import halves
+from gearcad.geometry.gear_parts import DoubleHelix
 
 
 def _gear(teeth: int = 24, helix: float = 25.0, width: float = 50.0, **double: Any) -> Gear:

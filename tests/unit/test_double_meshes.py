@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from gearcad import Body, FlankModification, Gear, GearPair
-from gearcad.errors import GeometryError
-from gearcad.geometry.double_helix import DoubleHelix
-from gearcad.geometry.halves import halves
-from gearcad.geometry.helix import section_turn, twist
-from gearcad.meshing.bodies.elements import Element
+from gearcad.core.errors import GeometryError
+from gearcad.geometry.gear import halves
+from gearcad.geometry.gear_data import section_turn, twist
+from gearcad.geometry.gear_parts import DoubleHelix
+from gearcad.meshing.bodies.element_mesh import Element
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.plan import plan_mesh
-from gearcad.meshing.run import run_mesh
+from gearcad.meshing.result import run_mesh
 
 _RELIEVED = FlankModification(tip_relief=20, tip_relief_length=1, lead_crowning=20, twist=5, end_relief=5, end_relief_length=2)
 
@@ -68,7 +68,7 @@ def test_tetrahedra(double: DoubleHelix) -> None:
 
 def test_a_pair_touches_in_the_middle_of_the_lower_halves() -> None:
     """The section there stands as that of the lower halves in mesh, which is a single helical pair."""
-    from gearcad.meshing.bodies.posed import poses
+    from gearcad.meshing.bodies.body_mesh import poses
 
     pinion, wheel = _gear(19), _gear(31, -25.0, face_width=20.0)
     pair = GearPair(pinion=pinion, wheel=wheel)

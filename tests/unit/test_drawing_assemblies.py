@@ -15,25 +15,24 @@ from support.sets import alm_train
 from support.written_sheet import read_sheet
 
 from gearcad import Body, Gear, GearPair, Rack, RackPair
+from gearcad.core.dxf import write_document as write_dxf
+from gearcad.core.errors import ParameterError
+from gearcad.core.runtime import templates
 from gearcad.designs import read_spec
-from gearcad.drawing.assembled.hiding import Where, pieces
-from gearcad.drawing.files import sheet_document, write_dxf
-from gearcad.drawing.gear_data import gear_notices
+from gearcad.drawing.assembly_sheets import draw_pair, draw_train, train_rows
+from gearcad.drawing.drawing_subjects import DrawnGear, DrawnPair, DrawnTrain
+from gearcad.drawing.dxf_export import sheet_document
+from gearcad.drawing.gear_data_rows import gear_notices
+from gearcad.drawing.gear_sheet import Sheet
 from gearcad.drawing.layout import View
 from gearcad.drawing.options import DrawingOptions, PartDrawing, Projection, SheetSize
-from gearcad.drawing.pair_views import pair_face, pair_section
 from gearcad.drawing.shapes import Circle, Hatching, Pen, Polyline, Text
-from gearcad.drawing.sheets.drawing import Sheet
-from gearcad.drawing.sheets.pair import draw_pair
-from gearcad.drawing.sheets.train import draw_train
-from gearcad.drawing.sheets.train_rows import train_rows
-from gearcad.drawing.subject import DrawnGear, DrawnPair, DrawnTrain
-from gearcad.drawing.train_views import TrainPlan, train_face, train_section
+from gearcad.drawing.views.assembly_figures import Where, pieces
+from gearcad.drawing.views.pair_views import pair_face, pair_section
+from gearcad.drawing.views.train_views import TrainPlan, train_face, train_section
 from gearcad.drawing.words import Draughting, Language, Words
-from gearcad.errors import ParameterError
-from gearcad.jobs.drawn import drawn_gears
+from gearcad.jobs.draw import drawn_gears
 from gearcad.planetary import Central, PlanetaryTrain, Rim
-from gearcad.shipped import templates
 
 EXACT = 1e-9
 """mm: what follows by a formula of two terms."""

@@ -9,28 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from gearcad.drawing.frame import (
-    Furnished,
-    Furniture,
-    PartLine,
-    SheetTemplate,
-    border,
-    data_table,
-    fit,
-    inside_frame,
-    parts_list,
-    revisions,
-    title_block,
-    title_values,
-)
-from gearcad.drawing.frame.fitting import CLOSEST
-from gearcad.drawing.frame.notes import notes
-from gearcad.drawing.frame.sizes import VALUES
+from gearcad.core.errors import SpecError
 from gearcad.drawing.options import DrawingOptions, Projection, Revision, SheetSize
-from gearcad.drawing.shapes import Box, Figure, Occupied, Pen, Text, text_width
-from gearcad.drawing.shapes.font import has_glyph
+from gearcad.drawing.placement import Occupied
+from gearcad.drawing.shapes import Box, Figure, Pen, Text, has_glyph, text_width
+from gearcad.drawing.sheet_frame import Furnished, Furniture, border, inside_frame, notes, title_block, title_values
+from gearcad.drawing.sheet_tables import CLOSEST, PartLine, data_table, fit, parts_list, revisions
+from gearcad.drawing.sheet_template import VALUES, SheetTemplate
 from gearcad.drawing.words import Language, Words
-from gearcad.errors import SpecError
 
 SHIPPED = SheetTemplate.of(None)
 SHEETS = [each for each in SheetSize if each is not SheetSize.AUTO]

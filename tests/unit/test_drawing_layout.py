@@ -8,13 +8,13 @@ from itertools import combinations, product
 import numpy as np
 import pytest
 
+from gearcad.core.errors import ParameterError
+from gearcad.drawing.dimensions import Characteristic, Side, frame_leader, leader, linear_dimension, tolerance_frame
 from gearcad.drawing.layout import Fixed, View, Views, arranged, dressed
-from gearcad.drawing.layout.places import Room
-from gearcad.drawing.marks import Characteristic, Side, frame_leader, leader, linear_dimension, tolerance_frame
 from gearcad.drawing.options import SCALES, Projection, SheetSize
-from gearcad.drawing.shapes import Anchor, Box, Dimension, Figure, Hatching, Line, Occupied, Pen, Point, Polyline, Shape, Text
+from gearcad.drawing.placement import Occupied, Room
+from gearcad.drawing.shapes import Anchor, Box, Dimension, Figure, Hatching, Line, Pen, Point, Polyline, Shape, Text
 from gearcad.drawing.words import Draughting, Language, Size, Words
-from gearcad.errors import ParameterError
 
 WORDS = Words.of(Language.ENGLISH)
 

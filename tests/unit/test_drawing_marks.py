@@ -7,22 +7,18 @@ from itertools import islice
 
 import pytest
 
-from gearcad.drawing.marks import (
-    Cell,
+from gearcad.drawing.annotation_text import Cell, deviations, symbol, table, written_size
+from gearcad.drawing.dimensions import (
     Characteristic,
     Side,
     circle_dimension,
     datum,
-    deviations,
     frame_leader,
     leader,
     linear_dimension,
-    roughness,
-    symbol,
-    table,
     tolerance_frame,
-    written_size,
 )
+from gearcad.drawing.drawing_symbols import roughness
 from gearcad.drawing.shapes import Dimension, Figure, Filled, Line, Measured, text_width
 from gearcad.drawing.words import Draughting, Language, Size, Words
 

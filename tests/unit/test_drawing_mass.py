@@ -7,11 +7,10 @@ import math
 import pytest
 
 from gearcad import Body, DoubleHelix, Gear, GearPair, Material, Rack
-from gearcad.drawing.mass import mass_of
+from gearcad.drawing.assembly_sheets import draw_pair
+from gearcad.drawing.drawing_subjects import DrawnGear, DrawnPair
+from gearcad.drawing.gear_sheet import draw_gear, mass_of
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.sheets import draw_gear
-from gearcad.drawing.sheets.pair import draw_pair
-from gearcad.drawing.subject import DrawnGear, DrawnPair
 
 PROMISED = 2e-4
 """Of volumes: the chords of the solid, a thousandth of a module off it."""

@@ -10,17 +10,16 @@ from typing import Any
 
 import pytest
 
+from gearcad.core.errors import ParameterError, SpecError
 from gearcad.designs import read_spec
-from gearcad.designs.kinds.pair import PairDesign
-from gearcad.designs.kinds.toothed import ToothedDesign
-from gearcad.designs.pair_text import pair_text
-from gearcad.designs.reader import design_from_tables, design_from_values
-from gearcad.designs.spec_values import spec_values
-from gearcad.designs.starters import starter_text
+from gearcad.designs.gear_designs import ToothedDesign
+from gearcad.designs.pair_designs import PairDesign
+from gearcad.designs.reader import design_from_tables, design_from_values, starter_text
+from gearcad.designs.spec_writers import pair_text
 from gearcad.designs.table import open_table
+from gearcad.designs.variations import spec_values
 from gearcad.drawing.options import DrawingOptions, PartDrawing, Projection, Revision, SheetSize
 from gearcad.drawing.words import Language
-from gearcad.errors import ParameterError, SpecError
 
 _GEAR: dict[str, Any] = {"teeth": 20, "normal_module": 2.0, "face_width": 20.0}
 _SET = {"planets": 3, "input": "S1", "output": "carrier", "fixed": "ring", "normal_module": 2.0, "face_width": 20.0}

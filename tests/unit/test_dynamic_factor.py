@@ -14,14 +14,14 @@ from support.published import Published
 from support.ratings import STEEL
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import PerGear
 from gearcad.designs import read_spec
-from gearcad.errors import ParameterError
 from gearcad.geometry import FlankModification
 from gearcad.material import MaterialGroup
-from gearcad.per_gear import PerGear
 from gearcad.rating import Accuracy, DynamicFactor, RatingOptions, RunningIn, running_in_alpha
-from gearcad.rating.resonance import running_factors
-from gearcad.rating.tolerances.iso1328 import flank_tolerances
+from gearcad.rating.load_factor_formulas import running_factors
+from gearcad.rating.tolerances import flank_tolerances
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

@@ -11,14 +11,13 @@ import pytest
 from support.pairs import thesis_model
 from support.responses import cosine, oscillator
 
+from gearcad.core.runtime import cores, onwards, part
 from gearcad.designs import TrainDesign
 from gearcad.designs.reader import read_spec
-from gearcad.dynamics.charts.over_speed import over_speed
-from gearcad.dynamics.tooth_springs import campbell as module
-from gearcad.dynamics.tooth_springs.campbell import campbell
+from gearcad.dynamics.response.speed_charts import over_speed
+from gearcad.dynamics.time_domain import campbell as module
+from gearcad.dynamics.time_domain.campbell import campbell
 from gearcad.jobs.dynamics import Dynamics
-from gearcad.progress import onwards, part
-from gearcad.threads import cores
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

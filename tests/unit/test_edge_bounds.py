@@ -6,8 +6,8 @@ import random
 from typing import Any
 
 from gearcad import BasicRack, Body, Gear, GearcadError, GearPair, ShaperCutter
+from gearcad.core.records import Role
 from gearcad.geometry.interference import RollingEdge, deepest_cut, tip_edges
-from gearcad.per_gear import Role
 
 COUNT = 60
 

@@ -13,7 +13,7 @@ from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 
 from gearcad import GearcadError
 from gearcad.meshing.bodies import Element, ElementMesh, Faces
-from gearcad.meshing.bodies.interpolation import local_places, shape_slopes, shape_values
+from gearcad.meshing.bodies.element_mesh import local_places, shape_slopes, shape_values
 from gearcad.meshing.bodies.quality import Quality, quality, require_good
 
 ROUNDING = 1e-13

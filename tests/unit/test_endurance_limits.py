@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from gearcad import GeometryError, Material, ParameterError
+from gearcad.core.records import PerGear
 from gearcad.material import Grade, MaterialGroup, MaterialQuality, grade_of
-from gearcad.per_gear import PerGear
-from gearcad.rating.iso6336_5 import endurance_limits, endurance_limits_of, hardness_scale
+from gearcad.rating.material_limits import endurance_limits, endurance_limits_of, hardness_scale
 
 GRADES = [Grade(group, quality) for group in MaterialGroup for quality in MaterialQuality]
 

@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from gearcad.compiled import compiled
-from gearcad.dynamics.tooth_springs.event_exact import (
+from gearcad.core.compiled import compiled
+from gearcad.dynamics.time_domain.event_kernel import (
     Motion,
     MotionOutcome,
     Spring,

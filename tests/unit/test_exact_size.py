@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, FlankModification, Gear
-from gearcad.meshing.bodies.exact_size import exact_area, exact_volume
+from gearcad.meshing.bodies.exactness import exact_area, exact_volume
 from gearcad.solids.exact.inertia import mass_properties
 
 _CHORD = 1e-6

@@ -12,13 +12,11 @@ from support.sections import COARSE
 
 from gearcad import BasicRack, Gear
 from gearcad.meshing.bodies import Element, ElementMesh
-from gearcad.meshing.bodies.body_mesh import mesh_body
-from gearcad.meshing.bodies.exact_size import exact_volume
-from gearcad.meshing.bodies.exactness import deviations
-from gearcad.meshing.bodies.measure import measure_whole
+from gearcad.meshing.bodies.body_mesh import body_sizes, mesh_body
+from gearcad.meshing.bodies.exactness import deviations, exact_volume
+from gearcad.meshing.bodies.quality import measure_whole
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.bodies.sizing import body_sizes
-from gearcad.meshing.section import MeshSizes
+from gearcad.meshing.outline import MeshSizes
 
 PROMISED_NODES, PROMISED_BETWEEN = 1e-9, 0.5
 """mm, and µm for elements of second order at default size."""

@@ -12,14 +12,14 @@ import pytest
 from support.coarse import coarse_model, coarse_pair
 
 from gearcad import FlankModification, Material, Mounting
-from gearcad.check.extremes import PLANE, SOLID, STRESSES
+from gearcad.check.summary import PLANE, SOLID, STRESSES
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.extremes import Extreme, Quantity, RollRange, add_positions, extreme
+from gearcad.contact.shared.loaded import Extreme, Quantity, RollRange, add_positions, extreme
 from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.core.records import Role
 from gearcad.geometry import ReliefShape
-from gearcad.per_gear import Role
 
 _EXACT = 0.002
 """What the greatest over the mesh may be off, of itself (or of its swing)."""

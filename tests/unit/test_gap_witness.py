@@ -10,7 +10,7 @@ import pytest
 from support.gap import distance_in_space, gap_along_action, middle_height, pinion_points, taken_back, wheel_points
 
 from gearcad import FlankModification, Gear, GearPair, Mounting, ReliefShape
-from gearcad.contact.plane.contact_pairs import contact_pairs
+from gearcad.contact.plane.pair import contact_pairs
 from gearcad.contact.shared.line_of_action import line_of_action
 
 ALL = FlankModification(

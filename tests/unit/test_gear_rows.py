@@ -8,19 +8,18 @@ import pytest
 
 import gearcad
 from gearcad import Body, DoubleHelix, FlankModification, Gear, GearPair, Material, Rack, RackPair, ShaperCutter
-from gearcad.drawing.gear_data import gear_notices, gear_rows
-from gearcad.drawing.gear_views import section_view
+from gearcad.drawing.drawing_subjects import DrawnGear, Mate
+from gearcad.drawing.gear_data_rows import gear_notices, gear_rows
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.shapes import Pen, Polyline
-from gearcad.drawing.subject import DrawnGear, Mate
+from gearcad.drawing.views.gear_views import section_view
 from gearcad.drawing.words import Draughting, Language, Words
 from gearcad.geometry import ISO53_D, BasicRack
-from gearcad.geometry.body import HubSide
+from gearcad.geometry.gear_parts import HubSide
 from gearcad.material import MaterialGroup
 from gearcad.rating.tolerances import Accuracy, gear_tolerances
-from gearcad.solids.facets.rack_facets import tessellate_rack
-from gearcad.solids.facets.tessellation import tessellate
+from gearcad.solids.facets.tessellation import tessellate, tessellate_rack
 
 WORDS = {language: Words.of(language) for language in Language}
 

@@ -8,13 +8,13 @@ from dataclasses import replace
 import pytest
 
 from gearcad import Body, Gear
+from gearcad.drawing.drawing_subjects import DrawnGear
+from gearcad.drawing.gear_sheet import Sheet, draw_gear
 from gearcad.drawing.options import DrawingOptions, PartDrawing, Projection, SheetSize
 from gearcad.drawing.shapes import Circle, Hatching, Pen, Point
-from gearcad.drawing.sheets import Sheet, draw_gear
-from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.words import Language
 from gearcad.geometry import Rack
-from gearcad.geometry.body import HubSide
+from gearcad.geometry.gear_parts import HubSide
 
 BODY = Body(bore=20.0, keyway_width=6.0, keyway_depth=2.8, hub_diameter=34.0, hub_length=8.0, end_chamfer=1.5)
 GEAR = Gear(teeth=30, normal_module=2.5, face_width=25.0, helix_angle=20.0, body=BODY)

@@ -10,17 +10,16 @@ import numpy as np
 import pytest
 
 from gearcad import Body, Gear
-from gearcad.drawing.gear_views import Along, end_face, face_view, half_section, section_view
-from gearcad.drawing.gear_views.section_sizes import SectionSizes
-from gearcad.drawing.gear_views.silhouette import Silhouette
+from gearcad.drawing.drawing_subjects import DrawnGear
 from gearcad.drawing.layout import dressed
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.shapes import Circle, Dimension, Figure, Hatching, Line, Measured, Pen, Polyline, Text
-from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.views.gear_figures import Along, Silhouette, end_face, half_section
+from gearcad.drawing.views.gear_views import SectionSizes, face_view, section_view
 from gearcad.drawing.words import Draughting, Language, Size, Words
 from gearcad.geometry import DoubleHelix
-from gearcad.geometry.body import HubSide
+from gearcad.geometry.gear_parts import HubSide
 from gearcad.solids import tessellate
 
 SCALE = 0.5

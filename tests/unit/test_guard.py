@@ -18,8 +18,8 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 WORK = """
 import sys
 from pathlib import Path
-from gearcad.guard import guarded
-from gearcad.output import staged_files
+from gearcad.core.guard import guarded
+from gearcad.core.output import staged_files
 from support import jobs
 
 def work():
@@ -135,7 +135,7 @@ def start_and_end(folder: Path) -> subprocess.Popen[str]:
 
 def test_renames_that_belong_together_are_not_divided(tmp_path: Path) -> None:
     """Ctrl-C while files move in: all of them do, then the work ends."""
-    slow = "import os, time; from gearcad import output; replace = Path.replace; "
+    slow = "import os, time; from gearcad.core import output; replace = Path.replace; "
     slow += "Path.replace = lambda *to: (replace(*to), time.sleep(0.3)); "
     slow += "[(staging / name).write_text('') for name in 'abc']"
     with start(tmp_path, slow) as process:

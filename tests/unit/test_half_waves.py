@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearcad.dynamics.levels.agreement import Reason
-from gearcad.dynamics.levels.study import study_levels
-from gearcad.dynamics.levels.verdict import LevelStatus
+from gearcad.core.records import PerGear
+from gearcad.dynamics.level_agreement import Reason
+from gearcad.dynamics.level_study import study_levels
+from gearcad.dynamics.level_verdict import LevelStatus
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.train import study_train
-from gearcad.dynamics.trains.half_waves import good_up_to
+from gearcad.dynamics.train_study import study_train
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
-from gearcad.dynamics.trains.train import Train, TrainModel
-from gearcad.per_gear import PerGear
+from gearcad.dynamics.trains.train import Train, TrainModel, good_up_to
 
 SPEEDS = np.linspace(4150.0, 4250.0, 3)
 

@@ -18,23 +18,29 @@ from support.floquet import floquet_multipliers
 from support.responses import MOMENT, VARIATION, cosine, isolated, oscillator, two_stages
 from support.transient import integrate
 
-from gearcad.dynamics.charts.kv import kv_chart
-from gearcad.dynamics.charts.parting import parted
-from gearcad.dynamics.charts.speed_curves import SpeedCurves
-from gearcad.dynamics.excitation.deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
-from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness, cycle_stiffness, square_stiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation, cycle_excitation
-from gearcad.dynamics.response.branch import Branch, sweep, trace
-from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.response.floquet import _propagators, growth
-from gearcad.dynamics.response.linear import harmonic_orders, periodic_response
-from gearcad.dynamics.response.resolved import Resolution
-from gearcad.dynamics.trains.system import System
-from gearcad.errors import GeometryError, ParameterError, SolverError
+from gearcad.core.errors import GeometryError, ParameterError, SolverError
+from gearcad.core.records import PerGear
+from gearcad.dynamics.response.branch_continuation import Branch, sweep, trace
+from gearcad.dynamics.response.harmonic_balance import Resolution
+from gearcad.dynamics.response.kv_chart import kv_chart
+from gearcad.dynamics.response.linear_response import _propagators, growth, harmonic_orders, periodic_response
+from gearcad.dynamics.response.speed_charts import parted
+from gearcad.dynamics.response.speed_curves import SpeedCurves
+from gearcad.dynamics.trains.mesh_excitation import (
+    CosineStiffness,
+    CurveStiffness,
+    Excitation,
+    MeshExcitation,
+    cycle_excitation,
+    cycle_stiffness,
+    square_stiffness,
+)
+from gearcad.dynamics.trains.shaft_lines import System
+from gearcad.dynamics.trains.steady_response import Direction
+from gearcad.dynamics.trains.tooth_deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.per_gear import PerGear
 from gearcad.rating.dynamic_factor import DynamicFactor, reduced_mass
-from gearcad.rating.tolerances.iso1328 import flank_tolerances
+from gearcad.rating.tolerances import flank_tolerances
 
 # ---------------------------------------------------------------------- stiffness
 
@@ -428,8 +434,8 @@ def test_a_branch_goes_on_to_the_last_speed_where_flanks_still_part(monkeypatch:
         assert len(traced) < 5  # or it would be followed for ever
         return trace(system, excitation, frequencies, **how)
 
-    monkeypatch.setattr("gearcad.dynamics.charts.parting.trace", traced_to)
-    monkeypatch.setattr("gearcad.dynamics.charts.parting.MOST_ROUNDS", 0)  # no speeds between: they take long
+    monkeypatch.setattr("gearcad.dynamics.response.speed_charts.trace", traced_to)
+    monkeypatch.setattr("gearcad.dynamics.response.speed_charts.MOST_ROUNDS", 0)  # no speeds between: they take long
     curves = SpeedCurves(oscillator(0.1), cosine(0.5, phase=180.0, backlash=math.inf))
     speeds = np.array([0.5, 0.6, 0.75, 0.9, 0.95, 1.0, 1.05])
     found = parted(curves, speeds, np.array([0.9]))

@@ -8,15 +8,12 @@ from scipy.optimize import least_squares
 
 import gearcad
 from gearcad import BasicRack, Gear, GeometryError, ParameterError, plots
-from gearcad.cli.identify_table import identification_lines
-from gearcad.geometry.tooth_caliper import chord_below_tip
+from gearcad.cli.identify import identification_lines
+from gearcad.geometry.inspection import chord_below_tip
 from gearcad.identify import Gauge, Identification, Measured, Reading, identify_gear
-from gearcad.identify.fit import fitted
-from gearcad.identify.gauges import read_off
-from gearcad.identify.prior import Hypothesis, ways
+from gearcad.identify.fit import fitted, read_off
 from gearcad.identify.search import fits
-from gearcad.identify.standards import SIZES
-from gearcad.identify.unknowns import UNKNOWNS, Unknown
+from gearcad.identify.standards import SIZES, UNKNOWNS, Hypothesis, Unknown, ways
 
 PINION = Gear(teeth=31, normal_module=2.5, face_width=20, helix_angle=17.0, profile_shift=0.21, tooth_thinning=0.06)
 RING = Gear(

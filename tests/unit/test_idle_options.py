@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from gearcad.designs.keys import permitted_words
-from gearcad.dynamics.idle_options import idle_in_contact, idle_without_levels, undamped_bearings
-from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.options import DynamicsOptions, idle_in_contact, idle_without_levels, undamped_bearings
 
 LEVELS = "a train with a list of models, held against each other"
 

@@ -17,9 +17,9 @@ from support.cases import volvo_pair
 from support.samples import SAMPLES
 
 from gearcad import BasicRack, Body, Gear, GearcadError, GearPair, GeometryError, ParameterError, ToothProfile
+from gearcad.core.errors import at_least, at_most
+from gearcad.core.records import PerGear
 from gearcad.geometry import NAMED_RACKS, split_profile_shift
-from gearcad.geometry.limits import at_least, at_most
-from gearcad.per_gear import PerGear
 
 
 def _gear(**inputs: Any) -> Gear:

@@ -11,7 +11,7 @@ import pytest
 from scipy.optimize import brentq, minimize
 
 from gearcad import BasicRack, Gear, GeometryError, ParameterError
-from gearcad.geometry.curves import CurveKind
+from gearcad.geometry.profile import CurveKind
 
 EXACT = 1e-10
 """Relative: between two closed forms."""

@@ -14,12 +14,12 @@ from support.ring_mesh import RingMesh
 from support.sheets import TEMPLATES, faults_of
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, ParameterError
+from gearcad.core.errors import SpecError
 from gearcad.designs.design import Design
 from gearcad.designs.reader import design_from_tables
 from gearcad.designs.table import open_table
-from gearcad.errors import SpecError
 from gearcad.geometry import ShaperCutter, specific_sliding
-from gearcad.geometry.helix import twist
+from gearcad.geometry.gear_data import twist
 
 
 def _ring_pair(teeth: tuple[int, int], shifts: tuple[float, float] = (0.0, 0.0), **inputs: Any) -> GearPair:

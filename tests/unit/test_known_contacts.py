@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from support.checks import small_check
 
-from gearcad.contact.plane.contact import solve_contact
 from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.pair import KnownContacts, PlanePair
-from gearcad.contact.shared.complementarity import _cell_by_cell, _positive, complementary
+from gearcad.contact.plane.pair import KnownContacts, PlanePair, solve_contact
+from gearcad.contact.shared.local_contact import _cell_by_cell, _positive, complementary
 from gearcad.stiffness import PlaneStrainContact
 
 _POSITIONS, _SINGLE = 12, 25

@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 import pytest
 
-from gearcad.contact.optimum.lattice import Goal, Lattice, Remembered
+from gearcad.contact.modification_search import Goal, Lattice, Remembered
 
 LOW, HIGH = np.array([0, 4, -3, 7]), np.array([30, 34, 27, 7])
 EVERY = np.array(list(itertools.product(*(range(low, high + 1) for low, high in zip(LOW, HIGH, strict=True)))))

@@ -8,17 +8,14 @@ import numpy as np
 import pytest
 from support.trains import one_stage
 
-from gearcad.arrays import Bools, Floats
-from gearcad.dynamics.levels.agreement import SHIFT, Agreement, Reason, agreement
-from gearcad.dynamics.levels.result import finest_first
-from gearcad.dynamics.levels.verdict import LevelStatus, LevelVerdict
-from gearcad.dynamics.operating import OperatingRange, RangeSource, operating_range
-from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.train import study_train
+from gearcad.core.errors import GeometryError
+from gearcad.core.records import Bools, Floats, Notice
+from gearcad.dynamics.level_agreement import SHIFT, Agreement, Reason, agreement
+from gearcad.dynamics.level_verdict import LevelStatus, LevelVerdict, finest_first
+from gearcad.dynamics.options import DynamicsOptions, OperatingRange, RangeSource, operating_range
 from gearcad.dynamics.train_result import TrainStudy
+from gearcad.dynamics.train_study import study_train
 from gearcad.dynamics.trains.train import TrainModel
-from gearcad.errors import GeometryError
-from gearcad.notice import Notice
 
 SPEEDS = np.linspace(1000.0, 9000.0, 401)
 WHOLE = OperatingRange(2000.0, 8000.0, RangeSource.GIVEN)

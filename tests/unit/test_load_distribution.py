@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from gearcad import Gear, GearPair, Load, Material
-from gearcad.check.load_distribution import load_distribution
-from gearcad.errors import ParameterError
+from gearcad.check.run import load_distribution
+from gearcad.core.errors import ParameterError
 from gearcad.geometry import FlankModification
 from gearcad.mounting import Mounting
 from gearcad.rating import RatingOptions

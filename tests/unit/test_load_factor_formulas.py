@@ -9,16 +9,18 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, Gear
-from gearcad.errors import ParameterError
-from gearcad.per_gear import PerGear
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import PerGear
 from gearcad.rating import root_face_load_factor
 from gearcad.rating.editions import Edition
-from gearcad.rating.face_load import face_load_factor
-from gearcad.rating.load_factor_options import BearingArrangement, HelixModification
-from gearcad.rating.load_factors import (
+from gearcad.rating.load_factor_formulas import (
+    FlankWear,
+    RunningIn,
     arrangement_factor,
     body_mass,
+    dynamic_factor_b,
     dynamic_factor_c,
+    face_load_factor,
     flank_limit,
     helix_factors,
     initial_misalignment,
@@ -27,15 +29,16 @@ from gearcad.rating.load_factors import (
     mass_of,
     pair_mass,
     proven_misalignment,
+    resonance_speed,
     root_limit,
+    running_in_beta,
     shaft_deflection,
     shaft_term,
     speed_measure,
     transverse_load_factor,
     within,
 )
-from gearcad.rating.resonance import dynamic_factor_b, resonance_speed
-from gearcad.rating.running_in import FlankWear, RunningIn, running_in_beta
+from gearcad.rating.options import BearingArrangement, HelixModification
 
 EXACT = 1e-12
 """Relative: the same quantity by two formulas."""

@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 
 from gearcad import Body, Gear, GearPair, Load, Material
-from gearcad.errors import GearcadError
+from gearcad.core.errors import GearcadError
+from gearcad.core.records import PerGear
+from gearcad.core.symbols import LOAD_FACTOR_DETAILS
 from gearcad.geometry import FlankModification
-from gearcad.per_gear import PerGear
 from gearcad.rating import DynamicFactor, RatingOptions
-from gearcad.rating.face_load import face_load_factor
+from gearcad.rating.load_factor_formulas import face_load_factor
 from gearcad.rating.load_factors import LoadFactors
-from gearcad.symbols import LOAD_FACTOR_DETAILS
 
 EXACT = 1e-9
 """Relative: the same equations by another program, whose pressure angles are from a bisection."""

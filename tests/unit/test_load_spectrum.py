@@ -10,7 +10,7 @@ import pytest
 from gearcad import ParameterError
 from gearcad.material import MaterialGroup as G
 from gearcad.rating.factors import flank_life_factor, flank_points, root_life_factor, root_points
-from gearcad.rating.strength.spectrum import (
+from gearcad.rating.strength.duty import (
     FLANK_POWER,
     ROOT_POWER,
     damage_sum,

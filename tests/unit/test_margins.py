@@ -9,10 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
 from support.checks import small_check
 
-from gearcad.plots.check import plot_mesh_stiffness
+from gearcad.plots.check import plot_mesh_stiffness, plot_stress_field
 from gearcad.plots.paper import legend_above, new_figure, prepared
 from gearcad.plots.stiffness import plot_stiffness
-from gearcad.plots.stresses import plot_stress_field
 
 _ROUNDING = 0.5
 """Pixels by which boxes may touch."""

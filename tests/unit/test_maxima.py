@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gearcad.dynamics.maxima import apart, outstanding
+from gearcad.dynamics.time_domain.spectra import apart, outstanding
 
 
 @pytest.mark.parametrize("seed", range(40))

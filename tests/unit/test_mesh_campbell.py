@@ -8,18 +8,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness, StiffnessShape, square_stiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
-from gearcad.dynamics.in_time.campbell import mesh_campbell
-from gearcad.dynamics.in_time.mesh_campbell import MeshCampbell
-from gearcad.dynamics.response.linear import periodic_response
-from gearcad.dynamics.tooth_springs.campbell import campbell
-from gearcad.dynamics.tooth_springs.contact_model import ContactModel
-from gearcad.dynamics.trains.lines import system
+from gearcad.core.errors import ParameterError, SolverError
+from gearcad.core.records import PerGear
+from gearcad.dynamics.response.linear_response import periodic_response
+from gearcad.dynamics.time_domain.campbell import campbell, mesh_campbell
+from gearcad.dynamics.time_domain.contact_model import ContactModel
+from gearcad.dynamics.time_domain.spectra import MeshCampbell
 from gearcad.dynamics.trains.members import Inertia, Mesh
+from gearcad.dynamics.trains.mesh_excitation import (
+    CosineStiffness,
+    CurveStiffness,
+    Excitation,
+    MeshExcitation,
+    StiffnessShape,
+    square_stiffness,
+)
+from gearcad.dynamics.trains.shaft_lines import system
 from gearcad.dynamics.trains.train import Train
-from gearcad.errors import ParameterError, SolverError
-from gearcad.per_gear import PerGear
 
 THESIS = ContactModel(
     teeth=PerGear(19, 23),

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gearcad.errors import SolverError
+from gearcad.core.errors import SolverError
 from gearcad.mesh_cycle import MeshCycle
 
 Floats = NDArray[np.float64]

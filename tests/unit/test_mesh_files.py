@@ -18,14 +18,14 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import gearcad
 from gearcad import Body, Gear
-from gearcad.batch.manifest import MANIFEST, Manifest, Part, read_manifest
+from gearcad.batch.row import MANIFEST, Manifest, Part, read_manifest
+from gearcad.core.errors import ParameterError
 from gearcad.designs import GearDesign
-from gearcad.errors import ParameterError
 from gearcad.jobs.mesh import Mesh
 from gearcad.meshing import Element, ElementMesh
-from gearcad.meshing.bodies.conversions import MESHIO_WORDS
-from gearcad.meshing.files.formats import MeshFormat, write
-from gearcad.meshing.files.inp import node_sets
+from gearcad.meshing.bodies.element_mesh import MESHIO_WORDS
+from gearcad.meshing.files import node_sets
+from gearcad.meshing.options import MeshFormat, write
 
 GEAR = Gear(teeth=20, normal_module=2, face_width=8, body=Body(bore=16))
 

@@ -12,8 +12,7 @@ from gearcad import Body, FlankModification, Gear
 from gearcad.meshing import ElementMesh, Faces
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.plan import plan_mesh
-from gearcad.meshing.result import JudgedMesh
-from gearcad.meshing.run import _judged
+from gearcad.meshing.result import JudgedMesh, _judged
 
 GEAR = Gear(teeth=20, normal_module=2, face_width=8, body=Body(bore=16))
 

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
 from gearcad.meshing import Element, ElementMesh, Faces
-from gearcad.meshing.bodies.measure import measure_side, measure_whole
+from gearcad.meshing.bodies.quality import measure_side, measure_whole
 
 ROUNDING = 1e-13
 

@@ -13,8 +13,8 @@ from support.boxes import AREAS, box, two_boxes
 import gearcad
 from gearcad import Body, Gear
 from gearcad.meshing import Element, ElementMesh
-from gearcad.meshing.bodies.interpolation import shape_slopes
-from gearcad.meshing.bodies.measure import measure_side
+from gearcad.meshing.bodies.element_mesh import shape_slopes
+from gearcad.meshing.bodies.quality import measure_side
 
 
 @Functional

@@ -7,7 +7,7 @@ import pytest
 
 import gearcad
 from gearcad import Body, Gear, GearPair
-from gearcad.plots.mesh import plot_body_mesh, plot_section_mesh
+from gearcad.plots.gears import plot_body_mesh, plot_section_mesh
 
 GEAR = Gear(teeth=12, normal_module=2, face_width=6, profile_shift=0.3, body=Body(bore=8))
 

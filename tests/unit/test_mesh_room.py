@@ -13,7 +13,7 @@ import gearcad
 from gearcad import Body, Gear, GeometryError, ParameterError
 from gearcad.cli import main
 from gearcad.jobs import mesh as mesh_job
-from gearcad.meshing import room
+from gearcad.meshing import plan
 
 HELICAL = Gear(teeth=23, normal_module=2, face_width=12, helix_angle=-18, body=Body(bore=20))
 
@@ -22,13 +22,13 @@ LITTLE = 2.0e9
 
 
 def test_more_nodes_than_numbers_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(room, "machine_memory", lambda: 1e18)
+    monkeypatch.setattr(plan, "machine_memory", lambda: 1e18)
     with pytest.raises(ParameterError, match=r"^size = 0.01 mm: makes .*a file numbers at most 2147483647; they take about"):
         gearcad.mesh(HELICAL, size=0.01)
 
 
 def test_too_many_triangles_are_refused_before_a_sector_is_meshed_to_count_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(room, "machine_memory", lambda: LITTLE)
+    monkeypatch.setattr(plan, "machine_memory", lambda: LITTLE)
     with pytest.raises(ParameterError, match=r"^size = 0.001 mm: makes [0-9.e+]+ tri6"):
         gearcad.mesh(HELICAL, size=0.001, element="tri6")
 
@@ -43,7 +43,7 @@ def meshes(*_arguments: Any) -> None:
 
 @pytest.mark.parametrize("given", [{"size": 0.05}, {"elements": 9_000_000}])
 def test_what_is_said_to_do_does(given: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(room, "machine_memory", lambda: LITTLE)
+    monkeypatch.setattr(plan, "machine_memory", lambda: LITTLE)
     monkeypatch.setattr(mesh_job, "run_mesh", meshes)
     (name,) = given
     with pytest.raises(ParameterError, match="GB of memory, and there are 2 GB") as refused:
@@ -55,7 +55,7 @@ def test_what_is_said_to_do_does(given: dict[str, Any], monkeypatch: pytest.Monk
 
 
 def test_usual_sizes_that_do_not_fit_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(room, "machine_memory", lambda: 1e6)
+    monkeypatch.setattr(plan, "machine_memory", lambda: 1e6)
     with pytest.raises(GeometryError, match="a larger size, or less of the gear, would do"):
         gearcad.mesh(HELICAL, what="sector")
 

@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 from support.boxes import box, two_boxes
 
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
 from gearcad.meshing import Element, ElementMesh
-from gearcad.meshing.files.digits import decimals, decimals_width, lines, wholes
-from gearcad.meshing.files.inp import element_type, write_inp
+from gearcad.meshing.files import decimals, decimals_width, element_type, lines, wholes, write_inp
 
 CALCULIX_READS = 20
 """Characters of a number; a longer one is an error there."""

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair
-from gearcad.errors import ParameterError
-from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
-from gearcad.meshing.section.outline import Side
-from gearcad.meshing.section.quality import mesh_quality
+from gearcad.core.errors import ParameterError
+from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.quads import mesh_quality
+from gearcad.meshing.sector import SectorMesh, mesh_sector
 
 ROUNDING = 1e-9
 """mm per mm of module: what 16 digits leave of a mesh."""

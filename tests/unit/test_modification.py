@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, FlankModification, Gear, ParameterError, ReliefShape
-from gearcad.errors import GeometryError
+from gearcad.core.errors import GeometryError
 
 GEAR = Gear(teeth=23, normal_module=2.5, face_width=16.0, helix_angle=12.0, profile_shift=0.2)
 

@@ -13,8 +13,7 @@ from support.sections import COARSE
 
 from gearcad import BasicRack, Gear
 from gearcad.meshing.bodies import Element, ElementMesh
-from gearcad.meshing.bodies.modified import modification_turns
-from gearcad.meshing.bodies.section_mesh import mesh_section
+from gearcad.meshing.bodies.section_mesh import mesh_section, modification_turns
 
 ROUNDING = 1e-12
 """mm, or rad: of sums and of a table of singular values; the promise is 1e-9 mm."""

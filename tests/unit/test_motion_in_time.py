@@ -10,21 +10,17 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from gearcad.dynamics.excitation.deviations import TransmissionError
-from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, square_stiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
-from gearcad.dynamics.in_time.kernel import propagators
-from gearcad.dynamics.in_time.laws import MeshLaw, SpringTable
-from gearcad.dynamics.in_time.motion import MovingSystem, Start
-from gearcad.dynamics.in_time.speed_course import Course, Line
-from gearcad.dynamics.response.branch import trace
-from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.response.linear import periodic_response
-from gearcad.dynamics.trains.lines import system
+from gearcad.core.errors import ParameterError, SolverError
+from gearcad.dynamics.response.branch_continuation import trace
+from gearcad.dynamics.response.linear_response import periodic_response
+from gearcad.dynamics.time_domain.motion import Course, Line, MeshLaw, MovingSystem, SpringTable, Start
+from gearcad.dynamics.time_domain.motion_kernel import propagators
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
-from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, Excitation, MeshExcitation, square_stiffness
+from gearcad.dynamics.trains.shaft_lines import System, system
+from gearcad.dynamics.trains.steady_response import Direction
+from gearcad.dynamics.trains.tooth_deviations import TransmissionError
 from gearcad.dynamics.trains.train import Train
-from gearcad.errors import ParameterError, SolverError
 
 Floats = NDArray[np.float64]
 

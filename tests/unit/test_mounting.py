@@ -9,7 +9,7 @@ import pytest
 
 from gearcad import Gear, GearPair, Mounting, ParameterError
 from gearcad.contact.shared.line_of_action import line_of_action
-from gearcad.errors import GeometryError
+from gearcad.core.errors import GeometryError
 
 PAIR = GearPair(
     pinion=Gear(teeth=18, normal_module=1.5, face_width=10, tooth_thinning=0.05),

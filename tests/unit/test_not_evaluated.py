@@ -14,23 +14,17 @@ from support.coarse import coarse_model
 
 from gearcad import Load, Material
 from gearcad.check.comparison import ComparisonRole
-from gearcad.check.document import check_document
+from gearcad.check.convergence import sweep_point
+from gearcad.check.gates import compare_plane, compare_solid
 from gearcad.check.notices import common_notices
-from gearcad.check.plane.judge import compare_plane
-from gearcad.check.plane.result import PlaneCheck
-from gearcad.check.plane.summary import PlaneSummary, summarise_plane
-from gearcad.check.result import CheckResult
-from gearcad.check.solid.judge import compare_solid
-from gearcad.check.solid.result import SolidCheck
-from gearcad.check.solid.summary import SolidSummary, summarise_solid
-from gearcad.check.summary import Summary
-from gearcad.check.sweep import sweep_point
+from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck, check_document
+from gearcad.check.summary import PlaneSummary, SolidSummary, Summary, summarise_plane, summarise_solid
 from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
 from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.output import json_text
+from gearcad.core.output import json_text
+from gearcad.core.records import Verdict
 from gearcad.report import report_html
-from gearcad.report.check.sections import CheckSections
-from gearcad.verdict import Verdict
+from gearcad.report.check import CheckSections
 
 LIMITS = Material(name="tin", contact_limit=1e6, root_limit=1e6, yield_strength=1e6)
 """Limits that no stress here exceeds: a figure that is not there is not below them."""

@@ -14,11 +14,10 @@ import pytest
 from support.pairs import thesis_model
 
 from gearcad import Gear, GearPair, GeometryError, ParameterError
-from gearcad.dynamics.tooth_springs.campbell import campbell
-from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
-from gearcad.dynamics.tooth_springs.contact_model import EngagedPairs, disc_inertia
-from gearcad.dynamics.tooth_springs.motion import time_history
-from gearcad.dynamics.tooth_springs.spectra import amplitude_spectrum
+from gearcad.dynamics.time_domain.campbell import campbell
+from gearcad.dynamics.time_domain.contact_model import EngagedPairs, disc_inertia
+from gearcad.dynamics.time_domain.spectra import amplitude_spectrum
+from gearcad.dynamics.time_domain.time_history import CampbellStudy, time_history
 
 ROUNDING = 1e-13
 
@@ -93,7 +92,7 @@ def test_contact_ratio_below_one_warns_and_runs() -> None:
 
 def test_import_leaves_numba_alone() -> None:
     heavy = ("numba", "scipy", "matplotlib")
-    code = f"import sys, gearcad.dynamics.tooth_springs.campbell; print([name for name in {heavy!r} if name in sys.modules])"
+    code = f"import sys, gearcad.dynamics.time_domain.campbell; print([name for name in {heavy!r} if name in sys.modules])"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip() == "[]"
 
 
@@ -185,7 +184,7 @@ def test_at_rest_the_pair_settles_at_the_static_approach() -> None:
 
 
 def test_campbell_diagram_shows_teeth_natural_frequencies_and_chaos(study: CampbellStudy) -> None:
-    from gearcad.plots.campbell import plot_campbell
+    from gearcad.plots.motions import plot_campbell
 
     axes = plot_campbell(study)
     lines = {line.get_label(): line for line in axes.get_lines()}
@@ -200,7 +199,7 @@ def test_campbell_diagram_shows_teeth_natural_frequencies_and_chaos(study: Campb
 
 
 def test_speeds_and_spectrum_of_one_speed() -> None:
-    from gearcad.plots.history import plot_motion, plot_spectrum
+    from gearcad.plots.motions import plot_motion, plot_spectrum
 
     history = time_history(thesis_model(), 6000.0, duration=0.2, sampling=50_000.0)
     whole, close, _, wheel = plot_motion(history).axes
@@ -216,7 +215,7 @@ def test_speeds_and_spectrum_of_one_speed() -> None:
 
 def test_angles_are_those_of_the_speeds() -> None:
     """Of a motion that is seen from its begin: its mesh does not vary."""
-    from gearcad.plots.history import plot_angles
+    from gearcad.plots.motions import plot_angles
 
     history = time_history(replace(thesis_model(), zone=EngagedPairs.ONE_PAIR), 6000.0, duration=0.2, sampling=50_000.0)
     above, below = plot_angles(history).axes

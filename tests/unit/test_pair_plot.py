@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gearcad import Body, Gear, GearPair
-from gearcad.plots.pair import pair_inches, plot_pair
+from gearcad.plots.gears import pair_inches, plot_pair
 
 PAIRS = {
     "spur": GearPair(

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from support.strategies import MODIFICATIONS, build_pair, modified, pair_inputs
 
 from gearcad import Gear, GearPair, Load, Material
+from gearcad.core.errors import GearcadError
 from gearcad.designs import PairDesign, design_from_tables
-from gearcad.designs.pair_text import pair_text
-from gearcad.designs.starters import starter_text, starters
-from gearcad.errors import GearcadError
+from gearcad.designs.reader import starter_text, starters
+from gearcad.designs.spec_writers import pair_text
 from gearcad.rating.editions import Edition
 from gearcad.rating.options import RatingOptions
 

@@ -11,13 +11,21 @@ import scipy.sparse.linalg
 from support.plane_matrix import stiffness_matrix, summed
 
 from gearcad import Gear, Material
-from gearcad.contact.plane.dissection import dissect, node_dofs
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity, element_forces, element_mass, element_stiffness
 from gearcad.contact.plane.ring import assemble
-from gearcad.contact.plane.sector import chain_of, make_sector
-from gearcad.contact.shared.chain import Chain, Cuts
-from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
-from gearcad.meshing.section.outline import Side
+from gearcad.contact.plane.sector import (
+    Plane,
+    PlaneElasticity,
+    chain_of,
+    dissect,
+    element_forces,
+    element_mass,
+    element_stiffness,
+    make_sector,
+    node_dofs,
+)
+from gearcad.contact.shared.bodies import Chain, Cuts
+from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.sector import SectorMesh, mesh_sector
 
 STEEL = Material()
 GEAR = Gear(teeth=13, normal_module=2.0, face_width=10, profile_shift=0.2)

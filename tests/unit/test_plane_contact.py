@@ -12,18 +12,22 @@ import pytest
 from scipy.optimize import nnls
 
 from gearcad import BasicRack, FlankModification, Gear, GearPair, Material, ReliefShape
-from gearcad.contact.plane.contact import ContactCells, ContactPair, compliance_matrix, solve_contact
-from gearcad.contact.plane.contact_pairs import contact_pairs
-from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
-from gearcad.contact.plane.pair import PlanePair, plane_pair
-from gearcad.contact.plane.subsurface import greatest_von_mises, strip_stresses
+from gearcad.contact.plane.cycle import PlaneCycle, greatest_von_mises, strip_stresses
+from gearcad.contact.plane.pair import (
+    ContactCells,
+    ContactPair,
+    PlanePair,
+    compliance_matrix,
+    contact_pairs,
+    plane_pair,
+    solve_contact,
+)
+from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.complementarity import complementary
 from gearcad.contact.shared.line_of_action import LineOfAction, line_of_action, rigid_approach
-from gearcad.contact.shared.relief_start import onsets, rounded_kink_pressure
-from gearcad.errors import GeometryError, ParameterError
-from gearcad.per_gear import PerGear, Role
+from gearcad.contact.shared.local_contact import complementary, onsets, rounded_kink_pressure
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.records import PerGear, Role
 from gearcad.rating import LineContact, reduced_modulus
 
 STEEL = Material()

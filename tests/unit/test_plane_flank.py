@@ -11,15 +11,20 @@ import pytest
 from support.brute import nodal_compliance
 
 from gearcad import Gear, Material
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
-from gearcad.contact.plane.flamant import edge_displacement, flamant_displacement, flamant_traction
-from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
+from gearcad.contact.plane.flank import (
+    Fillets,
+    PlaneCompliance,
+    edge_displacement,
+    flamant_displacement,
+    flamant_traction,
+    flank_compliance,
+)
 from gearcad.contact.plane.ring import assemble
-from gearcad.contact.plane.root import Fillets
-from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.plane.sector import Plane, PlaneElasticity
+from gearcad.contact.shared.bodies import Cuts
 from gearcad.geometry import ShaperCutter
-from gearcad.meshing.section import MeshSizes, mesh_sector
-from gearcad.meshing.section.outline import Side
+from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.sector import mesh_sector
 
 STEEL = Material()
 INWARD = np.array([0.6, -0.8])

@@ -8,17 +8,17 @@ import pytest
 from support.checks import small_check
 
 from gearcad import Body, Gear, GearPair, Material
-from gearcad.check.judge import standards
-from gearcad.check.plane.run import plane_notices
+from gearcad.check.gates import standards
+from gearcad.check.run import plane_notices
 from gearcad.check.summary import Figures, figures
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 from gearcad.contact.plane.pair import plane_pair
+from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
+from gearcad.core.records import texts
 from gearcad.load import Load
-from gearcad.notice import texts
 from gearcad.rating import Edition, RatingOptions
 from gearcad.stiffness import PlaneStrainContact, PlaneStressContact, StrainEnergy
 

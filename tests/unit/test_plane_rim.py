@@ -13,22 +13,17 @@ import scipy.sparse.linalg
 from support.plane_matrix import stiffness_matrix
 
 from gearcad import Body, Gear, GearPair, Material
-from gearcad.contact.plane.elasticity import PlaneElasticity
-from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
+from gearcad.contact.plane.flank import Fillets, PlaneCompliance, flank_compliance
 from gearcad.contact.plane.pair import flank_body
-from gearcad.contact.plane.rim import SurfaceStresses, far_responses
-from gearcad.contact.plane.ring import Ring, assemble
-from gearcad.contact.plane.root import Fillets
-from gearcad.contact.plane.support import hub_tractions, key_load, with_support
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.chain import Cuts
-from gearcad.contact.shared.holding import Hold, Support, rim_ratio, support_of
-from gearcad.errors import GeometryError, ParameterError
-from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
-from gearcad.meshing.section.outline import Side
-from gearcad.per_gear import PerGear
+from gearcad.contact.plane.ring import Ring, SurfaceStresses, assemble, far_responses
+from gearcad.contact.plane.sector import PlaneElasticity, hub_tractions, key_load, with_support
+from gearcad.contact.shared.bodies import BodyModel, Cuts, Hold, Support, rim_ratio, support_of
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.records import PerGear
+from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.sector import SectorMesh, mesh_sector
 from gearcad.rating.editions import Edition
-from gearcad.rating.rim import rim_thickness_factor
+from gearcad.rating.tooth_stiffness import rim_thickness_factor
 
 STEEL = Material()
 ELASTIC = PlaneElasticity(STEEL)

@@ -8,8 +8,7 @@ import pytest
 
 from gearcad import Gear, GearPair, Load
 from gearcad.check.options import CheckOptions
-from gearcad.check.plane.run import plane_steps
-from gearcad.check.run import expected_check
+from gearcad.check.run import expected_check, plane_steps
 from gearcad.check.task import check_task
 
 PAIR = GearPair(

@@ -12,7 +12,8 @@ import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from gearcad import ParameterError, SpecError, symbols
+from gearcad import ParameterError, SpecError
+from gearcad.core import symbols
 from gearcad.designs.keys import FIELDS
 from gearcad.plots import axis_label, plot_contours, plot_scatter, save_plot
 from gearcad.plots.paper import prepared

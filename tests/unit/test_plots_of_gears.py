@@ -15,7 +15,7 @@ import pytest
 
 import gearcad
 from gearcad import BasicRack, FlankModification, Gear, GearPair, GeometryError, Load, ParameterError, ShaperCutter, plots
-from gearcad.plots.gear import pointed_shift, undercut_shift
+from gearcad.plots.gears import pointed_shift, undercut_shift
 
 GEARS = {
     "spur": Gear(teeth=18, normal_module=3, face_width=20, profile_shift=0.2),

@@ -12,10 +12,10 @@ from scipy.spatial import cKDTree
 from support.clearance import turn_to_touch
 
 from gearcad import Gear, GearPair
-from gearcad.geometry.curves import CurveKind
+from gearcad.core.records import PerGear, Role
+from gearcad.geometry.profile import CurveKind
 from gearcad.meshing.bodies import Element, ElementMesh, Faces
-from gearcad.meshing.bodies.posed import contacts, posed, poses
-from gearcad.per_gear import PerGear, Role
+from gearcad.meshing.bodies.body_mesh import contacts, posed, poses
 
 Floats = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from support.samples import SAMPLES
 
 from gearcad import BasicRack, Gear, GeometryError, ParameterError
-from gearcad.geometry.curves import Curve, CurveKind, parameters_within
+from gearcad.geometry.profile import Curve, CurveKind, parameters_within
 
 ANGLE = 1e-10
 """rad: what the project promises for half angles."""

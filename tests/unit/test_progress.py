@@ -14,13 +14,13 @@ from support.pictures import leave_out_pictures
 from threadpoolctl import threadpool_limits
 
 from gearcad import Load, Material
+from gearcad.cli import job as shown
 from gearcad.cli import main
-from gearcad.cli import progress as shown
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, solid_pair
-from gearcad.progress import Agenda, Expected, Share
-from gearcad.stiffness import contact
-from gearcad.stiffness.compare import compare_methods
+from gearcad.core.runtime import Agenda, Expected, Share
+from gearcad.stiffness import finite_elements
+from gearcad.stiffness.methods import compare_methods
 
 SPEC = """
 [pair]
@@ -105,7 +105,7 @@ def test_stiffness_of_solids_tells_how_far_its_bodies_are(monkeypatch: pytest.Mo
             tell(share)
         return made
 
-    monkeypatch.setattr(contact, "solid_pair", coarse)
+    monkeypatch.setattr(finite_elements, "solid_pair", coarse)
     told: list[tuple[str, float, float]] = []
     pair, load, body = coarse_pair("helical"), Load(torque=60.0), BodyModel(teeth=3)
     with threadpool_limits(1):
@@ -151,7 +151,7 @@ def test_memory_of_bodies_is_what_was_expected() -> None:
     """Within a third, one gear after the other; arrays of numpy are traced, libraries are there before."""
     import skfem  # noqa: F401
 
-    import gearcad.contact.solid.assembling  # noqa: F401
+    import gearcad.contact.solid.kernels  # noqa: F401
 
     pair, body, sizes = coarse_pair("helical"), BodyModel(), SolidSizes().refined(0.6)
     tracemalloc.start()

@@ -39,9 +39,10 @@ from gearcad.designs import Design, PairDesign, read_spec
 from gearcad.dynamics import DynamicsOptions
 from gearcad.jobs import VERBS, job_of
 from gearcad.jobs.build import Build
+from gearcad.jobs.job import as_design
 from gearcad.jobs.modify import Modify
-from gearcad.jobs.rate import Rate
-from gearcad.jobs.subject import as_design
+from gearcad.jobs.strength import Rate
+from gearcad.jobs.verbs import module_of
 from gearcad.solids import Format
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -185,12 +186,17 @@ def test_what_is_permitted_beside_the_load_is_said() -> None:
 def test_every_job_has_a_class_and_a_function_of_its_name() -> None:
     for verb in VERBS:
         assert job_of(verb).verb == verb
-        function = getattr(import_module(f"gearcad.jobs.{verb}"), verb)
+        function = getattr(import_module(f"gearcad.jobs.{module_of(verb)}"), verb)
         assert signature(getattr(gearcad, verb)) == signature(function)
         assert inspect.getdoc(function).split("\n")[0] in inspect.getdoc(getattr(gearcad, verb))
 
 
-IMPORTS = ("import gearcad", "from gearcad.check import CheckOptions", "from gearcad import check", "import gearcad.jobs.check")
+IMPORTS = (
+    "import gearcad",
+    "from gearcad.check import CheckOptions",
+    "from gearcad import check",
+    "import gearcad.jobs.strength",
+)
 
 
 @pytest.mark.parametrize("first", range(len(IMPORTS)))
@@ -221,7 +227,7 @@ def test_a_type_checker_knows_what_verbs_take_and_give(tmp_path: Path) -> None:
 def test_every_package_says_what_it_has(room: str) -> None:
     package = import_module(f"gearcad.{room}")
     assert [name for name in package.__all__ if getattr(package, name, None) is None] == []
-    with pytest.raises(AttributeError, match="has no attribute 'nothing'"):
+    with pytest.raises(AttributeError, match=r"attribute '?nothing"):
         package.nothing  # noqa: B018
 
 
@@ -270,5 +276,5 @@ SEVERAL = np.array([True, False])
     ],
 )
 def test_wrong_types_are_errors_of_ours(call: Callable[[], object], said: str) -> None:
-    with pytest.raises(gearcad.errors.GearcadError, match=re.escape(said)):
+    with pytest.raises(gearcad.core.errors.GearcadError, match=re.escape(said)):
         call()

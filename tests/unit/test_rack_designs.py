@@ -12,11 +12,11 @@ import pytest
 import gearcad
 from gearcad import Gear, Load, Rack, RackPair, SpecError
 from gearcad.batch.study import plan_study
+from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.designs import RackDesign, RackPairDesign, design_from_tables, open_table, read_spec
-from gearcad.designs.columns import column_symbol
 from gearcad.designs.design import Design
-from gearcad.designs.starters import starter_text
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.designs.reader import starter_text
+from gearcad.designs.variations import column_symbol
 
 EXACT = 1e-12
 

@@ -14,11 +14,11 @@ import pytest
 from matplotlib.path import Path as Outline
 
 from gearcad import BasicRack, Gear, Rack, RackPair
-from gearcad.errors import GeometryError, InputError, ParameterError
+from gearcad.core.errors import GeometryError, InputError, ParameterError
+from gearcad.core.records import PerGear
 from gearcad.geometry import BaseTangent
-from gearcad.geometry.path import ContactZone
-from gearcad.geometry.rack_interference import cut_by_pinion, cut_by_rack
-from gearcad.per_gear import PerGear
+from gearcad.geometry.pair_data import ContactZone
+from gearcad.geometry.rack_pair import cut_by_pinion, cut_by_rack
 
 EXACT = 1e-12
 

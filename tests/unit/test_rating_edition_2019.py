@@ -12,9 +12,9 @@ from support.ratings import STEEL, sample_pair
 from gearcad import FlankModification, Gear, GearPair, Load, RackPair
 from gearcad.geometry import Rack
 from gearcad.rating import Edition, RatingOptions, rate, rate_rack
-from gearcad.rating.edition_2019 import load_distribution_factor, modification_factor, relieved
+from gearcad.rating.editions import load_distribution_factor, modification_factor, relieved
 from gearcad.rating.factors import citations, to_verify
-from gearcad.rating.iso6336_3 import deep_tooth_factor
+from gearcad.rating.root_stress import deep_tooth_factor
 
 LOAD = Load(torque=350.0)
 NEW, OLD = RatingOptions(standard=Edition.ISO_2019), RatingOptions(standard=Edition.ISO_2006)

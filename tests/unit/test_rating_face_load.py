@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from gearcad import Gear, GearPair, ParameterError
 from gearcad.rating import RunningIn, face_load_factor, root_face_load_factor, running_in_beta, width_to_height
-from gearcad.rating.face_load import bearing_width, face_load_exponent
+from gearcad.rating.load_factor_formulas import bearing_width, face_load_exponent
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,8 @@ from support.ratings import STEEL, numbers, sample_pair, shortened, swapped
 
 from gearcad import ISO53_D, Body, Gear, GearPair, Load
 from gearcad.rating import Edition, gear_blank_factor, rate
-from gearcad.rating.iso6336_1 import basic_rack_factor, low_load_factor, material_factor, tooth_flexibility
-from gearcad.rating.iso6336_2 import contact_factor, contact_ratio_factor, helix_angle_factor, single_contact_curvature
+from gearcad.rating.contact_stress import contact_factor, contact_ratio_factor, helix_angle_factor, single_contact_curvature
+from gearcad.rating.tooth_stiffness import basic_rack_factor, low_load_factor, material_factor, tooth_flexibility
 
 EXACT = 1e-12
 """Relative: the same quantity by two formulas."""

@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from gearcad import Body, Gear, GeometryError, ParameterError
+from gearcad.core.errors import SpecError
+from gearcad.core.output import json_text
 from gearcad.designs import open_table, read_spec
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.errors import SpecError
 from gearcad.material import Material, MaterialGroup
-from gearcad.output import json_text
 from gearcad.rating import Accuracy, Edition, RatingOptions
 
 SPEC = """
@@ -106,10 +106,10 @@ def test_one_accuracy_grade() -> None:
 
 
 def test_check_goes_by_the_rating(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    import gearcad.jobs.check
+    import gearcad.jobs.strength
 
     seen: list[Any] = []
-    monkeypatch.setattr(gearcad.jobs.check, "check_pair", lambda *arguments: seen.extend(arguments))
+    monkeypatch.setattr(gearcad.jobs.strength, "check_pair", lambda *arguments: seen.extend(arguments))
     design = read_spec(spec(tmp_path))
     gearcad.check(design)
     assert seen[-1] is design.rating

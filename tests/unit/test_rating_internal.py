@@ -10,16 +10,13 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, Gear, GearcadError, GearPair, GeometryError, Load, Material, rate
-from gearcad.designs.columns import column_symbol
+from gearcad.core.symbols import GEAR_RATING, RING_FORMULA
+from gearcad.designs.variations import column_symbol
 from gearcad.geometry import ShaperCutter
-from gearcad.geometry.trochoid import FilletTool
+from gearcad.geometry.fillets import FilletTool
 from gearcad.rating import Edition, RatingOptions, RootSection, VirtualGear, contact_at
-from gearcad.rating.rim import ring_rim_factor
-from gearcad.rating.ring_formula import _half_width
-from gearcad.rating.root_section import generated_section, hob_section, root_section
-from gearcad.rating.virtual import load_point
-from gearcad.rating.virtual_tool import virtual_tool
-from gearcad.symbols import GEAR_RATING, RING_FORMULA
+from gearcad.rating.root_section import _half_width, generated_section, hob_section, load_point, root_section, virtual_tool
+from gearcad.rating.tooth_stiffness import ring_rim_factor
 
 EXACT = 1e-11
 STEEL, LOAD = Material(), Load(torque=300.0)

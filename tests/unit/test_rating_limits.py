@@ -12,10 +12,11 @@ from hypothesis import event, given, settings
 from support.ratings import STEEL, numbers, sample_pair, swapped
 from support.strategies import build_pair, pair_inputs
 
-from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, Load, ParameterError, symbols
-from gearcad.errors import InputError
+from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, Load, ParameterError
+from gearcad.core import symbols
+from gearcad.core.errors import InputError
 from gearcad.rating import Edition, Rating, RatingOptions, rate
-from gearcad.rating.rim import rim_thickness_ratio
+from gearcad.rating.tooth_stiffness import rim_thickness_ratio
 
 EXACT = 1e-12
 """Relative: the same quantity by two formulas."""

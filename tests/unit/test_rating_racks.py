@@ -11,7 +11,7 @@ import pytest
 
 from gearcad import BasicRack, Gear, GearPair, GeometryError, Load, Material, Rack, RackPair, rate
 from gearcad.rating import rate_rack
-from gearcad.rating.rack_rating import rack_contact_at
+from gearcad.rating.nominal_rating import rack_contact_at
 
 STEEL, LOAD = Material(), Load(torque=200.0)
 

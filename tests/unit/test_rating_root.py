@@ -11,14 +11,13 @@ import pytest
 from support.ratings import STEEL, numbers, sample_pair, swapped
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, Load
-from gearcad.geometry.curves import CurveKind, Fillet
-from gearcad.geometry.trochoid import ToolTip
-from gearcad.per_gear import Role
+from gearcad.core.records import Role
+from gearcad.geometry.fillets import ToolTip
+from gearcad.geometry.profile import CurveKind, Fillet
 from gearcad.rating import Edition, VirtualGear, rate
-from gearcad.rating.iso6336_3 import deep_tooth_factor, helix_angle_factor, loaded_width
-from gearcad.rating.rim import rim_thickness_factor
-from gearcad.rating.root_section import root_section
-from gearcad.rating.virtual import load_point
+from gearcad.rating.root_section import load_point, root_section
+from gearcad.rating.root_stress import deep_tooth_factor, helix_angle_factor, loaded_width
+from gearcad.rating.tooth_stiffness import rim_thickness_factor
 
 EXACT = 1e-12
 """Relative: the same quantity by two formulas."""

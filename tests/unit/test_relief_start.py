@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gearcad import FlankModification, Gear
 from gearcad.contact.shared.line_of_action import TransverseFlank
-from gearcad.contact.shared.relief_start import GapCurve, onsets, press, rounded_kink_pressure, start_distance
+from gearcad.contact.shared.local_contact import GapCurve, onsets, press, rounded_kink_pressure, start_distance
 
 Floats = NDArray[np.float64]
 

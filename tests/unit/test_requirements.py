@@ -5,12 +5,11 @@ from dataclasses import fields, replace
 import pytest
 
 from gearcad import Body, DoubleHelix, Gear, Material, Rack
+from gearcad.core.errors import ParameterError
+from gearcad.drawing.drawing_subjects import DrawnGear
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.quality import hole_position
-from gearcad.drawing.requirements import Requirements
-from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.requirements import Requirements, hole_position
 from gearcad.drawing.words import Language, Size, Words
-from gearcad.errors import ParameterError
 from gearcad.geometry import HubSide
 
 USUAL = DrawingOptions()

@@ -11,24 +11,22 @@ import pytest
 
 from gearcad import Body, Gear, GearPair, Load, Material
 from gearcad.check.comparison import ComparisonRole
+from gearcad.check.gates import compare_plane
 from gearcad.check.options import CheckOptions
-from gearcad.check.plane.judge import compare_plane
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair
-from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.elasticity import PlaneElasticity
+from gearcad.contact.plane.cycle import PlaneCycle, conformal
 from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
-from gearcad.contact.plane.limits import conformal
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.plane.ring import assemble
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.chain import Cuts
-from gearcad.contact.shared.holding import Hold, Support, support_of
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.contact.plane.sector import PlaneElasticity
+from gearcad.contact.shared.bodies import BodyModel, Cuts, Hold, Support, support_of
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.records import PerGear
 from gearcad.geometry import ShaperCutter
-from gearcad.meshing.section import MeshSizes, mesh_sector
-from gearcad.per_gear import PerGear
-from gearcad.plots.pair import pair_inches, plot_pair
+from gearcad.meshing.outline import MeshSizes
+from gearcad.meshing.sector import mesh_sector
+from gearcad.plots.gears import pair_inches, plot_pair
 
 STEEL = Material()
 ON_BOLTS = {"bolt_circle": 160.0, "bolt_holes": 8, "bolt_diameter": 5.0}
@@ -165,7 +163,7 @@ def test_wide_contacts_are_told_and_not_held_against_cylinders(monkeypatch: pyte
     wide = [contact for _, contact in heavy.cycle.interior_contacts if conformal(contact)]
     assert 0 < len(wide) < len(list(heavy.cycle.interior_contacts))
     assert "Hertz can be more than 1 % off" in said(heavy, "conformal-contact")
-    monkeypatch.setattr("gearcad.contact.shared.conformal._WIDE", 0.01)
+    monkeypatch.setattr("gearcad.contact.shared.local_contact._WIDE", 0.01)
     found = {each.quantity: each for each in compare_plane(heavy.task, heavy.cycle, heavy.summary, ())}
     assert found["peak contact pressure"].role is ComparisonRole.INFORMATION
     assert found["torque reaction of the wheel"].role is ComparisonRole.GATE

@@ -11,14 +11,12 @@ import pytest
 from support.brute import nodal_compliance
 
 from gearcad import Body, Gear, GearPair, Material
-from gearcad.contact.plane.contact_pairs import contact_pairs
-from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.field import contact_frame, tooth_field
-from gearcad.contact.plane.pair import PlanePair, plane_pair
+from gearcad.contact.plane.cycle import PlaneCycle, contact_frame, tooth_field
+from gearcad.contact.plane.pair import PlanePair, contact_pairs, plane_pair
 from gearcad.contact.shared.line_of_action import facing_gap, facing_teeth, line_of_action, overlap
+from gearcad.core.records import Role
 from gearcad.geometry import FlankModification, ShaperCutter
-from gearcad.meshing.section import MeshSizes
-from gearcad.per_gear import Role
+from gearcad.meshing.outline import MeshSizes
 
 STEEL = Material()
 CUTTER = ShaperCutter(teeth=25)

@@ -10,15 +10,15 @@ import pytest
 from scipy.linalg import expm
 
 from gearcad import Gear, GearPair, Load, Material
-from gearcad.dynamics.excitation.sources import pair_train
+from gearcad.core.records import PerGear
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.pair import study_contact, study_pair
-from gearcad.dynamics.tooth_springs.contact_model import ContactModel, EngagedPairs
-from gearcad.dynamics.tooth_springs.motion import time_history
-from gearcad.dynamics.trains.parts import static_forces
-from gearcad.dynamics.trains.six_dof import PairOnBearings
+from gearcad.dynamics.pair_study import study_contact, study_pair
+from gearcad.dynamics.time_domain.contact_model import ContactModel, EngagedPairs
+from gearcad.dynamics.time_domain.time_history import time_history
+from gearcad.dynamics.trains.mesh_excitation import pair_train
+from gearcad.dynamics.trains.pair_on_bearings import PairOnBearings
+from gearcad.dynamics.trains.train import static_forces
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.per_gear import PerGear
 
 PAIR = GearPair(
     pinion=Gear(teeth=24, normal_module=2.0, face_width=20.0, tooth_thinning=0.05),

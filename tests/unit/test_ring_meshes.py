@@ -9,22 +9,19 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, FlankModification, Gear, GearPair
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import PerGear
 from gearcad.geometry import ShaperCutter
-from gearcad.meshing.bodies.elements import Element
-from gearcad.meshing.bodies.exactness import deviations
-from gearcad.meshing.bodies.measure import measure_whole
-from gearcad.meshing.bodies.other_sides import side_deviations
-from gearcad.meshing.bodies.posed import contacts, posed
-from gearcad.meshing.bodies.quality import quality
+from gearcad.meshing.bodies.body_mesh import body_sizes, contacts, expected_amount, posed
+from gearcad.meshing.bodies.element_mesh import Element
+from gearcad.meshing.bodies.exactness import deviations, side_deviations
+from gearcad.meshing.bodies.gear_faces import TetrahedronGrading
+from gearcad.meshing.bodies.quality import measure_whole, quality
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.bodies.sizing import body_sizes, expected_amount
 from gearcad.meshing.bodies.tetrahedra import mesh_tetrahedra
-from gearcad.meshing.bodies.tetrahedron_sizes import TetrahedronGrading
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.plan import plan_mesh
-from gearcad.meshing.run import run_mesh
-from gearcad.per_gear import PerGear
+from gearcad.meshing.result import run_mesh
 from gearcad.solids.exact.inertia import mass_properties
 
 _ALM: dict[str, Any] = {

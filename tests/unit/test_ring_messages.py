@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
+from gearcad.core.errors import SpecError
 from gearcad.designs.design import Design
 from gearcad.designs.reader import design_from_tables
-from gearcad.errors import SpecError
 
 
 def _tables(

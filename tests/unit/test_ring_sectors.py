@@ -9,14 +9,11 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, Gear
-from gearcad.errors import GeometryError, InputError
+from gearcad.core.errors import GeometryError, InputError
 from gearcad.geometry import ShaperCutter
-from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
-from gearcad.meshing.section.held import held_radius
-from gearcad.meshing.section.layout import LogPlane
-from gearcad.meshing.section.outline import SectorSides, Side
-from gearcad.meshing.section.quads import QuadMesh, mesh_quads
-from gearcad.meshing.section.quality import mesh_quality, scaled_jacobians
+from gearcad.meshing.outline import MeshSizes, SectorSides, Side, held_radius
+from gearcad.meshing.quads import LogPlane, QuadMesh, mesh_quads, mesh_quality, scaled_jacobians
+from gearcad.meshing.sector import SectorMesh, mesh_sector
 
 ROUNDING = 1e-9
 """mm per mm of module: what 16 digits leave of a mesh."""

@@ -13,18 +13,16 @@ import pytest
 
 from gearcad import Body, FlankModification, Gear, GearPair, Load, Material, Mounting
 from gearcad.check.comparison import ComparisonRole
-from gearcad.check.face import face_factors
 from gearcad.check.options import CheckOptions
+from gearcad.check.result import SolidCheck
 from gearcad.check.run import check_pair
-from gearcad.check.solid.result import SolidCheck
-from gearcad.check.task import check_task
+from gearcad.check.task import check_task, face_factors
 from gearcad.contact.shared.line_of_action import LineOfAction, facing_gap, facing_teeth, line_of_action, nearest
 from gearcad.contact.solid.pair import teeth_moved
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Role
 from gearcad.geometry import ShaperCutter
-from gearcad.per_gear import Role
-from gearcad.plots.lines import plot_contact_pattern, plot_line_loads, plot_root_along_face
-from gearcad.plots.tooth import plot_tooth
+from gearcad.plots.check import plot_contact_pattern, plot_line_loads, plot_root_along_face, plot_tooth
 
 STEEL = Material()
 RELIEVED = FlankModification(tip_relief=8.0, tip_relief_length=1.5)

@@ -9,22 +9,25 @@ from typing import TypeVar
 import numpy as np
 import pytest
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
+from gearcad.drawing.drawing_subjects import DrawnGear
+from gearcad.drawing.drawing_symbols import freehand
 from gearcad.drawing.layout import dressed
-from gearcad.drawing.marks import freehand
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.rack_views import end_section, front_view, plan_view
-from gearcad.drawing.rack_views.figures import front_figure, plan_figure, tooth_middles
-from gearcad.drawing.rack_views.span import Span
-from gearcad.drawing.rack_views.teeth import teeth_between
 from gearcad.drawing.requirements import Requirements
-from gearcad.drawing.ring_views import face_view, section_view
-from gearcad.drawing.ring_views.face import end_face, hole_places
-from gearcad.drawing.ring_views.meridian import Meridian
-from gearcad.drawing.ring_views.section import full_section
 from gearcad.drawing.shapes import Arc, Circle, Dimension, Figure, Hatching, Line, Pen, Polyline
-from gearcad.drawing.subject import DrawnGear
-from gearcad.drawing.tooth_views import detail_mark
+from gearcad.drawing.views.rack_views import (
+    Span,
+    end_section,
+    front_figure,
+    front_view,
+    plan_figure,
+    plan_view,
+    teeth_between,
+    tooth_middles,
+)
+from gearcad.drawing.views.ring_views import Meridian, end_face, face_view, full_section, hole_places, section_view
+from gearcad.drawing.views.tooth_detail import detail_mark
 from gearcad.drawing.words import Draughting, Language, Words
 from gearcad.geometry import Body, Gear, Rack
 from gearcad.solids import tessellate, tessellate_rack

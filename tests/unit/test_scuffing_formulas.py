@@ -9,16 +9,26 @@ import numpy as np
 import pytest
 from support.scuffing import EH, Factors, pair, scuffed
 
-from gearcad import FlankModification, Gear, GearPair, Material, ParameterError, symbols
+from gearcad import FlankModification, Gear, GearPair, Material, ParameterError
+from gearcad.core import symbols
+from gearcad.core.records import PerGear, Role
 from gearcad.material import MaterialGroup
-from gearcad.per_gear import PerGear, Role
 from gearcad.rating import RatingOptions
-from gearcad.rating.lubricant_options import OilType
-from gearcad.rating.scuffing import Risk, SlidingMesh
-from gearcad.rating.scuffing.heat import helical_load_factor, structure_factor, thermo_elastic_factor
-from gearcad.rating.scuffing.integral import approach_factor, contact_ratio_factor, tip_relief_factor
-from gearcad.rating.scuffing.oil import Oil, kinematic_viscosity, stage_torque, usual_viscosity_100
-from gearcad.rating.scuffing.risk import flash_risk, integral_risk
+from gearcad.rating.options import OilType
+from gearcad.rating.scuffing import Risk, flash_risk, integral_risk
+from gearcad.rating.scuffing_temperatures import (
+    Oil,
+    SlidingMesh,
+    approach_factor,
+    contact_ratio_factor,
+    helical_load_factor,
+    kinematic_viscosity,
+    stage_torque,
+    structure_factor,
+    thermo_elastic_factor,
+    tip_relief_factor,
+    usual_viscosity_100,
+)
 
 EXACT = 1e-12
 HELICAL, SPUR = pair(), pair((16, 24), module=4.5, shifts=(0.1817, 0.1715), helix=0.0, width=14.0)

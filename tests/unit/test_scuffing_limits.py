@@ -10,8 +10,8 @@ import pytest
 from support.scuffing import Factors, pair, scuffed
 
 from gearcad import BasicRack, GearPair
-from gearcad.errors import GeometryError
-from gearcad.rating.scuffing import FlashPath
+from gearcad.core.errors import GeometryError
+from gearcad.rating.scuffing_temperatures import FlashPath
 
 SPUR = pair((16, 24), module=4.5, shifts=(0.1817, 0.1715), helix=0.0, width=14.0)
 

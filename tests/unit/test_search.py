@@ -12,11 +12,10 @@ from support.coarse import PAIRS, TORQUES, coarse_model, coarse_pair
 from threadpoolctl import threadpool_limits
 
 from gearcad import Mounting
-from gearcad.check.extremes import PRESSURE
-from gearcad.contact.optimum.search import Found, Search
-from gearcad.contact.optimum.start import _Sampling, start_search
-from gearcad.contact.optimum.variants import AMOUNTS, Condition, with_amounts
-from gearcad.contact.shared.loaded_left import loaded_left
+from gearcad.check.summary import PRESSURE
+from gearcad.contact.modification_search import Found, Search, _Sampling, start_search
+from gearcad.contact.modification_variants import AMOUNTS, Condition, with_amounts
+from gearcad.contact.shared.line_of_action import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.geometry import ReliefShape
 from gearcad.jobs.modify import _best, _modified, _polished, _tried, unmirrored
@@ -42,8 +41,8 @@ BEST = 1.02
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 3)
-    monkeypatch.setattr("gearcad.contact.optimum.search._STARTS", 1)
+    monkeypatch.setattr("gearcad.contact.modification_search._GENERATIONS", 3)
+    monkeypatch.setattr("gearcad.contact.modification_search._STARTS", 1)
 
 
 @pytest.fixture(scope="module")
@@ -55,14 +54,14 @@ def fine() -> Search:
 
 @pytest.fixture
 def few(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.contact.optimum.start._SPUR", _Sampling(8, 12, 3))
+    monkeypatch.setattr("gearcad.contact.modification_search._SPUR", _Sampling(8, 12, 3))
 
 
 @pytest.fixture(scope="module")
 def search() -> Search:
     """At few positions: enough to tell how it searches."""
     with threadpool_limits(1), pytest.MonkeyPatch.context() as patch:
-        patch.setattr("gearcad.contact.optimum.start._SPUR", _Sampling(8, 12, 3))
+        patch.setattr("gearcad.contact.modification_search._SPUR", _Sampling(8, 12, 3))
         return start_search(coarse_model("FZG C"), TORQUE, ReliefShape.LINEAR)
 
 
@@ -167,8 +166,8 @@ def test_no_neighbour_of_a_checked_proposal_is_better(name: str, shape: ReliefSh
 
 
 def test_proposals_are_round_and_the_same_each_time(search: Search, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 2)
-    monkeypatch.setattr("gearcad.contact.optimum.search._STARTS", 1)
+    monkeypatch.setattr("gearcad.contact.modification_search._GENERATIONS", 2)
+    monkeypatch.setattr("gearcad.contact.modification_search._STARTS", 1)
     first, second = (run(replace(search), 2000.0) for _ in range(2))  # anew: what a search has seen it does not solve again
     np.testing.assert_array_equal(first.amounts, second.amounts)
     lengths = first.amounts[[1, 3]] / 0.05
@@ -189,7 +188,7 @@ def test_a_bound_of_the_pressure_is_kept_and_one_that_cannot_be_gives_way_to_the
 
 @pytest.mark.usefixtures("few")
 def test_the_helix_is_turned_after_a_misaligned_wheel(search: Search, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 3)
+    monkeypatch.setattr("gearcad.contact.modification_search._GENERATIONS", 3)
     model = coarse_model("FZG C")
     mounting = Mounting(misalignment=30.0)
     with threadpool_limits(1):

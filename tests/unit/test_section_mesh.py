@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, Gear
-from gearcad.errors import ParameterError
-from gearcad.meshing.bodies.contact_zone import ContactZone
-from gearcad.meshing.bodies.elements import Element
-from gearcad.meshing.bodies.mesh import ElementMesh
+from gearcad.core.errors import ParameterError
+from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
 from gearcad.meshing.bodies.quality import quality
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.section import MeshSizes
+from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.outline import MeshSizes
 
 ROUNDING = 1e-12
 """mm, and mm² over mm²: what 16 digits leave."""

@@ -1,8 +1,7 @@
 """Sentences of templates are plain text on one line, whatever lines, branches and macros they are written in."""
 
-from gearcad.check.explanation import Compared
-from gearcad.check.solid.explanation import LinesExplanation
-from gearcad.report.sentences import sentences
+from gearcad.check.explanation import Compared, LinesExplanation
+from gearcad.report.document import sentences
 
 LINES = LinesExplanation(
     greatest_pressure=None,

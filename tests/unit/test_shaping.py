@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 from gearcad import BasicRack, Body, Gear, GeometryError, ParameterError
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError
+from gearcad.core.records import PerGear
 from gearcad.geometry import ShaperCutter, zero_backlash_centre_distance
-from gearcad.per_gear import PerGear
 
 
 def _inputs(**changes: Any) -> dict[str, Any]:

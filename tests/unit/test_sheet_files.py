@@ -14,25 +14,11 @@ import numpy as np
 import pytest
 from support.written_sheet import read_sheet
 
-from gearcad.drawing.files import sheet_document, unshown, write_dxf, write_pdf, write_svg
-from gearcad.drawing.files.hatch_lines import hatch_lines
-from gearcad.drawing.files.items import Stroked
-from gearcad.drawing.files.lettering import set_letters
-from gearcad.drawing.marks import centre_cross
-from gearcad.drawing.shapes import (
-    Anchor,
-    Arc,
-    Circle,
-    Dimension,
-    Figure,
-    Filled,
-    Hatching,
-    Line,
-    Measured,
-    Pen,
-    Polyline,
-    Text,
-)
+from gearcad.core.dxf import write_document as write_dxf
+from gearcad.drawing.drawing_symbols import centre_cross
+from gearcad.drawing.dxf_export import sheet_document
+from gearcad.drawing.page_export import Stroked, hatch_lines, set_letters, unshown, write_pdf, write_svg
+from gearcad.drawing.shapes import Anchor, Arc, Circle, Dimension, Figure, Filled, Hatching, Line, Measured, Pen, Polyline, Text
 from gearcad.drawing.words import Language
 
 SIZE = (420.0, 297.0)

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 import pytest
 
 from gearcad import GeometryError
+from gearcad.core.records import PerGear
 from gearcad.geometry import BaseTangent, PathOfContact, profile_shift_sum, specific_sliding, zero_backlash_centre_distance
 from gearcad.geometry.gear_data import GearData
-from gearcad.geometry.path import farthest_centre_distance
-from gearcad.geometry.shift import shift_sum_limit
-from gearcad.per_gear import PerGear
+from gearcad.geometry.pair_data import farthest_centre_distance, shift_sum_limit
 
 EXACT = 1e-10
 

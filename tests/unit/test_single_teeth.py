@@ -9,17 +9,23 @@ import numpy as np
 import pytest
 
 from gearcad import Load
+from gearcad.core.records import PerGear
+from gearcad.core.runtime import templates
 from gearcad.designs import read_spec
-from gearcad.dynamics.excitation.deviations import ErrorDistribution, random_deviations
-from gearcad.dynamics.tooth_errors.paths import cycle_spring, even_spring, pair_path, standard_path
-from gearcad.dynamics.tooth_errors.result import quantile_ranks
-from gearcad.dynamics.tooth_errors.sources import mesh_teeth, with_short_period
-from gearcad.dynamics.tooth_errors.springs import PairErrors, ToothSpring, at_rest
-from gearcad.dynamics.tooth_errors.teeth import Draw, MeshTeeth
+from gearcad.dynamics.tooth_errors.error_result import quantile_ranks
+from gearcad.dynamics.tooth_errors.error_sources import Draw, MeshTeeth, mesh_teeth, with_short_period
+from gearcad.dynamics.tooth_errors.tooth_springs import (
+    PairErrors,
+    ToothSpring,
+    at_rest,
+    cycle_spring,
+    even_spring,
+    pair_path,
+    standard_path,
+)
 from gearcad.dynamics.trains.members import Mesh
-from gearcad.per_gear import PerGear
-from gearcad.rating.tolerances.iso1328 import flank_tolerances
-from gearcad.shipped import templates
+from gearcad.dynamics.trains.tooth_deviations import ErrorDistribution, random_deviations
+from gearcad.rating.tolerances import flank_tolerances
 from gearcad.stiffness.methods import METHODS
 
 TURNS = np.arange(2000) / 2000

@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gearcad.core.records import PerGear
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.train import study_train
+from gearcad.dynamics.train_study import study_train
 from gearcad.dynamics.trains.members import Inertia, Mesh
-from gearcad.dynamics.trains.six_dof import PairOnBearings
+from gearcad.dynamics.trains.pair_on_bearings import PairOnBearings
 from gearcad.dynamics.trains.train import Train, TrainModel
-from gearcad.per_gear import PerGear
 
 PAIR = PairOnBearings(
     masses=(0.8, 3.1),

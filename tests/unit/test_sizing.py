@@ -5,14 +5,12 @@ from __future__ import annotations
 import pytest
 
 from gearcad import Body, Gear
-from gearcad.errors import ParameterError
-from gearcad.meshing.bodies.body_mesh import mesh_body
-from gearcad.meshing.bodies.contact_zone import ContactZone
-from gearcad.meshing.bodies.elements import Element
+from gearcad.core.errors import ParameterError
+from gearcad.meshing.bodies.body_mesh import Amount, body_sizes, expected_amount, factor_for, mesh_body
+from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
 from gearcad.meshing.bodies.exactness import deviations
-from gearcad.meshing.bodies.mesh import ElementMesh
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.bodies.sizing import Amount, body_sizes, expected_amount, factor_for
+from gearcad.meshing.bodies.sectors import ContactZone
 
 GEARS = {
     "z7": Gear(teeth=7, normal_module=2.0, face_width=4, profile_shift=0.4),

@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 from gearcad.cli import main
 from gearcad.cli.size_options import values_of
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
 
 TASK = {"--torque": "302", "--speed": "1500", "--ratio": "1.5", "--material": "Eh MQ"}
 

@@ -11,20 +11,26 @@ import numpy as np
 import pytest
 
 from gearcad import GearPair, Load, Material, PerGear
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError
 from gearcad.geometry import Gear
-from gearcad.geometry.shift import profile_shift_sum, zero_backlash_centre_distance
+from gearcad.geometry.pair_data import profile_shift_sum, zero_backlash_centre_distance
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import rate_strength
 from gearcad.sizing import Criterion, SizeTask, search_pairs
 from gearcad.sizing.geometry import ManyPairs
-from gearcad.sizing.grid import Grid, rounded_distance, rounded_width
-from gearcad.sizing.limits import LIMITS
-from gearcad.sizing.ranking import NEARLY, front, ranked
-from gearcad.sizing.rated import Rated, line_ripple
-from gearcad.sizing.rating import rate_many
-from gearcad.sizing.refine import least_width, refined
-from gearcad.sizing.search import survey
+from gearcad.sizing.rating import Rated, line_ripple, rate_many
+from gearcad.sizing.search import (
+    LIMITS,
+    NEARLY,
+    Grid,
+    front,
+    least_width,
+    ranked,
+    refined,
+    rounded_distance,
+    rounded_width,
+    survey,
+)
 
 EH = Material(name="Eh MQ")
 SMALL = SizeTask(
@@ -117,7 +123,7 @@ def test_the_order_of_ranges_has_no_say() -> None:
 
 def test_chunks_have_no_say(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = survey(WIDE)
-    monkeypatch.setattr("gearcad.sizing.grid.CHUNK", 37)
+    monkeypatch.setattr("gearcad.sizing.search.CHUNK", 37)
     monkeypatch.setattr("gearcad.sizing.search._KEPT", 10)
     parts = survey(WIDE)
     assert whole.best is not None and whole.front is not None and parts.best is not None and parts.front is not None
@@ -125,7 +131,7 @@ def test_chunks_have_no_say(monkeypatch: pytest.MonkeyPatch) -> None:
     assert np.array_equal(np.sort(whole.front.order), np.sort(parts.front.order))
     assert whole.removed == parts.removed
     fine = refined(WIDE, whole.best, 40)
-    monkeypatch.setattr("gearcad.sizing.refine._AT_A_TIME", 5)
+    monkeypatch.setattr("gearcad.sizing.search._AT_A_TIME", 5)
     assert np.array_equal(refined(WIDE, whole.best, 40).mass[:20], fine.mass[:20])
 
 

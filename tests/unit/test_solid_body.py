@@ -13,17 +13,16 @@ import scipy.sparse
 import scipy.sparse.linalg
 
 from gearcad import Gear, Material
-from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.shared.bodies import Cuts
 from gearcad.contact.solid.body import SolidBody, SolidSector, assemble_body
+from gearcad.contact.solid.elements import lame
 from gearcad.contact.solid.flank import solid_compliance
-from gearcad.contact.solid.hexahedra import lame
+from gearcad.contact.solid.fronts import joined
 from gearcad.contact.solid.root import _between
-from gearcad.contact.solid.spans import joined
-from gearcad.errors import SolverError
-from gearcad.meshing.section import MeshSizes
-from gearcad.meshing.section.outline import Side
-from gearcad.meshing.section.quads import mesh_quads
-from gearcad.meshing.section.swept import SweptMesh, sweep
+from gearcad.core.errors import SolverError
+from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.quads import mesh_quads
+from gearcad.meshing.sector import SweptMesh, sweep
 
 STEEL = Material()
 GEAR = Gear(teeth=8, normal_module=2.0, face_width=8, helix_angle=25, profile_shift=0.5)

@@ -14,21 +14,28 @@ from support.hertz import hertz_ellipse
 from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.line_of_action import line_of_action
-from gearcad.contact.solid.boussinesq import (
+from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact
+from gearcad.contact.solid.elements import lame
+from gearcad.contact.solid.flank import (
+    SolidFlank,
     half_space_displacement,
     half_space_normal_displacement,
     half_space_traction,
     surface_displacement,
 )
-from gearcad.contact.solid.contact import SolidPairContact
-from gearcad.contact.solid.contact_lines import ContactLine, Gaps, contact_lines, gaps
-from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.contact.solid.flank import SolidFlank
-from gearcad.contact.solid.hexahedra import lame
-from gearcad.contact.solid.line_contact import LineSolution, Responses, half_widths, solve_lines
+from gearcad.contact.solid.line_contact import (
+    ContactLine,
+    Gaps,
+    LineSolution,
+    Responses,
+    contact_lines,
+    gaps,
+    half_widths,
+    solve_lines,
+)
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
-from gearcad.errors import SolverError
-from gearcad.per_gear import PerGear, Role
+from gearcad.core.errors import SolverError
+from gearcad.core.records import PerGear, Role
 
 Floats = NDArray[np.float64]
 
@@ -369,7 +376,7 @@ def test_pressure_beside_the_start_of_a_relief_has_no_internal_length(monkeypatc
     model = solid_pair(GearPair(pinion=gears[0], wheel=gears[1]), STEEL, body=BodyModel(teeth=5))
     found, told = [], []
     for bend in (0.025, 0.05, 0.1):
-        monkeypatch.setattr("gearcad.contact.solid.contact_lines.BEND", bend)
+        monkeypatch.setattr("gearcad.contact.solid.line_contact.BEND", bend)
         fresh = replace(model, known={}, solved={})
         cycle = SolidCycle.run(fresh, 150.0, 16)
         contacts = [contact for position in cycle.positions for contact in position.contacts]

@@ -9,21 +9,24 @@ import pytest
 from support.checks import small_solid_check
 
 from gearcad import Material
-from gearcad.check.face import face_factors
-from gearcad.contact.solid.field import _gauss_points, _outward, nodal_stress, worst_field
-from gearcad.meshing.section.outline import Side
-from gearcad.per_gear import Role
-from gearcad.plots.check import plot_mesh_stiffness, plot_root_stress, plot_transmission_error
-from gearcad.plots.lines import (
+from gearcad.check.task import face_factors
+from gearcad.contact.solid.cycle import _gauss_points, _outward, nodal_stress, worst_field
+from gearcad.core.records import Role
+from gearcad.meshing.outline import Side
+from gearcad.plots.check import (
     plot_contact_pattern,
     plot_harmonics,
     plot_line_loads,
     plot_lines_share,
     plot_load_along_face,
+    plot_mesh_stiffness,
     plot_root_along_face,
+    plot_root_stress,
+    plot_tooth,
+    plot_transmission_error,
+    viewed,
 )
 from gearcad.plots.paper import new_figure
-from gearcad.plots.tooth import plot_tooth, viewed
 
 _ALL = (
     plot_line_loads,

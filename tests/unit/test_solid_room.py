@@ -8,12 +8,10 @@ from dataclasses import replace
 import pytest
 
 from gearcad import Gear, GearPair, Load, Material
-from gearcad.check import CheckOptions
-from gearcad.check.run import check_pair
-from gearcad.check.solid import room
-from gearcad.check.solid.expected import expected_solid
+from gearcad.check import CheckOptions, run
+from gearcad.check.run import check_pair, expected_solid
 from gearcad.check.task import CheckTask, check_task
-from gearcad.errors import ParameterError
+from gearcad.core.errors import ParameterError
 
 PAIR = GearPair(
     pinion=Gear(teeth=20, normal_module=2, face_width=60, helix_angle=15, tooth_thinning=0.05),
@@ -30,7 +28,7 @@ def task(refinement: float, convergence: str = "on") -> CheckTask:
 def needed(monkeypatch: pytest.MonkeyPatch) -> float:
     """Bytes that a check takes, on a machine with a little less."""
     memory = expected_solid(task(1.0)).memory
-    monkeypatch.setattr(room, "machine_memory", lambda: 0.9 * memory)
+    monkeypatch.setattr(run, "machine_memory", lambda: 0.9 * memory)
     return memory
 
 
@@ -41,14 +39,14 @@ def test_bodies_for_which_there_is_no_memory_are_refused(needed: float) -> None:
 
 
 def test_what_is_told_would_do(needed: float) -> None:
-    room.require_room(task(0.92))
-    room.require_room(task(1.0, "off"))
+    run.require_room(task(0.92))
+    run.require_room(task(1.0, "off"))
     with pytest.raises(ParameterError):
-        room.require_room(task(1.0))
+        run.require_room(task(1.0))
 
 
 def test_a_machine_with_room_refuses_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     wanted = task(1.0)
-    monkeypatch.setattr(room, "machine_memory", lambda: expected_solid(wanted).memory)
-    room.require_room(wanted)
-    room.require_room(replace(wanted, load=Load(torque=200)))
+    monkeypatch.setattr(run, "machine_memory", lambda: expected_solid(wanted).memory)
+    run.require_room(wanted)
+    run.require_room(replace(wanted, load=Load(torque=200)))

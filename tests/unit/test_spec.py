@@ -10,13 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gearcad import ISO53_C, SpecError
+from gearcad.core.output import json_text
+from gearcad.core.records import PerGear
 from gearcad.designs import design_from_tables, read_spec
-from gearcad.designs.design import Design
+from gearcad.designs.design import Design, find_lines, nearest_line
 from gearcad.designs.keys import KEYS
-from gearcad.designs.lines import find_lines, nearest_line
 from gearcad.geometry import profile_shift_sum, specific_sliding
-from gearcad.output import json_text
-from gearcad.per_gear import PerGear
 
 EXACT = 1e-12
 """Relative: the same double-precision formula in another order."""

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from gearcad.core.errors import SpecError
 from gearcad.designs import read_spec
-from gearcad.designs.edit import edit_spec
-from gearcad.errors import SpecError
+from gearcad.designs.reader import edit_spec
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

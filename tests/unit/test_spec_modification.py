@@ -14,11 +14,11 @@ from rich.console import Console
 
 from gearcad import FlankModification, Mounting, ReliefShape, SpecError
 from gearcad.batch.study import plan_study, write_study
-from gearcad.cli.datasheet import print_datasheet
+from gearcad.cli.basics import print_datasheet
 from gearcad.designs import design_from_tables, open_table, read_spec
 from gearcad.designs.design import Design
-from gearcad.designs.spec_values import spec_values
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
+from gearcad.designs.variations import spec_values
 
 SPEC = """\
 [pair]

@@ -12,24 +12,21 @@ from numpy.typing import NDArray
 from support.responses import cosine, isolated, oscillator, preloaded, two_stages
 from support.transient import integrate
 
+from gearcad.core.errors import GeometryError
 from gearcad.designs import read_spec
-from gearcad.dynamics.charts.chart import KvChart
-from gearcad.dynamics.charts.kv import kv_chart
-from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
-from gearcad.dynamics.charts.speed_curves import LEFT_OUT, SpeedCurves
-from gearcad.dynamics.charts.time_runs import TimeRuns, _start
-from gearcad.dynamics.excitation.deviations import TransmissionError
-from gearcad.dynamics.excitation.mesh_curves import CurveStiffness, square_stiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
-from gearcad.dynamics.excitation.polyline import Polyline
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.response.branch import trace
-from gearcad.dynamics.response.krylov import solve_all
-from gearcad.dynamics.response.linear import periodic_response
-from gearcad.dynamics.train import study_modes, study_train
-from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.response.branch_continuation import trace
+from gearcad.dynamics.response.harmonic_balance import solve_all
+from gearcad.dynamics.response.kv_chart import KvChart, kv_chart
+from gearcad.dynamics.response.linear_response import periodic_response
+from gearcad.dynamics.response.run_up import TimeRuns, _start
+from gearcad.dynamics.response.speed_charts import OverSpeed, over_speed
+from gearcad.dynamics.response.speed_curves import LEFT_OUT, SpeedCurves
+from gearcad.dynamics.train_study import study_modes, study_train
+from gearcad.dynamics.trains.mesh_excitation import CurveStiffness, Excitation, MeshExcitation, square_stiffness
+from gearcad.dynamics.trains.shaft_lines import System
+from gearcad.dynamics.trains.tooth_deviations import Polyline, TransmissionError
 from gearcad.dynamics.trains.train import Train
-from gearcad.errors import GeometryError
 
 Floats = NDArray[np.float64]
 

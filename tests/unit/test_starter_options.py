@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from gearcad.designs import PairDesign, TrainDesign, read_spec
-from gearcad.designs.starters import starter_text
-from gearcad.dynamics.in_time.transient_options import TransientOptions
+from gearcad.designs.reader import starter_text
+from gearcad.dynamics.time_domain.transient_result import TransientOptions
 from gearcad.rating import RatingOptions, endurance_limits
 
 OPTION = re.compile(r"^# (?=\[dynamics|\w+ = )", re.MULTILINE)

@@ -25,12 +25,11 @@ from gearcad import (
     RackPair,
     rate,
 )
-from gearcad.output import json_text
-from gearcad.per_gear import PerGear
+from gearcad.core.output import json_text
+from gearcad.core.records import PerGear, Verdict
 from gearcad.rating import RatingOptions, RootShift
 from gearcad.rating.load_factors import BodyLoad
 from gearcad.rating.strength import Part, StrengthRating, rate_strength
-from gearcad.verdict import Verdict
 
 EXACT = 1e-9
 CASE_HARDENED = Material(name="Eh MQ")

@@ -5,17 +5,16 @@ from pathlib import Path
 import pytest
 
 import gearcad
+from gearcad.core.quantities import symbols_of
+from gearcad.core.records import PerGear, Role
+from gearcad.core.symbols import STRENGTH
 from gearcad.designs import read_spec
 from gearcad.material import Material
-from gearcad.per_gear import PerGear, Role
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import StrengthRating
-from gearcad.rating.strength.called import called
-from gearcad.report.strength.report import rate_html
-from gearcad.report.strength.tables import factor_groups, safety_rows
-from gearcad.report.written import indexed, listed, written
-from gearcad.schema import symbols_of
-from gearcad.symbols import STRENGTH
+from gearcad.rating.strength.rating import called
+from gearcad.report.document import indexed, listed, written
+from gearcad.report.strength import factor_groups, rate_html, safety_rows
 
 STARTER = Path(gearcad.__file__).parents[1] / "templates" / "reducer-21-43.toml"
 

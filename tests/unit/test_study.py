@@ -16,7 +16,7 @@ from gearcad import ParameterError, SpecError
 from gearcad.batch.study import Method, Sample, Study, check_table, plan_study, write_study
 from gearcad.designs import open_table, read_spec
 from gearcad.designs.design import require_plain_name
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
 
 _, VOLVO = starter_text("volvo")
 _, SPUR = starter_text("spur")

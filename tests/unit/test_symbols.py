@@ -5,18 +5,18 @@ from typing import Any
 
 import pytest
 
-from gearcad import Gear, GearPair, Load, Material, Mounting, symbols
+from gearcad import Gear, GearPair, Load, Material, Mounting
 from gearcad.check.options import CheckOptions
-from gearcad.check.plane.summary import PlaneSummary
-from gearcad.check.solid.summary import SolidSummary
-from gearcad.designs.column_keys import COLUMNS
-from gearcad.designs.columns import column_symbol
+from gearcad.check.summary import PlaneSummary, SolidSummary
+from gearcad.core import symbols
+from gearcad.core.quantities import schema_of, symbols_of
+from gearcad.core.records import PerGear
+from gearcad.designs.train_keys import COLUMNS
+from gearcad.designs.variations import column_symbol
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
 from gearcad.meshing.options import MeshOptions
-from gearcad.per_gear import PerGear
 from gearcad.rating import RatingOptions
-from gearcad.schema import schema_of, symbols_of
 
 
 def _keys(document: dict[str, Any]) -> set[str]:

@@ -10,9 +10,9 @@ from support.sheets import ERROR, GEARS, TEMPLATES, faults_of, refusal_of, rows_
 
 from gearcad import SpecError
 from gearcad.designs import design_from_tables, open_table, read_spec
-from gearcad.designs.column_keys import COLUMNS
+from gearcad.designs.cells import column_letter
 from gearcad.designs.design import require_plain_name
-from gearcad.designs.headings import column_letter
+from gearcad.designs.train_keys import COLUMNS
 
 
 @pytest.fixture(autouse=True)

@@ -9,10 +9,10 @@ import sys
 import pytest
 from threadpoolctl import ThreadpoolController
 
-from gearcad.threads import one_thread
+from gearcad.core.runtime import one_thread
 
 LOADED_MEANWHILE = """
-from gearcad.threads import one_thread
+from gearcad.core.runtime import one_thread
 from threadpoolctl import ThreadpoolController
 def threads():
     return sorted(each.num_threads for each in ThreadpoolController().select(user_api="blas").lib_controllers)

@@ -6,9 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearcad import Gear, ParameterError, symbols
-from gearcad.rating.tolerances import Accuracy, GearTolerances, flank_tolerances, gear_tolerances, iso1328_2013
-from gearcad.rating.tolerances.grading import mean_of_range
+from gearcad import Gear, ParameterError
+from gearcad.core import symbols
+from gearcad.rating import iso1328_2013
+from gearcad.rating.editions import mean_of_range
+from gearcad.rating.tolerances import Accuracy, GearTolerances, flank_tolerances, gear_tolerances
 
 OLD, NEW = Accuracy.ISO_1995, Accuracy.ISO_2013
 

@@ -7,11 +7,9 @@ import pytest
 
 from gearcad import Gear, GearPair, GeometryError, Load, Material, ParameterError, SpecError
 from gearcad.designs import PairDesign
-from gearcad.geometry.centre_distance_tolerance import centre_distance_allowance
-from gearcad.geometry.iso286 import limit_deviations, standard_tolerance
-from gearcad.geometry.tooth_allowance import tooth_thickness_allowance
+from gearcad.geometry.fits import centre_distance_allowance, limit_deviations, standard_tolerance, tooth_thickness_allowance
 from gearcad.rating.strength import rate_strength
-from gearcad.report.strength.tables import backlash_rows, tolerance_rows
+from gearcad.report.strength import backlash_rows, tolerance_rows
 
 DIN_3967 = [  # two public transcriptions
     ("cd27", 100, -70, -170),

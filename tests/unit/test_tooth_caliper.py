@@ -7,7 +7,7 @@ import math
 import pytest
 
 from gearcad import Gear, GeometryError
-from gearcad.geometry.tooth_caliper import chord_below_tip
+from gearcad.geometry.inspection import chord_below_tip
 
 EXACT = 1e-10
 """mm: rounding, and the tolerance of the root."""

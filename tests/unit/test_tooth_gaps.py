@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 from gearcad import FlankModification, Gear, GearPair
-from gearcad.arrays import Floats
 from gearcad.contact.shared.line_of_action import line_of_action, nearest
-from gearcad.dynamics.tooth_errors.paths import ToothPath, pair_path, standard_path
-from gearcad.per_gear import PerGear
+from gearcad.core.records import Floats, PerGear
+from gearcad.dynamics.tooth_errors.tooth_springs import ToothPath, pair_path, standard_path
 
 POINTS = 100_001
 """Of a profile: chords of 0.1 µm on flanks of 10 mm, 1e-9 mm off the curve."""

@@ -11,22 +11,16 @@ import pytest
 from scipy.integrate import solve_ivp
 from support.trains import one_stage
 
-from gearcad.dynamics.charts.over_speed import over_speed
-from gearcad.dynamics.excitation.deviations import ErrorDistribution
-from gearcad.dynamics.excitation.mesh_curves import CosineStiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
-from gearcad.dynamics.excitation.sources import train_excitation
-from gearcad.dynamics.in_time.laws import MeshLaw, SpringTable
-from gearcad.dynamics.in_time.motion import MovingSystem
-from gearcad.dynamics.in_time.speed_course import Course
-from gearcad.dynamics.response.flexibility import senses
-from gearcad.dynamics.tooth_errors.result import ToothLaw
-from gearcad.dynamics.tooth_errors.sampling import Sampling
-from gearcad.dynamics.tooth_errors.sources import mesh_teeth
-from gearcad.dynamics.tooth_errors.teeth import Draw, MeshTeeth
-from gearcad.dynamics.trains.lines import system
+from gearcad.dynamics.response.speed_charts import over_speed
+from gearcad.dynamics.time_domain.motion import Course, MeshLaw, MovingSystem, SpringTable
+from gearcad.dynamics.tooth_errors.error_result import ToothLaw
+from gearcad.dynamics.tooth_errors.error_sources import Draw, MeshTeeth, mesh_teeth
+from gearcad.dynamics.tooth_errors.error_study import Sampling
 from gearcad.dynamics.trains.members import Inertia, Mesh
-from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, Excitation, MeshExcitation, train_excitation
+from gearcad.dynamics.trains.shaft_lines import System, system
+from gearcad.dynamics.trains.steady_response import senses
+from gearcad.dynamics.trains.tooth_deviations import ErrorDistribution
 from gearcad.dynamics.trains.train import Train
 
 Floats = np.ndarray

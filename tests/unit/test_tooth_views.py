@@ -9,20 +9,17 @@ from itertools import combinations, pairwise
 import numpy as np
 import pytest
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
+from gearcad.drawing.drawing_subjects import DrawnGear
 from gearcad.drawing.options import SCALES
 from gearcad.drawing.shapes import Arc, Figure, Line, Polyline
-from gearcad.drawing.subject import DrawnGear
-from gearcad.drawing.tooth_outline import tooth_outline
-from gearcad.drawing.tooth_views import detail_scale, modification_figures, tooth_figure
-from gearcad.drawing.tooth_views.depths import helix_depths, profile_depths
-from gearcad.drawing.tooth_views.levels import levels_of
-from gearcad.drawing.tooth_views.spread import spread
+from gearcad.drawing.views.modification_diagrams import helix_depths, modification_figures, profile_depths
+from gearcad.drawing.views.tooth_detail import detail_scale, levels_of, spread, tooth_figure, tooth_outline
 from gearcad.drawing.words import Draughting, Language, Words
 from gearcad.geometry import BasicRack, Body, DoubleHelix, FlankModification, Gear, Rack, ReliefShape, ShaperCutter
-from gearcad.geometry.body import HubSide
-from gearcad.geometry.curves import parameters_within
-from gearcad.geometry.halves import halves
+from gearcad.geometry.gear import halves
+from gearcad.geometry.gear_parts import HubSide
+from gearcad.geometry.profile import parameters_within
 
 MICROMETRE = 1e-3
 FULL = BasicRack(root_radius="full")

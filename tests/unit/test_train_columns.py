@@ -14,13 +14,12 @@ import gearcad
 from gearcad.batch.row import _warnings, flat_document
 from gearcad.batch.study import plan_study, write_study
 from gearcad.designs import TrainDesign, design_from_tables, open_table, read_spec
-from gearcad.designs.columns import column_symbol
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
+from gearcad.designs.variations import column_symbol
 from gearcad.dynamics import Inertia, Mesh, Shaft, Train
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.jobs.data import Data
-from gearcad.jobs.dynamics import Dynamics
-from gearcad.jobs.dynamics_columns import dynamics_columns
+from gearcad.jobs.dynamics import Dynamics, dynamics_columns
+from gearcad.jobs.job import Data
 
 _, TWO_STAGES = starter_text("train-2-stage")
 

@@ -12,19 +12,18 @@ import pytest
 
 import gearcad
 from gearcad import BasicRack, Gear, GearPair, Load, Mounting
+from gearcad.core.errors import GeometryError, InputError, ParameterError
+from gearcad.core.records import Role
 from gearcad.designs import PairDesign, design_from_tables
-from gearcad.designs.loaded_pairs import pair_specs
+from gearcad.designs.spec_writers import pair_specs
 from gearcad.dynamics import DynamicsOptions, Inertia, Mesh, Shaft, Train
 from gearcad.dynamics.engagement import _in_range, engaged
-from gearcad.dynamics.excitation.sources import train_excitation
 from gearcad.dynamics.pair_result import PairStudy
-from gearcad.dynamics.train import study_train
 from gearcad.dynamics.train_result import TrainStudy
-from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
-from gearcad.dynamics.trains.mesh_pair import MeshPair
-from gearcad.dynamics.trains.parts import static_forces
-from gearcad.errors import GeometryError, InputError, ParameterError
-from gearcad.per_gear import Role
+from gearcad.dynamics.train_study import study_train
+from gearcad.dynamics.trains.members import MeshPair
+from gearcad.dynamics.trains.mesh_excitation import train_excitation
+from gearcad.dynamics.trains.train import EngagedMesh, static_forces
 from gearcad.rating.options import RatingOptions
 from gearcad.stiffness.beam import PotentialEnergy
 

@@ -11,10 +11,9 @@ import pytest
 from gearcad import ParameterError, SpecError
 from gearcad.batch.study import Method, Sample, check_table, plan_study, write_study
 from gearcad.designs import TrainDesign, open_table, read_spec
-from gearcad.designs.columns import column_symbol
-from gearcad.designs.spec_values import spec_values
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
 from gearcad.designs.train_keys import TrainKey, general_key
+from gearcad.designs.variations import column_symbol, spec_values
 
 _, ONE_STAGE = starter_text("train-1-stage")
 

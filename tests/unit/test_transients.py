@@ -10,19 +10,17 @@ import pytest
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from gearcad.dynamics.excitation.deviations import TransmissionError
-from gearcad.dynamics.excitation.mesh_curves import CosineStiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
-from gearcad.dynamics.in_time.transient import run_transient
-from gearcad.dynamics.in_time.transient_options import TransientOptions
-from gearcad.dynamics.in_time.transient_result import Transient
+from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.train import study_train
-from gearcad.dynamics.trains.lines import system
+from gearcad.dynamics.time_domain.transient import run_transient
+from gearcad.dynamics.time_domain.transient_result import Transient, TransientOptions
+from gearcad.dynamics.train_study import study_train
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, Excitation, MeshExcitation
+from gearcad.dynamics.trains.shaft_lines import system
+from gearcad.dynamics.trains.steady_response import Direction
+from gearcad.dynamics.trains.tooth_deviations import TransmissionError
 from gearcad.dynamics.trains.train import Train
-from gearcad.errors import GeometryError, ParameterError
 
 Floats = NDArray[np.float64]
 

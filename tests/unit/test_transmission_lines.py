@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from support.responses import MESH_DAMPING, STIFFNESS, isolated, two_stages
 
-from gearcad.dynamics.charts.over_speed import over_speed
-from gearcad.dynamics.charts.transmission import lines_that_matter
-from gearcad.dynamics.excitation.deviations import TransmissionError
-from gearcad.dynamics.excitation.mesh_curves import CosineStiffness
-from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
+from gearcad.dynamics.response.kv_chart import lines_that_matter
+from gearcad.dynamics.response.speed_charts import over_speed
+from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, Excitation, MeshExcitation
+from gearcad.dynamics.trains.tooth_deviations import TransmissionError
 
 BALANCE = 2e-5
 """Of the static deflection: what the harmonic balance leaves over."""

@@ -13,17 +13,16 @@ import gearcad
 from gearcad import BasicRack, Body, Gear, GearPair, Load, Material, ParameterError
 from gearcad.check.task import check_task
 from gearcad.contact.plane.pair import plane_pair
-from gearcad.decks.treatable import require_treatable
+from gearcad.core.errors import SpecError
+from gearcad.core.records import PerGear
+from gearcad.decks.pair import require_treatable
 from gearcad.designs import PairDesign, PlanetaryDesign, design_from_tables, open_table, read_spec
-from gearcad.designs.columns import column_of_train, column_symbol
-from gearcad.designs.pair_text import pair_text
-from gearcad.designs.trials import fault_alone, permitted_alone
-from gearcad.designs.variants import read_variants
-from gearcad.errors import SpecError
+from gearcad.designs.spec_writers import pair_text
+from gearcad.designs.table import fault_alone, permitted_alone
+from gearcad.designs.variations import column_of_train, column_symbol, read_variants
 from gearcad.material import MaterialGroup, MaterialQuality
-from gearcad.per_gear import PerGear
 from gearcad.rating import DynamicFactor, RatingOptions, RunningIn, rate, running_in_alpha
-from gearcad.rating.hertz import peak_pressure
+from gearcad.rating.contact_stress import peak_pressure
 from gearcad.stiffness.methods import METHODS
 
 CAST_IRON = Material(name="GG-20", youngs_modulus=118000.0, poisson_ratio=0.3)

@@ -10,10 +10,9 @@ import pytest
 from support.coarse import PAIRS, TORQUES, coarse_model
 
 from gearcad import FlankModification, Mounting
-from gearcad.contact.optimum.variants import Condition, Outcomes, Variants, with_amounts
-from gearcad.contact.solid.contact_lines import gaps, start_distances
+from gearcad.contact.modification_variants import Condition, Outcomes, Variants, with_amounts
 from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.contact.solid.line_contact import LineSolution, plain_widths, solve_lines
+from gearcad.contact.solid.line_contact import LineSolution, gaps, plain_widths, solve_lines, start_distances
 from gearcad.contact.solid.pair import KnownResponses
 from gearcad.geometry import GearPair, ReliefShape
 

@@ -1,26 +1,34 @@
-"""One mesh cycle of the plane model: the contact at positions over a base pitch, and what an engineer reads from it."""
+"""PlaneCycle: contact of plane gears over a base pitch, the limits of the model, and stresses anywhere in the teeth.
+
+A tooth that is thinner along the axis than across is free to swell: solid bodies show plane stress there, but plane strain in
+the contact, which is narrow against any face width.
+
+What the elements carry is smooth: it is averaged at the nodes and interpolated. What the pressures do is added point by point
+in closed form, as if the flank were its tangent plane. So the zone of contact, smaller than an element, is resolved.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gearcad.arrays import Floats
-from gearcad.contact.plane.contact import ContactPair, ContactSolution
-from gearcad.contact.plane.pair import PlanePair
-from gearcad.contact.plane.root import ToothLoad, seen_from
-from gearcad.contact.shared.engaged import TOOTH_ORDER
+from gearcad.contact.plane.flank import PlaneCompliance, ToothLoad, near_elements, seen_from
+from gearcad.contact.plane.pair import ContactPair, ContactSolution, PlanePair
+from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.contact.shared.line_of_action import overlap
-from gearcad.contact.shared.loaded import FAIR, INTERIOR, LoadedCycle, LoadedPosition, PairContact, RootStress
-from gearcad.contact.shared.relief_start import onsets, start_distance
-from gearcad.meshing.section.outline import Side
-from gearcad.per_gear import PerGear, Role
-from gearcad.rating.hertz import half_width_by_curvature
-
-__all__ = ["PlaneCycle", "PlanePairContact", "PlanePosition", "root_loads"]
+from gearcad.contact.shared.loaded import FAIR, INTERIOR, TOOTH_ORDER, LoadedCycle, LoadedPosition, PairContact, RootStress
+from gearcad.contact.shared.local_contact import HollowContact, conformal_notices, onsets, start_distance
+from gearcad.core.records import Floats, Notice, PerGear, Role, Wholes
+from gearcad.geometry import GearPair
+from gearcad.material import Materials, of_both
+from gearcad.meshing.outline import Side
+from gearcad.meshing.quads import triangle_shapes, triangle_slopes
+from gearcad.rating.contact_stress import half_width_by_curvature
 
 _RESOLVED = 4
 """Cells over a transition with which its pressure is right within 0.25 %."""
@@ -251,3 +259,246 @@ def _start_pressures(model: PlanePair, pair: ContactPair, pressures: Floats, to_
     sound = narrow and low + cells.width < pressed.min() and pressed.max() < high - cells.width
     reach, peak = _reach(pair, float(pressures.sum() * cells.width), model.modulus), float(pressures.max())
     return to_starts.map(lambda to: peak if sound and to < reach else math.nan)
+
+
+def conformal(contact: PlanePairContact) -> bool:
+    """Whether a contact in a hollow flank is too wide for two cylinders."""
+    return contact.pair.lengths.wheel < 0 and _hollow(contact).conformal
+
+
+def wide_plane_contacts(cycle: PlaneCycle) -> Iterator[Notice]:
+    """Rings whose contact is conformal."""
+    if cycle.model.pair.internal:
+        yield from conformal_notices(_hollow(contact) for _, contact in cycle.interior_contacts)
+
+
+def _hollow(contact: PlanePairContact) -> HollowContact:
+    return HollowContact(contact.hertz_half_width, contact.pair.lengths.pinion)
+
+
+def thin_faces(pair: GearPair, material: Materials, plane: Plane) -> Iterator[Notice]:
+    """Gears that are too thin for plane strain."""
+    if plane is Plane.STRESS:
+        return
+    for role, gear in pair.gears.items():
+        stiffer = 100 * of_both(material).pick(role).poisson_ratio ** 2
+        width, thickness = gear.face_width, gear.transverse_tooth_thickness
+        if width < thickness:
+            text = (
+                f"the {role.value}'s face width of {width:.4g} mm is below its tooth thickness, {thickness:.4g} mm: so thin a "
+                "body is nearer to plane stress than to plane strain, which "
+                f"makes it up to {stiffer:.2g} % too stiff; plane stress or solid bodies (3d) show it"
+            )
+            yield Notice("thin-face", text)
+
+
+def plane_pressure(material: Materials, plane: Plane) -> Iterator[Notice]:
+    """What plane stress does to the pressure."""
+    if plane is Plane.STRAIN:
+        return
+    higher = 100 * (1 / math.sqrt(1 - max(of.poisson_ratio for of in of_both(material)) ** 2) - 1)
+    text = f"plane stress: the contact itself stays in plane strain, where its pressure is up to {higher:.2g} % higher"
+    yield Notice("plane-stress-pressure", text)
+
+
+def strip_stresses(x: Floats, depth: Floats, places: Floats, width: float, pressures: Floats) -> tuple[Floats, Floats, Floats]:
+    """sigma_x, sigma_z and tau_xz (MPa) at points (x, depth) below strips of `width` (mm) centred on `places`."""
+    right, left, z = x[..., None] - places + width / 2, x[..., None] - places - width / 2, depth[..., None]
+    to_right, to_left = (np.maximum(end**2 + z**2, np.finfo(float).tiny) for end in (right, left))
+    scale = pressures / np.pi
+    # From the angles at which both ends of a strip are seen: their difference, and those of their sines and cosines, doubled.
+    turned = np.arctan2(z * width, right * left + z**2) @ scale
+    sines = (z * (left / to_left - right / to_right)) @ scale
+    shear: Floats = (z**2 * (1 / to_right - 1 / to_left)) @ scale
+    return -(turned + sines), -(turned - sines), shear
+
+
+def von_mises(x: Floats, y: Floats, shear: Floats, elasticity: PlaneElasticity) -> Floats:
+    """Von Mises stress (...,) in MPa of a plane state; along the axis there is nu (x + y) in plane strain, else nothing."""
+    along = elasticity.material.poisson_ratio * (x + y) if elasticity.plane is Plane.STRAIN else np.zeros_like(x)
+    result: Floats = np.sqrt(((x - y) ** 2 + (y - along) ** 2 + (along - x) ** 2) / 2 + 3 * shear**2)
+    return result
+
+
+def greatest_von_mises(
+    places: Floats, width: float, pressures: Floats, half_width: float, elasticity: PlaneElasticity
+) -> tuple[float, float]:
+    """Greatest von Mises stress (MPa) below a contact, and its depth (mm)."""
+    middle = float((places * pressures).sum() / pressures.sum())
+    x, depth = np.meshgrid(
+        middle + half_width * np.linspace(-1.2, 1.2, 49), half_width * np.linspace(0.05, 2.0, 79), indexing="ij"
+    )
+    across, down, shear = strip_stresses(x, depth, places, width, pressures)
+    mises = von_mises(across, down, shear, elasticity)
+    at = np.unravel_index(np.argmax(mises), mises.shape)
+    return float(mises[at]), float(depth[at])
+
+
+_CORNERS = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
+"""The nodes of a triangle in its own coordinates."""
+
+_INSIDE = (Side.AHEAD, Side.HELD, Side.BEHIND)
+"""Sides of a sector that are no profile."""
+
+_MIRRORED = np.array([1.0, -1.0])
+"""Columns of a matrix that is to turn the mirror image of what it is given."""
+
+_COARSE, _FINE = 2, 16
+"""Parts of an element's edge between points of the field, away from the contact and near it."""
+
+_NEAR = 5.0
+"""Half widths around a contact within which it is near."""
+
+
+@dataclass(frozen=True)
+class ToothField:
+    """Von Mises stress (MPa) at `points` (n, 2) in mm of one tooth and its share of the body; `triangles` (m, 3) join them.
+
+    `outline` (k, 2) is the profile from one root to the other. The pinion's axis is the origin, the wheel's lies on the x axis
+    at the centre distance; the teeth stand as before they bend.
+    """
+
+    points: Floats
+    triangles: Wholes
+    von_mises: Floats
+    outline: Floats
+
+
+def contact_frame(cycle: PlaneCycle, contact: PlanePairContact) -> tuple[Floats, Floats]:
+    """Centre of a contact (mm) in the frame of the field; directions to the pinion's tip and into the wheel, as columns."""
+    model = cycle.model
+    angle = np.radians(model.pair.working_transverse_pressure_angle)
+    beside, along = np.array([np.cos(angle), -np.sin(angle)]), np.array([np.sin(angle), np.cos(angle)])
+    cells = contact.pair.cells
+    place = float((cells.place * contact.pressures).sum() / contact.pressures.sum())
+    centre: Floats = (model.base_radius + place) * beside + contact.place * along
+    return centre, np.stack([beside, along], -1)
+
+
+def tooth_field(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: int) -> ToothField:
+    """The field in a tooth of a gear, counted like the pairs of teeth in contact.
+
+    Loads on teeth further away than the model's neighbours are left out.
+    """
+    body = cycle.model.bodies.pick(role)
+    mesh = body.ring.sector.mesh
+    own = next((contact for contact in position.contacts if contact.tooth == tooth), None)
+    smooth = _smooth_stresses(body, position, role, tooth, own)
+    finely = np.zeros(len(mesh.triangles), bool) if own is None else _near_contact(body, own, role)
+    points, stresses, triangles, count = [], [], [], 0
+    for elements, parts in ((mesh.triangles[~finely], _COARSE), (mesh.triangles[finely], _FINE)):
+        local, split = _lattice(parts)
+        shape = triangle_shapes(local)
+        points.append(np.einsum("qa,eac->eqc", shape, mesh.points[elements]).reshape(-1, 2))
+        stresses.append(np.einsum("qa,eas->eqs", shape, smooth[elements]).reshape(-1, 3))
+        triangles.append((count + len(local) * np.arange(len(elements))[:, None, None] + split).reshape(-1, 3))
+        count += len(points[-1])
+    where, stress = np.concatenate(points), np.concatenate(stresses)
+    if own is not None:
+        stress = stress + _strips(body, own, role, where)
+    turn, axis = _pose(cycle, position, role, tooth)
+    profile = np.concatenate([nodes for side, nodes in mesh.sides.items() if side not in _INSIDE])
+    outline = mesh.points[profile] @ turn.T + axis
+    x, y, shear = np.moveaxis(stress, -1, 0)
+    mises = von_mises(x, y, shear, body.elasticity)
+    return ToothField(where @ turn.T + axis, np.concatenate(triangles), mises, outline)
+
+
+def _pose(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: int) -> tuple[Floats, Floats]:
+    """Turn (2, 2) and axis (2,) of a tooth: its flank touches on the line of action, where its normal lies along that line.
+
+    A ring's is mirrored back first, as the model sees it mirrored.
+    """
+    model = cycle.model
+    lengths = model.line.lengths(model.roll_length(position.roll_angle) + tooth * model.line.pitch)
+    heading = model.bodies.pick(role).flank.heading(np.asarray(lengths.pick(role)))
+    opposite, away = (0.0, 0.0) if role is Role.PINION else (np.pi, model.pair.centre_distance)
+    along = np.radians(model.pair.working_transverse_pressure_angle)
+    if role is Role.WHEEL and model.pair.internal:
+        return _turn(heading - along) * _MIRRORED, np.array([away, 0.0])
+    return _turn(opposite - along - heading), np.array([away, 0.0])
+
+
+def _turn(angle: Floats) -> Floats:
+    """Matrix (2, 2) that turns by an angle (rad)."""
+    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+
+
+def _smooth_stresses(
+    body: PlaneCompliance, position: PlanePosition, role: Role, tooth: int, own: PlanePairContact | None
+) -> Floats:
+    """Stresses (n, 3) - xx, yy, xy - at the nodes of a tooth in its frame, less those of the strips."""
+    mesh = body.ring.sector.mesh
+    smooth, singular = np.zeros((2, 2 * len(mesh.points)))
+    for contact in position.contacts:
+        apart = TOOTH_ORDER.pick(role) * (tooth - contact.tooth)
+        if abs(apart) <= body.neighbours:
+            smooth += _at_length(body, body.displacements[body.neighbours + apart], contact.centre(role)) * contact.force
+        if apart == 0:
+            singular += _at_length(body, body.singular, contact.centre(role)) * contact.force
+    near = np.zeros(len(mesh.triangles), bool)
+    near[near_elements(body.flank.gear, mesh)] = True
+    stress = np.empty((len(mesh.triangles), 6, 3))
+    stress[near] = _element_stresses(body, mesh.triangles[near], smooth)
+    # Beyond, Flamant's field was not taken off: there the strips are, so that both can be averaged where they meet.
+    stress[~near] = _element_stresses(body, mesh.triangles[~near], smooth + singular)
+    if own is not None:
+        stress[~near] -= _strips(body, own, role, mesh.points)[mesh.triangles[~near]]
+    total, times = np.zeros((len(mesh.points), 3)), np.zeros(len(mesh.points))
+    np.add.at(total, mesh.triangles, stress)
+    np.add.at(times, mesh.triangles, 1.0)
+    result: Floats = total / times[:, None]
+    return result
+
+
+def _at_length(body: PlaneCompliance, columns: Floats, length: float) -> Floats:
+    """Responses to the unit loads, interpolated to a roll length (mm), no nearer to the tip corner than the last of them."""
+    result: Floats = columns @ body.between_loads(np.clip(length, body.loads[0], body.loads[-1]))
+    return result
+
+
+def _element_stresses(body: PlaneCompliance, triangles: Wholes, moved: Floats) -> Floats:
+    """Stresses (m, 6, 3) at the nodes of the elements by displacements of all nodes."""
+    corners = body.ring.sector.mesh.points[triangles]
+    slopes = triangle_slopes(_CORNERS)
+    jacobian = np.einsum("qad,eac->eqdc", slopes, corners)
+    gradient = np.linalg.solve(jacobian, np.einsum("qad,eac->eqdc", slopes, moved.reshape(-1, 2)[triangles]))
+    lame, shear = body.elasticity.lame
+    spread = lame * (gradient[..., 0, 0] + gradient[..., 1, 1])
+    across, up = (spread + 2 * shear * gradient[..., axis, axis] for axis in (0, 1))
+    return np.stack([across, up, shear * (gradient[..., 0, 1] + gradient[..., 1, 0])], -1)
+
+
+def _strips(body: PlaneCompliance, contact: PlanePairContact, role: Role, points: Floats) -> Floats:
+    """Stresses (..., 3) - xx, yy, xy - at points of the tooth's frame (mm) by the pressures of its contact."""
+    cells = contact.pair.cells
+    touch = contact.pair.lengths.pick(role)
+    inward = body.flank.inward(np.array(touch))
+    up = body.flank.upward * np.array([-inward[1], inward[0]])  # along the flank, towards the tip
+    away = points - body.flank.points(touch)
+    places = TOOTH_ORDER.pick(role) * cells.place  # the tangent points to the other tip
+    across, down, shear = strip_stresses(away @ up, away @ inward, places, cells.width, contact.pressures)
+    frame = np.stack([up, inward], -1)
+    local = np.stack([np.stack([across, shear], -1), np.stack([shear, down], -1)], -1)
+    turned = frame @ local @ frame.T
+    return np.stack([turned[..., 0, 0], turned[..., 1, 1], turned[..., 0, 1]], -1)
+
+
+def _near_contact(body: PlaneCompliance, contact: PlanePairContact, role: Role) -> NDArray[np.bool_]:
+    """Elements that a circle around the contact reaches: their own circles meet it."""
+    mesh = body.ring.sector.mesh
+    corners = mesh.points[mesh.triangles[:, :3]]
+    middle = corners.mean(axis=1)
+    size = np.hypot(*np.moveaxis(corners - middle[:, None], -1, 0)).max(axis=1)
+    centre = body.flank.points(contact.centre(role))
+    near: NDArray[np.bool_] = np.hypot(*(middle - centre).T) < size + _NEAR * contact.hertz_half_width
+    return near
+
+
+def _lattice(parts: int) -> tuple[Floats, Wholes]:
+    """Points (n, 2) that divide the edges of a triangle into parts, and the small triangles (parts^2, 3) between them."""
+    number = {(i, j): 0 for j in range(parts + 1) for i in range(parts + 1 - j)}
+    number = {place: index for index, place in enumerate(number)}
+    upright = [(number[i, j], number[i + 1, j], number[i, j + 1]) for i, j in number if i + j < parts]
+    inverted = [(number[i + 1, j], number[i + 1, j + 1], number[i, j + 1]) for i, j in number if i + j < parts - 1]
+    return np.array(list(number)) / parts, np.array(upright + inverted)

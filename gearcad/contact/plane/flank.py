@@ -1,4 +1,6 @@
-"""How a gear gives way under a load anywhere on its flank: finite elements for the body, Flamant for the contact.
+"""Compliance of a flank and stress of the root fillets of a plane tooth: finite elements, and Flamant's half-plane.
+
+The singular part of every contact solution, known exactly, so that a finite element mesh need not resolve it.
 
 A point load on the flank is taken off the finite element solution inside the loaded tooth, where Flamant's field is known
 exactly, so the elements carry only the smooth rest (singularity subtraction).
@@ -7,28 +9,67 @@ exactly, so the elements carry only the smooth rest (singularity subtraction).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from gearcad.arrays import Floats, Wholes
-from gearcad.contact.plane.elasticity import PlaneElasticity, element_forces
-from gearcad.contact.plane.flamant import edge_displacement, flamant_displacement, flamant_traction
-from gearcad.contact.plane.ring import Ring
-from gearcad.contact.shared.engaged import FlankCompliance, LoadedFlank
+from gearcad.contact.plane.ring import Ring, SurfaceStresses, far_responses
+from gearcad.contact.plane.sector import PlaneElasticity, element_forces, key_load, node_dofs
+from gearcad.contact.shared.bodies import Hold
+from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, FlankCompliance, LoadedFlank, RootStress
+from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
-from gearcad.meshing.section import SectorMesh
-from gearcad.meshing.section.outline import Side
-from gearcad.meshing.section.quality import mesh_quality
-from gearcad.meshing.section.shapes import edge_shapes, edge_slopes
+from gearcad.meshing.outline import Side
+from gearcad.meshing.quads import GAUSS, edge_shapes, edge_slopes, edges_of_chain, mesh_quality
+from gearcad.meshing.sector import SectorMesh
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
 
-__all__ = ["Compliance", "PlaneCompliance", "PlaneFlank", "flank_compliance", "flank_of", "near_elements"]
+
+def flamant_displacement(points: Floats, load_at: Floats, inward: Floats, elasticity: PlaneElasticity) -> Floats:
+    """Displacement (..., 2) in mm at `points` (..., 2) by 1 N per mm of width at `load_at` along the unit vector `inward`.
+
+    The constant of the logarithm is such that it is ln r with r in mm; at the load itself the value is left at 0.
+    """
+    e, nu = elasticity.modulus, elasticity.ratio
+    away = points - load_at
+    across = np.array([-inward[1], inward[0]])
+    r = np.hypot(away[..., 0], away[..., 1])
+    at_load = r < 1e-12
+    r = np.where(at_load, 1.0, r)
+    cosine, sine, log = away @ inward / r, away @ across / r, np.log(r)
+    angle = np.arctan2(sine, cosine)
+    radial = -(2 * cosine * log + (1 - nu) * angle * sine) / (np.pi * e)
+    circumferential = (2 * nu * sine + 2 * log * sine - (1 - nu) * angle * cosine + (1 - nu) * sine) / (np.pi * e)
+    along = radial * cosine - circumferential * sine
+    beside = radial * sine + circumferential * cosine
+    result: Floats = along[..., None] * inward + beside[..., None] * across
+    result[at_load] = 0
+    return result
+
+
+def flamant_traction(points: Floats, normals: Floats, load_at: Floats, inward: Floats) -> Floats:
+    """Traction (..., 2) in MPa on elements of surface at `points` with `normals` (..., 2), by the same load.
+
+    sigma_rr = -2 cos(theta)/(pi r) is the only stress.
+    """
+    away = points - load_at
+    r = np.hypot(away[..., 0], away[..., 1])
+    unit = away / r[..., None]
+    stress = -2 * (unit @ inward) / (np.pi * r)
+    result: Floats = (stress * (unit * normals).sum(-1))[..., None] * unit
+    return result
+
+
+def edge_displacement(distance: Floats, elasticity: PlaneElasticity) -> Floats:
+    """Inward displacement (mm) of the straight edge at `distance` (mm): k(d) = -2/(pi E') ln d - (1 + nu')/(pi E')."""
+    e, nu = elasticity.modulus, elasticity.ratio
+    result: Floats = -(2 * np.log(distance) + 1 + nu) / (np.pi * e)
+    return result
 
 
 _GAUSS = 8
@@ -284,3 +325,141 @@ def _traction_forces(mesh: SectorMesh, edges: Wholes, loads_at: Floats, inward: 
         nodal = np.einsum("aq,eqc->eac", shape * weight, flamant_traction(points, normals, at, into))
         np.add.at(forces[..., column], edges, nodal)
     return forces.reshape(-1, len(loads_at))
+
+
+ToothLoad = tuple[int, float, float]
+"""Tooth, roll length (mm) and force (N per mm of width)."""
+
+
+@dataclass(frozen=True)
+class Fillets:
+    """The fillet under the loaded flank (tension) and the one behind it (compression), as responses of one body.
+
+    Of a rim that bends, the roots of all teeth and the bore too.
+    """
+
+    body: PlaneCompliance
+
+    def stresses(self, side: Side, loads: list[ToothLoad]) -> Floats:
+        """Stress (MPa) at the points of a side of tooth 0."""
+        total = np.zeros(len(self.places(side)[0]))
+        for tooth, length, force in loads:
+            # A load on tooth j is seen from tooth 0 as the load on tooth 0 is from tooth -j.
+            if (seen := self._response(side, -tooth)) is not None:
+                total += seen(np.asarray(length)) * force
+        return total
+
+    def greatest(self, side: Side, loads: list[ToothLoad]) -> RootStress:
+        """The largest tension on the left fillet, or compression on the right one, of tooth 0."""
+        return self._at_root(side, self.stresses(side, loads), 1 if side is Side.LEFT_FILLET else -1)
+
+    def extreme(self, side: Side, loads: list[ToothLoad]) -> RootStress:
+        """The largest tension (left fillet) or compression (right one) of the loaded teeth.
+
+        Of a rim that bends: of the roots of all teeth, on both sides.
+        """
+        sign = 1 if side is Side.LEFT_FILLET else -1
+        if self.body.ring.support.bends:
+            found = [self._at_root(each, stress, sign) for each in _ROOT for stress in self._all_round(each, loads, sign)]
+        else:
+            found = [self.greatest(side, seen_from(own, loads)) for own, *_ in loads]
+        return max(found, key=lambda stress: sign * stress.stress)
+
+    def bore_tension(self, loads: list[ToothLoad]) -> float | None:
+        """The largest tension (MPa) on the surface of a bore that nothing keeps round."""
+        if not self.body.ring.support.bends:
+            return None
+        return float(max(stress.max() for stress in self._all_round(Side.HELD, loads, 1)))
+
+    def _all_round(self, side: Side, loads: list[ToothLoad], sign: int) -> Iterator[Floats]:
+        """Stresses of every tooth of the gear, with the key where it adds most tension (1) or compression (-1)."""
+        torque = self.body.flank.base_radius * sum(force for *_, force in loads)
+        by_key = torque * sign * (sign * self._by_key(side)).max(axis=0)
+        for own in range(self.body.ring.support.teeth):
+            yield self.stresses(side, seen_from(own, loads)) + by_key
+
+    def _at_root(self, side: Side, stresses: Floats, sign: int) -> RootStress:
+        radii, angles = self.places(side)
+        root = np.flatnonzero(angles >= LEAST_TANGENT_ANGLE)
+        at = root[np.argmax(sign * stresses[root])]
+        return RootStress(float(stresses[at]), float(radii[at]), float(angles[at]))
+
+    def places(self, side: Side) -> tuple[Floats, Floats]:
+        """Radius (mm) and tangent angle (deg) of each point."""
+        return self._geometry[side][:2]
+
+    @cached_property
+    def _sides(self) -> tuple[Side, ...]:
+        return (*_ROOT, Side.HELD) if self.body.ring.support.bends else (Side.LEFT_FILLET, Side.RIGHT_FILLET)
+
+    @cached_property
+    def _geometry(self) -> dict[Side, tuple[Floats, Floats, SurfaceStresses]]:
+        """Radius and tangent angle of the points of each side, and their stresses by displacements."""
+        found = {}
+        points = self.body.ring.sector.mesh.points
+        for side in self._sides:
+            edges = edges_of_chain(self.body.ring.sector.mesh.sides[side])
+            where = np.einsum("qa,eac->eqc", _SHAPE, points[edges]).reshape(-1, 2)
+            along = np.einsum("qa,eac->eqc", _SLOPE, points[edges]).reshape(-1, 2)
+            angle = np.degrees(np.arctan2(along[:, 1], np.abs(along[:, 0])))
+            strain = np.tile(_SLOPE, (len(edges), 1))[:, :, None] * (along / (along**2).sum(-1, keepdims=True))[:, None]
+            dofs = node_dofs(np.repeat(edges, len(_SLOPE), axis=0))
+            stresses = SurfaceStresses(dofs, strain.reshape(len(where), -1) * self.body.elasticity.modulus)
+            found[side] = (np.hypot(*where.T), angle, stresses)
+        return found
+
+    def _response(self, side: Side, tooth: int) -> CubicSpline | None:
+        """Stress on a side of a tooth by 1 N per mm on tooth 0, as a function of the load's roll length; None if unknown."""
+        support = self.body.ring.support
+        place = (tooth + self.body.neighbours) % support.teeth if support.bends else tooth + self.body.neighbours
+        return self._splines[side][place] if 0 <= place < len(self._splines[side]) else None
+
+    @cached_property
+    def _splines(self) -> dict[Side, tuple[CubicSpline, ...]]:
+        """Stresses (points,) of each side by the roll length of the load, from tooth -neighbours on."""
+        from scipy.interpolate import CubicSpline
+
+        loads = self.body.loads
+        return {side: tuple(CubicSpline(loads, each.T) for each in teeth) for side, teeth in self._responses.items()}
+
+    @cached_property
+    def _responses(self) -> dict[Side, Floats]:
+        """Stresses (teeth, points, loads) by the unit loads, from tooth -neighbours on."""
+        body, moved = self.body, self.body.displacements.copy()
+        moved[body.neighbours] += body.singular
+        return self._stresses(moved, body.hub_forces)
+
+    def _by_key(self, side: Side) -> Floats:
+        """Stresses (teeth, points) of a side by a torque of 1 (N mm per mm) from the key, less that from all round."""
+        ring = self.body.ring
+        if ring.support.hold is not Hold.KEY:
+            return np.zeros((1, 1))
+        return self._keyed[side][..., 0]
+
+    @cached_property
+    def _keyed(self) -> dict[Side, Floats]:
+        ring = self.body.ring
+        load = key_load(ring.sector.mesh, ring.support)
+        return self._stresses(ring.solve(load)[0], ring.hub_forces(load))
+
+    def _stresses(self, moved: Floats, hub_forces: Floats | None) -> dict[Side, Floats]:
+        """Stresses (teeth, points, m) of each side by displacements (teeth in full, 2 n, m)."""
+        rows = SurfaceStresses(
+            *(np.concatenate(of) for of in zip(*(self._geometry[side][2] for side in self._sides), strict=True))
+        )
+        found = [rows.by(each) for each in moved]
+        if hub_forces is not None and self.body.ring.support.bends:
+            found += far_responses(self.body.ring, rows, moved, hub_forces)
+        ends = np.cumsum([len(self.places(side)[0]) for side in self._sides])
+        return dict(zip(self._sides, np.split(np.stack(found), ends[:-1], axis=1), strict=True))
+
+
+def seen_from(own: int, loads: list[ToothLoad]) -> list[ToothLoad]:
+    """Loads as a tooth sees them."""
+    return [(tooth - own, length, force) for tooth, length, force in loads]
+
+
+_ROOT = (Side.LEFT_FILLET, Side.LEFT_ROOT, Side.RIGHT_ROOT, Side.RIGHT_FILLET)
+
+_PLACES = np.array([-GAUSS, GAUSS])
+_SHAPE, _SLOPE = edge_shapes(_PLACES), edge_slopes(_PLACES)

@@ -1,33 +1,255 @@
-"""Two gears in mesh, each a flexible section: the model that is loaded at any position and torque."""
+"""PlanePair: two flexible sections in mesh, loaded at any position and torque.
+
+Everything is per mm of face width, in the transverse section.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
+from itertools import pairwise, product
 
 import numpy as np
 
-from gearcad.contact.plane.contact import ContactSolution, solve_contact
-from gearcad.contact.plane.contact_pairs import contact_pairs, touching_teeth
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
-from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
+from gearcad.contact.plane.flank import Fillets, PlaneCompliance, flank_compliance
 from gearcad.contact.plane.ring import Ring, assemble
-from gearcad.contact.plane.root import Fillets
-from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.engaged import FlexiblePair
-from gearcad.contact.shared.holding import Support
-from gearcad.contact.shared.line_of_action import line_of_action, pairs_within, rigid_approach
-from gearcad.errors import GeometryError
+from gearcad.contact.plane.sector import Plane, PlaneElasticity
+from gearcad.contact.shared.bodies import BodyModel, Support
+from gearcad.contact.shared.line_of_action import (
+    LineOfAction,
+    facing_gap,
+    facing_pairs,
+    line_of_action,
+    overlap,
+    pairs_within,
+    rigid_approach,
+)
+from gearcad.contact.shared.loaded import TOOTH_ORDER, FlexiblePair
+from gearcad.contact.shared.local_contact import complementary, onsets, start_distance
+from gearcad.core.errors import GeometryError
+from gearcad.core.records import Bools, Floats, Indices, PerGear, Role
 from gearcad.geometry import Gear, GearPair
-from gearcad.geometry.halves import refuse_halves
+from gearcad.geometry.gear import refuse_halves
 from gearcad.material import Materials, of_both
-from gearcad.meshing.section import MeshSizes, mesh_sector
-from gearcad.per_gear import PerGear
-from gearcad.rating.hertz import half_width
+from gearcad.meshing.outline import MeshSizes
+from gearcad.meshing.sector import mesh_sector
+from gearcad.rating.contact_stress import half_width
 
-__all__ = ["PlanePair", "flank_body", "plane_pair"]
+
+@dataclass(frozen=True)
+class ContactCells:
+    """Cells of constant pressure on one pair of flanks, `place` (n,) in mm along the common tangent from the line of action.
+
+    `lengths` are the roll lengths (n,) in mm that face each other there, `gap` (n,) their distance (mm) before loading.
+    """
+
+    place: Floats
+    width: float
+    lengths: PerGear[Floats]
+    gap: Floats
+
+
+@dataclass(frozen=True)
+class ContactPair:
+    """A pair of flanks: tooth `tooth` of the pinion (0 is the middle one), in contact at roll `lengths` (mm).
+
+    `added_curvature` (1/mm) is what modified flanks have more than the two involutes, where they come nearest.
+    """
+
+    tooth: int
+    lengths: PerGear[float]
+    cells: ContactCells
+    added_curvature: float = 0.0
+
+    @property
+    def plain_radius(self) -> float:
+        """Reduced radius of curvature (mm) of the two involutes."""
+        pinion, wheel = self.lengths
+        return pinion * wheel / (pinion + wheel)
+
+    @property
+    def radius(self) -> float:
+        """Reduced radius of curvature (mm); infinite where one flank is hollower than the other is round."""
+        pinion, wheel = self.lengths
+        curvature = (pinion + wheel) / (pinion * wheel) + self.added_curvature
+        return 1 / curvature if curvature > 0 else math.inf
+
+
+@dataclass(frozen=True)
+class ContactSolution:
+    """Pressures (MPa) by pair and cell, and the approach of the flanks along the line of action (mm).
+
+    `parts` are the pinion's and the wheel's shares of the approach; what is left is gaps that were closed.
+    """
+
+    pairs: tuple[ContactPair, ...]
+    pressures: tuple[Floats, ...]
+    approach: float
+    parts: PerGear[float]
+
+    @property
+    def forces(self) -> Floats:
+        """Normal force on each pair (N per mm)."""
+        return np.array([pressure.sum() * pair.cells.width for pair, pressure in zip(self.pairs, self.pressures, strict=True)])
+
+
+def solve_contact(
+    pairs: tuple[ContactPair, ...], bodies: PerGear[PlaneCompliance], force: float, like: ContactSolution | None = None
+) -> ContactSolution:
+    """Press the gears together with the normal force `force` (N per mm of width).
+
+    What touches is sought from where it does in a solution `like` this one, if there is one.
+    """
+    sizes = [len(pair.cells.place) for pair in pairs]
+    width = np.concatenate([np.full(size, pair.cells.width) for size, pair in zip(sizes, pairs, strict=True)])
+    gap = np.concatenate([pair.cells.gap for pair in pairs])
+    matrices = PerGear.each(lambda role: compliance_matrix(pairs, bodies.pick(role), role))
+    touching = _middles(pairs) if like is None else _touching(pairs, like)
+    pressure, approach = complementary(matrices.pinion + matrices.wheel, gap * width, width, force, touching)
+    parts = matrices.map(lambda matrix: float(pressure @ matrix @ pressure) / force)
+    return ContactSolution(pairs, tuple(np.split(pressure, np.cumsum(sizes)[:-1])), approach, parts)
+
+
+def _middles(pairs: tuple[ContactPair, ...]) -> Bools:
+    """Cells (n,) in the middle third of what is around the least gap of each pair: half widths of windows of three."""
+    places = [pair.cells.place for pair in pairs]
+    away = [np.abs(place - place[pair.cells.gap.argmin()]) for place, pair in zip(places, pairs, strict=True)]
+    return np.concatenate([each <= each.max() / 3 for each in away])
+
+
+def _touching(pairs: tuple[ContactPair, ...], like: ContactSolution) -> Bools:
+    """Cells (n,) that lie where another solution presses."""
+    pressed = {pair.tooth: (pair.cells.place, pressure) for pair, pressure in zip(like.pairs, like.pressures, strict=True)}
+    nowhere = np.zeros(1), np.zeros(1)
+    return np.concatenate([np.interp(pair.cells.place, *pressed.get(pair.tooth, nowhere)) > 0 for pair in pairs])
+
+
+def compliance_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, role: Role) -> Floats:
+    """Displacement of a gear's flank over cell i, times its width, by the pressure on cell j.
+
+    (n, n) in mm²/MPa.
+    """
+    lengths = [pair.cells.lengths.pick(role) for pair in pairs]
+    begin = np.cumsum([0, *map(len, lengths)])
+    spans = [slice(first, last) for first, last in pairwise(begin.tolist())]
+    moved, parts = body.by_unit_loads(np.concatenate(lengths)), body.parts_of_loads(np.concatenate(lengths))
+    matrix = np.zeros((begin[-1], begin[-1]))
+    for (one, other), (there, here) in zip(product(pairs, pairs), product(spans, spans), strict=True):
+        apart = (one.tooth - other.tooth) * TOOTH_ORDER.pick(role)
+        if abs(apart) <= body.neighbours:
+            block = moved[there, apart + body.neighbours] @ parts[here].T
+            matrix[there, here] = block * (one.cells.width * other.cells.width)
+        if body.edge_taken_off and not apart:
+            matrix[there, here] += _edge_block(one.cells, body)
+    result: Floats = (matrix + matrix.T) / 2
+    return result
+
+
+def _edge_block(cells: ContactCells, body: PlaneCompliance) -> Floats:
+    """The straight edge's part: k(d) integrated over both cells in closed form."""
+    log = -2 / (np.pi * body.elasticity.modulus)
+    constant = -(1 + body.elasticity.ratio) / (np.pi * body.elasticity.modulus)
+    count, h = len(cells.place), cells.width
+    by_step, steps = _even_cells(count)
+    result: Floats = (h * h * (log * (by_step + math.log(h)) + constant))[steps]
+    return result
+
+
+@lru_cache(256)
+def _even_cells(count: int) -> tuple[Floats, Indices]:
+    """ln|d| integrated over two cells of width 1 by the steps (n,) between them, and the steps (n, n) between all."""
+    steps = np.arange(count)
+    second = _second(np.arange(-1.0, count + 1))
+    return second[2:] - 2 * second[1:-1] + second[:-2], np.abs(steps[:, None] - steps)
+
+
+def _second(x: Floats) -> Floats:
+    """Twice integrated ln|x|: x^2/2 (ln|x| - 3/2)."""
+    size = np.abs(x)
+    result: Floats = np.where(size > 0, x * x / 2 * (np.log(np.where(size > 0, size, 1.0)) - 1.5), 0.0)
+    return result
+
+
+_FEWEST = 6
+"""Cells of a pair of flanks, however narrow its window."""
+
+_OF_TRANSITION, _MOST = 8, 800
+"""Cells over the transition of a linear relief that lies in the window, and the most cells of a pair of flanks."""
+
+_BEND = 0.01
+"""Distance (mm per mm of normal module) over which the curvature of a gap is taken."""
+
+
+def contact_pairs(
+    line: LineOfAction,
+    pinion_length: float,
+    span: Callable[[int, float], float],
+    cells: int,
+    farthest_gap: float,
+    least_width: float = 0.0,
+    *,
+    single: bool = False,
+) -> tuple[ContactPair, ...]:
+    """Pairs of flanks when the middle pair touches at `pinion_length` (mm from T1).
+
+    Each has `cells` within `span(tooth, reduced radius)` (mm) on both sides of its contact, or fewer that are not narrower
+    than `least_width` (mm). Beyond the path of contact the corner of a tip can touch while teeth bend: such pairs count up
+    to `farthest_gap` (mm) from where exact involutes would touch. `single` leaves all but the middle pair out.
+    """
+    return tuple(
+        _contact_pair(line, tooth, pinion_length + tooth * line.pitch, place, span, cells, least_width)
+        for tooth, place in touching_teeth(line, pinion_length, farthest_gap, single=single).items()
+    )
+
+
+def touching_teeth(line: LineOfAction, pinion_length: float, farthest_gap: float, *, single: bool = False) -> dict[int, float]:
+    """Teeth whose flanks come as near as `farthest_gap` (mm), and where along the tangent (mm) they are nearest."""
+    near = facing_pairs(line, pinion_length).items()
+    return {tooth: place for tooth, (gap, place) in near if gap <= farthest_gap and not (single and tooth)}
+
+
+def _contact_pair(
+    line: LineOfAction,
+    tooth: int,
+    pinion_length: float,
+    middle: float,
+    span: Callable[[int, float], float],
+    cells: int,
+    least_width: float,
+) -> ContactPair:
+    low, high = overlap(line, pinion_length)
+    touching = line.lengths(pinion_length)
+    radius = touching.pinion * touching.wheel / line.whole
+    reach = span(tooth, radius)
+    first, last = max(low, middle - reach), min(high, middle + reach)
+    finest = max(min(2 * reach / cells, _of_transition(line, touching, radius, reach)), 2 * reach / _MOST, least_width)
+    count = max(round((last - first) / finest), _FEWEST)
+    width = (last - first) / count
+    place = np.linspace(first + width / 2, last - width / 2, count)
+    facing, gap = facing_gap(line, tooth, pinion_length, place)
+    # The mean gap over a cell is that of its middle and what the curvature adds.
+    gap = gap + width**2 / 24 / radius
+    added = 0.0 if line.exact else _curvature(line, tooth, pinion_length, middle) - 1 / radius
+    return ContactPair(tooth, touching, ContactCells(place, width, facing, gap), added)
+
+
+def _of_transition(line: LineOfAction, touching: PerGear[float], radius: float, reach: float) -> float:
+    """Return the width (mm) of cells that the transitions within `reach` of a contact ask for; infinite without one."""
+    finest = math.inf
+    for flank, length in zip(line.flanks, touching, strict=True):
+        for onset in onsets(flank):
+            if onset.length and start_distance(flank.base_radius, onset, np.array(length), radius) < reach:
+                finest = min(finest, onset.length / _OF_TRANSITION)
+    return finest
+
+
+def _curvature(line: LineOfAction, tooth: int, pinion_length: float, place: float) -> float:
+    """Relative curvature (1/mm) of two flanks at a place along the tangent: second difference of their gap."""
+    step = _BEND * line.module
+    _, (before, here, after) = facing_gap(line, tooth, pinion_length, place + step * np.array([-1.0, 0.0, 1.0]))
+    return float(before - 2 * here + after) / step**2
 
 
 _CELLS = 66

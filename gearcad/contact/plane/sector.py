@@ -1,4 +1,11 @@
-"""A tooth's sector: its stiffness, what the hub does to it, and what of both is left at its cuts.
+"""A tooth sector in plane elasticity: stiffness of its elements, its hub, and both condensed to its cuts.
+
+Nodes go with the smallest part that has all their elements, and leave their stiffness, and loads, to those around them. Fronts
+are dense, and small enough for the inverse of what goes to be kept.
+
+A bore that is not held rests on a hub that follows its motion in the mean: what the hub gives back is a traction shaped like
+a rigid motion - its part along the bore, for a bore may slide and lift but not shear - that balances the teeth. The mean
+motion of the bore, weighted like that traction, is nought, so the body stays where its hub is, and responses are symmetric.
 
 The dofs of a cut are radial and tangential, so the matrices of all sectors are the same and need no turning. A bore that is
 held belongs to a rigid hub with one dof, its turn: the row of that dof is the torque on the hub. A bore that is not held has a
@@ -7,21 +14,358 @@ hub that follows it (see `support`): its dofs are the forces that it gives back.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
+from enum import Enum
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.arrays import Floats, Wholes
-from gearcad.contact.plane.dissection import Dissected, dissect, node_dofs
-from gearcad.contact.plane.elasticity import PlaneElasticity, element_forces, element_stiffness
-from gearcad.contact.plane.support import held_nodes, hub_tractions, rigid_motions, with_support
-from gearcad.contact.shared.chain import Chain
-from gearcad.contact.shared.holding import Support
-from gearcad.meshing.section import SectorMesh
+from gearcad.contact.shared.bodies import Chain, Hold, Support
+from gearcad.core.errors import SolverError
+from gearcad.core.records import Bools, Floats, Wholes
+from gearcad.material import Material
+from gearcad.meshing.outline import Side
+from gearcad.meshing.quads import (
+    TRIANGLE_PLACES,
+    TRIANGLE_WEIGHTS,
+    edge_shapes,
+    edge_slopes,
+    edges_of_chain,
+    triangle_shapes,
+    triangle_slopes,
+)
+from gearcad.meshing.sector import SectorMesh, with_shaft
 
-__all__ = ["CutAxes", "Sector", "chain_of", "make_sector"]
+_FEW = 24
+"""Elements of a part that is not divided further."""
+
+
+def node_dofs(nodes: Wholes) -> Wholes:
+    """Dofs (..., 2 n) of nodes (..., n)."""
+    return (2 * nodes[..., None] + np.arange(2)).reshape(*nodes.shape[:-1], 2 * nodes.shape[-1])
+
+
+class _Front(NamedTuple):
+    """One step: dofs that go, those that take over their load, the inverse of the matrix of the first, that times the matrix
+    across.
+    """
+
+    own: Wholes
+    aside: Wholes
+    inverse: Floats
+    across: Floats
+
+
+class Arrived(NamedTuple):
+    """Loads (kept, m) that arrive at the dofs that are kept, and what each front makes of them: None where none get there.
+
+    `work` (m, m) is that of the loads on the displacements that they cause while nothing moves at the dofs that are kept.
+    """
+
+    loads: Floats
+    moved: list[Floats | None]
+    work: Floats
+
+
+@dataclass(frozen=True)
+class Dissected:
+    """What is left of a mesh of so many `dofs`: its `matrix` on the dofs `kept`, which go up."""
+
+    dofs: int
+    kept: Wholes
+    matrix: Floats
+    fronts: list[_Front]
+
+    def forward(self, loads: Floats) -> Arrived:
+        """Loads (dofs, m) moved to the dofs that are kept."""
+        left, moved = loads.copy(), list[Floats | None]()
+        loaded: Bools = np.any(loads, axis=1)
+        work = np.zeros((loads.shape[1], loads.shape[1]))
+        for own, aside, inverse, across in self.fronts:
+            if not loaded[own].any():
+                moved.append(None)
+                continue
+            here = left[own]
+            left[aside] -= across.T @ here
+            loaded[aside] = True
+            by_load: Floats = inverse @ here
+            moved.append(by_load)
+            work += here.T @ by_load
+        return Arrived(left[self.kept], moved, work)
+
+    def backward(self, at_kept: Floats, arrived: Arrived | None = None) -> Floats:
+        """Displacements (dofs, m) by those of the dofs that are kept (kept, m), and by loads; none of what is held."""
+        found = np.zeros((self.dofs, at_kept.shape[1]))
+        found[self.kept] = at_kept
+        by_loads = arrived.moved if arrived is not None else [None] * len(self.fronts)
+        for (own, aside, _, across), given in zip(reversed(self.fronts), reversed(by_loads), strict=True):
+            here = across @ found[aside]
+            found[own] = -here if given is None else given - here
+        return found
+
+
+def dissect(points: Floats, triangles: Wholes, matrices: Floats, kept: Wholes, held: Wholes) -> Dissected:
+    """Condense elements (m, 6) of nodes at `points` (n, 2) with their `matrices` (m, 12, 12), in x and y, to the nodes `kept`.
+
+    Nodes `held` do not move. Raises SolverError where the others could move without a force.
+    """
+    order = _ordered(points[triangles[:, :3]].mean(axis=1), np.arange(len(triangles)))
+    return _Dissection(triangles[order], matrices[order], len(points), kept, held).condensed()
+
+
+def _ordered(centres: Floats, chosen: Wholes) -> Wholes:
+    """Elements in an order in which each half is on one side of a line, across the length of where they are."""
+    if len(chosen) <= _FEW:
+        return chosen
+    away = centres[chosen] - centres[chosen].mean(axis=0)
+    (xx, xy), (_, yy) = away.T @ away
+    angle = np.arctan2(2 * xy, xx - yy) / 2
+    middle = len(chosen) // 2
+    order = np.argpartition(away @ [np.cos(angle), np.sin(angle)], middle)
+    result: Wholes = np.r_[_ordered(centres, chosen[order[:middle]]), _ordered(centres, chosen[order[middle:]])]
+    return result
+
+
+class _Left(NamedTuple):
+    """The nodes (k,) that a part leaves, and the matrix (2 k, 2 k) on their dofs."""
+
+    nodes: Wholes
+    matrix: Floats
+
+
+class _Dissection:
+    """Elements in the order of their parts, and which of them are the first and the last that have each node."""
+
+    def __init__(self, triangles: Wholes, matrices: Floats, nodes: int, kept: Wholes, held: Wholes) -> None:
+        self.triangles, self.matrices, self.nodes = triangles, matrices, nodes
+        number = np.arange(len(triangles)).repeat(triangles.shape[1])
+        self.first, self.last = np.full(nodes, len(triangles)), np.full(nodes, -1)
+        self.first[triangles.ravel()[::-1]] = number[::-1]
+        self.last[triangles.ravel()] = number
+        self.last[kept] = len(triangles)  # nothing has all of their elements
+        self.free: Bools = np.ones(nodes, bool)
+        self.free[held] = False
+        self.places = np.zeros(nodes, int)
+        self.fronts: list[_Front] = []
+
+    def condensed(self) -> Dissected:
+        """All of it."""
+        try:
+            nodes, matrix = self._eliminated(0, len(self.triangles))
+        except np.linalg.LinAlgError as error:
+            raise SolverError(f"the stiffness matrix of a gear body could not be factorised ({error})") from error
+        return Dissected(2 * self.nodes, node_dofs(nodes), matrix, self.fronts)
+
+    def _eliminated(self, begin: int, end: int) -> _Left:
+        """What the elements from `begin` to before `end` leave."""
+        parts: list[_Left] = []
+        if end - begin > _FEW:
+            middle = begin + (end - begin) // 2
+            parts = [self._eliminated(begin, middle), self._eliminated(middle, end)]
+            every = np.unique(np.concatenate([part.nodes for part in parts]))
+        else:
+            every = np.unique(self.triangles[begin:end])
+            every = every[self.free[every]]
+        going = (self.first[every] >= begin) & (self.last[every] < end)
+        own, aside = every[going], every[~going]
+        self.places[own], self.places[aside] = np.arange(len(own)), np.arange(len(own), len(every))
+        matrix = self._joined(parts, len(every)) if parts else self._summed(begin, end, len(every))
+        count = 2 * len(own)
+        rest = matrix[count:, count:]
+        if count:
+            inverse = np.asarray(np.linalg.inv(matrix[:count, :count]), float)
+            across = inverse @ matrix[:count, count:]
+            rest = rest - matrix[count:, :count] @ across
+            self.fronts.append(_Front(node_dofs(own), node_dofs(aside), inverse, across))
+        return _Left(aside, rest)
+
+    def _joined(self, parts: list[_Left], count: int) -> Floats:
+        """The matrix (2 n, 2 n) on so many nodes by what parts have left."""
+        dofs = [node_dofs(self.places[part.nodes]) for part in parts]
+        entries = [(2 * count * each[:, None] + each).ravel() for each in dofs]
+        return _matrix(np.concatenate(entries), np.concatenate([part.matrix.ravel() for part in parts]), 2 * count)
+
+    def _summed(self, begin: int, end: int, count: int) -> Floats:
+        """The same by elements; what is held comes after the others, and is left out."""
+        triangles, size = self.triangles[begin:end], 2 * count
+        dofs = node_dofs(np.where(self.free[triangles], self.places[triangles], count))
+        entries = ((size + 2) * dofs[:, :, None] + dofs[:, None]).ravel()
+        return _matrix(entries, self.matrices[begin:end].ravel(), size + 2)[:size, :size]
+
+
+def _matrix(entries: Wholes, values: Floats, size: int) -> Floats:
+    """A matrix (size, size) of the sums of values at entries, which are counted row by row."""
+    result: Floats = np.bincount(entries, values, size * size).astype(float, copy=False)
+    return result.reshape(size, size)
+
+
+class Plane(Enum):
+    """Strain: a wide gear; stress: a thin one."""
+
+    STRAIN = "plane strain"
+    STRESS = "plane stress"
+
+
+@dataclass(frozen=True)
+class PlaneElasticity:
+    """Material and plane state; the two constants in which all plane problems look like plane stress."""
+
+    material: Material
+    plane: Plane = Plane.STRAIN
+
+    @property
+    def modulus(self) -> float:
+        """E' (MPa): E in plane stress, E/(1 - nu^2) in plane strain."""
+        nu = self.material.poisson_ratio
+        return self.material.youngs_modulus / (1 - nu**2 if self.plane is Plane.STRAIN else 1.0)
+
+    @property
+    def ratio(self) -> float:
+        """nu': nu in plane stress, nu/(1 - nu) in plane strain."""
+        nu = self.material.poisson_ratio
+        return nu / (1 - nu) if self.plane is Plane.STRAIN else nu
+
+    @property
+    def lame(self) -> tuple[float, float]:
+        """lambda, mu (MPa) of the plane problem."""
+        return self.modulus * self.ratio / (1 - self.ratio**2), self.modulus / 2 / (1 + self.ratio)
+
+
+def element_stiffness(mesh: SectorMesh, elasticity: PlaneElasticity, elements: Wholes | None = None) -> Floats:
+    """Stiffness (m, 12, 12) in N/mm per mm of width of all elements, or of some: x and y of each of its nodes in turn."""
+    gradients, weights = _integrated(mesh, elements)
+    slopes = gradients.reshape(len(gradients), 12, -1)
+    products = ((slopes * weights[:, None]) @ slopes.swapaxes(1, 2)).reshape(-1, 6, 2, 6, 2)
+    lame, shear = elasticity.lame
+    # Integrals of lambda div u div v + mu (grad u + grad u^T) : grad v.
+    local = lame * products + shear * products.swapaxes(2, 4)
+    along = products[:, :, 0, :, 0] + products[:, :, 1, :, 1]
+    for direction in (0, 1):
+        local[:, :, direction, :, direction] += shear * along
+    return local.reshape(-1, 12, 12)
+
+
+def element_mass(mesh: SectorMesh, elements: Wholes | None = None) -> Floats:
+    """Integrals of N^T N (m, 12, 12) in mm² over all elements, or some, by the same dofs."""
+    _, weights = _integrated(mesh, elements)
+    shapes = triangle_shapes(TRIANGLE_PLACES)
+    local = np.zeros((len(weights), 6, 2, 6, 2))
+    for direction in (0, 1):
+        local[:, :, direction, :, direction] = np.einsum("eq,qa,qb->eab", weights, shapes, shapes)
+    return local.reshape(-1, 12, 12)
+
+
+def element_forces(triangles: Wholes, matrices: Floats, moved: Floats) -> Floats:
+    """Forces (2 n, k) of elements (m, 6) with their matrices (m, 12, 12) by displacements (2 n, k) of all nodes."""
+    dofs = node_dofs(triangles)
+    moves: Bools = np.any(moved, axis=1)
+    strained = moves[dofs].any(axis=1)
+    dofs = dofs[strained]
+    each = (matrices[strained] @ moved[dofs]).reshape(dofs.size, moved.shape[1])
+    order = np.argsort(dofs, axis=None, kind="stable")
+    found, begin = np.unique(dofs.ravel()[order], return_index=True)
+    forces = np.zeros_like(moved)
+    forces[found] = np.add.reduceat(each[order], begin) if len(begin) else 0.0
+    return forces
+
+
+def _integrated(mesh: SectorMesh, elements: Wholes | None) -> tuple[Floats, Floats]:
+    """Of elements, where they are integrated: slopes (m, 6, 2, places) of their shape functions, and weights (m, places) in
+    mm².
+    """
+    corners = mesh.points[mesh.triangles if elements is None else mesh.triangles[elements]]
+    local = triangle_slopes(TRIANGLE_PLACES).transpose(2, 0, 1)
+    (x_s, y_s), (x_t, y_t) = (np.moveaxis(along @ corners, -1, 0) for along in local)
+    area = x_s * y_t - y_s * x_t
+    by_s, by_t = (along.T[None] for along in local)
+    gradients = np.stack(
+        [
+            by_s * (y_t / area)[:, None] - by_t * (y_s / area)[:, None],
+            by_t * (x_s / area)[:, None] - by_s * (x_t / area)[:, None],
+        ],
+        axis=2,
+    )
+    return gradients, np.abs(area) * TRIANGLE_WEIGHTS / 2
+
+
+_GAUSS = 4
+"""Points on a part of an edge for the tractions on the bore."""
+
+_PARTS = 16
+"""Parts of an edge, so that a keyway may end inside it."""
+
+
+def with_support(mesh: SectorMesh, support: Support) -> SectorMesh:
+    """The sector with what of the shaft belongs to it."""
+    return with_shaft(mesh, support.shaft_bore) if support.hold is Hold.SHAFT else mesh
+
+
+def held_nodes(mesh: SectorMesh, support: Support) -> Wholes:
+    """Nodes that belong to the hub; of a ring on bolts those of a sector that has one, but for its cuts, which all share."""
+    if support.floats:
+        return np.empty(0, int)
+    if support.hold is not Hold.BOLTS:
+        return mesh.sides[Side.HELD]
+    outside = np.hypot(*mesh.points.T) > support.bolt_circle / 2
+    outside[mesh.sides[Side.HELD]] = True
+    outside[mesh.ahead] = outside[mesh.behind] = False
+    return np.flatnonzero(outside)
+
+
+def hub_seen_by(tooth: int, support: Support) -> Floats:
+    """Dofs of the hub as the sector of a tooth, counted from the loaded one, sees them, from those that that one sees.
+
+    Those of a hub that floats are the torque and two forces; the other has its turn.
+    """
+    if not support.floats:
+        return np.eye(1)
+    cosine, sine = math.cos(tooth * 2 * math.pi / support.teeth), math.sin(tooth * 2 * math.pi / support.teeth)
+    return np.array([[1.0, 0.0, 0.0], [0.0, cosine, sine], [0.0, -sine, cosine]])
+
+
+def hub_tractions(mesh: SectorMesh, whole: SectorMesh, support: Support) -> Floats:
+    """Nodal forces (2 n, 3) on the `whole` of a sector by torque and forces of unit shape, of a hub that floats."""
+    if support.hold is Hold.SHAFT:
+        shaft = np.arange(len(mesh.triangles), len(whole.triangles))
+        return element_forces(whole.triangles[shaft], element_mass(whole, shaft), rigid_motions(whole.points).reshape(-1, 3))
+    return _on_bore(mesh, math.pi)
+
+
+def key_load(mesh: SectorMesh, support: Support) -> Floats:
+    """Nodal forces (2 n, 1) by which a key under the middle of the sector gives a torque of 1 (N mm per mm).
+
+    The shear over a bore as wide as the keyway, or as the sector if that is narrower.
+    """
+    forces = _on_bore(mesh, support.key)[:, :1]
+    return forces / (forces[:, 0] @ rigid_motions(mesh.points)[..., 0].ravel())
+
+
+def rigid_motions(points: Floats) -> Floats:
+    """Displacements (n, 2, 3) of points by a turn of 1 rad and by shifts along x and y of 1."""
+    x, y = points.T
+    zero, one = np.zeros_like(x), np.ones_like(x)
+    return np.stack([np.stack([-y, x], -1), np.stack([one, zero], -1), np.stack([zero, one], -1)], -1)
+
+
+def _on_bore(mesh: SectorMesh, half: float) -> Floats:
+    """Nodal forces (2 n, 3) by rigid motions' parts along the bore, as tractions up to `half` (rad) from its middle."""
+    edges = edges_of_chain(mesh.sides[Side.HELD])
+    s, weight = np.polynomial.legendre.leggauss(_GAUSS)
+    s = (np.arange(_PARTS)[:, None] + (s + 1) / 2).ravel() * 2 / _PARTS - 1
+    weight = np.tile(weight / _PARTS, _PARTS)
+    shape, slope = edge_shapes(s), edge_slopes(s)
+    points = np.einsum("qa,eac->eqc", shape, mesh.points[edges])
+    length = np.hypot(*np.moveaxis(np.einsum("qa,eac->eqc", slope, mesh.points[edges]), -1, 0)) * weight
+    angle = np.arctan2(points[..., 1], points[..., 0])
+    length = np.where(np.abs(angle) <= half, length, 0.0)
+    along = np.stack([-np.sin(angle), np.cos(angle)], -1)
+    motions = rigid_motions(points.reshape(-1, 2)).reshape(*points.shape, 3)
+    sheared = np.einsum("eqc,eqd,eqdj->eqcj", along, along, motions)
+    forces = np.zeros((len(mesh.points), 2, 3))
+    np.add.at(forces, edges, np.einsum("qa,eq,eqcj->eacj", shape, length, sheared))
+    return forces.reshape(-1, 3)
 
 
 class CutAxes(NamedTuple):

@@ -1,18 +1,262 @@
-"""How much of each gear is flexible, and where and how it is held."""
+"""Flexible bodies: how much of each gear is flexible, what holds it, and substructures condensed to their cuts.
+
+That makes a full ring as cheap as a few teeth.
+
+The dofs of a cut are radial, tangential and, in solid bodies, axial, node by node, so the matrices of all sectors are the same
+and need no turning.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import math
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from functools import cached_property
+from typing import Any
 
-from gearcad.contact.shared.chain import Cuts
-from gearcad.contact.shared.holding import Hold, Support, support_of
-from gearcad.errors import GeometryError, ParameterError, require_number, require_whole
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.core.errors import GeometryError, ParameterError, format_number, require_number, require_whole
+from gearcad.core.records import Floats, PerGear, Role, naming
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import STEEL_MODULUS, Material
-from gearcad.meshing.section.held import held_radius
-from gearcad.per_gear import PerGear, Role, naming
+from gearcad.meshing.outline import held_radius
+from gearcad.rating.tooth_stiffness import RIM_LIMIT
 
-__all__ = ["BodyModel"]
+
+class Cuts(Enum):
+    """What holds the outer cuts of a body that is not a full ring."""
+
+    FIXED = "fixed"
+    SLIDING = "sliding"
+    FREE = "free"
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Sectors in a row, condensed: symmetric matrix on [cut behind, cut ahead, hub] (N/mm, N, N mm).
+
+    The hub's dofs are its turn, or the forces with which it follows the body (see `support`), as the first sector sees them;
+    `onward` turns them to what the sector after the last one sees. In the plane all of it is per mm of width.
+    """
+
+    matrix: Floats
+    onward: Floats = field(default_factory=lambda: np.eye(1))
+
+    @property
+    def cut(self) -> int:
+        """Dofs of one cut."""
+        return (len(self.matrix) - len(self.onward)) // 2
+
+    @cached_property
+    def _double(self) -> Chain:
+        return self.followed_by(self)
+
+    def followed_by(self, other: Chain) -> Chain:
+        """This chain and the other one ahead of it, the cut between them condensed."""
+        n, hub = self.cut, len(self.onward)
+        keep = 2 * n + hub  # behind, ahead, hub, and last the cut between
+        both = np.zeros((keep + n, keep + n))
+        first = np.r_[0:n, keep : keep + n, 2 * n : keep]
+        second = np.r_[keep : keep + n, n : 2 * n, 2 * n : keep]
+        both[np.ix_(first, first)] += self.matrix
+        both[np.ix_(second, second)] += other.seen(self.onward)
+        return Chain(condensed(both, keep), other.onward @ self.onward)
+
+    def seen(self, turn: Floats) -> Floats:
+        """The matrix on the hub's dofs from which `turn` makes those that the first sector sees."""
+        hub = len(self.onward)
+        matrix = self.matrix.copy()
+        matrix[:, -hub:] = matrix[:, -hub:] @ turn
+        matrix[-hub:] = turn.T @ matrix[-hub:]
+        return matrix
+
+    def repeated(self, times: int) -> Chain:
+        """So many of this chain in a row, by doubling."""
+        result, power = None, self
+        while times:
+            if times & 1:
+                result = power if result is None else result.followed_by(power)
+            times >>= 1
+            power = power._double if times else power
+        assert result is not None  # times is at least 1
+        return result
+
+    def ended(self, cuts: Cuts, radii: Floats, *, ahead: bool) -> Floats:
+        """This chain, ahead of other sectors or behind them, its far cut held: matrix on [the cut to them, turn of the hub].
+
+        `radii` (mm) are those of the nodes of a cut. The hub is one that turns with the bore.
+        """
+        n, components = self.cut, self.cut // len(radii)
+        near, far = (np.arange(n), np.arange(n, 2 * n)) if ahead else (np.arange(n, 2 * n), np.arange(n))
+        tangential = np.arange(n) % components == 1
+        kept = far[~cut_held(cuts, n, components)]
+        motions = np.zeros((2 * n + 1, n + 1 + len(kept)))
+        motions[near, np.arange(n)] = 1
+        motions[-1, n] = 1
+        motions[kept, n + 1 + np.arange(len(kept))] = 1
+        if cuts is not Cuts.FREE:
+            motions[far[tangential], n] = radii
+        return condensed(motions.T @ self.matrix @ motions, n + 1)
+
+
+def polar_turn(angles: Floats, components: int) -> Any:
+    """Matrix (scipy CSR) from radial and tangential dofs of nodes at `angles` (n,) in rad to those along x and y.
+
+    Of three `components` the third, along the axis, stays. An angle of 0 leaves a node as it is.
+    """
+    import scipy.sparse
+
+    cosine, sine = np.cos(angles), np.sin(angles)
+    diagonal = np.stack([cosine, cosine, *(components - 2) * [np.ones(len(angles))]], -1).ravel()
+    upper, lower = np.zeros(len(diagonal) - 1), np.zeros(len(diagonal) - 1)
+    upper[::components], lower[::components] = -sine, sine
+    return scipy.sparse.diags([diagonal, upper, lower], [0, 1, -1], format="csr")
+
+
+def cut_held(cuts: Cuts, dofs: int, components: int) -> NDArray[np.bool_]:
+    """Which dofs (n,) of a cut are held."""
+    if cuts is Cuts.SLIDING:
+        tangential: NDArray[np.bool_] = np.arange(dofs) % components == 1
+        return tangential
+    return np.full(dofs, cuts is Cuts.FIXED)
+
+
+def condensed(matrix: Floats, keep: int) -> Floats:
+    """The symmetric matrix with the dofs from `keep` on free of load."""
+    inner = np.linalg.solve(matrix[keep:, keep:], matrix[keep:, :keep])
+    reduced: Floats = matrix[:keep, :keep] - matrix[:keep, keep:] @ inner
+    return (reduced + reduced.T) / 2
+
+
+_SAME = 1e-9
+"""mm: radii that do not differ."""
+
+_THINNEST_SHAFT = 0.98
+"""Greatest bore of a shaft, over its diameter."""
+
+
+_FEWEST_BOLTS = 2
+
+
+class Hold(Enum):
+    """What holds the bore of a gear, or the rim of a ring."""
+
+    AUTO = "auto"
+    """Rigid where the rim is thick; else free, or by the key if there is a keyway."""
+
+    RIGID = "rigid"
+    """Held all round, as by a stiff shaft in a tight fit, or by a stiff housing."""
+
+    SHAFT = "shaft"
+    """Bonded to a shaft or hub ring that gives way, whose section the torque enters like St Venant's shear, as r."""
+
+    KEY = "key"
+    """Free, but the torque comes from a keyway: stresses are those with the key where it is worst."""
+
+    FREE = "free"
+    """Shear all round, as from splines or a thin web, gives torque and force; nothing keeps the bore round."""
+
+    BOLTS = "bolts"
+    """Of a ring: held from its bolt circle outwards where there are bolts, free between them."""
+
+
+@dataclass(frozen=True)
+class Support:
+    """What holds the bore of a body of `teeth` sectors, or the rim of a ring (not AUTO).
+
+    `shaft` is the shaft's material and `shaft_bore` (mm) its own bore; `key` the half width (rad) of the keyway, seen from the
+    axis. Of a ring on `bolts` those have `bolt_circle` (mm), and the loaded tooth stands midway between two.
+    """
+
+    hold: Hold = Hold.RIGID
+    teeth: int = 1
+    shaft: Material = field(default_factory=Material)
+    shaft_bore: float = 0.0
+    key: float = 0.0
+    bolts: int = 0
+    bolt_circle: float = 0.0
+
+    @property
+    def floats(self) -> bool:
+        """True if the hub follows the bore in the mean, and so is moved by forces as well as by the torque; else it turns."""
+        return self.hold not in (Hold.RIGID, Hold.BOLTS)
+
+    def holds(self, tooth: int) -> bool:
+        """Whether anything holds the sector of a tooth, counted from the loaded one."""
+        return self.hold is not Hold.BOLTS or tooth % self.teeth in self._bolted
+
+    @cached_property
+    def _bolted(self) -> frozenset[int]:
+        """Teeth, counted from the loaded one, in whose sectors bolts stand."""
+        places = ((bolt + 0.5) * self.teeth / self.bolts for bolt in range(self.bolts))
+        return frozenset(math.floor(place + 0.5) % self.teeth for place in places)
+
+    @property
+    def words(self) -> str:
+        """How the body is held, before "diameter ..." in a sentence; not by bolts."""
+        return _WORDS[self.hold]
+
+    def describe(self, held_radius: float) -> str:
+        """How the body is held at a radius (mm)."""
+        if self.hold is Hold.BOLTS:
+            circle = f"diameter {format_number(round(self.bolt_circle, 4))} mm"
+            return f"held by {self.bolts} bolts on {circle}, the loaded tooth midway between two"
+        return f"{self.words} diameter {format_number(round(held_radius * 2, 4))} mm"
+
+    @property
+    def bends(self) -> bool:
+        """True if nothing keeps the bore round, so that the whole rim is stressed, not only near the loaded teeth."""
+        return self.hold in (Hold.KEY, Hold.FREE)
+
+
+_WORDS = {
+    Hold.RIGID: "held on",
+    Hold.SHAFT: "bonded to an elastic shaft on",
+    Hold.KEY: "free, but for shear and a key, on",
+    Hold.FREE: "free, but for shear, on",
+}
+
+
+def rim_ratio(gear: Gear, held_radius: float) -> float:
+    """s_R/h_t: the rim from the root circle down to a radius (mm), or to the keyway if that is the bore, over tooth depth."""
+    if gear.internal:
+        profile = gear.profile
+        return (held_radius - profile.root_diameter / 2) / ((profile.root_diameter - profile.tip_diameter) / 2)
+    opening = gear.body.opening_diameter / 2 if abs(held_radius - gear.body.bore / 2) < _SAME else held_radius
+    return (gear.root_diameter / 2 - opening) / ((gear.tip_diameter - gear.root_diameter) / 2)
+
+
+def _support_of_ring(ring: Gear, hold: Hold) -> Support:
+    if hold is not Hold.BOLTS:
+        return Support(Hold.RIGID, ring.tooth_count)
+    if not ring.body.bolt_holes:
+        raise GeometryError("body.bolt_circle", 0.0, "must be given where bolts hold the ring", "mm")
+    if ring.body.bolt_holes < _FEWEST_BOLTS:
+        permitted = f"must be at least {_FEWEST_BOLTS} where bolts hold the ring"
+        raise GeometryError("body.bolt_holes", ring.body.bolt_holes, permitted)
+    return Support(hold, ring.tooth_count, bolts=ring.body.bolt_holes, bolt_circle=ring.body.bolt_circle)
+
+
+def support_of(
+    gear: Gear, held_radius: float, hold: Hold = Hold.AUTO, shaft: Material | None = None, shaft_bore: float = 0.0
+) -> Support:
+    """What holds a gear at `held_radius` (mm). Raises GeometryError for what is not there: a keyway, room for the
+    shaft's bore, bolts.
+    """
+    if gear.internal:
+        return _support_of_ring(gear, hold)
+    if hold is Hold.AUTO:
+        thin = Hold.KEY if gear.body.keyway_width else Hold.FREE
+        hold = Hold.RIGID if rim_ratio(gear, held_radius) >= RIM_LIMIT else thin
+    if hold is Hold.KEY and not gear.body.keyway_width:
+        raise GeometryError("body.keyway_width", 0.0, "must be given where the key holds the bore", "mm")
+    if hold is Hold.SHAFT and shaft_bore > _THINNEST_SHAFT * 2 * held_radius:
+        most = format_number(_THINNEST_SHAFT * 2 * held_radius)
+        raise GeometryError("shaft_bore", shaft_bore, f"must be at most {most} mm ({_THINNEST_SHAFT} of the gear's bore)", "mm")
+    key = math.asin(min(1.0, gear.body.keyway_width / 2 / held_radius))
+    return Support(hold, gear.teeth, shaft or Material(), shaft_bore, key)
 
 
 _OWN_BORES: PerGear[float | None] = PerGear(None, None)

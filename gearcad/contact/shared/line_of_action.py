@@ -1,4 +1,4 @@
-"""The line of action and the flanks that meet on it, in the transverse section: where they face each other, and the gap.
+"""Line of action and the flanks that meet on it, in the transverse section: where they face each other, and the gap.
 
 A position of the mesh is where the middle pair of teeth touches: its roll length on the pinion, in mm from T1. T1T2, and
 along a ring's flank roll lengths and the radius of the base circle, are negative, and the same formulas hold.
@@ -7,30 +7,40 @@ along a ring's flank roll lengths and the radius of the base circle, are negativ
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
 
-from gearcad.arrays import Floats
-from gearcad.contact.shared.loaded_left import gears_loaded_left
-from gearcad.geometry import FlankForm, GearPair, ReliefShape
-from gearcad.per_gear import PerGear
+from gearcad.core.records import Floats, PerGear
+from gearcad.geometry import FlankForm, Gear, GearPair, ReliefShape
 
-__all__ = [
-    "LEAST_LENGTH",
-    "LineOfAction",
-    "TransverseFlank",
-    "facing_gap",
-    "facing_pairs",
-    "facing_teeth",
-    "line_of_action",
-    "nearest",
-    "overlap",
-    "pairs_within",
-    "rigid_approach",
-]
+
+def loaded_left(pair: GearPair, torque: float) -> GearPair:
+    """The pair if a torque on its pinion loads the pinion's left flanks, else its mirror image."""
+    return pair if torque > 0 else replace(pair, pinion=mirrored(pair.pinion), wheel=mirrored(pair.wheel))
+
+
+@lru_cache(16)
+def gears_loaded_left(pair: GearPair) -> PerGear[Gear]:
+    """Both gears of a pair whose pinion's left flanks carry: they press on a ring's with y < 0, so it is seen mirrored.
+
+    Then its teeth, too, follow each other the other way round than the pinion's, and its hand is the opposite one. Known for
+    the last pairs: every position asks for it again.
+    """
+    return PerGear(pair.pinion, mirrored(pair.wheel) if pair.internal else pair.wheel)
+
+
+def mirrored(gear: Gear) -> Gear:
+    """The mirror image in the plane x-z."""
+    if gear.helix_angle:
+        return replace(gear, helix_angle=-gear.helix_angle)
+    if not gear.modification.helix_angle_modification:
+        return gear
+    # A spur gear has no hand of its own, so that of its modification turns over.
+    change = replace(gear.modification, helix_angle_modification=-gear.modification.helix_angle_modification)
+    return replace(gear, modification=change)
 
 
 LEAST_LENGTH = 0.01

@@ -1,22 +1,381 @@
-"""Engaged gears under load, whatever the model: contacts, root stresses, a position, and the positions of one base pitch."""
+"""Gears under load, whatever the model: contacts, root stresses, positions over a base pitch, and the extremes between them.
+
+Over the mesh a root stress or a pressure is smooth from one event to the next, and its greatest is most often one: where a
+pair of teeth comes in or leaves, the curve has a kink; where a contact comes away from the edge of a flank, its pressure
+begins with a jump. So what can stand between two positions follows from the curve on both sides of them.
+"""
 
 from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from operator import attrgetter, itemgetter
 from typing import Any, Generic, Self, TypeAlias, TypeVar
 
 import numpy as np
 
-from gearcad.arrays import Floats
-from gearcad.contact.shared.engaged import FlankCompliance, FlexiblePair
-from gearcad.contact.shared.extremes import Extreme, Quantity, RollRange, add_positions, extreme
-from gearcad.per_gear import PerGear, Role
+from gearcad.contact.shared.line_of_action import LineOfAction
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Floats, PerGear, Role
+from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.involute import involute_at_roll
+from gearcad.rating.contact_stress import half_width, reduced_radius
 
-__all__ = ["FAIR", "INTERIOR", "LEAST_TANGENT_ANGLE", "Cycle", "LoadedCycle", "LoadedPosition", "PairContact", "RootStress"]
+TOOTH_ORDER = PerGear(1, -1)
+"""Seen from the wheel the teeth follow each other the other way round; a ring's too, as rings are seen mirrored."""
+
+
+def roll_lengths(radii: Floats, base_radius: float) -> Floats:
+    """Roll lengths (mm) of an involute at radii (n,) in mm: from the base tangent point, 0 inside the base circle."""
+    result: Floats = np.sqrt(np.maximum((radii - base_radius) * (radii + base_radius), 0))
+    return result
+
+
+@dataclass(frozen=True)
+class LoadedFlank:
+    """The exact flank of tooth 0 that loads press on, that with y > 0; places on it are roll lengths (mm).
+
+    Those of a ring are negative, and rise from root to tip as others do: so the formulas of all flanks are the same.
+    """
+
+    gear: Gear
+
+    @property
+    def base_radius(self) -> float:
+        """r_b (mm), above 0 of a ring too."""
+        return self.gear.profile.base_diameter / 2
+
+    @property
+    def upward(self) -> int:
+        """Whether its tip lies outwards (1) or, of a ring, inwards (-1)."""
+        return -1 if self.gear.internal else 1
+
+    def roll_lengths(self, radii: Floats) -> Floats:
+        """Roll lengths (mm) at radii (n,) in mm."""
+        return self.upward * roll_lengths(radii, self.base_radius)
+
+    def polar(self, lengths: Floats) -> tuple[Floats, Floats]:
+        """Radii (mm) and angles (rad) of places in the transverse section."""
+        roll = lengths / self.base_radius
+        angle: Floats = math.radians(self.gear.profile.base_half_angle) - involute_at_roll(roll)
+        return np.hypot(self.base_radius, lengths), angle
+
+    def heading(self, lengths: Floats) -> Floats:
+        """Angles (rad) of the tangents of the base circle that places lie on, to the middle of the tooth."""
+        return math.radians(self.gear.profile.base_half_angle) - np.asarray(lengths) / self.base_radius
+
+
+class FlankCompliance(ABC):
+    """A gear body's responses to unit loads normal to its flank: what every model tells of a body."""
+
+    flank: LoadedFlank
+    torques: Floats
+    """On the hub, by each unit load."""
+
+    @property
+    @abstractmethod
+    def neighbours(self) -> int:
+        """Teeth on each side of the loaded one whose responses are known."""
+
+    @property
+    @abstractmethod
+    def hub_radius(self) -> float:
+        """Where the body is held (mm)."""
+
+    @property
+    @abstractmethod
+    def nodes(self) -> int:
+        """Of the mesh of one tooth sector."""
+
+    @property
+    def unit_loads(self) -> int:
+        """Places of the flank that were loaded."""
+        return len(self.torques)
+
+    @property
+    @abstractmethod
+    def mesh_document(self) -> dict[str, Any]:
+        """Size and quality of the mesh of one tooth sector, as documents have it."""
+
+
+@dataclass(frozen=True)
+class EngagedPair:
+    """A pair as it rolls: where it touches at a roll angle, and the force of a torque."""
+
+    pair: GearPair
+
+    @property
+    def repeats(self) -> bool:
+        """True if one base pitch is like the next: no tooth differs from the others."""
+        return True
+
+    @property
+    def width(self) -> float:
+        """Common face width (mm), on which all of the load is."""
+        return self.pair.common_width.width
+
+    @property
+    def base_radius(self) -> float:
+        """r_b of the pinion (mm)."""
+        return self.pair.pinion.base_diameter / 2
+
+    def force(self, torque: float) -> float:
+        """Normal force in the transverse section (N per mm of common width) at a torque on the pinion (N·m)."""
+        return abs(torque) * 1000 / self.base_radius / self.width
+
+    def require_narrow_contact(self, torque: float, modulus: float) -> None:
+        """Raise ParameterError where the contact at the pitch point would be wider than teeth are deep: no small deformation.
+
+        `modulus` is E* (MPa); half width by Hertz.
+        """
+        at_pitch_point = self.pair.path_of_contact.C
+        radii = (at_pitch_point, self.pair.base_tangent.length - at_pitch_point)
+        half = float(half_width(self.force(torque), reduced_radius(radii), modulus))
+        depth = min((gear.tip_diameter - gear.root_diameter) / 2 for gear in self.pair.gears)
+        if half > depth:
+            most = abs(torque) * (depth / half) ** 2  # the half width goes with the root of the load
+            permitted = f"must be at most {most:.4g} N·m in size for these teeth and this modulus of elasticity"
+            why = f"the contact would be {2 * half:.4g} mm wide on teeth {depth:.4g} mm deep"
+            raise ParameterError("torque", torque, f"{permitted}: {why}", "N·m")
+
+    def roll_length(self, roll_angle: float) -> float:
+        """Where the middle pair touches in the middle of the common width (mm from T1) at a roll angle of the pinion (deg)."""
+        return self.pair.path_of_contact.C + math.radians(roll_angle) * self.base_radius
+
+    def roll_angle(self, length: Floats) -> Floats:
+        """Roll angles (deg) of the pinion at which the middle pair touches at places (n,) in mm from T1."""
+        result: Floats = np.degrees((length - self.pair.path_of_contact.C) / self.base_radius)
+        return result
+
+    def roll_angles(self, count: int) -> Floats:
+        """Roll angles (deg) over one base pitch, as many before the pitch point as after it.
+
+        Those that fewer positions have in common with more are the same to the last digit.
+        """
+        pitch = 360 / self.pair.pinion.teeth
+        return (2 * np.arange(count) + 1 - count) / (2 * count) * pitch
+
+
+Body = TypeVar("Body", bound=FlankCompliance, covariant=True)
+
+
+@dataclass(frozen=True)
+class FlexiblePair(EngagedPair, ABC, Generic[Body]):
+    """A pair whose bodies are factorised and solved for loads on their flanks; any position and torque is quick."""
+
+    line: LineOfAction
+    bodies: PerGear[Body]
+
+    @property
+    def pinion(self) -> Body:
+        """The pinion's body."""
+        return self.bodies.pinion
+
+    @property
+    def wheel(self) -> Body:
+        """The wheel's body."""
+        return self.bodies.wheel
+
+    @abstractmethod
+    def with_flanks(self, pair: GearPair) -> Self:
+        """Return the same bodies with other modifications of an otherwise equal pair, as it is mounted."""
+
+    @property
+    @abstractmethod
+    def modulus(self) -> float:
+        """Reduced modulus of the contact (MPa)."""
+
+    @abstractmethod
+    def single_stiffness(self, torque: float) -> float:
+        """Greatest stiffness (N/(mm·µm)) of one pair of teeth alone, over its path of contact, at a torque (N·m)."""
+
+
+P = TypeVar("P")
+Seen = TypeVar("Seen", contravariant=True)
+
+_TOLERANCE = 0.0005
+"""Part of a value by which it may be exceeded between the positions: well within 0.2 %, as the bound is an estimate."""
+
+_LEAST_GAP = 1e-4
+"""Distance of two positions, in base pitches, below which nothing is sought between them."""
+
+_UP, _BEND, _MOST_UP = 1.25, 4.0, 10.0
+"""How many times steeper than in the interval beside a curve can rise: more where it has bent already, and at the most."""
+
+_BEYOND = 1.5
+"""How many times steeper than beyond the higher position it can have come down to it."""
+
+_ASIDE = 0.25
+"""Least part of an interval that a new position takes off it."""
+
+_FEWEST = 4
+"""Positions below which nothing is known of what stands between them."""
+
+_MOST = 20
+"""Positions that are added for one quantity."""
+
+
+@dataclass(frozen=True)
+class Quantity(Generic[Seen]):
+    """What is to be greatest, or `least`: `value` gives it at a position, NaN where it has none there.
+
+    `swing` measures tolerance and error by how far the quantity goes up and down, not by its size.
+    """
+
+    name: str
+    value: Callable[[Seen], float]
+    least: bool = False
+    swing: bool = False
+
+    @property
+    def sign(self) -> int:
+        """1, or -1 for what is to be least."""
+        return -1 if self.least else 1
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """The greatest (or least) value, its roll angle (deg), and the part of it (or of its swing) by which it may be exceeded.
+
+    The `error` is what the search tolerates at the least, and infinite where nothing is known of what stands beside it.
+    """
+
+    value: float
+    roll_angle: float
+    error: float
+
+
+@dataclass(frozen=True)
+class RollRange:
+    """The roll angles (deg) over which a mesh is looked at: a `pitch`, after which it `repeats` itself or not."""
+
+    pitch: float
+    repeats: bool = True
+
+
+def add_positions(
+    known: Iterable[tuple[float, P]], span: RollRange, solve: Callable[[float], P], quantities: Sequence[Quantity[P]]
+) -> list[P]:
+    """Positions `solve`d at roll angles (deg) between those that are known."""
+    pool, added = sorted(known, key=itemgetter(0)), []
+    for quantity in quantities:
+        for _ in range(_MOST):
+            place = _Sampled.from_positions(pool, span, quantity).doubtful
+            if place is None:
+                break
+            added.append(solve(place))
+            pool = sorted([*pool, (place, added[-1])], key=itemgetter(0))
+    return added
+
+
+def extreme(known: Iterable[tuple[float, P]], span: RollRange, quantity: Quantity[P]) -> Extreme | None:
+    """The greatest (or least) of all positions; None where the quantity has no value at any."""
+    course = _Sampled.from_positions(sorted(known, key=itemgetter(0)), span, quantity)
+    if course.nothing:
+        return None
+    at = int(np.nanargmax(course.values))
+    value = float(course.values[at])
+    above = max(float(course.roofs[0].max(initial=value)) - value, 0.0)
+    if math.isfinite(above):
+        # Where a curve flickers, lines through neighbours tell nothing; how close the greatest few come does.
+        above = min(above, value - float(np.sort(course.values[~np.isnan(course.values)])[-_FEWEST:].min()))
+    error = 0.0 if not above else above / course.scale if course.scale else math.inf
+    return Extreme(quantity.sign * value, float(course.angles[at]), max(error, _TOLERANCE))
+
+
+@dataclass(frozen=True)
+class _Sampled:
+    """Values (n,) of a quantity, to be greatest, at rising angles (n,) in deg."""
+
+    angles: Floats
+    values: Floats
+    span: RollRange
+    swing: bool
+
+    @classmethod
+    def from_positions(cls, pool: Sequence[tuple[float, P]], span: RollRange, quantity: Quantity[P]) -> _Sampled:
+        """That of known positions, in order."""
+        angles, positions = zip(*pool, strict=True)
+        values = quantity.sign * np.array([quantity.value(each) for each in positions], float)
+        return cls(np.array(angles), values, span, quantity.swing)
+
+    @property
+    def nothing(self) -> bool:
+        """True if there is no value at any position."""
+        return bool(np.isnan(self.values).all())
+
+    @property
+    def scale(self) -> float:
+        """What an error is measured by."""
+        least, most = np.nanmin(self.values), np.nanmax(self.values)
+        return float(most - least if self.swing else abs(most))
+
+    @property
+    def doubtful(self) -> float | None:
+        """The angle (deg) at which most can be missed; None where that is within the tolerance."""
+        roofs, places = self.roofs
+        if self.nothing or not len(roofs):
+            return None
+        at = int(np.argmax(roofs))
+        return float(places[at]) if roofs[at] > np.nanmax(self.values) + _TOLERANCE * self.scale else None
+
+    @cached_property
+    def roofs(self) -> tuple[Floats, Floats]:
+        """The most that can stand between each position and the next, and where (deg)."""
+        x, f = self._around
+        wide = np.diff(x)
+        slopes = np.diff(f) / wide
+        found = [
+            _roof(f[i], f[i + 1], slopes[i - 1] * wide[i], slopes[i + 1] * wide[i])
+            if wide[i] > _LEAST_GAP * self.span.pitch
+            else (float(np.nanmax([f[i], f[i + 1], -math.inf])), 0.5)
+            for i in range(1, len(wide) - 1)
+        ]
+        roofs, parts = np.array(found).reshape(-1, 2).T
+        if len(self.angles) < _FEWEST:
+            roofs = np.full_like(roofs, math.inf)
+        return roofs, x[1:-2] + parts * wide[1:-1]
+
+    @property
+    def _around(self) -> tuple[Floats, Floats]:
+        """Angles and values with what stands beside them: the next pitch, or the continuation where there is none."""
+        count = len(self.angles)
+        if self.span.repeats:
+            around = np.arange(-1, count + 2)
+            return self.angles[around % count] + around // count * self.span.pitch, self.values[around % count]
+        if count < 2:
+            return np.arange(3.0), np.full(3, self.values[0])  # no interval
+        return tuple(np.r_[2 * each[0] - each[1], each, 2 * each[-1] - each[-2]] for each in (self.angles, self.values))
+
+
+def _roof(first: float, second: float, before: float, after: float) -> tuple[float, float]:
+    """The most that can stand between two values, and at which part of the way, from the slopes `before` and `after` (per
+    interval). Infinite where only one of them is known, and nothing beside it.
+    """
+    if math.isnan(first) and math.isnan(second):
+        return -math.inf, 0.5
+    if math.isnan(second) or first > second:
+        most, part = _roof(second, first, -after, -before)
+        return most, 1 - part
+    if math.isnan(after):
+        # Values end with the second; if the first is all there is beside it, nothing can be told.
+        beyond = first + before
+        return (math.inf if math.isnan(beyond) else max(second, beyond)), 0.5
+    if after >= 0:
+        return second, 0.5
+    # Two lines, of which the lower one holds, meet at the kink; steeper ones are above it.
+    reached = first + before > second
+    part = min(max((second - first - after) / (before - after), _ASIDE), 1 - _ASIDE) if reached else 0.5
+    up, down = before, _BEYOND * after
+    if before > 0:
+        up *= min(_UP + _BEND * abs((second - first) / before - 1), _MOST_UP)
+    if not first + up > second:
+        # What leads up to the first does not lead to the second: a jump, anywhere between.
+        return second - down, part
+    return first + up * (second - first - down) / (up - down), part
 
 
 INTERIOR = 3.0
@@ -123,17 +482,17 @@ class LoadedPosition(ABC, Generic[C]):
 
 
 M = TypeVar("M", bound=FlexiblePair[FlankCompliance], covariant=True)
-P = TypeVar("P", bound=LoadedPosition[Any], covariant=True)
+Position = TypeVar("Position", bound=LoadedPosition[Any], covariant=True)
 
 
 @dataclass(frozen=True)
-class LoadedCycle(ABC, Generic[M, P, C]):
+class LoadedCycle(ABC, Generic[M, Position, C]):
     """Positions evenly over one base pitch at one torque (N·m on the pinion), and those `between` them at extremes."""
 
     model: M
     torque: float
-    positions: tuple[P, ...] = ()
-    between: tuple[P, ...] = ()
+    positions: tuple[Position, ...] = ()
+    between: tuple[Position, ...] = ()
 
     @classmethod
     def run(
@@ -151,7 +510,7 @@ class LoadedCycle(ABC, Generic[M, P, C]):
         return replace(cycle, positions=tuple(positions))
 
     @abstractmethod
-    def solve(self, angle: float) -> P:
+    def solve(self, angle: float) -> Position:
         """The position at a roll angle (deg). Raises SolverError."""
 
     @abstractmethod
@@ -159,29 +518,29 @@ class LoadedCycle(ABC, Generic[M, P, C]):
         """The contacts alone at a roll angle (deg). Raises SolverError."""
 
     @property
-    def every(self) -> tuple[P, ...]:
+    def every(self) -> tuple[Position, ...]:
         """All positions in the order of the roll angles."""
         return tuple(sorted((*self.positions, *self.between), key=attrgetter("roll_angle")))
 
     # ------------------------------------------------------------------ contacts and roots
 
     @property
-    def contacts(self) -> Iterator[tuple[P, C]]:
+    def contacts(self) -> Iterator[tuple[Position, C]]:
         """Contacts of all positions."""
         return ((position, contact) for position in self.every for contact in position.contacts)
 
     @property
-    def interior_contacts(self) -> Iterator[tuple[P, C]]:
+    def interior_contacts(self) -> Iterator[tuple[Position, C]]:
         """Those away from the edges of the flanks that carry a fair share."""
         return ((position, contact) for position in self.every for contact in position.interior_contacts)
 
     @property
-    def worst_contact(self) -> tuple[P, C] | None:
+    def worst_contact(self) -> tuple[Position, C] | None:
         """The contact of the greatest pressure away from the edges of the flanks; None if all are near them."""
         return max(self.interior_contacts, key=lambda found: found[1].interior_pressure or 0.0, default=None)
 
     @property
-    def heaviest_contact(self) -> tuple[P, C]:
+    def heaviest_contact(self) -> tuple[Position, C]:
         """The contact of the greatest load, wherever it is."""
         return max(self.contacts, key=lambda found: found[1].force)
 
@@ -195,7 +554,7 @@ class LoadedCycle(ABC, Generic[M, P, C]):
         """Even positions at which the edge of a tip touches."""
         return sum(any(contact.edge for contact in position.contacts) for position in self.positions)
 
-    def worst_position(self, role: Role) -> P:
+    def worst_position(self, role: Role) -> Position:
         """The position of the greatest root tension of a gear."""
         return max(((position.tension.pick(role).stress, position) for position in self.every), key=itemgetter(0))[1]
 
@@ -223,16 +582,16 @@ class LoadedCycle(ABC, Generic[M, P, C]):
         lines = np.diff(angles, append=angles[0] + pitch) @ (values + np.roll(values, -1, axis=0)) / 2 / pitch
         return mean, np.abs(lines - mean)
 
-    def searched(self, quantities: Sequence[Quantity[P]]) -> Self:
+    def searched(self, quantities: Sequence[Quantity[Position]]) -> Self:
         """With positions between the even ones, so that the quantities' greatest values are found."""
         return replace(self, between=(*self.between, *add_positions(self._known, self._span, self.solve, quantities)))
 
-    def extreme(self, quantity: Quantity[P]) -> Extreme | None:
+    def extreme(self, quantity: Quantity[Position]) -> Extreme | None:
         """The greatest value of all positions, and what may be missed of it; None where there is none."""
         return extreme(self._known, self._span, quantity)
 
     @property
-    def _known(self) -> list[tuple[float, P]]:
+    def _known(self) -> list[tuple[float, Position]]:
         return [(position.roll_angle, position) for position in self.every]
 
     @property

@@ -1,26 +1,108 @@
-"""One mesh cycle of solid gears: the contact at positions over a base pitch, and what an engineer reads from it."""
+"""SolidCycle: contact of solid gears over a base pitch, the limits of the model, and stresses of the most stressed tooth.
+
+Near the lines of contact, within an element of them, the field is not resolved: there Hertz's formulas hold instead.
+"""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from pathlib import Path
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats
-from gearcad.contact.shared.engaged import TOOTH_ORDER
-from gearcad.contact.shared.loaded import FAIR, INTERIOR, LoadedCycle, LoadedPosition, RootStress
-from gearcad.contact.shared.relief_start import onsets
-from gearcad.contact.solid.contact import SolidPairContact
-from gearcad.contact.solid.contact_lines import start_distances
+from gearcad.contact.shared.loaded import FAIR, INTERIOR, TOOTH_ORDER, LoadedCycle, LoadedPosition, PairContact, RootStress
+from gearcad.contact.shared.local_contact import HollowContact, conformal_notices, onsets
+from gearcad.contact.solid.elements import PLACES, lame, slopes_at
 from gearcad.contact.solid.flank import SolidCompliance, ToothForces
-from gearcad.contact.solid.line_contact import LineSolution, plain_widths
+from gearcad.contact.solid.line_contact import ContactLine, LineSolution, plain_widths, start_distances
 from gearcad.contact.solid.pair import SolidPair
 from gearcad.contact.solid.root import FilletState, SolidFillet
-from gearcad.per_gear import PerGear, Role
+from gearcad.core.records import Bools, Floats, Notice, PerGear, Role, Wholes
+from gearcad.material import Material
+from gearcad.meshing.quads import GAUSS
 
-__all__ = ["SolidCycle", "SolidPosition", "SolidRootStress", "tooth_loads"]
+
+@dataclass(frozen=True)
+class SolidPairContact(PairContact):
+    """One pair of teeth in contact, `force` (N): per cell of its line (n,) forces in N, half widths in mm, pressures in MPa.
+
+    `margin` (n,) in mm is by how much a cell is further than INTERIOR half widths of the plain flanks from all edges of both
+    flanks and from the transitions of linear reliefs: where it is not positive the pressure depends on these. `start_pressures`
+    are the greatest (MPa) at the starts of each gear's linear reliefs, NaN where none is told; `edge_pressure` (MPa) is the
+    greatest beside edges of the flanks.
+    """
+
+    line: ContactLine
+    forces: Floats
+    half_widths: Floats
+    pressures: Floats
+    radii: Floats
+    margin: Floats
+    start_pressures: PerGear[float]
+    edge_pressure: float
+    force: float
+    share: float
+
+    @property
+    def tooth(self) -> int:
+        """Tooth of the pinion, 0 is the middle one."""
+        return self.line.tooth
+
+    @property
+    def place(self) -> float:
+        """Where the line crosses the middle of the common face width (mm from T1)."""
+        return self.line.middle
+
+    @property
+    def line_loads(self) -> Floats:
+        """Normal load per length of the line (n,) in N/mm."""
+        result: Floats = self.forces / self.line.lengths
+        return result
+
+    @property
+    def edge(self) -> bool:
+        """True if the edge of a tip carries load."""
+        return bool((self.line.on_edge & (self.forces > 0)).any())
+
+    @property
+    def interior(self) -> Bools:
+        """Cells (n,) that carry away from all edges."""
+        result: Bools = (self.margin > 0) & (self.forces > 0)
+        return result
+
+    @cached_property
+    def inside(self) -> Floats:
+        """Places (m,) away from all edges, in cells: those of interior cells, and where the edges' reach ends beside them.
+
+        With these the greatest values along a line do not depend on which cell happens to lie inside.
+        """
+        across = np.diff(self.line.across)
+        joined = (self.forces[1:] > 0) & (self.forces[:-1] > 0) & (across < 1.5 * across.min(initial=math.inf))
+        ends = np.flatnonzero(joined & ((self.margin[1:] > 0) != (self.margin[:-1] > 0)))
+        here, there = self.margin[ends], self.margin[ends + 1]
+        return np.sort(np.r_[np.flatnonzero(self.interior), ends + here / (here - there)])
+
+    def between(self, values: Floats, place: float | Floats) -> Floats:
+        """Values (n,) of the cells at places between them."""
+        return np.asarray(np.interp(place, np.arange(len(values)), values))
+
+    @property
+    def peak_pressure(self) -> float:
+        """Greatest pressure (MPa) away from all edges, NaN if no place is."""
+        return float(self.between(self.pressures, self.inside).max()) if len(self.inside) else math.nan
+
+    @property
+    def interior_pressure(self) -> float | None:
+        """Greatest pressure (MPa) away from all edges; None if no place is."""
+        return self.peak_pressure if len(self.inside) else None
+
+    @property
+    def peak_line_load(self) -> float:
+        """Greatest line load (N/mm) away from all edges, NaN if no place is."""
+        return float(self.between(self.line_loads, self.inside).max()) if len(self.inside) else math.nan
 
 
 @dataclass(frozen=True)
@@ -207,3 +289,194 @@ def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidPairContac
 def _greatest_of(values: Floats, here: Bools) -> float:
     """Return the greatest of values (n,) at some places (n,), NaN if there are none."""
     return float(values[here].max()) if here.any() else math.nan
+
+
+def wide_solid_contacts(cycle: SolidCycle) -> Iterator[Notice]:
+    """Rings whose contact is conformal."""
+    if cycle.model.pair.internal:
+        yield from conformal_notices(each for _, contact in cycle.interior_contacts for each in _hollow(contact))
+
+
+def _hollow(contact: SolidPairContact) -> Iterator[HollowContact]:
+    """Cells away from all edges."""
+    lengths = contact.line.places.pinion[0]
+    return map(HollowContact, contact.half_widths[contact.interior].tolist(), lengths[contact.interior].tolist())
+
+
+_GAUSS = GAUSS / 2
+"""The same in the unit cube."""
+
+_VTK = [0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 12, 13, 14, 15, 16, 17, 18, 19]
+"""Our nodes of a hexahedron in VTK's order: corners below, corners above, then the middles below, above and between."""
+
+_OVER = 1.1
+"""How far pictures show stresses, in greatest von Mises stresses of the fillets."""
+
+_DEFORMED, _ROOT = "displacement_mm", "von_mises_root_MPa"
+"""The fields of a .vtu that show what one looks for."""
+
+_COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
+"""Axes of the components of stress, in our order and VTK's."""
+
+_FLIPPED = [0, 3, 2, 1, 7, 6, 5, 4, 8, 11, 10, 9, 15, 14, 13, 12, 16, 19, 18, 17]
+"""Our nodes of a hexahedron's mirror image, in our order."""
+
+_FACES = np.array(
+    [
+        [0, 3, 2, 1, 7, 6, 5, 4],
+        [8, 9, 10, 11, 12, 13, 14, 15],
+        [0, 1, 9, 8, 4, 17, 12, 16],
+        [1, 2, 10, 9, 5, 18, 13, 17],
+        [2, 3, 11, 10, 6, 19, 14, 18],
+        [3, 0, 8, 11, 7, 16, 15, 19],
+    ]
+)
+"""Nodes of the faces of a hexahedron, four corners and the middles between them, counter-clockwise seen from outside."""
+
+
+@dataclass(frozen=True)
+class SolidField:
+    """A tooth and its share of the body: `points` (n, 3) in mm, `hexahedra` (m, 20), `displacement` (n, 3) in mm.
+
+    `stress` (n, 6) in MPa: xx, yy, zz, xy, yz, zx. The tooth is gear's own tooth 0, where it stands before it bends.
+    """
+
+    points: Floats
+    hexahedra: Wholes
+    displacement: Floats
+    stress: Floats
+
+    def between(self, inner: float, outer: float) -> SolidField:
+        """Only the hexahedra whose middles are between two radii (mm)."""
+        middles = self.points[self.hexahedra].mean(axis=1)
+        radius = np.hypot(middles[:, 0], middles[:, 1])
+        return replace(self, hexahedra=self.hexahedra[(radius > inner) & (radius < outer)])
+
+    @property
+    def mirrored(self) -> SolidField:
+        """The mirror image in the plane x-z."""
+        flip = np.array([1.0, -1.0, 1.0])
+        turned = np.array([1.0, 1.0, 1.0, -1.0, -1.0, 1.0])
+        return SolidField(self.points * flip, self.hexahedra[:, _FLIPPED], self.displacement * flip, self.stress * turned)
+
+    @property
+    def surface(self) -> Wholes:
+        """Faces (k, 8) that belong to one hexahedron only: corners, then the middles between them, seen from outside."""
+        faces = self.hexahedra[:, _FACES].reshape(-1, 8)
+        _, place, times = np.unique(np.sort(faces[:, :4], axis=1), axis=0, return_index=True, return_counts=True)
+        result: Wholes = faces[place[times == 1]]
+        return result
+
+    @property
+    def von_mises(self) -> Floats:
+        """Von Mises stress (n,) at the points in MPa."""
+        xx, yy, zz, xy, yz, zx = self.stress.T
+        squares = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+        result: Floats = np.sqrt(squares / 2 + 3 * (xy**2 + yz**2 + zx**2))
+        return result
+
+
+def worst_field(cycle: SolidCycle, role: Role) -> SolidField:
+    """The field of the most stressed tooth of a gear where its root tension is greatest."""
+    position = cycle.worst_position(role)
+    fillet, loads = cycle.model.fillets.pick(role).loaded, tooth_loads(cycle.model, position.contacts, role)
+
+    def tension(own: int) -> float:
+        state = fillet.state([(tooth - own, force) for tooth, force in loads])
+        return float(state.greater[:, fillet.is_root].max())
+
+    return solid_field(cycle, position, role, max((own for own, _ in loads), key=tension))
+
+
+def solid_field(cycle: SolidCycle, position: SolidPosition, role: Role, tooth: int = 0) -> SolidField:
+    """The field of a tooth of a gear, counted as its teeth follow each other where flanks with y > 0 carry.
+
+    A ring's is that of the ring as it stands, flanks with y < 0 loaded. Loads on teeth further away than the model's neighbours
+    are left out.
+    """
+    body = cycle.model.bodies.pick(role)
+    mesh = body.body.sector.mesh
+    displacement = body.tooth_displacements(tooth, tooth_loads(cycle.model, position.contacts, role))
+    hexahedra = np.concatenate([mesh.elements(mesh.section.quads, layer) for layer in range(mesh.layers)])
+    stress = nodal_stress(mesh.points, hexahedra, displacement, body.material)
+    found = SolidField(mesh.points, hexahedra, displacement, stress)
+    return found.mirrored if body.flank.gear.internal else found
+
+
+def shown_stress(cycle: SolidCycle, role: Role, field: SolidField) -> float:
+    """Where the colours of a picture should end (MPa): a tenth above the greatest von Mises stress of both fillets' roots.
+
+    The contact, which elements do not resolve, lies above.
+    """
+    mesh = cycle.model.bodies.pick(role).body.sector.mesh
+    radius, stress = np.hypot(*mesh.in_section.T), field.von_mises
+    found = []
+    fillets = cycle.model.fillets.pick(role)
+    for fillet in (fillets.loaded, fillets.behind):
+        nodes, roots = mesh.over(mesh.side(fillet.side)), fillet.radii[fillet.is_root]
+        below = radius[nodes] >= roots.min() if fillet.internal else radius[nodes] <= roots.max()
+        found.append(stress[nodes[below]].max())
+    return _OVER * float(max(found))
+
+
+def write_vtu(field: SolidField, path: Path, most: float) -> None:
+    """Write a field for ParaView, units in the names; stress as VTK has it, xx, yy, zz, xy, yz, zx.
+
+    `von_mises_root_MPa` ends at `most` (MPa), so that its colours show the root; it is what a viewer shows first.
+    """
+    import meshio
+
+    stress = field.von_mises
+    data = {
+        _ROOT: np.minimum(stress, most),
+        "von_mises_MPa": stress,
+        "stress_MPa": field.stress,
+        _DEFORMED: field.displacement,
+    }
+    meshio.Mesh(field.points, [("hexahedron20", field.hexahedra[:, _VTK])], point_data=data).write(path)
+    # meshio does not say which of the fields are the ones to colour and to bend by.
+    plain, active = b"<PointData>", f'<PointData Scalars="{_ROOT}" Vectors="{_DEFORMED}">'.encode("ascii")
+    path.write_bytes(path.read_bytes().replace(plain, active, 1))
+
+
+def nodal_stress(points: Floats, hexahedra: Wholes, displacement: Floats, material: Material) -> Floats:
+    """Stresses (n, 6) at the nodes: from 2 x 2 x 2 points of each element, outward, and the mean of all elements around."""
+    slopes, outward = _slopes(), _outward()
+    jacobian = np.einsum("qak,mai->mqik", slopes, points[hexahedra], optimize=True)
+    by_local = np.einsum("qak,mai->mqik", slopes, displacement[hexahedra], optimize=True)
+    gradient = by_local @ np.linalg.inv(jacobian)
+    at_nodes = np.einsum("aq,mqs->mas", outward, _stress(gradient, material), optimize=True)
+    total, times = np.zeros((len(points), 6)), np.zeros(len(points))
+    np.add.at(total, hexahedra, at_nodes)
+    np.add.at(times, hexahedra, 1.0)
+    result: Floats = total / times[:, None]
+    return result
+
+
+def _stress(gradient: Floats, material: Material) -> Floats:
+    """Stresses (..., 6) by gradients of displacement (..., 3, 3)."""
+    first, second = lame(material)
+    strain = (gradient + np.swapaxes(gradient, -1, -2)) / 2
+    stress = 2 * second * strain + first * np.trace(strain, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
+    return np.stack([stress[..., i, j] for i, j in _COMPONENTS], -1)
+
+
+@cache
+def _gauss_points() -> Floats:
+    low, high = 0.5 - _GAUSS, 0.5 + _GAUSS
+    return np.array([[x, y, z] for z in (low, high) for y in (low, high) for x in (low, high)])
+
+
+@cache
+def _slopes() -> Floats:
+    """Slopes (8, 20, 3) of the shape functions at the points."""
+    return slopes_at(_gauss_points().T)
+
+
+@cache
+def _outward() -> Floats:
+    """Weights (20, 8) with which values at the points, trilinear between them, give those at the nodes."""
+    signs = (_gauss_points() - 0.5) / _GAUSS
+    local = (PLACES - 0.5) / _GAUSS
+    result: Floats = np.prod(1 + signs[None] * local[:, None], axis=-1) / 8
+    return result

@@ -1,32 +1,286 @@
-"""How a solid gear gives way under a point load on its flank: finite elements for the body, Boussinesq for the contact.
+"""Compliance of the flank of a solid tooth: finite elements for the body, Boussinesq's half-space for the contact.
+
+With n into the half-space, the vector a from the load to a point at the distance s, the depth z = a.n and c = z/s.
 
 The load's field in a half-space is taken off the elements of the loaded tooth, so they carry only the smooth rest.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
+from functools import cached_property, partial
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from gearcad.arrays import Floats, Wholes
-from gearcad.contact.shared.engaged import FlankCompliance
+from gearcad.contact.shared.loaded import FlankCompliance, LoadedFlank
 from gearcad.contact.solid.body import SolidBody
-from gearcad.contact.solid.boussinesq import surface_displacement
-from gearcad.contact.solid.images import Images, TakenOff
-from gearcad.contact.solid.places import Grid, GridSpline, Places, SolidFlank
-from gearcad.contact.solid.remaining import NodalForces, remaining
-from gearcad.errors import SolverError
+from gearcad.contact.solid.elements import boundary_faces, layer_matrices, summing
+from gearcad.core.errors import SolverError
+from gearcad.core.records import Floats, Wholes
+from gearcad.core.runtime import Share, unheard
 from gearcad.geometry import Gear
 from gearcad.material import Material
-from gearcad.meshing.section.outline import Side
-from gearcad.meshing.section.swept import SweptMesh, turned
-from gearcad.progress import Share, unheard
+from gearcad.meshing.outline import Side
+from gearcad.meshing.sector import SweptMesh, turned
 
-__all__ = ["SolidCompliance", "ToothForces", "solid_compliance"]
+Places = tuple[Floats, Floats]
+"""Roll lengths (n,) and heights z (n,) of places on a flank, in mm."""
+
+
+@dataclass(frozen=True)
+class SolidFlank(LoadedFlank):
+    """The loaded flank over the face width, turned by `rate` (rad/mm); places on it are roll lengths and heights z (mm)."""
+
+    rate: float
+
+    @property
+    def helix(self) -> float:
+        """Base helix angle (rad), signed."""
+        return math.radians(self.gear.base_helix_angle)
+
+    def points(self, places: Places) -> Floats:
+        """Points (n, 3) in space (mm)."""
+        length, z = np.broadcast_arrays(*places)
+        radius, start = self.polar(length)
+        angle = start + self.rate * z
+        return np.stack([radius * np.cos(angle), radius * np.sin(angle), z], -1)
+
+    def inward(self, places: Places) -> Floats:
+        """Unit normals (n, 3) into the tooth."""
+        length, z = np.broadcast_arrays(*places)
+        heading = self.heading(length) + self.rate * z
+        flat, rise = math.cos(self.helix), math.sin(self.helix)
+        return np.stack([flat * np.sin(heading), -flat * np.cos(heading), np.full(heading.shape, rise)], -1)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Places on the flank in rows and columns: roll lengths (rows,) and heights (columns,); a place is column * rows + row."""
+
+    lengths: Floats
+    heights: Floats
+
+    @property
+    def places(self) -> Places:
+        """Roll lengths and heights (rows x columns,) of all places, column by column."""
+        return np.tile(self.lengths, len(self.heights)), np.repeat(self.heights, len(self.lengths))
+
+
+class GridSpline:
+    """Bicubic spline through a grid as weights on its values, in coordinates spread out towards tip and end faces.
+
+    Near an edge of the flank the response varies like the logarithm of the distance from it.
+    """
+
+    def __init__(self, grid: Grid, tip: float, corner: float, width: float) -> None:
+        from scipy.interpolate import CubicSpline
+
+        self._tip, self._corner, self._width = tip, corner, width
+        self._margin = width / 20
+        rows, columns = self._up(grid.lengths), self._along(grid.heights)
+        self._rows = CubicSpline(rows, np.eye(len(rows)))
+        self._columns = CubicSpline(columns, np.eye(len(columns)))
+        self._bounds = ((grid.lengths[0], min(grid.lengths[-1], tip - corner / 2)), (grid.heights[0], grid.heights[-1]))
+
+    def _up(self, lengths: Floats) -> Floats:
+        result: Floats = -np.log(np.maximum(self._tip - lengths, 0) + self._corner)
+        return result
+
+    def _along(self, heights: Floats) -> Floats:
+        result: Floats = np.log((heights + self._margin) / (self._width - heights + self._margin))
+        return result
+
+    def weights(self, places: Places) -> Floats:
+        """Weights (n, places of the grid) at places."""
+        (low, high), (back, front) = self._bounds
+        rows = self._rows(self._up(np.clip(places[0], low, high)))
+        columns = self._columns(self._along(np.clip(places[1], back, front)))
+        result: Floats = (columns[:, :, None] * rows[:, None, :]).reshape(len(rows), -1)
+        return result
+
+
+def surface_displacement(distance: Floats, material: Material) -> Floats:
+    """Inward displacement (mm) of the plane at `distance` (mm) from 1 N: (1 - nu^2)/(pi E d)."""
+    e, nu = material.youngs_modulus, material.poisson_ratio
+    result: Floats = (1 - nu**2) / (np.pi * e * distance)
+    return result
+
+
+def half_space_displacement(
+    points: Floats, load_at: Floats, inward: Floats, material: Material, forces: Floats | float = 1.0
+) -> Floats:
+    """Displacement (..., 3) in mm at `points` (..., 3) by `forces` (N) at `load_at` along the unit vector `inward`; 0 at the
+    load. Of several loads, (m, 3) and (m,), the sum.
+
+    2 pi E/(1 + nu) u = ((2 (1 - nu) + c^2) n + (c - (1 - 2 nu)/(1 + c)) (a - z n)/s)/s.
+    """
+    from gearcad.contact.solid.kernels import add_displacements
+
+    e, nu = material.youngs_modulus, material.poisson_ratio
+    result = np.zeros(points.shape)
+    add_displacements(_rows(points), _rows(load_at), _rows(inward), np.atleast_1d(forces), nu, result.reshape(-1, 3))
+    result *= (1 + nu) / (2 * np.pi * e)
+    return result
+
+
+def half_space_normal_displacement(
+    points: Floats, normals: Floats, load_at: Floats, inward: Floats, material: Material, forces: Floats
+) -> Floats:
+    """Displacements (n, m) in mm along `normals` (n, 3) at points (n, 3), each the sum by a group of loads (m, k, 3), alike in
+    all groups: `forces` (k,) in N.
+    """
+    from gearcad.contact.solid.kernels import add_normal_displacements
+
+    e, nu = material.youngs_modulus, material.poisson_ratio
+    result = np.zeros((len(points), len(load_at)))
+    at, along = (np.ascontiguousarray(each, dtype=float) for each in (load_at, inward))
+    add_normal_displacements(_rows(points), _rows(normals), at, along, forces, nu, result)
+    result *= (1 + nu) / (2 * np.pi * e)
+    return result
+
+
+def half_space_traction(
+    points: Floats, normals: Floats, load_at: Floats, inward: Floats, material: Material, forces: Floats | float = 1.0
+) -> Floats:
+    """Traction (..., 3) in MPa on elements of surface at `points` with `normals` t (..., 3), by the same loads.
+
+    2 pi s^2 p = -3 c^2 (t.a/s) n - b (t.n) n + b t
+                 + ((1 - 2 nu) (2 + c)/(1 + c)^2 (t.r) - 3 c (t.a/s)) r,  r = (a - z n)/s,  b = (1 - 2 nu) (c - 1/(1 + c)):
+    pressure along a, as shear and radial stress join with the axial one, and what the surface's freedom adds.
+    """
+    from gearcad.contact.solid.kernels import add_tractions
+
+    result, loads = np.zeros(points.shape), (_rows(load_at), _rows(inward), np.atleast_1d(forces))
+    add_tractions(_rows(points), _rows(normals), *loads, material.poisson_ratio, result.reshape(-1, 3))
+    result /= 2 * np.pi
+    return result
+
+
+def _rows(vectors: Floats) -> Floats:
+    """Vectors (..., 3) as rows of doubles."""
+    return np.ascontiguousarray(vectors, dtype=float).reshape(-1, 3)
+
+
+@dataclass(frozen=True)
+class Images:
+    """Mirror images of a load behind both ends of its tooth: what a free end adds to a half-space, but for a smooth rest.
+
+    Load and image together leave no shear on the end; the factor allows for the normal stress that they do leave there.
+    """
+
+    flank: SolidFlank
+    material: Material
+
+    factor: ClassVar[float] = 1.39
+    """At nu = 0.3 (R. Guilbault, Journal of Tribology 133, 2011, 031402); elements and splines carry what it misses."""
+
+    def loads(self, at: Floats, inward: Floats) -> tuple[Floats, Floats, Floats]:
+        """Points (..., m, 3), inward normals (..., m, 3) and forces (m,) in N of all that stands for 1 N at points (..., 3)."""
+        flip = np.array([1.0, 1.0, -1.0])
+        ends = np.array([0.0, self.flank.gear.face_width])
+        where = at[..., None, :] * flip + np.outer(2 * ends, [0.0, 0.0, 1.0])
+        return where, np.broadcast_to(inward[..., None, :] * flip, where.shape), np.full(2, self.factor)
+
+    def displacement(self, points: Floats, at: Floats, inward: Floats) -> Floats:
+        """Displacement (..., 3) in mm at points by all that."""
+        where, to, forces = self.loads(at, inward)
+        return half_space_displacement(points, where, to, self.material, forces)
+
+    def traction(self, points: Floats, normals: Floats, at: Floats, inward: Floats) -> Floats:
+        """Traction (..., 3) in MPa on elements of surface by all that."""
+        where, to, forces = self.loads(at, inward)
+        return half_space_traction(points, normals, where, to, self.material, forces)
+
+    def normal(self, moved: Places, loaded: Places) -> Floats:
+        """Normal displacements (n, m) in mm at places by all that stands for 1 N at each loaded place."""
+        points, normals = self.flank.points(moved), self.flank.inward(moved)
+        where, to, forces = self.loads(self.flank.points(loaded), self.flank.inward(loaded))
+        return half_space_normal_displacement(points, normals, where, to, self.material, forces)
+
+
+class TakenOff(Images):
+    """The field that is taken off: a load's in a half-space, and its images'."""
+
+    def loads(self, at: Floats, inward: Floats) -> tuple[Floats, Floats, Floats]:
+        where, to, forces = super().loads(at, inward)
+        both = ((one[..., None, :], more) for one, more in ((at, where), (inward, to)))
+        points, normals = (np.concatenate(each, axis=-2) for each in both)
+        return points, normals, np.r_[1.0, forces]
+
+
+class NodalForces(NamedTuple):
+    """Forces (n, 3, loads) in N, in turning axes, at `nodes` (n,): none at others."""
+
+    nodes: Wholes
+    values: Floats
+
+    @property
+    def dofs(self) -> Floats:
+        """As dofs (3 n, loads)."""
+        return self.values.reshape(-1, self.values.shape[-1])
+
+    def together(self, shares: Floats) -> NodalForces:
+        """Of some loads together, by shares (loads, m)."""
+        return NodalForces(self.nodes, self.values @ shares)
+
+
+class Remaining(NamedTuple):
+    """Of unit loads: the `forces` that leave a smooth rest, and displacements (n, 3, loads) in mm, in turning axes, at the same
+    nodes by the fields that are `taken_off`.
+    """
+
+    forces: NodalForces
+    taken_off: Floats
+
+    def taken_off_at(self, nodes: Wholes) -> Floats:
+        """What is taken off (n, 3, loads) at some nodes: nothing at those that are not near."""
+        place = np.searchsorted(self.forces.nodes, nodes) % len(self.forces.nodes)
+        result: Floats = np.where((self.forces.nodes[place] == nodes)[:, None, None], self.taken_off[place], 0.0)
+        return result
+
+
+def remaining(
+    flank: SolidFlank, mesh: SweptMesh, material: Material, near: Wholes, places: Places, points: int, tell: Share
+) -> Remaining:
+    """Of 1 N at each place, the fields taken off the hexahedra over the quadrangles `near`; `points` Gauss points each way on
+    faces close to a load. `tell` hears how much is done.
+    """
+    at, inward = flank.points(places), flank.inward(places)
+    nodes = np.unique(mesh.over(np.unique(mesh.section.quads[near])))
+    faces, field = boundary_faces(mesh, near), TakenOff(flank, material)
+    displacements, pressed = np.empty((len(at), len(nodes), 3)), np.empty((len(at), len(faces.used), 3))
+    around, here = np.searchsorted(nodes, faces.used), mesh.points[nodes]
+    for load, (where, direction) in enumerate(zip(at, inward, strict=True)):
+        displacements[load] = field.displacement(here, where, direction)
+        pressed[load] = faces.forces(partial(field.traction, at=where, inward=direction), where, points)
+        tell((load + 1) / len(at))
+    taken_off = mesh.to_turning(np.moveaxis(displacements, 0, -1), nodes)
+    forces = np.zeros_like(taken_off)
+    forces[around] = -mesh.to_turning(np.moveaxis(pressed, 0, -1), faces.used)
+    _add_elastic(forces, mesh, material, near, nodes, taken_off)
+    return Remaining(NodalForces(nodes, forces), taken_off)
+
+
+def _add_elastic(
+    forces: Floats, mesh: SweptMesh, material: Material, near: Wholes, nodes: Wholes, displacements: Floats
+) -> None:
+    """Add to nodal forces (n, 3, m) those by which the hexahedra over some quadrangles resist displacements (n, 3, m)."""
+    quads, count = mesh.section.quads[near], displacements.shape[-1]
+    known: dict[float, Floats] = {}
+    for layer, thickness in enumerate(np.diff(mesh.planes).round(_ROUNDED).tolist()):
+        if thickness not in known:
+            known[thickness] = layer_matrices(mesh, quads, layer, material)
+        here = np.searchsorted(nodes, mesh.elements(quads, layer))
+        resisting = known[thickness] @ displacements[here].reshape(len(quads), 60, count)
+        used, sums = summing(here)
+        forces[used] += (sums @ resisting.reshape(-1, 3 * count)).reshape(-1, 3, count)
+
+
+_ROUNDED = 9
+"""Decimals (mm) of thicknesses that count as one."""
 
 
 ToothForces = tuple[int, Floats]

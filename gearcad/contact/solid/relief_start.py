@@ -13,22 +13,25 @@ from typing import Any
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats, Wholes
 from gearcad.contact.shared.line_of_action import LineOfAction, TransverseFlank
 from gearcad.contact.shared.loaded import INTERIOR
-from gearcad.contact.shared.relief_start import GapCurve, Pressed, onsets, press
-from gearcad.contact.solid.contact_lines import BEND, Gaps, overlap_of, start_distances, turned_back
+from gearcad.contact.shared.local_contact import GapCurve, Pressed, onsets, press
 from gearcad.contact.solid.line_contact import (
+    BEND,
     OWN_DISTANCE,
+    Gaps,
     LineSolution,
     StartCells,
     evened_loads,
+    overlap_of,
     solve_lines,
+    start_distances,
+    turned_back,
 )
+from gearcad.core.records import Bools, Floats, PerGear, Wholes
 from gearcad.geometry import FlankForm, GearPair
 from gearcad.mounting import Mounting
-from gearcad.per_gear import PerGear
-from gearcad.rating.hertz import half_width
+from gearcad.rating.contact_stress import half_width
 
 __all__ = ["press_starts"]
 

@@ -9,11 +9,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.arrays import Floats, Wholes
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
 from gearcad.contact.solid.flank import SolidCompliance, ToothForces
-from gearcad.meshing.section.outline import Side
-from gearcad.meshing.section.shapes import GAUSS, edges_of
+from gearcad.core.records import Floats, Wholes
+from gearcad.meshing.outline import Side
+from gearcad.meshing.quads import GAUSS, edges_of_chain
 
 __all__ = ["FilletState", "SolidFillet", "SolidFillets", "solid_fillets"]
 
@@ -99,7 +99,7 @@ class SolidFillet:
     def _faces(self) -> Wholes:
         """Nodes (layers, edges, 8) of the fillet's faces: along the profile first, then up."""
         mesh = self.body.body.sector.mesh
-        edges = edges_of(mesh.side(self.side))
+        edges = edges_of_chain(mesh.side(self.side))
         return np.stack([mesh.side_faces(edges, layer) for layer in range(mesh.layers)])
 
     @cached_property

@@ -1,38 +1,110 @@
-"""What a train is made of: inertias, shafts between them, meshes of their teeth, as one writes them down."""
+"""Members of a train: inertias, shafts, meshes and their gear pairs, and the graph that they make."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections import Counter, deque
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from enum import Enum
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
-from gearcad.dynamics.trains.mesh_pair import MeshPair
-from gearcad.errors import GeometryError, ParameterError, require_switch
-from gearcad.geometry import GearPair
-from gearcad.geometry.derived import NOT_GIVEN, Derived, DerivedCount, is_given
-from gearcad.per_gear import PerGear
-from gearcad.ranges import (
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.core.errors import GeometryError, ParameterError, format_number, require_switch
+from gearcad.core.quantities import (
     ANGULAR_DAMPING,
     BACKLASH,
     DAMPING,
     DAMPING_RATIO,
     DENSITY,
     DEVIATION,
+    ELSEWHERE,
     INERTIA,
     LENGTH,
     MODULUS,
+    NOT_GIVEN,
     PRELOAD,
     STIFFNESS,
     TORQUE,
     TORSIONAL_STIFFNESS,
+    Derived,
+    DerivedCount,
+    InPlaceOf,
+    NamedPart,
     Range,
     Whole,
+    Words,
+    is_given,
 )
-from gearcad.reprs import concise
-from gearcad.schema import ELSEWHERE, InPlaceOf, NamedPart, Words
+from gearcad.core.records import PerGear, Role, concise
+from gearcad.geometry import GearPair
+from gearcad.geometry.gear import refuse_halves
+from gearcad.load import Load
+from gearcad.material import Material, Materials
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.mounting import Mounting
+from gearcad.rating.options import RatingOptions
 
-__all__ = ["BESIDE_PAIR", "GROUND", "Inertia", "Mesh", "Shaft", "StiffnessWave"]
+
+@dataclass(frozen=True, kw_only=True)
+class MeshPair:
+    """A pair whose teeth are a mesh of a train, of a `material`, in a `mounting`, its bodies held as `body` says.
+
+    `rating` has the accuracy grade of its teeth. `load` is its own, if it has one: the train gives it another torque and speed.
+    Raises GeometryError for double helical gears.
+    """
+
+    pair: GearPair
+    material: Materials = field(default_factory=Material)
+    mounting: Mounting = field(default_factory=Mounting)
+    body: BodyModel = field(default_factory=BodyModel)
+    rating: RatingOptions = field(default_factory=RatingOptions)
+    load: Load | None = None
+
+    __repr__ = concise
+
+    def __post_init__(self) -> None:
+        refuse_halves(self.pair.pinion, "dynamics")
+
+    @property
+    def mounted(self) -> GearPair:
+        """The pair at the centre distance of its mounting. Raises GeometryError."""
+        return self.mounting.mounted(self.pair)
+
+    @property
+    def backlash(self) -> float:
+        """Between the flanks along the line of action, as mounted (µm)."""
+        return line_backlash(self.mounted)
+
+
+def line_backlash(pair: GearPair) -> float:
+    """Backlash of a pair along the line of action, at its centre distance (µm)."""
+    across = math.cos(math.radians(pair.working_transverse_pressure_angle))
+    return max(1000 * pair.circumferential_backlash * across, 0.0)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MeshCourse:
+    """What the pair of a mesh does under the train's static load.
+
+    `torque` (N·m) is that on its pinion, counter-clockwise positive, which with `driver` says which flanks carry: if the wheel
+    drives, it is against the pinion's turn. `cycle` is that under this torque by the method whose words are `title`, found in
+    so many `rounds` of stiffness and static force. `offset` (µm) is taken from its transmission error: where the force depends
+    on the stiffness, at rest the train and the cycle must agree how far the flanks have approached.
+    """
+
+    cycle: MeshCycle
+    title: str
+    torque: float
+    driver: Role
+    rounds: int = 1
+    offset: float = 0.0
+
+    @property
+    def in_time(self) -> MeshCycle:
+        """The cycle in the order in which contact moves: from root to tip of the gear that drives."""
+        return self.cycle if self.driver is Role.PINION else self.cycle.backwards
+
 
 GROUND = "ground"
 """The end of a shaft that does not turn."""
@@ -271,3 +343,140 @@ def _two_radii(name: str, values: Any) -> PerGear[float]:
     if not isinstance(values, list | tuple) or len(values) != 2:
         raise ParameterError(f"{name}.base_radii", values, "must be two lengths in mm: of pinion and wheel")
     return values if isinstance(values, _DerivedRadii) else PerGear(*map(float, values))
+
+
+_SAME_SPEED = 1e-6
+"""Relative: two ways round a loop must give an inertia the same speed; rounded base radii would lock it."""
+
+_BALANCED = 1e-3
+
+_WRONG_SIGN = 0.05
+"""How near the torque that balances is to the given one with the other sign, relative to it, to be called its sign."""
+
+"""Of the greatest torque: torques of four digits balance as well as that."""
+
+
+def turning_pieces(names: Sequence[str], shafts: Iterable[Shaft], meshes: Iterable[Mesh]) -> list[dict[str, float]]:
+    """The pieces that hang together, each with its inertias' speeds relative to its first inertia.
+
+    Raises GeometryError where a loop would turn an inertia at two speeds.
+    """
+    neighbours: dict[str, list[tuple[str, float]]] = {name: [] for name in names}
+    for shaft in shafts:
+        if not shaft.held:
+            neighbours[shaft.start].append((shaft.end, 1.0))
+            neighbours[shaft.end].append((shaft.start, 1.0))
+    for mesh in meshes:
+        ratio = -mesh.radii.pinion / mesh.radii.wheel
+        neighbours[mesh.pinion].append((mesh.wheel, ratio))
+        neighbours[mesh.wheel].append((mesh.pinion, 1 / ratio))
+    pieces: list[dict[str, float]] = []
+    for name in names:
+        if not any(name in piece for piece in pieces):
+            pieces.append(_piece(name, neighbours))
+    return pieces
+
+
+def _piece(first: str, neighbours: dict[str, list[tuple[str, float]]]) -> dict[str, float]:
+    """Speeds of what hangs together with one inertia, relative to it."""
+    speeds, waiting = {first: 1.0}, deque([first])
+    while waiting:
+        here = waiting.popleft()
+        for there, ratio in neighbours[here]:
+            speed = speeds[here] * ratio
+            if there not in speeds:
+                speeds[there] = speed
+                waiting.append(there)
+            elif not math.isclose(speeds[there], speed, rel_tol=_SAME_SPEED):
+                permitted = f"a loop of meshes and shafts turns {there} at {speeds[there]:.9g} and {speed:.9g} times the "
+                raise GeometryError("meshes", there, permitted + f"speed of {first}: base radii must agree, unrounded")
+    return speeds
+
+
+class Graph(NamedTuple):
+    """The members of a train, which by their names know what they join."""
+
+    inertias: tuple[Inertia, ...]
+    shafts: tuple[Shaft, ...]
+    meshes: tuple[Mesh, ...]
+
+    @property
+    def reference(self) -> str:
+        """The first mesh's pinion, or the first inertia where there is no mesh."""
+        return self.meshes[0].pinion if self.meshes else self.inertias[0].name
+
+    def pieces(self) -> list[dict[str, float]]:
+        """What hangs together; see `turning_pieces`."""
+        return turning_pieces([inertia.name for inertia in self.inertias], self.shafts, self.meshes)
+
+    def speed_ratios(self) -> dict[str, float]:
+        """Nominal speeds of a train in one piece, relative to the reference."""
+        (speeds,) = self.pieces()
+        reference = speeds[self.reference]
+        return {name: speed / reference for name, speed in speeds.items()}
+
+    def require_one_train(self, torques: Mapping[str, float]) -> None:
+        """Raise ParameterError or GeometryError unless the members make one train, on whose inertias the torques act."""
+        if not self.inertias:
+            raise ParameterError("inertias", (), "must hold one inertia at least")
+        for kind, members in zip(self._fields, self, strict=True):
+            twice = [name for name, count in Counter(member.name for member in members).items() if count > 1]
+            if twice:
+                raise ParameterError(f"{kind}.name", twice[0], "names must differ")
+        self._require_names(torques)
+        self._require_one_piece()
+
+    def require_balance(self, torques: Mapping[str, float]) -> None:
+        """Raise GeometryError where torques, each reflected to the reference, leave something that would speed a train up."""
+        ratios = self.speed_ratios()
+        reflected = [torque * ratios[name] for name, torque in torques.items()]
+        left = math.fsum(reflected)
+        if reflected and abs(left) > _BALANCED * max(abs(torque) for torque in reflected):
+            wrong, needed = _balancing(torques, ratios, left)
+            permitted = (
+                f"on {self.reference}, the sum of all, must be 0 on a train that no shaft holds: "
+                f"give {wrong} = {needed:.10g} instead of {format_number(torques[wrong])} N·m, or hold the train"
+            )
+            raise GeometryError("torques", left, permitted, "N·m")
+
+    def _require_names(self, torques: Mapping[str, float]) -> None:
+        """Both ends of everything are known, and differ."""
+        names = [inertia.name for inertia in self.inertias]
+        known = f"must be one of the inertias {', '.join(names)}"
+        for shaft in self.shafts:
+            for parameter in ("start", "end"):
+                if (end := getattr(shaft, parameter)) not in (*names, GROUND):
+                    raise ParameterError(f"{shaft.name}.{parameter}", end, f'{known}, or "{GROUND}"')
+            if shaft.start == shaft.end:
+                permitted = "must differ from start: a shaft joins two inertias or holds one"
+                raise GeometryError(f"{shaft.name}.end", shaft.end, permitted)
+        for mesh in self.meshes:
+            for role, gear in mesh.gears.items():
+                if gear not in names:
+                    raise ParameterError(f"{mesh.name}.{role.value}", gear, known)
+            if mesh.pinion == mesh.wheel:
+                raise GeometryError(f"{mesh.name}.wheel", mesh.wheel, "must differ from pinion")
+        for name in torques:
+            if name not in names:
+                raise ParameterError("torques", name, known)
+
+    def _require_one_piece(self) -> None:
+        """Everything hangs together."""
+        ends = {end for shaft in self.shafts for end in (shaft.start, shaft.end)}
+        geared = {gear for mesh in self.meshes for gear in mesh.gears}
+        for inertia in self.inertias:
+            if inertia.name not in ends | geared:
+                raise GeometryError("inertias", inertia.name, "has neither a shaft nor a mesh: give it one, or leave it out")
+        pieces = self.pieces()
+        if len(pieces) > 1:
+            parts = " | ".join(", ".join(piece) for piece in pieces)
+            permitted = f"does not hang together with the rest ({parts}): join the pieces by a shaft or a mesh"
+            raise GeometryError("inertias", next(iter(pieces[1])), permitted)
+
+
+def _balancing(torques: Mapping[str, float], ratios: Mapping[str, float], left: float) -> tuple[str, float]:
+    """Return the member to change first, and its torque (N·m) that balances the train: one with a wrong sign, else the last."""
+    needed = {name: torque - left / ratios[name] for name, torque in torques.items() if ratios[name]}
+    turned = [name for name, torque in needed.items() if math.isclose(torque, -torques[name], rel_tol=_WRONG_SIGN)]
+    name = (turned or list(needed))[-1]
+    return name, needed[name]

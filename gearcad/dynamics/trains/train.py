@@ -1,21 +1,21 @@
-"""A train as one writes it down: its members, the torques on them, and how finely shafts are modelled."""
+"""A train with its torques and its model, the parts that a model has (SI units), and its document."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 from functools import cached_property
-from typing import Annotated
+from typing import Annotated, Any
 
-from gearcad.dynamics.trains.graph import Graph
-from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
-from gearcad.errors import GeometryError, ParameterError, require_name
-from gearcad.ranges import SPEED, TORQUE, Whole
-from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
+import numpy as np
+from numpy.typing import NDArray
 
-__all__ = ["Train", "TrainModel"]
+from gearcad.core.errors import GeometryError, ParameterError, require_name
+from gearcad.core.quantities import SPEED, TORQUE, Whole, Words, require_fields
+from gearcad.core.records import Floats, Notice, concise
+from gearcad.dynamics.trains.members import GROUND, Graph, Inertia, Mesh, MeshCourse, MeshPair, Shaft, turning_pieces
 
 
 class TrainModel(Enum):
@@ -93,3 +93,279 @@ class Train:
     def tooth_frequencies(self) -> dict[str, float]:
         """Of every mesh, at `speed` (Hz)."""
         return {mesh.name: abs(self.speed_ratios[mesh.pinion] * self.speed) * mesh.teeth / 60 for mesh in self.meshes}
+
+
+@dataclass(frozen=True, kw_only=True)
+class EngagedMesh(Mesh):
+    """A mesh of a pair, and the `course` of its stiffness and transmission error: `stiffness` is the mean of the tangent."""
+
+    course: MeshCourse
+
+    __repr__ = concise
+
+    @property
+    def teeth_of(self) -> MeshPair:
+        """The pair."""
+        assert isinstance(self.pair, MeshPair)  # it became one when the mesh was made
+        return self.pair
+
+    def pair_document(self) -> dict[str, Any]:
+        """As `dynamics.json` has it: N·m on the pinion, N, N/µm, µm, degrees."""
+        course, cycle = self.course, self.course.cycle
+        return {
+            "pair": self.teeth_of.pair.name,
+            "stiffness_method": cycle.method,
+            "torque": course.torque,
+            "driver": course.driver.value,
+            "force": cycle.force,
+            "mesh_stiffness_mean": cycle.mean,
+            "mesh_stiffness_tangent_mean": cycle.tangent_mean,
+            "transmission_error_peak_to_peak": cycle.error_peak_to_peak,
+            "backlash": self.backlash,
+            "damping_ratio": self.damping_ratio,
+            "damping": self.damping,
+            "phase": self.phase,
+            "rounds": course.rounds,
+        }
+
+    @property
+    def _stiffness_of_pair(self) -> float:
+        return self.course.cycle.tangent_mean
+
+
+def require_known(mesh: Mesh) -> None:
+    """Raise ParameterError for a mesh of a pair whose stiffness is not known yet."""
+    if mesh.pair is not None and not isinstance(mesh, EngagedMesh):
+        permitted = "is not known before the load of its pair: gearcad.dynamics.engaged(train) has it"
+        raise ParameterError(f"{mesh.name}.stiffness", None, permitted, "N/µm")
+
+
+_NO_FORCE = 1e-9
+"""Of the greatest mesh force: rounding, which must not turn flanks round."""
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """`inertia` (i,) in kg·m², `approach` (i, m) in m/rad of each mesh, `stiffness` (m,) in N/m, `torque` (i,) in N·m on each
+    inertia, of preloads too. `free` (i, r): speeds of each of r pieces that no shaft holds."""
+
+    inertias: tuple[Inertia, ...]
+    shafts: tuple[Shaft, ...]
+    meshes: tuple[Mesh, ...]
+    inertia: Floats
+    approach: Floats
+    stiffness: Floats
+    torque: Floats
+    free: Floats
+
+    @property
+    def ends(self) -> NDArray[np.int64]:
+        """(s, 2): the places of each shaft's ends among the inertias, -1 for ground."""
+        places = {inertia.name: place for place, inertia in enumerate(self.inertias)} | {GROUND: -1}
+        return np.array([(places[s.start], places[s.end]) for s in self.shafts], dtype=np.int64).reshape(-1, 2)
+
+
+def _whole_train(train: Train) -> Parts:
+    """With all shafts, whatever the model. The approach of a mesh is positive where its flanks are pressed."""
+    parts = _parts(train)
+    parts = _turned(parts, _mesh_forces(parts))
+    parts = replace(parts, torque=parts.torque + parts.approach @ _preloads(train))
+    # Once more, for meshes that the torques leave alone: another's preload may turn them round.
+    return _turned(parts, _mesh_forces(parts))
+
+
+def parts_of(train: Train) -> Parts:
+    """Those of the train's model: isolated meshes carry the forces that torques give them in the whole train."""
+    if train.model is not TrainModel.ISOLATED:
+        return _whole_train(train)
+    whole = _parts(train)
+    forces = _mesh_forces(whole)
+    whole = _turned(whole, forces)
+    geared = [place for place, row in enumerate(whole.approach) if row.any()]
+    inertias = tuple(whole.inertias[place] for place in geared)
+    return replace(
+        whole,
+        inertias=inertias,
+        shafts=(),
+        inertia=whole.inertia[geared],
+        approach=whole.approach[geared],
+        torque=whole.approach[geared] @ (np.abs(forces) + _preloads(train)),
+        free=_free_turns(inertias, (), whole.meshes),
+    )
+
+
+def static_forces(train: Train) -> Floats:
+    """(m,) the mean force in every mesh (N), with torques and preloads at rest."""
+    return np.abs(_mesh_forces(parts_of(train)))
+
+
+def require_pressed(train: Train) -> None:
+    """Raise GeometryError for a mesh whose flanks nothing presses: loads over speed refer to that force."""
+    forces = static_forces(train)
+    if forces.min() <= _NO_FORCE * forces.max():
+        mesh = train.meshes[int(forces.argmin())]
+        permitted = "must be above 0 where no torque presses the flanks of this mesh: K_v refers to that force"
+        raise GeometryError(f"{mesh.name}.preload", mesh.preload, permitted, "N")
+
+
+def pressing_forces(train: Train) -> Floats:
+    """(m,) the same with their signs: positive where a torque that is counter-clockwise on the pinion presses the flanks."""
+    parts = parts_of(train)
+    places = [inertia.name for inertia in parts.inertias]
+    turned = [parts.approach[places.index(mesh.pinion), column] for column, mesh in enumerate(parts.meshes)]
+    return np.copysign(_mesh_forces(parts), turned)
+
+
+def _parts(train: Train) -> Parts:
+    """The whole train under its torques alone; approach as both gears turn counter-clockwise."""
+    names = [inertia.name for inertia in train.inertias]
+    approach = np.zeros((len(names), len(train.meshes)))
+    for column, mesh in enumerate(train.meshes):
+        require_known(mesh)
+        for gear, radius in zip(mesh.gears, mesh.radii, strict=True):
+            approach[names.index(gear), column] = radius
+    return Parts(
+        inertias=train.inertias,
+        shafts=train.shafts,
+        meshes=train.meshes,
+        inertia=np.array([inertia.inertia for inertia in train.inertias]),
+        approach=approach,
+        stiffness=np.array([mesh.stiffness * 1e6 for mesh in train.meshes]),
+        torque=np.array([train.torques.get(name, 0.0) for name in names]),
+        free=_free_turns(train.inertias, train.shafts, train.meshes),
+    )
+
+
+def _preloads(train: Train) -> Floats:
+    """What presses each mesh (m,) beside the torques, in N."""
+    return np.array([mesh.preload for mesh in train.meshes])
+
+
+def _free_turns(inertias: Sequence[Inertia], shafts: Sequence[Shaft], meshes: Sequence[Mesh]) -> Floats:
+    """(i, r): speeds of the inertias of each piece that turns as a whole."""
+    names = [inertia.name for inertia in inertias]
+    held = {end for shaft in shafts if shaft.held for end in (shaft.start, shaft.end)}
+    pieces = [piece for piece in turning_pieces(names, shafts, meshes) if not held & piece.keys()]
+    return np.array([[piece.get(name, 0.0) for piece in pieces] for name in names]).reshape(len(names), len(pieces))
+
+
+def _mesh_forces(parts: Parts) -> Floats:
+    """(m,) of the static train with massless shafts (N); what turns freely is held where it is."""
+    k = (parts.approach * parts.stiffness) @ parts.approach.T
+    for shaft, ends in zip(parts.shafts, parts.ends, strict=True):
+        twist = np.zeros(len(k))
+        twist[[end for end in ends if end >= 0]] = [sign for end, sign in zip(ends, (-1.0, 1.0), strict=True) if end >= 0]
+        k += shaft.stiffness * np.outer(twist, twist)
+    turns = parts.free / np.linalg.norm(parts.free, axis=0)
+    k += np.trace(k) / len(k) * turns @ turns.T
+    result: Floats = parts.stiffness * (parts.approach.T @ np.linalg.solve(k, parts.torque))
+    return result
+
+
+def _turned(parts: Parts, forces: Floats) -> Parts:
+    """With the approach turned round where the other flanks carry."""
+    other = forces < -_NO_FORCE * np.abs(forces).max(initial=0.0)
+    return replace(parts, approach=parts.approach * np.where(other, -1.0, 1.0))
+
+
+_PER_HALF_WAVE, _HIGHEST = 3, 40
+"""Degrees of an element for each half wave in it, and the highest degree there is."""
+
+
+def _half_waves(train: Train) -> float:
+    """omega L / (pi c) of the longest shaft and the quickest mesh, at 1 rpm of the first pinion; 0 for shafts without mass."""
+    quickest = max(abs(train.speed_ratios[mesh.pinion]) * mesh.teeth for mesh in train.meshes) * math.pi / 30
+    return quickest / math.pi * max((math.sqrt(shaft.inertia / shaft.stiffness) for shaft in train.shafts), default=0.0)
+
+
+def fitted(train: Train, speed: float) -> Train:
+    """A train of the model "exact", its order raised if it is too low for charts up to a speed (rpm of the first pinion)."""
+    wanted = math.ceil(_PER_HALF_WAVE * _half_waves(train) * speed)
+    if train.model is not TrainModel.EXACT or wanted <= train.order:
+        return train
+    return replace(train, order=min(wanted, _HIGHEST))
+
+
+def good_up_to(train: Train) -> float:
+    """The speed (rpm of the first pinion) up to which elements follow the shafts; infinite for models without half waves."""
+    each = _half_waves(train)
+    if train.model not in (TrainModel.EXACT, TrainModel.ELEMENTS) or not each:
+        return math.inf
+    return train.order / _PER_HALF_WAVE / each
+
+
+def coarse_elements(train: Train, speed: float) -> tuple[Notice, ...]:
+    """Where charts go on up to a speed (rpm) beyond that."""
+    good = good_up_to(train)
+    if speed <= good:
+        return ()
+    more = "" if train.order == _HIGHEST else f"; a greater order, up to {_HIGHEST}, goes further"
+    text = (
+        f"charts are good up to {good:.5g} rpm of the first pinion: beyond, the teeth raise more half waves in a shaft than"
+        f" {train.order / _PER_HALF_WAVE:.3g}, for which elements of order {train.order} are good{more}"
+    )
+    return (Notice("coarse-elements", text),)
+
+
+def train_document(train: Train) -> dict[str, Any]:
+    """Inputs and derived quantities of a train and its parts, under the keys of tables; lengths in mm, otherwise SI.
+
+    Speeds (rpm) and tooth frequencies (Hz) are there where `train.speed` is given. Forces (N) are the mean ones of the model.
+    Of a pair under no load yet there is its name, but no stiffness, and no forces in its train.
+    """
+    own = {key: _plain(value) for key, value in _fields(train).items() if key not in ("name", "inertias", "shafts", "meshes")}
+    forces = static_forces(train).tolist() if not _waiting(train) else [None] * len(train.meshes)
+    return {
+        "train": own | {"held": train.held},
+        "inertia": {each.name: _of_inertia(train, each) for each in train.inertias},
+        "shaft": {each.name: _of_shaft(each) for each in train.shafts},
+        "mesh": {each.name: _of_mesh(train, each, force) for each, force in zip(train.meshes, forces, strict=True)},
+    }
+
+
+def _waiting(train: Train) -> bool:
+    """Whether static forces are not known: there are no meshes, or pairs whose stiffness depends on them."""
+    return not train.meshes or any(mesh.pair is not None and math.isnan(mesh.stiffness) for mesh in train.meshes)
+
+
+def _fields(part: Any) -> dict[str, Any]:
+    return {each.name: _plain(getattr(part, each.name)) for each in fields(part) if each.name != "name"}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return dict(value)
+    if isinstance(value, MeshPair):
+        return value.pair.name
+    if isinstance(value, float):
+        return None if math.isnan(value) else float(value)
+    if isinstance(value, int) and not isinstance(value, bool):
+        return int(value)
+    return value.value if isinstance(value, Enum) else list(value) if isinstance(value, tuple) else value
+
+
+def _of_inertia(train: Train, inertia: Inertia) -> dict[str, Any]:
+    ratio = train.speed_ratios[inertia.name]
+    speed = {"speed": ratio * train.speed} if train.speed else {}
+    return {**_fields(inertia), "speed_ratio": ratio, **speed, "torque": train.torques.get(inertia.name, 0.0)}
+
+
+def _of_shaft(shaft: Shaft) -> dict[str, Any]:
+    """Stiffness and inertia also of a shaft that is given by its shape."""
+    return {**_fields(shaft), "torsional_stiffness": shaft.stiffness, "inertia": shaft.inertia}
+
+
+def _of_mesh(train: Train, mesh: Mesh, force: float | None) -> dict[str, Any]:
+    """1/m_red = sum of r_b²/J of both gears, whatever else hangs on them; the natural frequency is that of both alone."""
+    inertias = {each.name: each.inertia for each in train.inertias}
+    reduced = 1 / sum(radius**2 / inertias[gear] for gear, radius in zip(mesh.gears, mesh.radii, strict=True))
+    speed = {"tooth_frequency": train.tooth_frequencies[mesh.name]} if train.speed else {}
+    of_waves = () if mesh.pair is None else ("variation", "shape", "contact_ratio")  # a pair has a stiffness of its own
+    return {
+        **{key: value for key, value in _fields(mesh).items() if key not in of_waves},
+        "gear_ratio": mesh.base_radii.wheel / mesh.base_radii.pinion,
+        "reduced_mass": reduced,
+        "natural_frequency": _plain(math.sqrt(mesh.stiffness * 1e6 / reduced) / (2 * math.pi)),
+        **speed,
+        "static_force": force,
+    }

@@ -1,26 +1,83 @@
-"""How far a mesh is from the exact flanks and fillets of its gear: at its nodes, and on its faces between them."""
+"""Distance of a mesh from the exact gear: flanks, fillets, other sides, and the size of the exact gear."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import Chebyshev
+from numpy.polynomial.chebyshev import chebpts1
+from numpy.polynomial.legendre import leggauss
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
 from gearcad.geometry import Gear
-from gearcad.geometry.curves import Chamfer, CurveKind, Fillet, Involute
-from gearcad.geometry.helix import height_in_half, section_turn, twist
-from gearcad.geometry.turned import FlankCurve, flank_curves
-from gearcad.meshing.bodies.interpolation import shape_values
-from gearcad.meshing.bodies.mesh import ElementMesh
-from gearcad.meshing.bodies.names import rises
+from gearcad.geometry.gear import FlankCurve, flank_curves, middle_section
+from gearcad.geometry.gear_data import height_in_half, section_turn, twist
+from gearcad.geometry.profile import Chamfer, Curve, CurveKind, Fillet, Involute
+from gearcad.meshing.bodies.element_mesh import GAP, ElementMesh, body_side, rises, shape_values
 
-__all__ = ["Deviations", "chamfer_distances", "deviations", "face_samples"]
+_DEGREE = 48
+"""Of the polynomials that stand for a curve's radius and angle: they come within rounding of all of them."""
+
+_PLACES, _WEIGHTS = leggauss(16)
+
+
+def exact_area(gear: Gear, held_radius: float) -> float:
+    """Area (mm²) of one tooth and its share of the body up to `held_radius` (mm), in the section at mid face width."""
+    return _body(gear, middle_section(gear), held_radius)
+
+
+def exact_volume(gear: Gear, held_radius: float) -> float:
+    """Volume (mm³) of the same over the face width, flanks modified as they are."""
+    plain = _body(gear, gear.profile.curves, held_radius) * gear.face_width
+    if not gear.modification.present:
+        return plain
+    taken = sum(_taken(gear, left=left) for left in (True, False))
+    return plain - (2 * taken if gear.double_helix.present else taken)
+
+
+def _body(gear: Gear, curves: Iterable[Curve], held_radius: float) -> float:
+    """Area (mm²) between the curves of half a tooth, twice, and the circle where the body ends."""
+    between = _area(curves) - math.pi / gear.tooth_count * held_radius**2
+    return -between if gear.internal else between
+
+
+def _area(curves: Iterable[Curve]) -> float:
+    """Area (mm²) from the curves of half a tooth, twice, down to the centre."""
+    area = 0.0
+    for curve in curves:
+        radius, angle = _polar(curve)
+        swept = (radius**2 * angle.deriv()).integ()
+        area += float(swept(0.0) - swept(1.0))  # angles fall from the middle of the space to that of the tooth
+    return area
+
+
+def _polar(curve: Curve) -> tuple[Chebyshev, Chebyshev]:
+    """Radius (mm) and half tooth angle (rad) along a curve."""
+    places = (1 + chebpts1(_DEGREE + 1)) / 2
+    radius, angle = (Chebyshev.fit(places, values, _DEGREE, domain=[0, 1]) for values in curve.polar(places))
+    return radius, angle
+
+
+def _taken(gear: Gear, *, left: bool) -> float:
+    """Volume (mm³) that modifications take from one side of a tooth, of one half: each point goes its turn times its radius."""
+    form, taken = gear.flank_form, 0.0
+    sense = (-1 if left else 1) * (-1 if gear.internal else 1)  # radii of a ring fall along its curves
+    for low, high in pairwise(sorted((0.0, *form.height_breaks, gear.half_width / 2, gear.half_width))):
+        z = (low + high) / 2 + (high - low) / 2 * _PLACES
+        for piece in flank_curves(gear):
+            radius, _ = _polar(piece.curve)
+            s = (1 + _PLACES) / 2
+            moved = sense * piece.turn(form, s[:, None], z[None], left=left)
+            lever = radius(s) * radius.deriv()(s) * _WEIGHTS / 2
+            taken += float(lever @ moved @ _WEIGHTS) * (high - low) / 2
+    return taken
 
 
 _SIDE = re.compile(r"(left|right)_(flank|fillet)_(\d+)")
@@ -162,3 +219,90 @@ def _places(face: str) -> Floats:
         share = (1 + line) / 2
         return np.array([[a, b] for a in share for b in share if a + b <= 1 + 1e-12])
     return np.array([[a, b] for a in line for b in line])
+
+
+_Distances = Callable[[Floats], Floats]
+"""Distances (n,) in mm of points (n, 3)."""
+
+
+@dataclass(frozen=True)
+class SideDeviations:
+    """Greatest distances from the exact sides: of nodes (mm), of which `worst` is the side, and of faces between them (µm)."""
+
+    nodes: float
+    between: float
+    worst: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """As mesh.json has it."""
+        return {"nodes": self.nodes, "between_nodes": self.between, "worst": self.worst}
+
+
+def side_deviations(mesh: ElementMesh, gear: Gear, held_radius: float) -> SideDeviations:
+    """Measure root lands and tips, the bore, or a ring's rim, at `held_radius` (mm), hub and ends; not keyway and end chamfers.
+
+    Flat ends are as flat between their nodes as at these.
+    """
+    nodes, between, worst = 0.0, 0.0, ""
+    for name, distances, flat in _sides(mesh, gear, held_radius):
+        off = float(distances(mesh.points[mesh.nodes(name)]).max())
+        if not off <= nodes or not worst:
+            nodes, worst = off, name
+        if not flat:
+            between = max(between, *(1000 * float(distances(samples).max()) for samples in face_samples(mesh, name)))
+    return SideDeviations(nodes, between, worst)
+
+
+def matched_distance(mesh: ElementMesh, gear: Gear, teeth: int) -> float:
+    """Greatest distance (mm) of nodes ahead from those behind that are turned by so many teeth; 0 without cuts."""
+    turn = 2 * math.pi * teeth / gear.tooth_count
+    cosine, sine = math.cos(turn), math.sin(turn)
+    turned = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    every = (mesh.points[pairs[:, 0]] @ turned.T - mesh.points[pairs[:, 1]] for pairs in mesh.matched.values())
+    return max((float(np.linalg.norm(off, axis=-1).max()) for off in every), default=0.0)
+
+
+def _sides(mesh: ElementMesh, gear: Gear, held_radius: float) -> Iterator[tuple[str, _Distances, bool]]:
+    """The sides that are measured, how, and whether they are flat."""
+    back, front = gear.body.hub_ends
+    radii = {body_side(gear): held_radius, "hub": gear.body.hub_diameter / 2}
+    if gear.double_helix.gap_width:
+        radii[GAP] = gear.gap_diameter / 2
+    heights = {
+        "end_back": 0.0,
+        "end_front": gear.face_width,
+        "gap_back": gear.half_width,
+        "gap_front": gear.face_width - gear.half_width,
+        "hub_back": -back,
+        "hub_front": gear.face_width + front,
+    }
+    solid = mesh.element.shape.dimension == 3
+    for name, faces in mesh.sides.items():
+        if not len(faces):
+            continue
+        kind, _, tooth = name.rpartition("_")
+        if name in heights:
+            yield name, partial(_from_height, heights[name]), True
+        elif name in radii:
+            yield name, partial(_from_radius, radii[name]), False
+        elif kind in ("left_root", "right_root"):
+            yield name, partial(_from_radius, gear.profile.root_diameter / 2), False
+        elif kind == "tip":
+            yield name, partial(_from_tip, gear, int(tooth), solid), False
+
+
+def _from_height(height: float, points: Floats) -> Floats:
+    distances: Floats = np.abs(points[:, 2] - height)
+    return distances
+
+
+def _from_radius(radius: float, points: Floats) -> Floats:
+    distances: Floats = np.abs(np.hypot(points[:, 0], points[:, 1]) - radius)
+    return distances
+
+
+def _from_tip(gear: Gear, tooth: int, solid: bool, points: Floats) -> Floats:
+    """From the tip circle or a tip chamfer of the tooth, whichever is nearer."""
+    every = [_from_radius(gear.profile.tip_diameter / 2, points), *chamfer_distances(gear, tooth, points, solid=solid)]
+    nearest: Floats = np.minimum.reduce(every)
+    return nearest

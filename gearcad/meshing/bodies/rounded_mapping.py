@@ -6,7 +6,7 @@ from typing import Any
 
 from skfem.mapping import MappingIsoparametric
 
-from gearcad.arrays import Floats
+from gearcad.core.records import Floats
 
 __all__ = ["RoundedMapping"]
 

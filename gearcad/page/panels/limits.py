@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gearcad.core.records import Role
 from gearcad.designs.design import Design
-from gearcad.page.components.limits import LimitsView
-from gearcad.page.limit_map import LimitMap, Variable, limit_map
+from gearcad.page.components.elements import LimitsView
+from gearcad.page.fields import LimitMap, Variable, limit_map
 from gearcad.page.panels import Panel
 from gearcad.page.words import Words
 from gearcad.page.workbench import Workbench
-from gearcad.per_gear import Role
-from gearcad.sizing.shift_map import Free, Limit, LimitKind
+from gearcad.sizing.geometry import Free, Limit, LimitKind
 
 __all__ = ["LimitsPanel"]
 

@@ -1,16 +1,73 @@
-"""Sections of a sheet as the browser shows them: rows in the page's words, with what changed, and what a kept design has."""
+"""Content of data sheet and rating: rows in the page's words, changes, and the fields of notices; found without NiceGUI."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from typing import Any, NamedTuple
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gearcad.page.panels.sheet_words import called, quantity_in, value_in
+from gearcad.core.errors import GearcadError, InputError
+from gearcad.core.records import Notice
+from gearcad.designs.design import Design
+from gearcad.designs.keys import DesignKind
+from gearcad.designs.planetary_designs import PlanetaryDesign
+from gearcad.page.fields import fields_of
+from gearcad.page.panels import Panel
 from gearcad.page.words import Words
 from gearcad.sheet import Row, Section
+from gearcad.sheet.trains import FACTORS, strength_sections, train_strength_sections
 
-__all__ = ["Cell", "Cells", "cells_of", "changed_cells", "shown_sections"]
+if TYPE_CHECKING:
+    from gearcad.dynamics.planetary.planetary_strength import TrainStrength
+    from gearcad.rating.strength import StrengthRating
+
+
+_TEETH = ("spur", "helical", "double helical")
+
+_KINDS = (
+    *(f"{before}{teeth} {kind}" for kind in ("gear", "pair") for before in ("", "internal ") for teeth in _TEETH),
+    *(f"{teeth} {kind}" for kind in ("rack", "pinion and rack") for teeth in _TEETH[:2]),
+    *("planetary train of type", "train", "inertias"),
+)
+"""Of which titles of designs are made."""
+
+_VALUES = ("yes", "no", "infinite", "spur only")
+"""Values that are words; what specs say, as they say it."""
+
+_QUANTITIES = ("single contact factor", "tip clearance")
+"""Quantities of a gear that is called as somebody likes."""
+
+_WORDS = re.compile(r"[a-z][a-z ]+[a-z]")
+_OF_A_GEAR = re.compile(rf"({'|'.join(_QUANTITIES)}) of the (.+)")
+
+
+def title_in(words: Words, title: str) -> str:
+    """What a design is: "helical pair, z = 13 / 44"."""
+    return _WORDS.sub(lambda found: words[found[0]] if found[0] in _KINDS else found[0], title)
+
+
+_ASSUMED = " (assumed)"
+
+
+def value_in(words: Words, text: str) -> str:
+    """A value as shown."""
+    if text.endswith(_ASSUMED):
+        return f"{value_in(words, text.removesuffix(_ASSUMED))} ({words['assumed']})"
+    return words[text] if text in _VALUES else text
+
+
+def called(words: Words, name: str) -> str:
+    """What gears, and those that mesh, are called: as the tables of specs, if they are called as these."""
+    parts = [words.table.get(part.replace("_", " ").capitalize()) for part in name.split("-")]
+    return "-".join(part for part in parts if part) if all(parts) else name
+
+
+def quantity_in(words: Words, english: str) -> str:
+    """The words of a quantity."""
+    if english not in words.table and (found := _OF_A_GEAR.fullmatch(english)) and found[1] in words.table:
+        return f"{words[found[1]]} ({called(words, found[2])})"
+    return words[english]
 
 
 _SAID = {"Mesh": "Gear mesh"}
@@ -115,3 +172,246 @@ def _difference(cell: Cell, kept: Cell) -> str:
     decimals = max(len(each.text.partition(".")[2]) for each in (cell, kept))
     difference = cell.value - kept.value
     return f"{difference:+.3e}" if any("e" in each.text for each in (cell, kept)) else f"{difference:+.{decimals}f}"
+
+
+_ABOUT = {
+    "undercut": "profile_shift rack.addendum",
+    "thin-tip": "profile_shift tip_alteration",
+    "full-radius": "rack.root_radius",
+    "form-root": "cutter.teeth",
+    "span-off-involute": "profile_shift tip_alteration",
+    "balls-off-involute": "profile_shift",
+    "narrow-for-span": "face_width",
+    "narrow-for-pins": "face_width",
+    "web-not-modelled": "body.web_thickness",
+    "cutter-trims-tips": "cutter.teeth tip_alteration",
+    "cutter-trims-on-infeed": "cutter.teeth",
+    "rounded-shifts": "centre_distance tooth_thinning",
+    "backlash-may-vanish": "tooth_thinning tooth_allowance centre_distance_tolerance",
+    "low-contact-ratio": "centre_distance helix_angle",
+    "fillet-interference": "tip_alteration rack.root_radius rack.addendum",
+    "undercut-contact": "profile_shift",
+    "radial-assembly": "teeth",
+    "no-pin": "pin_diameter",
+    "low-pin": "pin_diameter",
+    "no-hunting-tooth": "teeth",
+    "wide-backlash": "tooth_thinning",
+    "stage-in-the-way": "axial_position",
+    "unbalanced": "planets",
+}
+"""By the codes of notices, keys of the table that they are about, the first one first."""
+
+_MOST = 2
+"""Fields that are named with a notice: more would hide it."""
+
+
+def keys_of(design: Design) -> frozenset[str]:
+    """Those of the fields that the specs of a kind have."""
+    return frozenset(field["key"] for table in fields_of(design, {}) for group in table["groups"] for field in group["fields"])
+
+
+def shown_notices(notices: Collection[Notice], keys: Collection[str]) -> tuple[dict[str, Any], ...]:
+    """Each notice once, with those of the `keys` of a spec's fields that it is about."""
+    found: dict[str, Any] = {}
+    for notice in notices:
+        found.setdefault(str(notice), {"code": notice.code, "text": str(notice), "keys": _keys(notice, keys)})
+    return tuple(found.values())
+
+
+def _keys(notice: Notice, keys: Collection[str]) -> list[str]:
+    """Of the table that the notice names; else of those of what is in mesh."""
+    fields = _ABOUT.get(notice.code, "").split()
+    for tables in (re.split(": |-", notice.where), ("pair", "pinion", "wheel", "planetary")):
+        about = dict.fromkeys(f"{table}.{field}" for field in fields for table in tables)
+        if found := [key for key in about if key in keys]:
+            return found[:_MOST]
+    return []
+
+
+class Figures(NamedTuple):
+    """Sections and all that stands in them, with labelled lines before them, and notices as `shown_notices` gives them.
+
+    `name` is that of the design, if `what` it is is told. Lines without a label are words of the page or names of standards.
+    `pins` are the keys of rows that stand on top at first, `folded` the titles of blocks that are shut at first. `title` is a
+    verdict, and `verdict` the class by which it is coloured.
+    """
+
+    sections: tuple[Section, ...]
+    cells: Cells
+    lines: tuple[tuple[str, str], ...] = ()
+    notices: tuple[dict[str, Any], ...] = ()
+    pins: Collection[str] = ()
+    folded: Collection[str] = ()
+    title: str = ""
+    verdict: str = ""
+    name: str = ""
+    what: str = ""
+
+
+def figures(sections: tuple[Section, ...], **others: Any) -> Figures:
+    """Those of sections."""
+    return Figures(sections, cells_of(sections), **others)
+
+
+class FiguresPanel(Panel[Figures]):
+    """Tables of figures: those that the last step changed beside what they were; below them those of a kept design."""
+
+    compares = True
+
+    def __init__(self, label: str, store: str, words: Words) -> None:
+        from gearcad.page.components.elements import SheetView  # only here: who finds figures elsewhere needs no NiceGUI
+
+        self._words = words
+        own = {
+            "search": words["find a quantity"],
+            "pins": words["First figures"],
+            "notices": words["Warnings"],
+            "changed": words["values changed"],
+            "kept": words["kept"],
+            "difference": words["difference"],
+            "assumed": words["assumed"],
+            "verify": words["to verify"],
+            "pin": words["Enter or double click: on top"],
+            "unpin": words["Enter or double click: not on top"],
+            "waiting": words["being computed"],
+        }
+        self._view = SheetView(label, store, own)
+        self._former: Cells = {}
+        self._changed: dict[tuple[str, str], str] = {}
+        self._kept: Figures | None = None
+
+    def show(self, found: Figures) -> None:
+        if found.cells != self._former:
+            self._changed = changed_cells(found.cells, self._former)
+            self._former = found.cells
+        self._view.show(shown_figures(found, self._words, self._changed, self._kept))
+
+    def keep(self, found: Figures | None) -> None:
+        self._kept = found
+
+    def wait(self) -> None:
+        self._view.wait()
+
+
+def shown_figures(
+    found: Figures, words: Words, changed: dict[tuple[str, str], str] | None = None, kept: Figures | None = None
+) -> dict[str, Any]:
+    """As the browser has them."""
+    beside = None if kept is None else kept.cells
+    title, reason = _headline(found.title, words)
+    told = [{"label": "", "text": f"{found.name}: {title_in(words, found.what)}"}] if found.what else []
+    return {
+        "title": title,
+        "reason": reason,
+        "verdict": found.verdict,
+        "lines": told + [{"label": label, "text": text if label else words[text]} for label, text in found.lines],
+        "beside": "" if kept is None else _headline(kept.title, words)[0],
+        "changes": len(changed or {}),
+        "notices": [each | {"about": words.notices.get(each.get("code", ""), "")} for each in found.notices],
+        "pins": list(found.pins),
+        "sections": shown_sections(found.sections, words, folded=found.folded, changed=changed, kept=beside),
+    }
+
+
+def _headline(verdict: str, words: Words) -> tuple[str, str]:
+    """What a verdict comes to, in the language of the page, and why."""
+    heads = {
+        "strength passed": words["strength passed"],
+        "strength NOT passed": words["strength NOT passed"],
+        "strength not judged": words["strength not judged"],
+        "strength not asked for": words["strength not asked for"],
+    }
+    head = next((each for each in heads if verdict.startswith(each)), "")
+    return heads.get(head, ""), verdict.removeprefix(head).removeprefix(": ")
+
+
+_PINNED = (
+    "safety.flank safety.root safety.scuffing.integral safety.scuffing.flash"
+    " permissible_torque.flank permissible_torque.root life.flank life.root"
+)
+"""What one looks at first."""
+
+_PINS = [f"strength.{key}" for key in _PINNED.split()]
+
+_ON_REQUEST = (
+    'face_load_factor = "fe": K_Hbeta is that of the load distribution of solid bodies, which takes its time: run "rate" for it'
+)
+
+_NO_RATING = "This kind of design has no rating."
+
+_VERDICTS = {True: "passed", False: "failed", None: ""}
+
+
+class StrengthPanel(FiguresPanel):
+    """What `gearcad rate` says of a design."""
+
+    def __init__(self, words: Words) -> None:
+        super().__init__(words["rating"], "gearcad-strength", words)
+
+    def aside(self, design: Design) -> Callable[[Design], Figures] | None:
+        """Of a planetary train: how planets share the load is asked of finite elements."""
+        return strength_figures if _takes_long(design) else None
+
+    def find(self, design: Design) -> Figures:
+        return strength_figures(design)
+
+
+def warm_up(design: Design) -> None:
+    """Import what ratings need, and rate a design once if that is quick: nobody shall wait for it later."""
+    import gearcad.jobs.strength  # noqa: F401
+
+    if not _takes_long(design):
+        strength_figures(design)
+
+
+def _takes_long(design: Design) -> bool:
+    return design.kind is DesignKind.PLANETARY
+
+
+def strength_figures(design: Design) -> Figures:
+    """Those of the rating of a design; without one a line that says why, or what to give."""
+    from gearcad.jobs.strength import KEYS, Rate
+
+    if design.kind not in Rate.accepts:
+        return Figures((), {}, lines=(("", _NO_RATING),))
+    options = getattr(design, "rating", None)
+    if options is not None and options.face_load_factor == "fe":
+        return _without(_ON_REQUEST, ["rating.face_load_factor"])
+    try:
+        return _rated(_rating(design), design)
+    except GearcadError as error:
+        key = KEYS.get(error.parameter, error.parameter) if isinstance(error, InputError) else ""
+        return _without(str(error), [key] if key in keys_of(design) else [])
+
+
+def _rating(design: Design) -> StrengthRating | TrainStrength:
+    """That of a train is read from its study, which the load shares are of too."""
+    from gearcad.jobs.strength import Rate, strength_in_study
+
+    if isinstance(design, PlanetaryDesign):
+        from gearcad.page.panels.drawn_data import train_study
+
+        return strength_in_study(design, train_study(design))
+    return Rate(report=False).run(design)
+
+
+def _rated(found: StrengthRating | TrainStrength, design: Design) -> Figures:
+    """What a rating comes to; of a train of all its meshes."""
+    from gearcad.dynamics.planetary.planetary_strength import TrainStrength
+
+    train = isinstance(found, TrainStrength)
+    standards = f"{found.options.standard.value}, {found.options.accuracy.value}"
+    told = {"": (standards,), "assumed": found.assumed, "verify": found.verify}
+    return figures(
+        train_strength_sections(found) if isinstance(found, TrainStrength) else strength_sections(found),
+        lines=tuple((label, "; ".join(each)) for label, each in told.items() if each),
+        notices=shown_notices(found.notices, keys_of(design)),
+        pins=() if train else _PINS,
+        folded=FACTORS if train else ("Safety", *FACTORS),
+        title=found.verdict,
+        verdict=_VERDICTS[found.passed],
+    )
+
+
+def _without(line: str, keys: list[str]) -> Figures:
+    return Figures((), {}, notices=({"text": line, "keys": keys},))

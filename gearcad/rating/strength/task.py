@@ -1,34 +1,134 @@
-"""StrengthTask: what is to be rated, and each step of it."""
+"""StrengthTask: the steps of a full rating by ISO 6336 or DIN 3990, and the notices on its result."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 
-from gearcad.errors import InputError
+from gearcad.core.errors import InputError, ParameterError, format_number
+from gearcad.core.quantities import assumed_values, schema_of
+from gearcad.core.records import Notice, PerGear, Role, is_assumed
 from gearcad.geometry import Gear, GearPair, RackPair
+from gearcad.geometry.gear import halves
 from gearcad.load import Load
-from gearcad.material import Material
-from gearcad.per_gear import PerGear, Role
-from gearcad.rating.iso6336_5 import EnduranceLimits, endurance_limits_of
+from gearcad.material import Material, of_both
+from gearcad.rating.factors import endurance_cycles, to_verify
+from gearcad.rating.load_factor_formulas import helix_factors, shaft_deflection
 from gearcad.rating.load_factors import BodyLoad, LoadFactors
+from gearcad.rating.material_limits import EnduranceLimits, endurance_limits_of
+from gearcad.rating.nominal_rating import Rating, rate, rate_rack
 from gearcad.rating.options import RatingOptions
-from gearcad.rating.rack_rating import rate_rack
-from gearcad.rating.rate import Rating, rate
+from gearcad.rating.root_stress import RootRating
 from gearcad.rating.scuffing import Scuffing, scuffing
-from gearcad.rating.strength.conditions import Conditions
-from gearcad.rating.strength.duty import Duty
-from gearcad.rating.strength.flank import WorkHardening, flank_resistance, work_hardening
-from gearcad.rating.strength.halved import half_of, load_factors_of_half
-from gearcad.rating.strength.judge import judged
-from gearcad.rating.strength.part import Part, PartStrength
-from gearcad.rating.strength.rack_factors import given_factors
-from gearcad.rating.strength.reasons import Reasons
-from gearcad.rating.strength.resistance import Resistance
-from gearcad.rating.strength.root import notch_strength, root_resistance
+from gearcad.rating.strength.duty import Duty, Part, PartStrength, Resistance, judged
+from gearcad.rating.strength.permissible import (
+    Conditions,
+    WorkHardening,
+    flank_resistance,
+    notch_strength,
+    root_resistance,
+    work_hardening,
+)
+from gearcad.rating.strength.rating import StrengthRating
 from gearcad.rating.tolerances import GearTolerances, gear_tolerances
+from gearcad.rating.tooth_stiffness import rim_of
 
-__all__ = ["StrengthTask"]
+
+def half_of(pair: GearPair) -> GearPair:
+    """The lower half: by which contact lines, overlap ratio and stresses go."""
+    return replace(pair, pinion=halves(pair.pinion)[0].gear, wheel=halves(pair.wheel)[0].gear)
+
+
+def load_factors_of_half(half: GearPair, materials: PerGear[Material], load: Load, options: RatingOptions) -> LoadFactors:
+    """Those of a half under its half of the load: f_sh by (58) of ISO 6336-1, where it is not given.
+
+    The pinion is taken to be in the middle between its bearings. Raises what `LoadFactors.of` raises.
+    """
+    found = LoadFactors.of(half, materials, load, options)
+    mean_load = found.details.get("F_m_b")
+    if options.shaft_deflection is not None or not isinstance(mean_load, float):
+        return found
+    deflection = shaft_deflection(
+        mean_load,
+        half.common_width.width,
+        half.pinion.reference_diameter,
+        shaft_term=0.0,
+        compliance=helix_factors(options.helix_modification, options.standard).compliance,
+        double_helical=True,
+    )
+    bent = LoadFactors.of(half, materials, load, replace(options, shaft_deflection=deflection))
+    return replace(bent, assumed=found.assumed)
+
+
+def given_factors(load: Load, options: RatingOptions) -> LoadFactors:
+    """Of a load. Raises ParameterError for one that is not given."""
+    given = {"dynamic_factor": options.dynamic_factor, "face_load_factor": options.face_load_factor}
+    given["transverse_load_factor"] = options.transverse_load_factor
+    for name, value in given.items():
+        if isinstance(value, str):
+            raise ParameterError(f"rating.{name}", value, "must be a number for a rack, for which the standard has no method")
+    dynamic, face, transverse = (float(value) for value in given.values())
+    return LoadFactors(
+        application=load.application_factor,
+        mesh_load=options.mesh_load_factor,
+        dynamic=dynamic,
+        face_flank=face,
+        face_root=face,
+        transverse_flank=transverse,
+        transverse_root=transverse,
+    )
+
+
+@dataclass(frozen=True)
+class Reasons:
+    """Of a pair; `error` is what is in the way of its load factors."""
+
+    pair: GearPair | RackPair
+    materials: PerGear[Material]
+    load: Load
+    options: RatingOptions
+    limits: PerGear[EnduranceLimits]
+    roots: PerGear[RootRating]
+    error: InputError | None
+
+    def of(self, part: Part, role: Role) -> str:
+        """The first one; "" for a part that can be judged."""
+        own = self._of_flank(role) if part is Part.FLANK else self._of_root(role)
+        return next(chain(self._of_material(part, role), own, self._of_load()), "")
+
+    def _of_material(self, part: Part, role: Role) -> Iterator[str]:
+        limits, material = self.limits.pick(role), self.materials.pick(role)
+        limit, source = (limits.contact, limits.contact_source) if part is Part.FLANK else (limits.root, limits.root_source)
+        if limit is None:
+            yield f"{'sigma_Hlim' if part is Part.FLANK else 'sigma_Flim'} is {source}"
+        elif material.group is None:
+            yield "the material has no group, by which the life factor goes"
+
+    def _of_flank(self, role: Role) -> Iterator[str]:
+        if (ratio := self.pair.transverse_contact_ratio) > 2:
+            yield f"Z_eps, Z_B and Z_D of ISO 6336-2 hold for a transverse contact ratio up to 2, here {ratio:.4g}"
+        if self.limits.pick(role.mate).contact is None:
+            yield f"sigma_Hlim of the {role.mate.value} is not known, and the oil film goes by the softer gear"
+
+    def _of_root(self, role: Role) -> Iterator[str]:
+        if isinstance(self.pair, RackPair) and role is Role.WHEEL:
+            return
+        gear = self.pair.pinion if role is Role.PINION or isinstance(self.pair, RackPair) else self.pair.wheel
+        if thin := rim_of(gear).not_covered():
+            yield thin
+        if not self.roots.pick(role).section.on_fillet:
+            yield "the tangent at 30 deg touches beyond the fillet, so Y_F and Y_S do not hold"
+
+    def _of_load(self) -> Iterator[str]:
+        options = self.options
+        if not self.load.speed and (isinstance(options.dynamic_factor, str) or options.load_cycles is None):
+            yield "the speed is 0 rpm: K_v, Z_v and load cycles are not known (give dynamic_factor and load_cycles)"
+        elif options.bins and options.life is None and options.load_cycles is None:
+            yield "a load spectrum needs life or load_cycles"
+        if self.error is not None:
+            yield str(self.error)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,3 +288,156 @@ class StrengthTask:
             return gear_tolerances(gear, grade, self.options.accuracy)
         except InputError:
             return None
+
+
+def assumed_of(task: StrengthTask) -> Iterator[str]:
+    """Yield one sentence for each input that was assumed."""
+    yield from _defaults(task)
+    yield from task.conditions.assumed
+    if task.hardening.assumed:
+        yield task.hardening.assumed
+    for role, material in task.materials.items():
+        if material.group is not None and task.limits.pick(role).root is not None:
+            notch = task.nominal.roots.pick(role).section.notch_parameter
+            if said := notch_strength(material, material.group, notch).assumed:
+                yield f"{said} ({task.nominal.names.pick(role)})"
+    if isinstance(task.rated, RackPair) and task.duty.cycles.wheel is not None and task.options.load_cycles is None:
+        yield "load cycles of the rack are those of the pinion"
+    if task.duty.cycles.pinion is None and task.load.speed:
+        yield "no life and no load cycles are given: endurance limits hold, with Z_NT = Y_NT = 1"
+    if not isinstance(task.load_factors, InputError):
+        yield from task.load_factors.assumed
+    if task.scuffing is not None and task.scuffing.judged:
+        yield from task.scuffing.assumed
+
+
+def _defaults(task: StrengthTask) -> Iterator[str]:
+    """Yield the defaults that a rating goes by and that nobody gave: of [rating], of the load and of the materials."""
+    options = task.options
+    for key, _ in assumed_values(options):
+        if _counts(task, key):
+            of = f" of {options.accuracy.value}" if key == "accuracy_grade" else ""
+            yield f"{key} = {getattr(options, key):g}{of}"
+    if is_assumed(task.load.application_factor) and not options.bins:
+        yield f"application_factor = {task.load.application_factor:g}"
+    found: dict[str, list[str]] = {}
+    for role, material in task.materials.items():
+        said = ", ".join(_constant(material, key) for key, _ in assumed_values(material) if key != "name")
+        found.setdefault(said, []).append(task.nominal.names.pick(role))
+    yield from (f"{said} of {' and '.join(names)}" for said, names in found.items() if said)
+
+
+def _constant(material: Material, key: str) -> str:
+    """A property of a material with its key and unit."""
+    unit = schema_of(Material)[key].symbol.unit
+    return f"material.{key} = {format_number(getattr(material, key))}{f' {unit}' if unit else ''}"
+
+
+def _counts(task: StrengthTask, key: str) -> bool:
+    """Whether an option plays a part: the grade where a gear has none of its own, cycles where any are counted."""
+    if key == "accuracy_grade":
+        return any(gear.accuracy_grade is None for gear in task.pair_gears)
+    if key in ("contacts_per_turn", "long_life_factor"):
+        cycles = any(each is not None for each in task.duty.cycles)
+        return cycles and not (key == "contacts_per_turn" and task.options.load_cycles is not None)
+    return True
+
+
+def verify_of(task: StrengthTask) -> Iterator[str]:
+    """Symbols of what is to be verified."""
+    yield from task.nominal.verify
+    for each in task.limits:
+        yield from each.verify
+    yield from to_verify(
+        task.options.standard,
+        internal=isinstance(task.rated, GearPair) and task.rated.internal,
+        limited_flank=_limited(task, Part.FLANK),
+        limited_root=_limited(task, Part.ROOT),
+    )
+    if not isinstance(task.load_factors, InputError):
+        yield from task.load_factors.verify
+    if task.scuffing is not None and task.scuffing.judged:
+        yield from task.scuffing.verify
+
+
+def _limited(task: StrengthTask, part: Part) -> bool:
+    """Whether a gear has fewer load cycles than its endurance limit asks for."""
+    found = ((task.resistance(part, role), task.duty.cycles.pick(role)) for role in Role)
+    return any(each is not None and cycles is not None and cycles < endurance_cycles(each.points) for each, cycles in found)
+
+
+_MATTERS = 0.01
+"""Share of a damage from which it is told what it rests on."""
+
+
+def notices_of(task: StrengthTask, parts: Mapping[Part, PerGear[PartStrength]]) -> Iterator[Notice]:
+    """Of the nominal rating, of load factors and scuffing, and of damage by loads that a life factor would have none of."""
+    yield from task.nominal.notices
+    if not isinstance(task.load_factors, InputError):
+        yield from task.load_factors.notices
+    if task.scuffing is not None and task.scuffing.judged:
+        yield from task.scuffing.notices
+    yield from _beyond_knee(parts, task.nominal.names)
+
+
+def _beyond_knee(parts: Mapping[Part, PerGear[PartStrength]], names: PerGear[str]) -> Iterator[Notice]:
+    """Of all parts in one."""
+    found = [
+        f"{share:.0%} of the {part.value} of the {names.pick(role)}"
+        for part, both in parts.items()
+        for role, each in both.items()
+        if (share := each.beyond_knee) >= _MATTERS
+    ]
+    if found:
+        text = "damage by loads that alone could be borne beyond 10^10 load cycles, where the S-N line goes on (ISO 6336-6)"
+        yield Notice("beyond-knee", f"spectrum: {text}: {', '.join(found)}")
+
+
+def rate_strength(
+    pair: GearPair | RackPair,
+    materials: Material | PerGear[Material],
+    load: Load,
+    options: RatingOptions | None = None,
+    *,
+    body_load: BodyLoad | None = None,
+    driver: Role = Role.PINION,
+) -> StrengthRating:
+    """Rate a pair, of one material or each gear of its own: safeties of flanks and roots, life, permissible torque, scuffing.
+
+    `body_load` stands in place of the options' face_load_factor "fe": K_Hbeta of a load distribution. `driver` is the gear
+    that drives, for scuffing. What the standard does not cover, or what is not known, is not judged, each for its reason.
+    Raises ParameterError without a torque, for a spectrum beside an application factor, and for a hardness that its material
+    has no limit of; GeometryError for a pair whose contact the standard does not describe.
+    """
+    options = options or RatingOptions()
+    if options.bins and load.application_factor != 1:
+        permitted = "must be 1 with a load spectrum, which has all loads in it (ISO 6336-6)"
+        raise ParameterError("load.application_factor", load.application_factor, permitted)
+    if body_load is not None:
+        options = replace(options, face_load_factor=body_load.factor)
+    both = of_both(materials)
+    return _rating(StrengthTask(pair=pair, materials=both, load=load, options=options, driver=driver, body_load=body_load))
+
+
+def _rating(task: StrengthTask) -> StrengthRating:
+    """All of it."""
+    parts = {part: PerGear(*(task.part(part, role) for role in Role)) for part in Part}
+    factors = None if isinstance(task.load_factors, InputError) else task.load_factors
+    return StrengthRating(
+        pair=task.pair,
+        materials=task.materials,
+        load=task.load,
+        options=task.options,
+        nominal=task.nominal,
+        limits=task.limits,
+        load_factors=factors,
+        cases=() if factors is None else task.duty.cases(),
+        governing=None if factors is None else task.duty.governing,
+        flank=parts[Part.FLANK],
+        root=parts[Part.ROOT],
+        scuffing=task.scuffing,
+        tolerances=task.tolerances,
+        assumed=tuple(dict.fromkeys(assumed_of(task))),
+        verify=tuple(dict.fromkeys(verify_of(task))),
+        notices=tuple(dict.fromkeys(notices_of(task, parts))),
+    )

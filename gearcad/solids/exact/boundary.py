@@ -1,4 +1,8 @@
-"""The boundary of a solid as plain data: shared vertices and edges, faces, and the places at which forms are used again.
+"""Boundary of a solid as plain data: curves, surfaces, shared vertices, edges and faces.
+
+One polynomial span per smooth piece keeps the shared edges of neighbouring faces identical, pole for pole.
+
+Lengths in mm, angles in rad. What they are parametrised by is what ISO 10303-42 and the OpenCASCADE kernel say.
 
 A `Recorder` takes it down while it is made; what reads it makes a solid of the CAD kernel, or the text of a file.
 """
@@ -6,17 +10,240 @@ A `Recorder` takes it down while it is made; what reads it makes a solid of the 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from dataclasses import dataclass
+from functools import cache
+from math import comb
 from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.arrays import Floats
-from gearcad.solids.exact.forms import CurveForm, OnSurface, SurfaceForm, Vector
+from gearcad.core.records import Floats
 
-__all__ = ["Boundary", "BoundaryEdge", "BoundaryFace", "Chain", "LaidCurve", "Recorder", "Turn", "backward"]
+MOST_DEGREE = 25
+"""Highest degree of a B-spline that the OpenCASCADE kernel accepts."""
+
+
+def bernstein(degree: int, t: Floats) -> Floats:
+    """Bernstein polynomials of one degree at t (n,): (n, degree + 1)."""
+    power = np.arange(degree + 1)
+    weight = np.array([comb(degree, int(i)) for i in power], float)
+    return np.asarray(weight * t[:, None] ** power * (1 - t[:, None]) ** (degree - power), float)
+
+
+@cache
+def _nodes(degree: int) -> tuple[Floats, Floats]:
+    """Chebyshev-Lobatto nodes on [0, 1] and the matrix that turns values there into poles."""
+    nodes: Floats = np.asarray(0.5 - 0.5 * np.cos(np.pi * np.arange(degree + 1) / degree), float)
+    nodes[0], nodes[-1] = 0.0, 1.0
+    to_poles = np.asarray(np.linalg.inv(bernstein(degree, nodes)), float)
+    return nodes, to_poles
+
+
+@cache
+def _check(degree: int) -> tuple[Floats, Floats]:
+    """Points between the nodes (the extremes of the interpolation error lie close to them), and their Bernstein values."""
+    nodes, _ = _nodes(degree)
+    t = np.sort(np.concatenate([nodes[:-1] + f * np.diff(nodes) for f in (0.25, 0.5, 0.75)])).astype(float)
+    return t, bernstein(degree, t)
+
+
+def interpolate(function: Callable[[Floats], Floats], degree: int) -> Floats:
+    """Poles (degree + 1, k) of the Bezier that interpolates `function` ((n,) in [0, 1] -> (n, k)), ends exact."""
+    return _through(function(_nodes(degree)[0]))
+
+
+def interpolate_surface(function: Callable[[Floats, Floats], Floats], degrees: tuple[int, int]) -> Floats:
+    """Poles (n + 1, m + 1, k) of the Bezier surface of degrees n and m that interpolates `function` ((n,), (m,) -> (n, m, k)).
+
+    An edge depends on the values there alone, so neighbours have its poles in common.
+    """
+    values = function(*(_nodes(degree)[0] for degree in degrees))
+    return np.swapaxes(_through(np.swapaxes(_through(values), 0, 1)), 0, 1)
+
+
+def _through(values: Floats) -> Floats:
+    """Poles (n + 1, ...) of the Bezier through the values at the nodes of degree n, ends exact."""
+    to_poles = _nodes(len(values) - 1)[1]
+    poles: Floats = (to_poles @ values.reshape(len(values), -1)).reshape(values.shape)
+    poles[0], poles[-1] = values[0], values[-1]
+    return poles
+
+
+def fit(
+    function: Callable[[Floats], Floats],
+    error: Callable[[Floats, Floats], Floats],
+    tolerance: float,
+    *,
+    least: int = 2,
+    most: int = MOST_DEGREE,
+) -> Floats | None:
+    """Poles of the lowest-degree interpolant with `error(values, t) <= tolerance` between the nodes; None if there is none."""
+    for degree in range(least, most + 1):
+        poles = interpolate(function, degree)
+        t, basis = _check(degree)
+        if np.max(error(basis @ poles, t)) <= tolerance:
+            return poles
+    return None
+
+
+Point = tuple[float, float]
+Vector = tuple[float, float, float]
+
+ORIGIN: Point = (0.0, 0.0)
+
+
+class Frame(NamedTuple):
+    """A right-handed frame: its origin, and unit vectors along its z (`axis`) and x (`along`)."""
+
+    origin: Vector
+    axis: Vector
+    along: Vector
+
+
+@dataclass(frozen=True, eq=False)
+class StraightLine:
+    """From `start` along the unit vector `direction`; its parameter is the distance."""
+
+    start: Vector
+    direction: Vector
+
+
+@dataclass(frozen=True, eq=False)
+class CircleCurve:
+    """In the xy plane of its frame; its parameter is the angle from the frame's x."""
+
+    frame: Frame
+    radius: float
+
+
+@dataclass(frozen=True, eq=False)
+class EllipseCurve:
+    """In the xy plane of its frame, its longer half axis `major` along x: major cos t, minor sin t."""
+
+    frame: Frame
+    major: float
+    minor: float
+
+
+@dataclass(frozen=True, eq=False)
+class BezierCurve:
+    """One span with `poles` (n + 1, 3), parameter `first` ... `last`."""
+
+    poles: Floats
+    first: float = 0.0
+    last: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneSurface:
+    """The xy plane of its frame."""
+
+    frame: Frame
+
+
+@dataclass(frozen=True, eq=False)
+class CylinderSurface:
+    """About the z axis of its frame; u is the angle from its x, v the height, the normal points outwards."""
+
+    frame: Frame
+    radius: float
+
+
+@dataclass(frozen=True, eq=False)
+class ConeSurface:
+    """About the z axis of its frame, of `radius` at its origin, widening along z; v is the slant."""
+
+    frame: Frame
+    radius: float
+    half_angle: float
+
+
+@dataclass(frozen=True, eq=False)
+class BezierSurface:
+    """One span with `poles` (n + 1, m + 1, 3), parameters u in 0 ... 1 and v in `low` ... `high`."""
+
+    poles: Floats
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, eq=False)
+class LineOnSurface:
+    """In the parameters of a surface: from a point on, along a unit vector."""
+
+    u: float
+    v: float
+    du: float
+    dv: float
+
+
+@dataclass(frozen=True, eq=False)
+class BezierOnSurface:
+    """In the parameters of a surface: one span with `poles` (n + 1, 2), parameter `first` ... `last`."""
+
+    poles: Floats
+    first: float = 0.0
+    last: float = 1.0
+
+
+CurveForm = StraightLine | CircleCurve | EllipseCurve | BezierCurve
+SurfaceForm = PlaneSurface | CylinderSurface | ConeSurface | BezierSurface
+OnSurface = LineOnSurface | BezierOnSurface
+
+
+def vector(values: Sequence[float] | Floats) -> Vector:
+    """Three numbers as plain floats."""
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+def unit(direction: Vector) -> Vector:
+    """A direction as a vector of length 1."""
+    x, y, z = direction
+    length = math.sqrt(x * x + y * y + z * z)
+    return x / length, y / length, z / length
+
+
+def level_frame(z: float, *, up: bool = True, axis: Point = ORIGIN) -> Frame:
+    """At height z on an axis through the point (x, y), its x along +x and its z along +z or -z."""
+    return Frame((axis[0], axis[1], z), (0.0, 0.0, 1.0 if up else -1.0), (1.0, 0.0, 0.0))
+
+
+def level_circle(radius: float, z: float, axis: Point = ORIGIN) -> CircleCurve:
+    """At height z about an upright axis."""
+    return CircleCurve(level_frame(z, axis=axis), radius)
+
+
+def straight_line(start: Sequence[float], end: Sequence[float]) -> tuple[StraightLine, float]:
+    """The line through two points, and the parameter (distance) of the second."""
+    step = np.subtract(end, start)
+    length = float(np.linalg.norm(step))
+    return StraightLine(vector(start), vector(step / length)), length
+
+
+def cylinder_along_z(radius: float, axis: Point = ORIGIN) -> CylinderSurface:
+    """About an upright axis, v = 0 at z = 0."""
+    return CylinderSurface(level_frame(0.0, axis=axis), radius)
+
+
+def cone_about_z(radius: float, sine: float, z: float, *, up: bool) -> ConeSurface:
+    """Of `radius` at height z, widening upwards (or downwards); `sine` of its half angle."""
+    return ConeSurface(level_frame(z, up=up), radius, math.asin(sine))
+
+
+def level_plane(z: float) -> PlaneSurface:
+    """At height z, its normal along +z."""
+    return PlaneSurface(level_frame(z))
+
+
+def upright_plane(start: Sequence[float], along: Sequence[float]) -> PlaneSurface:
+    """Through a point, containing the horizontal direction `along` (x, y) and z; normal along x z."""
+    length = math.hypot(*along)
+    x, y = along[0] / length, along[1] / length
+    return PlaneSurface(Frame(vector(start), (y, -x, 0.0), (x, y, 0.0)))
+
 
 Chain = list[tuple[int, bool]]
 """Edges in order, each with True if it is run along its own direction."""

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from gearcad.solids.exact.boundary import PRECISION, Boundary, Chain, Turn
-from gearcad.solids.exact.forms import (
+from gearcad.solids.exact.boundary import (
+    PRECISION,
     BezierCurve,
     BezierOnSurface,
     BezierSurface,
+    Boundary,
+    Chain,
     CircleCurve,
     ConeSurface,
     CurveForm,
@@ -21,6 +23,7 @@ from gearcad.solids.exact.forms import (
     PlaneSurface,
     StraightLine,
     SurfaceForm,
+    Turn,
 )
 
 __all__ = ["kernel_solid", "local_axes"]

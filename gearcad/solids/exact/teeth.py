@@ -1,31 +1,84 @@
-"""The toothed side of a gear: the layout of tooth 0 turned to all teeth, on shared vertices and edges."""
+"""Toothed side of a gear: tooth 0 turned to all teeth, on shared vertices and edges, and the gap of double helices."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
-from gearcad.arrays import Floats
-from gearcad.geometry.gear import Gear
-from gearcad.solids.exact.boundary import BoundaryEdge, Chain, Recorder, backward
-from gearcad.solids.exact.ends import End
-from gearcad.solids.exact.forms import (
+from gearcad.core.records import Floats
+from gearcad.geometry.gear import Gear, halves
+from gearcad.solids.body_plan import End
+from gearcad.solids.exact.boundary import (
+    ORIGIN,
     BezierCurve,
     BezierSurface,
+    BoundaryEdge,
+    Chain,
     ConeSurface,
     LineOnSurface,
+    Point,
+    Recorder,
     SurfaceForm,
+    backward,
     cone_about_z,
     cylinder_along_z,
     level_circle,
+    level_plane,
     straight_line,
 )
-from gearcad.solids.exact.layout import ToothLayout
-from gearcad.solids.exact.outline import FlankSpan, LandArc
+from gearcad.solids.exact.tooth_layout import FlankSpan, LandArc, ToothLayout
 
-__all__ = ["add_teeth"]
+
+@dataclass(frozen=True)
+class Contour:
+    """Edges of a closed contour at one height, counter-clockwise seen from +z, and the vertex each starts from."""
+
+    edges: list[int]
+    starts: list[int]
+
+    def loop(self, *, along: bool) -> Chain:
+        loop = [(edge, True) for edge in self.edges]
+        return loop if along else backward(loop)
+
+
+def circle(recorder: Recorder, radius: float, z: float, axis: Point = ORIGIN) -> Contour:
+    """A circle about an axis through the point (x, y); it starts on the side of +x."""
+    start = recorder.vertex((axis[0] + radius, axis[1], z))
+    return Contour([recorder.edge(level_circle(radius, z, axis), start, start, 0.0, 2 * math.pi)], [start])
+
+
+def tube(
+    recorder: Recorder, radius: float, heights: tuple[float, float], axis: Point = ORIGIN, *, outward: bool
+) -> list[Contour]:
+    """Add a round wall about an axis from one height to the other; its circles at both."""
+    low, high = (circle(recorder, radius, z, axis) for z in heights)
+    add_tube(recorder, radius, low, high, heights, axis, outward=outward)
+    return [low, high]
+
+
+def add_tube(
+    recorder: Recorder,
+    radius: float,
+    low: Contour,
+    high: Contour,
+    heights: Sequence[float],
+    axis: Point = ORIGIN,
+    *,
+    outward: bool,
+) -> None:
+    """A full cylinder between two circles; its seam lies on the side of +x."""
+    surface, x, y = cylinder_along_z(radius, axis), axis[0] + radius, axis[1]
+    line, length = straight_line((x, y, heights[0]), (x, y, heights[1]))
+    seam = recorder.edge(line, low.starts[0], high.starts[0], 0.0, length)
+    recorder.lay(seam, surface, LineOnSurface(2 * math.pi, heights[0], 0, 1), LineOnSurface(0, heights[0], 0, 1))
+    for ring, z in zip((low, high), heights, strict=True):
+        recorder.lay(ring.edges[0], surface, LineOnSurface(0, z, 1, 0))
+    loop = [(low.edges[0], True), (seam, True), (high.edges[0], False), (seam, False)]
+    recorder.face(surface, [loop], outward=outward)
 
 
 def add_teeth(gear: Gear, recorder: Recorder) -> tuple[Chain, Chain]:
@@ -273,3 +326,18 @@ class _ToothRing:
         before, after = ([(edge, True)] for edge in sides) if sides else ([], [])
         around = [*before, *rim, *backward(after), (foot, False)]
         self._face(cone, backward(around) if end.inward > 0 else around, self.places[i])
+
+
+def add_halves(gear: Gear, recorder: Recorder) -> tuple[Chain, Chain]:
+    """Add the toothed sides of both halves, and what is between them.
+
+    Returns the loops of the lower and the upper end face, counter-clockwise seen from +z.
+    """
+    lower, upper = halves(gear)
+    first, below = add_teeth(lower.gear, recorder)
+    above, last = add_teeth(upper.gear, recorder.moved(upper.z, math.radians(upper.rotation)))
+    heights, radius = (gear.half_width, upper.z), gear.gap_diameter / 2
+    rings = tube(recorder, radius, heights, outward=True)
+    for ring, loop, z, outward in zip(rings, (below, above), heights, (True, False), strict=True):
+        recorder.face(level_plane(z), [loop, ring.loop(along=False)], outward=outward)
+    return first, last

@@ -1,4 +1,4 @@
-"""The formats of files: what each holds, which options it minds, and what writes it - an entry here, and a file of its own."""
+"""Formats of files: what each holds, which options it minds, and its writer."""
 
 from __future__ import annotations
 
@@ -8,16 +8,41 @@ from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+import numpy as np
+
+from gearcad.core.errors import require_number, require_switch
+from gearcad.core.records import Floats
+from gearcad.solids.facets.tessellation import Facets
+
 if TYPE_CHECKING:
-    from gearcad.solids.files.options import FileOptions
-    from gearcad.solids.files.products import GearProduct, PairProduct
-    from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
+    from gearcad.solids.files.products import GearProduct, PairProduct, RackPairProduct, RackProduct
     from gearcad.solids.files.train_products import CarrierProduct, TrainProduct
 
-    PartProduct = GearProduct | RackProduct
+    PartProduct: TypeAlias = GearProduct | RackProduct
     AssemblyProduct: TypeAlias = PairProduct | RackPairProduct | TrainProduct
 
-__all__ = ["Format", "formats_minding"]
+
+@dataclass(frozen=True, kw_only=True)
+class FileOptions:
+    """How files are made; which of it matters to a format stands with the format.
+
+    `chord_error` (mm) bounds the facets; `bracket` puts a pair on two shafts with a bracket; `circles` draws the tip,
+    reference, base and root circles beside a section. Of a planetary train, `carrier` makes a carrier with pins, `exploded`
+    moves members apart along the axis, and `turning` lets the scene turn. Raises ParameterError for a chord error that is not
+    positive.
+    """
+
+    chord_error: float = 0.005
+    bracket: bool = False
+    circles: bool = False
+    carrier: bool = False
+    exploded: bool = False
+    turning: bool = False
+
+    def __post_init__(self) -> None:
+        require_number("chord_error", self.chord_error, "mm", above=0)
+        for name in ("bracket", "circles", "carrier", "exploded", "turning"):
+            require_switch(name, getattr(self, name))
 
 
 class Format(Enum):
@@ -69,37 +94,36 @@ def _step(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -
 
 
 def _stl(product: PartProduct | CarrierProduct, path: Path) -> None:
-    from gearcad.solids.files.stl import write_stl
 
     write_stl(product.facets, path)
 
 
 def _3mf(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
-    from gearcad.solids.files.three_mf import write_3mf
+    from gearcad.solids.files.scenes import write_3mf
 
     write_3mf(product.scene(), path)
 
 
 def _glb(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
-    from gearcad.solids.files.glb import write_glb
+    from gearcad.solids.files.scenes import write_glb
 
     write_glb(product.scene(), path)
 
 
 def _turning_glb(product: TrainProduct, path: Path) -> None:
-    from gearcad.solids.files.glb import write_glb
+    from gearcad.solids.files.scenes import write_glb
 
     write_glb(product.scene(), path, product.turning())
 
 
 def _png(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
-    from gearcad.solids.files.pictures.three_views import write_picture
+    from gearcad.solids.files.studio import write_picture
 
     write_picture(product.scene(), path)
 
 
 def _train_png(product: TrainProduct, path: Path) -> None:
-    from gearcad.solids.files.pictures.three_views import write_picture
+    from gearcad.solids.files.studio import write_picture
 
     write_picture(product.scene(), path, product.other_scene())
 
@@ -128,3 +152,30 @@ _ENTRIES = {
     Format.DXF: Entry("exact section, for cutting", _dxf, None, ("circles",), of_bodies=False, write_train=_dxf),
     Format.CSV: Entry("points of flank and fillet", _csv, of_bodies=False),
 }
+
+
+_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attributes", "<u2")])
+_HEADER = 80
+
+_NO_AREA = 1e-13
+"""Twice the area (mm²) of a triangle that has no normal."""
+
+
+def write_stl(facets: Facets, path: Path | str) -> None:
+    """Write binary STL, in mm (the format states no unit) and single precision."""
+    corners = facets.vertices[facets.faces]
+    triangles = np.zeros(len(corners), _TRIANGLE)
+    triangles["normal"], triangles["corners"] = _normals(corners), corners
+    with Path(path).open("wb") as file:
+        file.write(bytes(_HEADER) + np.uint32(len(triangles)).astype("<u4").tobytes())
+        file.write(triangles.data)
+
+
+def _normals(corners: Floats) -> Floats:
+    """Unit normals (n, 3) of triangles (n, 3, 3), outwards; 0 where there is no area."""
+    sides = corners[:, 1:] - corners[:, :2]
+    normals = np.cross(sides[:, 0], sides[:, 1])
+    sizes = np.sqrt((normals * normals) @ np.ones(3))
+    flat = sizes <= _NO_AREA
+    normals[flat], sizes[flat] = 0.0, 1.0
+    return normals * (1.0 / sizes)[:, None]

@@ -1,30 +1,295 @@
-"""What files hold of a planetary train: its gears each by itself, and the train in mesh, moved apart, or turning."""
+"""Products of a planetary train: its gears, the solid of its carrier, and the train in mesh, moved apart, or turning."""
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from gearcad.core.dxf import drawing
+from gearcad.core.records import Floats, Wholes
+from gearcad.geometry.gear_data import section_turn
 from gearcad.planetary import PlanetaryTrain
-from gearcad.solids.carrier_plan import CarrierPlan
-from gearcad.solids.colours import BRIGHT_STEEL, TRAIN_COLOURS
-from gearcad.solids.exact.carrier import carrier_boundary
-from gearcad.solids.exact.products import AssembledProduct, SolidProduct
-from gearcad.solids.exact.train_assembly import train_product
+from gearcad.planetary.train_data import shafts_of, speeds
+from gearcad.solids.body_plan import BRIGHT_STEEL, TRAIN_COLOURS
+from gearcad.solids.exact.boundary import ORIGIN, Boundary, Chain, Point, Recorder, level_plane
+from gearcad.solids.exact.kernel import kernel_solid
+from gearcad.solids.exact.solid import (
+    AssembledProduct,
+    Occurrence,
+    SolidProduct,
+    cad_assembly,
+    cad_solid,
+    gear_boundary,
+    placed,
+)
+from gearcad.solids.exact.teeth import tube
 from gearcad.solids.facets.tessellation import Facets
-from gearcad.solids.files.carrier_facets import carrier_facets
-from gearcad.solids.files.options import FileOptions
-from gearcad.solids.files.part import Part
+from gearcad.solids.files.dxf import draw_circles, draw_section, extent_of, gear_contour
+from gearcad.solids.files.formats import FileOptions
 from gearcad.solids.files.products import GearProduct
-from gearcad.solids.files.train_dxf import write_train_dxf
-from gearcad.solids.files.train_turning import turning_of
-from gearcad.solids.files.turning import Turning
-from gearcad.solids.train_layout import TrainLayout
-from gearcad.solids.train_plan import TrainPlan
+from gearcad.solids.files.scenes import Part, Turning
+from gearcad.solids.train_plan import CarrierPlan, Standing, TrainLayout, TrainPlan
 
-__all__ = ["CarrierProduct", "TrainProduct"]
+if TYPE_CHECKING:
+    import cadquery
+    from ezdxf.document import Drawing
+
+
+_TOLERANCE = 1e-7
+"""Of edges and vertices (mm): planes, cylinders and circles are exact."""
+
+
+def carrier_boundary(plan: CarrierPlan) -> Boundary:
+    """Plates and pins as one closed boundary; pins end flush with the outer faces of plates."""
+    recorder = Recorder(_TOLERANCE / 2)
+    holes: dict[float, list[Chain]] = {end: [] for plate in plan.plates for end in plate}
+    for stretch in _free_stretches(plan):
+        for pin in plan.pins:
+            contours = tube(recorder, plan.diameter / 2, stretch, pin, outward=True)
+            for z, contour, outward in zip(stretch, contours, (False, True), strict=True):
+                if z in holes:
+                    holes[z].append(contour.loop(along=False))
+                else:
+                    recorder.face(level_plane(z), [contour.loop(along=True)], outward=outward)
+    for plate in plan.plates:
+        outer = tube(recorder, plan.outer, plate, outward=True)
+        inner = tube(recorder, plan.inner, plate, outward=False) if plan.inner else []
+        for which, z in enumerate(plate):
+            loops = [outer[which].loop(along=True), *(ring.loop(along=False) for ring in inner[which : which + 1]), *holes[z]]
+            recorder.face(level_plane(z), loops, outward=which == 1)
+    return recorder.boundary()
+
+
+def carrier_solid(plan: CarrierPlan) -> cadquery.Solid:
+    """The same as a solid to go on with in CadQuery: see `carrier_boundary`."""
+    return cad_solid(carrier_boundary(plan))
+
+
+def _free_stretches(plan: CarrierPlan) -> Iterator[tuple[float, float]]:
+    """The heights (mm) between which pins are outside of plates."""
+    at, end = plan.reach
+    for bottom, top in sorted(plan.plates):
+        if at < bottom:
+            yield at, bottom
+        at = top
+    if at < end:
+        yield at, end
+
+
+def train_assembly(
+    train: PlanetaryTrain, *, carrier_angle: float = 0.0, carrier: bool = False, exploded: bool = False
+) -> cadquery.Assembly:
+    """The train with its axis on z, its carrier turned by `carrier_angle` (degrees), backlash split evenly.
+
+    Its parts are called as members and rims are, and `planet_1` and so on, which are assemblies where planets are stepped.
+    `carrier` adds pins and plates; `exploded` moves members apart along the axis. Raises GeometryError for rings without a
+    rim, bodies that stand in each other, and a carrier for planets without bores.
+    """
+    return cad_assembly(train_product(TrainPlan.of(train, carrier_angle=carrier_angle, carrier=carrier, exploded=exploded)))
+
+
+def train_product(plan: TrainPlan) -> AssembledProduct:
+    """The assembly of a plan; bodies that are alike are one product."""
+    layout = plan.layout
+    train, parts = layout.train, _parts(layout)
+    found = [_occurrence(standing, parts) for standing in layout.centrals]
+    for planet in layout.planets:
+        if train.stepped:
+            axle = planet[0].axle
+            rims = tuple(_occurrence(standing, parts, origin=(axle.x, axle.y)) for standing in planet)
+            body = AssembledProduct(f"{train.name} {axle.name}", rims)
+            found.append(Occurrence(axle.name, body, placed((axle.x, axle.y, 0.0))))
+        else:
+            found.append(_occurrence(planet[0], parts))
+    found += [_occurrence(standing, parts) for standing in layout.stages]
+    if plan.carrier is not None:
+        name = layout.carrier.name
+        product = SolidProduct(f"{train.name} {name}", carrier_boundary(plan.carrier), TRAIN_COLOURS["carrier"][0])
+        found.append(Occurrence(name, product, placed()))
+    return AssembledProduct(train.name, tuple(found))
+
+
+def _parts(layout: TrainLayout) -> dict[str, SolidProduct]:
+    """The bodies of a train by their keys."""
+    return {key: SolidProduct(body.name, gear_boundary(body.gear), body.colour) for key, body in layout.bodies.items()}
+
+
+def _occurrence(standing: Standing, parts: dict[str, SolidProduct], origin: Point = ORIGIN) -> Occurrence:
+    """A body in its place, seen from an axis through `origin` (x, y)."""
+    x, y, z = standing.offset
+    frame = placed((x - origin[0], y - origin[1], z), standing.rotation)
+    return Occurrence(standing.name, parts[standing.body.key], frame)
+
+
+_TURN = 0.1
+"""By how much (rad) the normals of neighbouring triangles may differ."""
+
+
+def carrier_facets(plan: CarrierPlan, chord_error: float) -> Facets:
+    """The solid in triangles of the kernel, nowhere more than `chord_error` (mm) from it."""
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+    from OCP.TopAbs import TopAbs_FACE
+    from OCP.TopExp import TopExp_Explorer
+
+    solid = kernel_solid(carrier_boundary(plan))
+    BRepMesh_IncrementalMesh(solid, chord_error, True, _TURN)
+    explorer, points, triangles, count = TopExp_Explorer(solid, TopAbs_FACE), list[Floats](), list[Wholes](), 0
+    while explorer.More():
+        nodes, corners = _of_face(explorer.Current())
+        points.append(nodes)
+        triangles.append(corners + count)
+        count += len(nodes)
+        explorer.Next()
+    # The kernel meshes face by face: along their common edges the points are there twice, to the last bit.
+    unique, same = np.unique(np.concatenate(points), axis=0, return_inverse=True)
+    return Facets(unique, same.reshape(-1)[np.concatenate(triangles)])
+
+
+def _of_face(shape: Any) -> tuple[Floats, Wholes]:
+    """Points (n, 3) and triangles (m, 3) of a face, counter-clockwise seen from outside."""
+    from OCP.BRep import BRep_Tool
+    from OCP.TopAbs import TopAbs_REVERSED
+    from OCP.TopLoc import TopLoc_Location
+    from OCP.TopoDS import TopoDS
+
+    mesh = BRep_Tool.Triangulation_s(TopoDS.Face_s(shape), TopLoc_Location())
+    nodes = [mesh.Node(i) for i in range(1, mesh.NbNodes() + 1)]
+    order = (1, 3, 2) if shape.Orientation() == TopAbs_REVERSED else (1, 2, 3)
+    corners = [[mesh.Triangle(i).Value(k) - 1 for k in order] for i in range(1, mesh.NbTriangles() + 1)]
+    return np.array([(node.X(), node.Y(), node.Z()) for node in nodes]), np.array(corners)
+
+
+_SECONDS = 10.0
+"""That an animation takes at least."""
+
+_MOST_TURNS = 60.0
+"""Of anything, after which an animation ends even if the carrier has not come round."""
+
+_FASTEST = 1.5
+"""Turns a second of anything: what is faster cannot be followed."""
+
+_WHOLE = 1e-6
+"""Of a pitch: what is no nearer to whole ones does not come round."""
+
+
+def turning_of(layout: TrainLayout, given: Mapping[str, float] | None = None) -> Turning:
+    """As `turns_of` says: once, or so often that all teeth come round, where nothing turns over _MOST_TURNS times.
+
+    Raises ParameterError for speeds that contradict each other.
+    """
+    turns = turns_of(layout, given)
+    most = max(map(abs, turns.values()))
+    times = _times_round(layout, turns, most) if most <= _MOST_TURNS else _MOST_TURNS / most
+    return Turning(duration=max(_SECONDS, times * most / _FASTEST), turns={name: times * turn for name, turn in turns.items()})
+
+
+def turns_of(layout: TrainLayout, given: Mapping[str, float] | None = None) -> dict[str, float]:
+    """Turns of all axles by name, seen from what carries each, while the carrier turns once, or the input where it does not.
+
+    As `given` speeds (rpm) say; where they do not suffice, the input turns with its sign in them, or positively. Then a
+    differential's member that is neither input nor output stands still. Raises ParameterError for speeds that contradict each
+    other.
+    """
+    train = layout.train
+    found = speeds(train, _given(train, given or {}))
+    turns = {**found.members, **{planet[0].axle.name: found.planet_relative for planet in layout.planets}}
+    once = next((abs(turns[name]) for name in (train.carrier.name, train.input) if turns[name]), max(map(abs, turns.values())))
+    return {name: speed / once for name, speed in turns.items()}
+
+
+def _times_round(layout: TrainLayout, turns: Mapping[str, float], most: float) -> int:
+    """How often these turns bring every body to where it looks as at first; 1 if that takes too long."""
+    pitches: dict[str, int] = {layout.carrier.name: 1}
+    for standing in layout.standing:
+        # All gears of an axle come round together.
+        name, teeth = standing.axle.name, standing.body.gear.tooth_count
+        pitches[name] = math.gcd(pitches.get(name, 0), teeth)
+    for times in range(1, int(_MOST_TURNS / most) + 1):
+        passed = [times * turns[name] * count for name, count in pitches.items()]
+        if all(abs(each - round(each)) < _WHOLE for each in passed):
+            return times
+    return 1
+
+
+def _given(train: PlanetaryTrain, known: Mapping[str, float]) -> Mapping[str, float]:
+    """The speeds (rpm) that say how all turns."""
+    if len(known) >= (1 if train.fixed else 2) and any(known.values()):
+        return known
+    given = {train.input: math.copysign(1.0, known.get(train.input, 1.0))}
+    if train.fixed is None:
+        shafts = shafts_of(train)
+        busy = {shafts[name].member for name in (train.input, train.output)}
+        given[next(name for name in train.members if name not in busy)] = 0.0
+    return given
+
+
+_SHADES = (1, 5, 3, 30, 6, 4, 2, 40)
+"""Colours (AutoCAD index) of the layers, in turn."""
+
+_NOT_IN_LAYERS = re.compile(r'[<>/\\":;?*|=`,]')
+
+
+def write_train_dxf(layout: TrainLayout, path: Path | str, *, accuracy: float = 0.0005, circles: bool = False) -> None:
+    """Write the transverse sections of all gears as DXF (R2010, mm), each a closed polyline of arcs in its place.
+
+    Gears that mesh are cut by one plane: rims and centrals in the middle of their teeth, a stage in the middle of its pinion's.
+    What is of one gear, bore, rim and bolt holes included, is on a layer of its name; all planets share those of their rims.
+    `circles` draws tip, reference, base and root circles on a layer CIRCLES. The header states how far the drawing reaches.
+    Equal input gives equal bytes. Raises ParameterError for an `accuracy` (mm) below 1e-7.
+    """
+    layers = {key: _NOT_IN_LAYERS.sub("_", key) for key in layout.bodies}
+    contours = {key: gear_contour(body.gear, accuracy) for key, body in layout.bodies.items()}
+    colours = {layers[key]: (_SHADES[i % len(_SHADES)], "CONTINUOUS") for i, key in enumerate(layers)}
+    low, high = np.full(2, math.inf), np.full(2, -math.inf)
+    with drawing(path, colours) as document:
+        for standing in layout.standing:
+            key = standing.body.key
+            placed = _draw(document, standing, contours[key], section_angle(layout, standing), layers[key], circles=circles)
+            least, most = extent_of(placed)
+            rim = standing.body.gear.body.rim_diameter or 0.0
+            place = np.array(standing.offset[:2])
+            low, high = np.minimum(low, least), np.maximum(high, most)
+            if rim:
+                low, high = np.minimum(low, place - rim / 2), np.maximum(high, place + rim / 2)
+        document.modelspace().reset_extents((*low, 0.0), (*high, 0.0))
+
+
+def section_angle(layout: TrainLayout, standing: Standing) -> float:
+    """How far (rad) the section of a gear is turned in the plane that cuts its mesh."""
+    gear = standing.body.gear
+    height = gear.face_width / 2
+    if standing in layout.stages:
+        number = layout.stages.index(standing)
+        pinion = layout.stages[number - number % 2]
+        height = pinion.z + pinion.body.gear.face_width / 2 - standing.z
+    return math.radians(standing.rotation) + float(section_turn(gear, np.array([height]))[0])
+
+
+def _draw(document: Drawing, standing: Standing, contour: Floats, turn: float, layer: str, *, circles: bool) -> Floats:
+    """Draw a gear in its place; its contour there."""
+    from ezdxf.math import Matrix44
+
+    space = document.modelspace()
+    x, y, _ = standing.offset
+    place = Matrix44.z_rotate(turn) @ Matrix44.translate(x, y, 0.0)
+    before = len(space)
+    draw_section(space, standing.body.gear, contour)
+    for entity in space[before:]:
+        entity.dxf.layer = layer
+    if circles:
+        draw_circles(document, standing.body.gear)
+    for entity in space[before:]:
+        entity.transform(place)
+    cosine, sine = math.cos(turn), math.sin(turn)
+    across, along, bulge = contour.T
+    return np.stack([cosine * across - sine * along + x, sine * across + cosine * along + y, bulge], -1)
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ import pytest
 from support.page_server import serve, without_token
 from support.processes import wait_until
 
-from gearcad.designs.starters import starter_text
-from gearcad.page.links import pack
+from gearcad.designs.reader import starter_text
+from gearcad.page.workbench import pack
 
 SOCKET = "/_nicegui_ws/socket.io/?EIO=4"
 UPGRADE = {

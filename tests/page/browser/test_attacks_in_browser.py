@@ -9,10 +9,9 @@ import psutil
 import pytest
 from support.page_server import DESK, TOLD, Tab, serve, without_token
 
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
 from gearcad.page.fields import fields_of
-from gearcad.page.links import pack
-from gearcad.page.workbench import Workbench
+from gearcad.page.workbench import Workbench, pack
 
 SCRIPT = "<img src=x onerror=alert(1)><script>alert(1)</script>"
 TEETH = "pinion.teeth"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gearcad.designs.starters import starter_text
-from gearcad.page.links import pack
+from gearcad.designs.reader import starter_text
+from gearcad.page.workbench import pack
 
 CHANGES = 8
 

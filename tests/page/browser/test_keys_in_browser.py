@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from gearcad.designs.starters import starter_text
-from gearcad.page.links import pack
+from gearcad.designs.reader import starter_text
+from gearcad.page.workbench import pack
 
 _BEGIN = """keep => {
   for (const table of document.querySelectorAll(".inputs .table")) table.open = table.open && keep;

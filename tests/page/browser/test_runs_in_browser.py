@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from gearcad.designs.starters import starter_text
+from gearcad.designs.reader import starter_text
 
 VOLVO = starter_text("volvo-13-44")
 RESULTS = (

@@ -1,0 +1,385 @@
+"""Gates of a check, which decide, and references with a band, which inform; thin rims."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from operator import attrgetter, itemgetter
+from typing import NamedTuple
+
+from gearcad.check.comparison import CheckStrength, Comparison, Subject, agrees, at_most, beside, strength_comparisons
+from gearcad.check.convergence import LEAST_ORDER, Convergence
+from gearcad.check.summary import PRESSURE, ROOTS, PlaneSummary, SolidSummary, Summary
+from gearcad.check.task import CheckTask, face_factors
+from gearcad.contact.plane.cycle import PlaneCycle, conformal
+from gearcad.contact.shared.bodies import Hold, Support, rim_ratio
+from gearcad.contact.shared.loaded import Cycle
+from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.core.errors import format_number
+from gearcad.core.records import Notice, PerGear, Role
+from gearcad.geometry import Gear
+from gearcad.material import Limit, Material, by_gear
+from gearcad.rating.tooth_stiffness import RIM_LIMIT, RING_RIM_LIMIT
+
+_SAME = 1e-9
+"""mm: radii that do not differ."""
+
+_SOURCE = "s_R/h_t from 1.2 on, ISO 6336-3:2006 clause 9"
+
+
+class _Rim(NamedTuple):
+    """The rim of one gear: its support, and its thickness over the tooth depth as it is modelled."""
+
+    role: Role
+    gear: Gear
+    support: Support
+    radius: float
+
+    @property
+    def ratio(self) -> float:
+        return rim_ratio(self.gear, self.radius)
+
+    @property
+    def stiffened(self) -> bool:
+        """True if the gear has a thin rim, and the model keeps it from bending."""
+        bore = self.gear.body.bore / 2
+        thin = bool(bore) and rim_ratio(self.gear, bore) < RIM_LIMIT
+        return thin and self.support.hold is Hold.RIGID and self.radius > bore - _SAME
+
+    @property
+    def words(self) -> str:
+        thickness = self.ratio * (self.gear.tip_diameter - self.gear.root_diameter) / 2
+        return f"the {self.role.value}'s rim ({thickness:.3g} mm, {self.ratio:.3g} tooth depths)"
+
+
+def _rims(task: CheckTask) -> PerGear[_Rim]:
+    supports, radii, gears = task.body.supports(task.pair), task.body.inner_radii(task.pair), task.pair.gears
+    return PerGear.each(lambda role: _Rim(role, gears.pick(role), supports.pick(role), radii.pick(role)))
+
+
+def rim_gates(task: CheckTask) -> Iterator[Comparison]:
+    """A thin rim that is held rigidly does not bend: that is no model of it."""
+    for rim in _rims(task):
+        if rim.stiffened:
+            yield at_most(
+                f"tooth depth over rim, {rim.role.value}",
+                1 / rim.ratio if rim.ratio > 0 else None,
+                1 / RIM_LIMIT,
+                "",
+                _SOURCE,
+                f'a rim as thin as that bends, which a rigid bore keeps it from: {rim.role.value}_support = "free"',
+                reason="nothing is left of the rim",
+            )
+
+
+def bending_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
+    """Where a rim bends, its roots are compressed more than stretched, and its bore is stretched too."""
+    for role, rim in _rims(task).items():
+        material = task.materials.pick(role)
+        limit = material.root_limit
+        least = limit[0] if isinstance(limit, tuple) else limit
+        if least is None or not rim.support.bends:
+            continue
+        for words, value, note in (
+            ("root compression", abs(summary.root_compression.pick(role)), "where a rim bends it changes sign"),
+            ("tension on the bore", summary.bore_tension.pick(role), "where the rim bends"),
+        ):
+            source = f"limit of {material.name}"
+            yield at_most(f"{words}, {rim.role.value}", value, least, "MPa", source, note, subject=Subject.STRENGTH)
+
+
+def bending_notes(task: CheckTask, summary: Summary) -> PerGear[str]:
+    """What the comparison of each gear's root tension with the standard's has to add where the rim bends."""
+
+    def note(rim: _Rim) -> str:
+        factor, compression = task.rating.roots.pick(rim.role).rim_thickness_factor, summary.root_compression.pick(rim.role)
+        return (
+            f"; the rim bends: Y_B = {factor:.3g} raises ISO's tension, in the FE it is the compression "
+            f"({compression:.0f} MPa) that rises"
+        )
+
+    return _rims(task).map(lambda rim: note(rim) if rim.support.bends else "")
+
+
+def rim_notices(task: CheckTask, summary: Summary) -> Iterator[Notice]:
+    """How a thin rim is taken, and what is evaluated of it."""
+    for rim in _rims(task):
+        owner, hold = rim.role.value, rim.support.hold
+        if rim.gear.internal:
+            yield from _of_ring(rim)
+        elif rim.support.bends:
+            yield Notice("thin-rim", _bending(rim, task, summary))
+        elif rim.ratio < RIM_LIMIT and hold is Hold.RIGID:
+            text = f'{rim.words} is held rigidly, which keeps it from bending; {owner}_support = "free" lets it'
+            yield Notice("rigid-rim", text)
+        elif hold is Hold.SHAFT:
+            yield Notice("bonded-shaft", f"the {owner} is bonded to its shaft: a fit that opens under load is softer")
+        if hold is Hold.KEY:
+            yield Notice(
+                "key",
+                f"the {owner}'s stresses are those with the key under the worst of all teeth; its stiffness is that of a "
+                "bore without key, and the notch of the keyway is not in the section",
+            )
+
+
+def _of_ring(rim: _Rim) -> Iterator[Notice]:
+    thickness = rim.ratio * (rim.gear.tip_diameter - rim.gear.root_diameter) / 2 / rim.gear.normal_module
+    if rim.support.hold is Hold.BOLTS:
+        text = (
+            f"the ring is {rim.support.describe(rim.radius)}: at each the sector of a tooth is rigid from there outwards, and "
+            "nothing holds the rim between them; root stresses are those of the loaded teeth"
+        )
+        yield Notice("bolted-ring", text)
+    elif thickness < RING_RIM_LIMIT:
+        text = (
+            f"the ring's rim ({thickness:.3g} m_n, below {RING_RIM_LIMIT:g}) is held all round, as by a stiff housing, which "
+            f'keeps it from bending; {rim.role.value}_support = "bolts" lets it bend between them'
+        )
+        yield Notice("rigid-rim", text)
+
+
+def _bending(rim: _Rim, task: CheckTask, summary: Summary) -> str:
+    tension, compression, bore = (
+        each.pick(rim.role) for each in (summary.root_tension, summary.root_compression, summary.bore_tension)
+    )
+    teeth = "its loaded teeth" if task.body.solid else "all its teeth"
+    return (
+        f"{rim.words} bends: its bore is {rim.support.words} {format_number(round(2 * rim.radius, 4))} mm; root tension "
+        f"({tension:.0f} MPa) and compression ({compression:.0f} MPa) are the greatest of {teeth}, the tension "
+        f"on its bore is {bore or 0:.0f} MPa"
+    )
+
+
+_REACTION = 0.005
+"""Torque on a hub against that applied: interpolation between unit loads, not equilibrium, makes up what is missing."""
+
+_SAMPLING = 0.002
+"""What positions may miss of a stress."""
+
+
+def compare_common(
+    task: CheckTask,
+    cycle: Cycle,
+    summary: Summary,
+    convergence: tuple[Convergence, ...],
+    *,
+    equilibrium: str,
+    errors: tuple[float, ...],
+    flicker: float = _SAMPLING,
+) -> Iterator[Comparison]:
+    """Gates first.
+
+    `equilibrium` says where torques on the hubs are held against those applied, `errors` are what the mesh may do to each
+    quantity, `flicker` is what positions may miss of a pressure.
+    """
+    yield from _reactions(cycle, equilibrium)
+    yield from _mesh_errors(convergence, errors, summary)
+    yield from _sampling(summary, flicker)
+    yield from rim_gates(task)
+    yield from _material_limits(task, summary)
+    yield from bending_limits(task, summary)
+    yield from strength_comparisons(CheckStrength.of(task, summary))
+    yield from standards(task, summary)
+
+
+def farness(computed: float, expected: float) -> float:
+    """Relative distance; infinite for what is no number, which is the worst of all."""
+    found = abs(computed / expected - 1)
+    return found if math.isfinite(found) else math.inf
+
+
+def _reactions(cycle: Cycle, source: str) -> Iterator[Comparison]:
+    """Torques (N·m) on the hubs, position by position, against those applied, where they differ most."""
+    model = cycle.model
+    force = model.force(cycle.torque) * model.width / 1000
+    for role, body in model.bodies.items():
+        applied = force * body.flank.base_radius
+        worst = max((position.torques.pick(role) for position in cycle.every), key=lambda torque: farness(torque, applied))
+        yield agrees(f"torque reaction of the {role.value}", worst, applied, _REACTION, "N·m", source)
+
+
+def _mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...], summary: Summary) -> Iterator[Comparison]:
+    """The estimated error of each quantity, by mesh and positions together, against what it may be (relative)."""
+    for each, limit in zip(convergence, limits, strict=bool(convergence)):
+        unclear = "the changes from mesh to mesh show no order"
+        order = unclear if each.order is None or each.order < LEAST_ORDER else f"observed order {each.order:.1f}"
+        between = summary.sampling_error[each.key]
+        source = "three meshes, Richardson, and what the positions may miss"
+        note = f"{100 * each.error:.2g} % by the mesh ({order}), {100 * between:.2g} % by the positions"
+        told = 100 * (each.error + between)
+        yield at_most(f"discretisation error, {each.quantity}", told, 100 * limit, "%", source, note)
+
+
+def _sampling(summary: Summary, of_pressure: float) -> Iterator[Comparison]:
+    """What the positions may miss of the stresses that are told, against what they may (relative)."""
+    errors = summary.sampling_error
+    for words, names, limit in (("root stresses", ROOTS, _SAMPLING), ("contact pressure", (PRESSURE,), of_pressure)):
+        worst = max((each.name for each in names), key=lambda name: errors.get(name, math.inf))
+        error = errors.get(worst, math.inf)
+        yield at_most(
+            f"sampling error of the {words}",
+            100 * error,
+            100 * limit,
+            "%",
+            "what can stand between the positions, by the curve beside them",
+            reason="" if math.isfinite(error) else summary.missing.get(worst, "nothing is known of what stands beside it"),
+        )
+
+
+def _material_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
+    """What the materials give a limit for."""
+    deep = f"{summary.von_mises_depth:.3g} mm deep" if summary.von_mises_depth is not None else ""
+    away, missing = "the greatest away from the corners of the flanks", summary.missing.get
+    every = [(f", {gear}" if gear else "", of) for gear, of in by_gear(task.material).items()]
+    pressures = [(f"contact pressure{whose}", summary.contact_pressure, of, of.contact_limit) for whose, of in every]
+    tensions = summary.root_tension
+    roots = [(f"root stress, {role.value}", tensions.pick(role), of, of.root_limit) for role, of in task.materials.items()]
+    below = [(f"von Mises stress below the flank{whose}", summary.von_mises, of, of.yield_strength) for whose, of in every]
+    for found, told, reason in (
+        (pressures, away, missing("contact_pressure", "")),
+        (roots, "tension", ""),
+        (below, deep, missing("von_mises", "")),
+    ):
+        for words, value, material, limit in found:
+            yield from _within_limit(words, value, material, limit, told, reason)
+
+
+def _within_limit(
+    words: str, value: float | None, material: Material, limit: Limit, note: str, reason: str
+) -> Iterator[Comparison]:
+    """A stress (MPa) against the limit of a material, if it has one."""
+    if isinstance(limit, tuple):
+        note += f"; the limit of this material lies between {limit[0]:g} and {limit[1]:g} MPa, and the lower one counts"
+        limit = limit[0]
+    if limit is not None:
+        yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note, reason, subject=Subject.STRENGTH)
+
+
+def standards(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
+    """Root stress and stiffness against ISO 6336 or DIN 3990, with a band for what the two leave out differently."""
+    edition = task.rating.edition
+    root, stiffness = task.options.root_band / 100, task.options.stiffness_band / 100
+    sharing = "ISO puts the whole load on one pair of teeth at its outer point; the FE shares it, and sees the true fillet"
+    notes = bending_notes(task, summary)
+    for role, rating in task.rating.roots.items():
+        source = f"sigma_F0, {edition.dated_part(3)} Method B, over b = {rating.width:.4g} mm"
+        value, reference = summary.root_tension.pick(role), task.rating.root_stresses.pick(role)
+        yield beside(f"root stress, {role.value}", value, reference, root, "MPa", source, sharing + notes.pick(role))
+    standard = task.rating.stiffness
+    body = "ISO's discs are stiffer or softer than this body; see how the bodies are held"
+    for words, value, reference, symbol in (
+        ("mean mesh stiffness", summary.mesh_stiffness_mean, standard.mesh_alpha, "c_gamma_alpha"),
+        ("single stiffness", summary.single_stiffness, standard.single, "c'"),
+    ):
+        source = f"{symbol}, {edition.dated_part(1)} Method B"
+        yield beside(words, value, reference, stiffness, "N/(mm µm)", source, body)
+
+
+_PRESSURE = 0.01
+_HALF_WIDTH = 0.02
+"""What contact and Hertz may differ by. The width is less sharp than the pressure: flanks are no parabolas up to the ends of
+the contact, and teeth bend along it. High teeth (m 2, h_a 1.35) have 1.25 % on any mesh, with pressures within 0.8 %.
+"""
+_DISCRETISATION = 0.01
+
+
+def compare_plane(
+    task: CheckTask, cycle: PlaneCycle, summary: PlaneSummary, convergence: tuple[Convergence, ...]
+) -> tuple[Comparison, ...]:
+    """All comparisons, gates first."""
+    equilibrium = "equilibrium: the torque that is applied through the teeth"
+    common = compare_common(task, cycle, summary, convergence, equilibrium=equilibrium, errors=3 * (_DISCRETISATION,))
+    return (*_hertz(cycle, summary), *common)
+
+
+def _hertz(cycle: PlaneCycle, summary: PlaneSummary) -> Iterator[Comparison]:
+    """Peak pressure and half width against two cylinders under the load carried, where they are furthest apart.
+
+    Contacts too wide for two cylinders, or beside a parabolic relief, are left out; where there are no others the
+    comparison is for information.
+    """
+    every = [found for found in cycle.interior_contacts if found[1].two_cylinders]
+    narrow = [found for found in every if not conformal(found[1])]
+    contacts, compared = (every, beside) if every and not narrow else (narrow, agrees)
+    source = "Hertz: two cylinders of the flanks' curvature under the load that this pair of teeth carries"
+    for words, computed, reference, tolerance, unit in (
+        ("peak contact pressure", attrgetter("peak_pressure"), attrgetter("hertz_pressure"), _PRESSURE, "MPa"),
+        ("half width of contact", attrgetter("half_width"), attrgetter("hertz_half_width"), _HALF_WIDTH, "mm"),
+    ):
+        if not contacts:
+            reason = summary.missing.get("contact_pressure", "all contacts are on parabolic reliefs, whose curvature changes")
+            yield compared(words, None, None, tolerance, unit, source, reason=reason)
+            continue
+        found = [(farness(computed(contact), reference(contact)), position, contact) for position, contact in contacts]
+        _, position, contact = max(found, key=itemgetter(0))
+        note = f"the worst of {len(contacts)} interior contacts, at roll angle {position.roll_angle:.2f} deg"
+        reason = "its pressures have no width to tell" if math.isnan(computed(contact)) else ""
+        yield compared(words, computed(contact), reference(contact), tolerance, unit, source, note, reason)
+
+
+_ERRORS = (0.01, 0.02, 0.02)
+"""What the mesh may do to the mesh stiffness, and to the root stresses of both gears, each of which is that of one point."""
+
+
+_FLICKER = 0.03
+"""What positions may miss of a pressure: where lines cross the start of a linear relief, it flickers from cell to cell."""
+
+
+def compare_solid(
+    task: CheckTask, cycle: SolidCycle, summary: SolidSummary, convergence: tuple[Convergence, ...]
+) -> tuple[Comparison, ...]:
+    """All comparisons, gates first."""
+    equilibrium = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.every)} positions"
+    common = compare_common(task, cycle, summary, convergence, equilibrium=equilibrium, errors=_ERRORS, flicker=_FLICKER)
+    return (*common, *_contact(task, summary), *_face(task, summary))
+
+
+def _contact(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
+    """Pressure and lines of contact against part 2 of the standard and the geometry."""
+    band, rating = task.options.contact_band / 100, task.rating
+    away, middle = "the FE's is the greatest of all places away from edges", "in the middle of the common face width"
+    standard = rating.edition.dated_part(2)
+    nominal = rating.flank.nominal_stress * math.sqrt(rating.application_factor)
+    for words, key, reference, source, note in (
+        ("contact pressure, pinion", "contact_pressure", rating.contact_stresses.pinion, "Z_B sigma_H0", away),
+        ("contact pressure, wheel", "contact_pressure", rating.contact_stresses.wheel, "Z_D sigma_H0", away),
+        ("contact pressure at the pitch point", "contact_pressure_pitch_point", nominal, "sigma_H0", middle),
+    ):
+        value, source, reason = getattr(summary, key), f"{source}, {standard} Method B", summary.missing.get(key, "")
+        yield beside(words, value, reference, band, "MPa", source, note, reason)
+    lengths = task.pair.contact_line_lengths
+    yield beside(
+        "mean length of the lines of contact",
+        summary.contact_length_mean,
+        lengths.mean,
+        band,
+        "mm",
+        "epsilon_alpha b/cos beta_b",
+        "the FE counts cells that carry: bent teeth touch early and late, and modified or misaligned flanks not everywhere",
+    )
+    yield beside(
+        "greatest line load",
+        summary.line_load_max,
+        rating.normal_force * rating.application_factor / lengths.minimum,
+        band,
+        "N/mm",
+        "F_bn over the least length of the lines of contact",
+        "rigid gears, load even along all lines, where these are shortest: the FE is above it by how uneven the load is",
+        summary.missing.get("line_load_max", ""),
+    )
+
+
+def _face(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
+    """Face load factors against Method C."""
+    band, factors = task.options.contact_band / 100, face_factors(task)
+    note = (
+        f"Method C knows F_beta_y = {abs(factors.misalignment):.3g} µm, from misalignment and helix angle modifications alone: "
+        "no edges, crowning, or deflection of the bodies"
+    )
+    source = "ISO 6336-1:2006 Method C"
+    for words, value, reference in (
+        ("face load factor K_Hbeta", summary.face_load_factor, factors.flank),
+        ("face load factor K_Fbeta, pinion", summary.root_face_load_factor.pinion, factors.root),
+        ("face load factor K_Fbeta, wheel", summary.root_face_load_factor.wheel, factors.root),
+    ):
+        yield beside(words, value, reference, band, "", source, note)

@@ -1,1 +1,0 @@
-"""The check in the plane."""

@@ -1,1 +1,0 @@
-"""The flank modifications that serve best, sought among many variants of the same bodies."""

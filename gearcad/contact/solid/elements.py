@@ -1,0 +1,248 @@
+"""Quadratic hexahedra of a solid body: stiffness, faces with tractions, and a hub that follows a free bore.
+
+As `contact.plane.support` in the plane, with six dofs for three: torque, forces along x, y and z, and moments about x and y
+through the middle of the face width.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gearcad.core.records import Floats, Wholes
+from gearcad.material import Material
+from gearcad.meshing.outline import Side
+from gearcad.meshing.sector import SweptMesh, turned
+
+_CORNERS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+_MIDDLES = np.array([[0.5, 0], [1, 0.5], [0.5, 1], [0, 0.5]])
+PLACES = np.array(
+    [
+        *([x, y, z] for z in (0.0, 1.0) for x, y in (*_CORNERS, *_MIDDLES)),
+        *([x, y, 0.5] for x, y in _CORNERS),
+    ]
+)
+"""Our order of the nodes in the unit cube: lower face, upper face, half-way up."""
+
+_ORDER = 5
+"""Of quadrature: 3 x 3 x 3 points. Fewer leave hexahedra with zero-energy modes, more change nothing that shows."""
+
+
+class _Quadrature(NamedTuple):
+    slopes: Floats  # (points, 20, 3) of the shape functions
+    weights: Floats
+
+
+@cache
+def _hexahedra_rule() -> _Quadrature:
+    from skfem import ElementHexS2
+    from skfem.quadrature import get_quadrature
+
+    places, weights = get_quadrature(ElementHexS2.refdom, _ORDER)
+    return _Quadrature(slopes_at(places), weights)
+
+
+def slopes_at(places: Floats) -> Floats:
+    """Slopes (n, 20, 3) of the shape functions at places (3, n) in the unit cube."""
+    from skfem import ElementHexS2
+
+    element = ElementHexS2()
+    index = [int(np.argmin(np.abs(element.doflocs - place).sum(axis=1))) for place in PLACES]
+    slopes: Floats = np.stack([element.lbasis(places, k)[1] for k in index])
+    return slopes.transpose(2, 0, 1)
+
+
+def lame(material: Material) -> tuple[float, float]:
+    """lambda, mu (MPa)."""
+    e, nu = material.youngs_modulus, material.poisson_ratio
+    return e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))
+
+
+def stiffness_matrices(points: Floats, material: Material) -> Floats:
+    """Matrices (m, 60, 60) in N/mm of hexahedra with nodes at `points` (m, 20, 3), dof 3 a + i."""
+    rule, (first, second) = _hexahedra_rule(), lame(material)
+    jacobian = np.einsum("qak,mai->mqik", rule.slopes, points)
+    volume = np.linalg.det(jacobian) * rule.weights
+    slopes = np.einsum("qak,mqki->mqai", rule.slopes, np.linalg.inv(jacobian), optimize=True)
+    count = len(points)
+    flat = slopes.reshape(count, len(rule.weights), 60)
+    product = ((flat * volume[..., None]).transpose(0, 2, 1) @ flat).reshape(count, 20, 3, 20, 3)
+    trace = np.einsum("maibi->mab", product)
+    matrices = first * product + second * product.transpose(0, 1, 4, 3, 2)
+    for axis in range(3):
+        matrices[:, :, axis, :, axis] += second * trace
+    result: Floats = matrices.reshape(count, 60, 60)
+    return result
+
+
+def layer_matrices(mesh: SweptMesh, quads: Wholes, layer: int, material: Material) -> Floats:
+    """Matrices (m, 60, 60) of the hexahedra over section quadrangles (m, 8), in the axes that turn with the section."""
+    thickness = float(mesh.planes[layer + 1] - mesh.planes[layer])
+    levels = np.repeat([-0.5, 0.5, 0.0], [8, 8, 4]) * thickness
+    flat = mesh.section.points[quads][:, [*range(8), *range(8), *range(4)]]
+    angles = mesh.rate * levels
+    places = turned(flat.reshape(-1, 2), np.tile(angles, len(quads))).reshape(len(quads), 20, 2)
+    points = np.concatenate([places, np.broadcast_to(levels[:, None], (len(quads), 20, 1))], -1)
+    turn = np.zeros((60, 60))
+    cosine, sine = np.cos(angles), np.sin(angles)
+    x = 3 * np.arange(20)
+    turn[x, x], turn[x, x + 1], turn[x + 1, x], turn[x + 1, x + 1], turn[x + 2, x + 2] = cosine, -sine, sine, cosine, 1
+    result: Floats = turn.T @ stiffness_matrices(points, material) @ turn
+    return result
+
+
+_FAR = 3
+"""Gauss points each way on a face, far from a singular point."""
+
+_CLOSE = 1.5
+"""A face is near if it is within so many of its own sizes."""
+
+
+@cache
+def _rule(count: int) -> tuple[Floats, Floats, Floats]:
+    """Shape functions (points, 8), their slopes (2, points, 8), and weights of `count` x `count` Gauss points."""
+    from skfem import ElementQuadS2
+
+    element = ElementQuadS2()
+    place, weight = np.polynomial.legendre.leggauss(count)
+    x, y = (np.ravel(each) for each in np.meshgrid((place + 1) / 2, (place + 1) / 2, indexing="ij"))
+    found = [element.lbasis(np.stack([x, y]), k) for k in range(8)]
+    values, slopes = np.stack([each[0] for each in found], -1), np.stack([each[1] for each in found], -1)
+    return values, slopes, np.outer(weight, weight).ravel() / 4
+
+
+@dataclass(frozen=True)
+class Faces:
+    """Quadratic faces (m, 8), four vertices and the nodes between, counter-clockwise seen from outside."""
+
+    nodes: Wholes
+    points: Floats
+
+    @cached_property
+    def _centres(self) -> Floats:
+        result: Floats = self.points[:, :4].mean(axis=1)
+        return result
+
+    @cached_property
+    def _sizes(self) -> Floats:
+        result: Floats = np.linalg.norm(self.points[:, :4] - self._centres[:, None], axis=-1).max(axis=1)
+        return result
+
+    @cached_property
+    def _far(self) -> tuple[Floats, Floats]:
+        return self._gauss(np.arange(len(self.nodes)), _FAR)
+
+    def _gauss(self, faces: Wholes, count: int) -> tuple[Floats, Floats]:
+        """Gauss points and normals, times the area, of some faces: (m, points, 3) each."""
+        values, slopes, weights = _rule(count)
+        points = values @ self.points[faces]
+        first, second = (slope @ self.points[faces] for slope in slopes)
+        return points, np.cross(first, second) * weights[:, None]
+
+    @property
+    def used(self) -> Wholes:
+        """Nodes (n,) of the faces, sorted."""
+        return self._sums[0]
+
+    @cached_property
+    def _sums(self) -> tuple[Wholes, Any]:
+        return summing(self.nodes)
+
+    def forces(self, traction: Callable[[Floats, Floats], Floats], singular_at: Floats, near: int) -> Floats:
+        """Forces (n, 3) on the nodes that are `used` of a traction field that is singular at one point; `near` Gauss points
+        each way around it.
+        """
+        distance = np.linalg.norm(self._centres - singular_at, axis=-1)
+        close = np.flatnonzero(distance < (1 + _CLOSE) * self._sizes)
+        nodal = _rule(_FAR)[0].T @ traction(*self._far)
+        nodal[close] = _rule(near)[0].T @ traction(*self._gauss(close, near))
+        result: Floats = self._sums[1] @ nodal.reshape(-1, 3)
+        return result
+
+    def among(self, nodes: Wholes) -> Faces:
+        """The faces all of whose nodes are among some."""
+        chosen = np.isin(self.nodes, nodes).all(axis=1)
+        return Faces(self.nodes[chosen], self.points[chosen])
+
+    def smooth_forces(self, mesh: SweptMesh, traction: Callable[[Floats, Floats], Floats]) -> Floats:
+        """Nodal forces (n, 3, ...) of a smooth traction field."""
+        nodal = np.einsum("qa,mqc...->mac...", _rule(_FAR)[0], traction(*self._far))
+        used, sums = self._sums
+        result = np.zeros((mesh.nodes, *nodal.shape[2:]))
+        result[used] = (sums @ nodal.reshape(self.nodes.size, -1)).reshape(-1, *nodal.shape[2:])
+        return result
+
+
+def summing(nodes: Wholes) -> tuple[Wholes, Any]:
+    """The nodes (n,) that elements use, sorted, and the matrix (scipy CSR, n x elements' nodes) that sums values at them."""
+    import scipy.sparse
+
+    used, index = np.unique(nodes, return_inverse=True)
+    entries = (np.ones(nodes.size), (index.ravel(), np.arange(nodes.size)))
+    return used, scipy.sparse.csr_matrix(entries, shape=(len(used), nodes.size))
+
+
+def boundary_faces(mesh: SweptMesh, quads: Wholes) -> Faces:
+    """The faces around the hexahedra over some section quadrangles: sides of all layers, and both ends."""
+    section = mesh.section.quads[quads]
+    edges = section[:, [[0, 4, 1], [1, 5, 2], [2, 6, 3], [3, 7, 0]]].reshape(-1, 3)
+    _, index, times = np.unique(edges[:, 1], return_index=True, return_counts=True)
+    once = edges[index[times == 1]]
+    found = [mesh.side_faces(once, layer) for layer in range(mesh.layers)]
+    top = section + mesh.plane(mesh.layers)
+    bottom = (section + mesh.plane(0))[:, [0, 3, 2, 1, 7, 6, 5, 4]]
+    nodes = np.concatenate([*found, top, bottom])
+    return Faces(nodes, mesh.points[nodes])
+
+
+HUB_PARITIES = np.array([-1.0, 1.0, -1.0, -1.0, 1.0, -1.0])
+"""Of the dofs of a hub those that a half turn about the middle of a tooth leaves as they are, and those it makes opposite."""
+
+
+def rigid_motions(points: Floats, middle: float) -> Floats:
+    """Displacements (..., 3, 6) of points (..., 3) in mm by the dofs of the hub as motions of 1 rad or 1 mm.
+
+    `middle` (mm) is the height of the axes of tilting.
+    """
+    x, y, z = np.moveaxis(points, -1, 0)
+    zero, one, up = np.zeros_like(x), np.ones_like(x), z - middle
+    motions = [(-y, x, zero), (one, zero, zero), (zero, one, zero), (zero, zero, one), (zero, -up, y), (up, zero, -x)]
+    return np.stack([np.stack(motion, -1) for motion in motions], -1)
+
+
+def bore_forces(mesh: SweptMesh) -> Floats:
+    """Nodal forces (3 nodes, 6) in the turning axes, by tractions on the bore like a rigid motion's part along its surface."""
+    section = mesh.section
+    inner = np.isin(section.quads, mesh.side(Side.HELD))
+    faces = boundary_faces(mesh, np.flatnonzero(inner.sum(axis=1) >= _ON_ARC)).among(mesh.over(mesh.side(Side.HELD)))
+    middle = (mesh.planes[0] + mesh.planes[-1]) / 2
+
+    def sheared(points: Floats, normals: Floats) -> Floats:
+        area = np.linalg.norm(normals, axis=-1)[..., None, None]
+        outward = points * [1.0, 1.0, 0.0] / np.hypot(points[..., :1], points[..., 1:2])
+        motions = rigid_motions(points, middle)
+        along: Floats = motions - outward[..., None] * np.einsum("...c,...cj->...j", outward, motions)[..., None, :]
+        along *= area
+        return along
+
+    forces = faces.smooth_forces(mesh, sheared)
+    turning: Floats = mesh.to_turning(forces).reshape(-1, forces.shape[-1])
+    return turning
+
+
+_ON_ARC = 3
+"""Nodes of a quadrangle on the bore if an edge of it is."""
+
+
+def seen_at(angle: float) -> Floats:
+    """Dofs of the hub (6, 6) as a sector turned by an angle (rad) sees them, from those that the loaded one sees."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    seen = np.eye(6)
+    for first in (1, 4):
+        seen[first : first + 2, first : first + 2] = [[cosine, sine], [-sine, cosine]]
+    return seen

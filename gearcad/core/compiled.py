@@ -1,0 +1,26 @@
+"""Machine code by numba. Import this room inside functions only: numba takes half a second to come."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numba
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def compiled(function: Function) -> Function:
+    """Machine code that lets other threads run and rounds as written; kept on disk where that can be written."""
+    options = {"nogil": True, "error_model": "numpy"}
+    try:
+        made: Function = numba.njit(cache=True, **options)(function)
+    except RuntimeError:  # no folder for it
+        made = numba.njit(**options)(function)
+    return made
+
+
+def inlined(function: Function) -> Function:
+    """The same, taken into the code of its callers: passing an array to a function takes longer than using it."""
+    made: Function = numba.njit(nogil=True, error_model="numpy", inline="always")(function)
+    return made

@@ -1,0 +1,199 @@
+"""Runtime: CPU cores, memory of the machine, progress, and files that ship with the package."""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple, Protocol, TypeVar
+
+Item = TypeVar("Item")
+Found = TypeVar("Found")
+
+_VARIABLES = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
+"""What a library reads when it is loaded, and never again."""
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """One thread for all that is loaded, and for what is loaded meanwhile."""
+    from threadpoolctl import ThreadpoolController
+
+    there = ThreadpoolController()
+    given = {name: os.environ.get(name) for name in _VARIABLES}
+    os.environ.update(dict.fromkeys(_VARIABLES, "1"))
+    try:
+        with there.limit(limits=1):
+            yield
+    finally:
+        for name, value in given.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+        known = {each.filepath for each in there.lib_controllers}
+        for each in ThreadpoolController().select(user_api="blas").lib_controllers:
+            if each.filepath not in known:
+                each.set_num_threads(_usual())
+
+
+def _usual() -> int:
+    """Threads that a library has that is loaded elsewhere."""
+    asked = next((os.environ[name] for name in _VARIABLES if os.environ.get(name, "").isdecimal()), "")
+    return int(asked) if asked else cores()
+
+
+def on_all_cores(
+    work: Callable[[Item], Found], items: Sequence[Item], counted: Callable[[int, int], None] = lambda _done, _count: None
+) -> list[Found]:
+    """What `work` (compiled code, FFT) makes of each of the items, in order; `counted` hears how many are done, of how many."""
+    from concurrent.futures import ThreadPoolExecutor
+
+    found: list[Found] = []
+    with ThreadPoolExecutor(cores()) as pool:
+        try:
+            for done, each in enumerate(pool.map(work, items)):
+                found.append(each)
+                counted(min(done + 1, len(items) - 1), len(items))
+        except BaseException:
+            pool.shutdown(cancel_futures=True)  # what is raised, such as Ctrl-C, waits for none that has not begun
+            raise
+    return found
+
+
+def cores() -> int:
+    """That this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def machine_memory() -> float:
+    """Bytes that the machine has, or less where the system permits less; endless where that is not told."""
+    try:
+        import resource
+
+        machine = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+        permitted = resource.getrlimit(resource.RLIMIT_AS)[0]
+    except (ImportError, AttributeError, ValueError, OSError):  # Windows has neither
+        return math.inf
+    return float(machine if permitted == resource.RLIM_INFINITY else min(machine, permitted))
+
+
+_SETTLED = 0.1
+"""Share of a job from which on its own pace tells the time left."""
+
+Progress = Callable[[str, float, float], None]
+"""Called with what is being done, how much of the job is done, and how much there is (0: nobody knows yet).
+
+Both are in files, rows, steps or seconds expected. What is being done is a step, or a step and more of it: "making, 2 failed".
+"""
+
+Share = Callable[[float], None]
+"""Called with the share (0 ... 1) of one step that is done."""
+
+
+def unheard(_share: float) -> None:
+    """A Share for those who do not ask."""
+
+
+def part(share: Share, begin: float, end: float) -> Share:
+    """What tells the share of a part that begins and ends at these shares of the whole."""
+    return lambda done: share(begin + done * (end - begin))
+
+
+def onwards(share: Share) -> Share:
+    """Never backwards, where a part may have to be done again."""
+    most = 0.0
+
+    def tell(done: float) -> None:
+        nonlocal most
+        most = max(most, min(done, 1.0))
+        share(most)
+
+    return tell
+
+
+class Tell(Protocol):
+    """Called with what is being done, and how much of it is."""
+
+    def __call__(self, step: str, share: float = 0.0) -> None: ...
+
+
+def untold(step: str, share: float = 0.0) -> None:
+    """A Tell for those who do not ask."""
+
+
+class Expected(NamedTuple):
+    """What a job is expected to take: seconds on a usual computer, and bytes of memory at the most. Both are rough.
+
+    `makes` says in words what comes of it, where that is known beforehand.
+    """
+
+    seconds: float
+    memory: float
+    makes: str = ""
+
+
+class Agenda:
+    """The steps of a job in order, with the seconds that each is expected to take; called at the begin of each, and within."""
+
+    def __init__(self, progress: Progress | None, steps: Mapping[str, float]) -> None:
+        self._progress, self._steps = progress, steps
+        self._all = sum(steps.values()) or 1.0  # steps that take nothing are still told
+
+    def __call__(self, step: str, share: float = 0.0, detail: str = "") -> None:
+        """Tell that a share of a step is done; `detail` says more of what is being done."""
+        if self._progress is None:
+            return
+        names = list(self._steps)
+        before = sum(self._steps[name] for name in names[: names.index(step)])
+        self._progress(f"{step}, {detail}" if detail else step, before + share * self._steps[step], self._all)
+
+    def within(self, step: str, detail: str = "") -> Share:
+        """What tells the share of one step."""
+        return lambda share: self(step, share, detail)
+
+    def counted(self, step: str, word: str) -> Callable[[int, int], None]:
+        """What tells that `done` of `count` things, called `word`, are done."""
+        return lambda done, count: self(step, done / count, f"{word} {done + 1} of {count}")
+
+
+class Clock:
+    """How long a job still takes: by its expected time at first, by its own pace later."""
+
+    def __init__(self, expected: Expected | None) -> None:
+        self.began, self.expected = time.monotonic(), expected
+
+    def left(self, share: float) -> str:
+        """In words; nothing where shares are those of steps, which take what they take."""
+        if self.expected is None:
+            return ""
+        gone = time.monotonic() - self.began
+        settled = share > _SETTLED and gone > 1
+        seconds = gone * (1 - share) / share if settled else self.expected.seconds * (1 - share)
+        return f"{about(seconds)} left"
+
+
+def about(seconds: float) -> str:
+    """A time that is known roughly."""
+    if seconds < 90:
+        step = 1 if seconds < 10 else 5
+        return f"about {max(step * round(seconds / step), 1)} s"
+    return f"about {round(seconds / 60)} min" if seconds < 5400 else f"about {seconds / 3600:.1f} h"
+
+
+def about_memory(size: float) -> str:
+    """A size in bytes that is known roughly."""
+    return f"{size / 1e9:.1f} GB" if size >= 0.95e9 else f"{100 * math.ceil(size / 1e8)} MB"
+
+
+PACKAGE = Path(__file__).parents[1]
+"""The folder of the code."""
+
+
+def templates() -> Path:
+    """The folder of starters and of the templates of reports: inside the package in a wheel, beside it in a checkout."""
+    installed = PACKAGE / "templates"
+    return installed if installed.is_dir() else PACKAGE.parent / "templates"

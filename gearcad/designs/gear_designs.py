@@ -1,0 +1,219 @@
+"""Designs of a single gear, `[gear]`, and of a rack, `[rack]`; what gears, racks and pairs have in common."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypedDict
+
+from gearcad.core.errors import GeometryError, SpecError, format_number, shown
+from gearcad.core.quantities import parts_of, with_assumed
+from gearcad.core.records import PerGear
+from gearcad.designs.design import Described, Design, Where
+from gearcad.designs.keys import BESIDE, KEYS, MAIN_TABLES, DesignKind, explain_unknown_table
+from gearcad.designs.spec import AUTO, Spec, drawing_documents, drawings_of, khk_reminder, materials_of
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
+from gearcad.material import Material
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+    from gearcad.check.options import CheckOptions
+    from gearcad.drawing.options import DrawingOptions, PartDrawing
+    from gearcad.dynamics.options import DynamicsOptions
+    from gearcad.load import Load
+    from gearcad.material import Materials
+    from gearcad.meshing.options import MeshOptions
+    from gearcad.mounting import Mounting
+    from gearcad.rating.options import RatingOptions
+
+
+@dataclass(frozen=True, kw_only=True)
+class ToothedDesign(Design):
+    """A design with teeth; a table beside them, such as [material], is a field of its name, None where a spec says nothing."""
+
+    drawing: DrawingOptions | None = None
+    drawings: Mapping[str, PartDrawing] = field(default_factory=dict)
+    """What the sheets of gears have of their own, by the gears' names in `gears`."""
+
+    @classmethod
+    @abstractmethod
+    def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
+        """The values of a spec, whose tables are those of this kind. Raises SpecError."""
+
+    @property
+    def made_of(self) -> tuple[str, ...]:
+        """The gears that may have materials of their own."""
+        return ()
+
+    @property
+    def assembly(self) -> GearPair | RackPair | None:
+        """What stands in mesh; None for a gear or a rack by itself."""
+        return None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The document of `data.json`: inputs and derived properties under their field names (mm, degrees).
+
+        "assumed" has the inputs that nobody gave, such as "load.application_factor = 1".
+        """
+        document = super().to_dict()
+        for table in BESIDE:
+            value = getattr(self, table, None)
+            if isinstance(value, PerGear):  # a material for each gear
+                value = dict(zip(self.made_of, value, strict=True))
+            if isinstance(value, Mapping):
+                document["materials"] = {name: asdict(material) for name, material in value.items()}
+            elif value is not None:
+                document[table] = _plain(value)
+        document |= drawing_documents(self.drawing, self.drawings)
+        return with_assumed(document)
+
+
+def _plain(options: DataclassInstance) -> dict[str, Any]:
+    """The fields of a table, without parts that are not there."""
+    absent = [part for part in parts_of(type(options)) if getattr(options, part) is None]
+    return {key: value for key, value in asdict(options).items() if key not in absent}
+
+
+def require_known_tables(tables: Mapping[str, Any], where: Where) -> None:
+    """Raise SpecError for what no design with teeth has, and for what is no table."""
+    for table, content in tables.items():
+        if table not in KEYS:
+            raise SpecError(f"{where(table)}: {shown(table)}: {explain_unknown_table(table)}")
+        if not isinstance(content, Mapping):
+            raise SpecError(f"{where(table)}: {table} = {format_number(content)}: must be a table, headed [{table}]")
+
+
+def beside_teeth(spec: Spec, tables: Mapping[str, Any], gears: tuple[str, ...] = ()) -> dict[str, Any]:
+    """What the tables beside those of the teeth make, as keyword arguments of a ToothedDesign.
+
+    Those of `gears` may have materials of their own: "material" is then PerGear of two, else that of all.
+    """
+    made: dict[str, Any] = {
+        table: spec.simple(table, BESIDE[table]) for table in BESIDE if table in tables and table != "material"
+    }
+    if own := drawings_of(spec):
+        made["drawings"] = own
+    if (material := materials_of(spec, gears)) is not None:
+        made["material"] = PerGear(*material.values()) if isinstance(material, dict) else material
+    elif "material" in tables:
+        made["material"] = Material()
+    return made
+
+
+class Inputs(TypedDict, total=False):
+    """What a job may be given beside a pair and its load, under the names of a spec's tables."""
+
+    material: Materials
+    mounting: Mounting
+    check: CheckOptions
+    mesh: MeshOptions
+    dynamics: DynamicsOptions
+    rating: RatingOptions
+    drawing: DrawingOptions
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearedDesign(ToothedDesign):
+    """A gear or a pair with the inputs that later stages need; None for those of which a spec says nothing."""
+
+    load: Load | None = None
+    mounting: Mounting | None = None
+    check: CheckOptions | None = None
+    mesh: MeshOptions | None = None
+    dynamics: DynamicsOptions | None = None
+    rating: RatingOptions | None = None
+
+    @classmethod
+    def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
+        """The values of a spec, whose tables are those of this kind. Raises SpecError."""
+        require_tables(tables, where)
+        return Spec.of(tables, where)
+
+    @property
+    def assembly(self) -> GearPair | None:
+        """What stands in mesh; None for a single gear."""
+        return None
+
+
+def require_tables(tables: Mapping[str, Any], where: Where) -> None:
+    """Raise SpecError for tables that no gear and no pair has, and for those of a pair beside [gear]."""
+    require_known_tables(tables, where)
+    for other in MAIN_TABLES[DesignKind.PAIR]:
+        if "gear" in tables and other in tables:
+            raise SpecError(f"{where(other)}: [{other}] cannot stand beside [gear]: one spec makes a gear or a pair")
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearDesign(GearedDesign):
+    """A single gear, and what later stages need."""
+
+    kind: ClassVar[DesignKind] = DesignKind.GEAR
+
+    gear: Gear
+    material: Material | None = None
+
+    @classmethod
+    def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
+        """That of [gear]. Raises SpecError."""
+        spec = cls.spec(tables, where)
+        beside = beside_teeth(spec, tables)
+        name = spec.name("gear", default_name)
+        with spec.blame("gear"):
+            inputs = spec.gear_inputs("gear")
+            for key in ("profile_shift", "tip_alteration"):
+                if inputs.get(key) == AUTO:
+                    raise GeometryError(key, AUTO, "must be a number: only the gears of a pair know what to derive it from")
+            with khk_reminder("", inputs, lambda other: Gear(**other)):
+                gear = Gear(**inputs | {"name": name})
+            return cls(name=name, gear=gear, **beside)
+
+    @property
+    def gears(self) -> dict[str, Gear]:
+        """The one gear."""
+        return {"gear": self.gear}
+
+
+@dataclass(frozen=True, kw_only=True)
+class RackDesign(ToothedDesign):
+    """A rack, and its material."""
+
+    kind: ClassVar[DesignKind] = DesignKind.RACK
+    elsewhere: ClassVar[str] = "a rack by itself is for `gearcad data`, `gearcad build` and `gearcad draw`"
+
+    rack: Rack
+    material: Material | None = None
+
+    @classmethod
+    def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
+        """That of [rack]. Raises SpecError."""
+        spec = cls.spec(tables, where)
+        beside = beside_teeth(spec, tables)
+        if own := spec.given_of("rack.material"):
+            key = next(iter(own.values())).key
+            raise SpecError(f"{where(key)}: {key}: is of a rack that has a pinion: write it in [material]", key)
+        name = spec.name("rack", default_name)
+        with spec.blame("rack"):
+            return cls(name=name, rack=Rack(**spec.rack_inputs("rack") | {"name": name}), **beside)
+
+    @classmethod
+    def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
+        """The values of a spec of [rack], [material] and [drawing]. Raises SpecError."""
+        require_tables_of_racks(tables, where, DesignKind.RACK, ("material", "drawing"))
+        return Spec.of(tables, where)
+
+    @property
+    def described(self) -> Mapping[str, Described]:
+        """The one rack."""
+        return {"rack": self.rack}
+
+
+def require_tables_of_racks(tables: Mapping[str, Any], where: Where, kind: DesignKind, beside: tuple[str, ...]) -> None:
+    """Raise SpecError unless all tables are those of the kind, or of these beside it."""
+    require_known_tables(tables, where)
+    for table in tables:
+        if table not in (*MAIN_TABLES[kind], *beside):
+            others = ", ".join(f"[{name}]" for name in beside)
+            with_whom = "[rack]" if kind is DesignKind.RACK else "a pinion and a [rack]"
+            raise SpecError(f"{where(table)}: [{table}] cannot stand beside {with_whom}: permitted are {others}")

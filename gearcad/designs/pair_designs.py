@@ -1,0 +1,433 @@
+"""Designs of pairs: `[pair]` with `[pinion]` and `[wheel]`, or with `[pinion]` and `[rack]`.
+
+What both gears share may stand in `[pair]`; a gear's own value wins, and the wheel takes the opposite hand, a ring the same.
+
+What both share may stand in `[pair]`; one's own value wins, and the rack takes the opposite hand.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from bisect import bisect_left
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, ClassVar, Self
+
+from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, as_choice, require_number
+from gearcad.core.quantities import NOT_GIVEN, is_given, schema_of
+from gearcad.core.records import PerGear, Role, naming
+from gearcad.designs.design import Described, Where
+from gearcad.designs.gear_designs import GearedDesign, ToothedDesign, beside_teeth, require_tables, require_tables_of_racks
+from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_GEAR_PAIRS, OF_RACK_PAIRS, SHARED, DesignKind
+from gearcad.designs.spec import (
+    AUTO,
+    CLEAR,
+    Given,
+    Spec,
+    clear_tip_alteration,
+    khk_reminder,
+    make_gears,
+    module_of,
+    resolve_profile_shifts,
+    resolve_tip_alterations,
+)
+from gearcad.geometry import Gear, GearPair, Rack, RackPair, ShaperCutter, ShiftSplit
+from gearcad.geometry.mating import check_ring, wrong_side
+from gearcad.load import Load
+from gearcad.material import Material, Materials, of_both
+from gearcad.rating.options import RatingOptions
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairDesign(GearedDesign):
+    """A pair of gears, and what later stages need; `material` is that of both, or of each."""
+
+    kind: ClassVar[DesignKind] = DesignKind.PAIR
+
+    pair: GearPair
+    material: Materials | None = None
+
+    @classmethod
+    def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
+        """That of [pair], [pinion] and [wheel]. Raises SpecError."""
+        spec = cls.spec(tables, where)
+        beside = beside_teeth(spec, tables, PerGear._fields)
+        name = spec.name("pair", default_name)
+        pair = spec.pair(name)
+        with spec.blame("pair"):
+            return cls(name=name, pair=pair, **beside)
+
+    @classmethod
+    def spec(cls, tables: Mapping[str, Any], where: Where) -> PairSpec:
+        """The values of a spec that has all tables of a pair. Raises SpecError."""
+        require_tables(tables, where)
+        _require_pair(tables, where)
+        spec = PairSpec.of(tables, where)
+        if (key := f"pair.{OF_RACK_PAIRS[0]}") in spec.values:
+            raise SpecError(f"{where(key)}: {key}: is of a pinion and a [rack]; did you mean centre_distance?", key)
+        return spec
+
+    @property
+    def materials(self) -> PerGear[Material]:
+        """Those of both gears; steel where nothing is said."""
+        return of_both(self.material or Material())
+
+    @property
+    def made_of(self) -> tuple[str, ...]:
+        return PerGear._fields
+
+    @property
+    def gears(self) -> dict[str, Gear]:
+        """Pinion and wheel."""
+        return {role.value: gear for role, gear in self.pair.gears.items()}
+
+    @property
+    def assembly(self) -> GearPair:
+        """The pair."""
+        return self.pair
+
+    @property
+    def described(self) -> Mapping[str, Described]:
+        """The gears, and the pair that they make."""
+        return {**self.gears, "pair": self.pair}
+
+    def loaded(self, why: str) -> Load:
+        """Its load. Raises ParameterError where there is none, that ends with why it is needed."""
+        if self.load is None:
+            raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {why}")
+        return self.load
+
+
+def _require_pair(tables: Mapping[str, Any], where: Where) -> None:
+    """Raise SpecError unless all tables of a pair are there."""
+    needed = MAIN_TABLES[DesignKind.PAIR]
+    if not any(table in tables for table in needed):
+        raise SpecError(f"{where('')}: makes nothing yet: must have [gear], or [pair] with [pinion] and [wheel]")
+    for table in needed:
+        if table not in tables:
+            raise SpecError(f"{where('')}: [{table}] is missing: a pair needs [pair], [pinion] and [wheel]")
+
+
+_ROUNDING = 1e-9
+"""Change of a tip alteration, in normal modules, that is rounding."""
+
+_MORE_TEETH = (1, 2, 4, 8, 16, 32, 64, 128)
+"""By how many teeth rings beyond their pinion are tried, each twice the last, before those between are."""
+
+_OPPOSED = ("helix_angle", "double_helix.offset")
+"""Fields of a gear that its mate has with the opposite sign, and a ring with the same."""
+
+
+class PairSpec(Spec):
+    """The values of a pair's spec, and how its gears come to theirs."""
+
+    def pair(self, name: str) -> GearPair:
+        """The pair of `[pair]`, `[pinion]` and `[wheel]`, with every "auto" resolved."""
+        self._share_values()
+        self._match_helix()
+        inputs = PerGear(*map(self._inputs, Role))
+        with self.blame("pair"):
+            self._check_teeth(name, inputs)
+            self._check_words(inputs)
+            with khk_reminder("wheel", inputs.wheel, partial(self._tried, name, inputs)):
+                return self._made(name, inputs)
+
+    def _made(self, name: str, inputs: PerGear[dict[str, Any]]) -> GearPair:
+        """The pair, with every "auto" resolved. Raises InputError."""
+        given = self._pair_inputs()
+        split = given.pop("profile_shift_split", None)
+        distance = given.get("centre_distance")
+        resolved = self._resolve_auto(inputs, distance, split)
+        gears = self._gears(resolved, given)
+        return self._cleared(GearPair(pinion=gears.pinion, wheel=gears.wheel, **given | {"name": name}))
+
+    def _gears(self, resolved: PerGear[dict[str, Any]], given: Mapping[str, Any]) -> PerGear[Gear]:
+        """Both gears; a ring whose tip its cutter cannot make is told what the pair asks of it too. Raises InputError."""
+        automatic, distance = PerGear.each(self._automatic), given.get("centre_distance")
+        try:
+            return make_gears(resolved, automatic, distance)
+        except GeometryError as error:
+            if error.parameter != "wheel.tip_diameter" or resolved.wheel["cutter"].teeth is None:
+                raise
+            try:
+                gears = make_gears(resolved._replace(wheel={**resolved.wheel, "cutter": ShaperCutter()}), automatic, distance)
+                GearPair(pinion=gears.pinion, wheel=gears.wheel, **given)
+            except GeometryError as other:
+                if other.parameter in ("wheel.tip_diameter", "wheel.teeth") and other.permitted != error.permitted:
+                    besides = f"; whatever the cutter, {other.parameter} {other.permitted}"
+                    raise GeometryError(error.parameter, error.value, error.permitted + besides, error.unit) from error
+            raise
+
+    def _tried(self, name: str, inputs: PerGear[dict[str, Any]], wheel: Mapping[str, Any]) -> GearPair:
+        """The pair with another wheel, without a trace among the values. Raises InputError."""
+        return replace(self, values=dict(self.values))._made(name, inputs._replace(wheel=dict(wheel)))
+
+    @property
+    def _ring(self) -> bool:
+        """Whether the wheel is a ring."""
+        teeth = self.values.get("wheel.teeth")
+        return teeth is not None and isinstance(teeth.value, int) and teeth.value < 0
+
+    def _check_teeth(self, name: str, inputs: PerGear[dict[str, Any]]) -> None:
+        """The numbers of teeth by themselves, and which gear may be a ring; of how many teeth is added where that is found."""
+        if (count := schema_of(Gear)["teeth"].permitted) is not None:
+            inputs.map(lambda gear: count.require("teeth", gear["teeth"]))
+        try:
+            check_ring(inputs.map(lambda gear: gear["teeth"]))
+        except GeometryError as error:
+            if error.parameter != "wheel.teeth" or (fewest := self._fewest_teeth(name, inputs)) is None:
+                raise
+            permitted = f"{error.permitted}; with the other numbers as they are at most {-fewest}"
+            raise GeometryError(error.parameter, error.value, permitted) from error
+
+    def _fewest_teeth(self, name: str, inputs: PerGear[dict[str, Any]]) -> int | None:
+        """Of a ring that takes the pinion with all else as it is; None if none was found."""
+        pinion: int = inputs.pinion["teeth"]
+
+        def makes(more: int) -> bool:
+            try:
+                self._tried(name, inputs, {**inputs.wheel, "teeth": -pinion - more})
+            except InputError:
+                return False
+            return True
+
+        enough = next(filter(makes, _MORE_TEETH), None)
+        if enough is None:
+            return None
+        fewer = range(enough // 2 + 1, enough)
+        return pinion + enough // 2 + 1 + bisect_left(fewer, True, key=makes)
+
+    def _check_words(self, inputs: PerGear[dict[str, Any]]) -> None:
+        """Only the tip of a ring is told to be clear."""
+        for role, gear in inputs.items():
+            if gear.get("tip_alteration") != CLEAR:
+                continue
+            if role is Role.PINION or not self._ring:
+                permitted = f'must be a number, or "{AUTO}": "{CLEAR}" is for the ring of an internal pair'
+                raise GeometryError(f"{role.value}.tip_alteration", CLEAR, permitted)
+            if "tip_diameter" in gear:
+                permitted = f'must be left out, or tip_alteration not be "{CLEAR}"'
+                raise GeometryError("wheel.tip_diameter", gear["tip_diameter"], permitted, "mm")
+
+    def _inputs(self, role: Role) -> dict[str, Any]:
+        """Those of a gear as they are written, named by its role unless it has a name."""
+        with self.blame(role.value):
+            return {"name": role.value} | self.gear_inputs(role.value)
+
+    def _automatic(self, role: Role) -> list[str]:
+        """Fields of a gear that stood as "auto"."""
+        values = {field: self.values.get(f"{role.value}.{field}") for field in ("profile_shift", "tip_alteration")}
+        return [field for field, given in values.items() if given is not None and given.note.startswith(AUTO)]
+
+    def _pair_inputs(self) -> dict[str, Any]:
+        given = {key: value for key, value in self.fields_of("pair").items() if key not in SHARED}
+        if "centre_distance" in given:
+            require_number("centre_distance", distance := given["centre_distance"], "mm")
+            if distance == 0:
+                raise wrong_side(distance, ring=self._ring)
+            if (distance < 0) is not self._ring:
+                raise GeometryError("centre_distance", distance, wrong_side(distance, ring=self._ring).permitted, "mm")
+        if "profile_shift_split" in given:
+            given["profile_shift_split"] = as_choice("profile_shift_split", given["profile_shift_split"], ShiftSplit)
+        return given
+
+    def _share_values(self) -> None:
+        """Give both gears what stands in [pair], unless they have their own; what is opposed is the pinion's."""
+        for role in Role:
+            renamed = f"{role.value}.rack" in self.values
+            giving_way = self.giving_way(role.value)
+            for field in SHARED:
+                given = self.values.get(f"pair.{field}")
+                if given is None or (field in _OPPOSED and role is Role.WHEEL) or field in giving_way:
+                    continue
+                if not (renamed and field.startswith("rack")):
+                    self.values.setdefault(f"{role.value}.{field}", given)
+
+    def _match_helix(self) -> None:
+        """The gear without a helix angle, or offset of its halves, takes the mate's: opposed, or the same in a ring."""
+        for role, field in itertools.product((Role.WHEEL, Role.PINION), _OPPOSED):
+            own, given = f"{role.value}.{field}", self.values.get(f"{role.mate.value}.{field}")
+            if given is None or own in self.values:
+                continue
+            opposed = isinstance(given.value, float) and not self._ring
+            self.values[own] = given._replace(value=0.0 - given.value) if opposed else given
+
+    def _resolve_auto(
+        self, inputs: PerGear[dict[str, Any]], distance: float | None, split: ShiftSplit | None
+    ) -> PerGear[dict[str, Any]]:
+        """The inputs with each "auto" replaced, which is noted among the values."""
+        shifts = resolve_profile_shifts(inputs, distance, split)
+        alterations = resolve_tip_alterations(inputs, sum(shifts), distance)
+        asked = "" if distance is None else f": centre distance {distance:g} mm asks for x1 + x2 = {sum(shifts):.6g}"
+
+        def resolved(role: Role) -> dict[str, Any]:
+            found = {"profile_shift": shifts.pick(role), "tip_alteration": alterations.pick(role)}
+            written = {"profile_shift": 0.0, "tip_alteration": AUTO} | inputs.pick(role)
+            for field, note in (("profile_shift", AUTO + asked), ("tip_alteration", AUTO)):
+                if written[field] == AUTO:
+                    self._note(f"{role.value}.{field}", found[field], note)
+            return inputs.pick(role) | found
+
+        gears = PerGear.each(resolved)
+        if inputs.wheel.get("tip_alteration") == CLEAR:
+            gears.wheel["tip_alteration"] = clear_tip_alteration(gears, distance)
+            self._note("wheel.tip_alteration", gears.wheel["tip_alteration"], CLEAR)
+        return gears
+
+    def _note(self, key: str, value: float, note: str) -> None:
+        """Keep what stands for a word among the values."""
+        self.values[key] = Given(value, self.values.get(key, Given(AUTO, key)).key, note)
+
+    def _cleared(self, pair: GearPair) -> GearPair:
+        """The pair, whose ring's tip is drawn in further if it is to be clear and its edge still cuts the pinion's fillet."""
+        given, tip = self.values.get("wheel.tip_alteration"), pair.wheel.tip_diameter
+        if given is None or given.note != CLEAR or (clear := pair.clear_tip_diameter) is None:
+            return pair
+        change = (clear - tip) / (2 * pair.wheel.normal_module)
+        if change >= -_ROUNDING:
+            return pair
+        self._note("wheel.tip_alteration", given.value + change, CLEAR)
+        return replace(pair, wheel=replace(pair.wheel, tip_alteration=given.value + change))
+
+
+_BESIDE = ("material", "load", "rating", "drawing")
+_GEARS = ("pinion", "rack")
+
+
+@dataclass(frozen=True, kw_only=True)
+class RackPairDesign(ToothedDesign):
+    """A pinion and a rack, and what later stages need."""
+
+    kind: ClassVar[DesignKind] = DesignKind.RACK_PAIR
+    elsewhere: ClassVar[str] = (
+        "finite elements, stiffness and dynamics know gears only; a pinion and a rack have `gearcad data`, `gearcad build`,"
+        " `gearcad draw` and `gearcad rate`"
+    )
+
+    pair: RackPair
+    material: Materials | None = None
+    load: Load | None = None
+    rating: RatingOptions | None = None
+
+    @classmethod
+    def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
+        """That of [pair], [pinion] and [rack]. Raises SpecError."""
+        spec = cls.spec(tables, where)
+        beside = beside_teeth(spec, tables, _GEARS)
+        name = spec.name("pair", default_name)
+        pair = spec.pair(name)
+        with spec.blame("pair"):
+            return cls(name=name, pair=pair, **beside)
+
+    @classmethod
+    def spec(cls, tables: Mapping[str, Any], where: Where) -> _RackPairSpec:
+        """The values of a spec that has all tables of a pinion and a rack. Raises SpecError."""
+        require_tables_of_racks(tables, where, DesignKind.RACK_PAIR, _BESIDE)
+        for table in MAIN_TABLES[DesignKind.RACK_PAIR]:
+            if table not in tables:
+                raise SpecError(f"{where('')}: [{table}] is missing: a pinion and a rack need [pair], [pinion] and [rack]")
+        spec = _RackPairSpec.of(tables, where)
+        for key in OF_GEAR_PAIRS:
+            if f"pair.{key}" in spec.values:
+                wanted, full = "; did you mean mounting_distance?" if key == "centre_distance" else "", f"pair.{key}"
+                raise SpecError(f"{where(full)}: {full}: is of two gears, not of a pinion and a rack{wanted}", full)
+        return spec
+
+    @property
+    def materials(self) -> PerGear[Material]:
+        """Those of pinion and rack; steel where nothing is said."""
+        return of_both(self.material or Material())
+
+    @property
+    def made_of(self) -> tuple[str, ...]:
+        return _GEARS
+
+    @property
+    def gears(self) -> dict[str, Gear]:
+        """The pinion."""
+        return {"pinion": self.pair.pinion}
+
+    @property
+    def assembly(self) -> RackPair:
+        """The pair."""
+        return self.pair
+
+    @property
+    def described(self) -> Mapping[str, Described]:
+        """Pinion and rack, and the pair that they make."""
+        return {"pinion": self.pair.pinion, "rack": self.pair.rack, "pair": self.pair}
+
+    def to_dict(self) -> dict[str, Any]:
+        """The document of `data.json`; what a load comes to on the rack is "drive" there."""
+        document = super().to_dict()
+        if self.load is None:
+            return document
+        drive = {"rack_force": self.pair.rack_force(self.load.torque)}
+        if self.load.speed:
+            drive["rack_speed"] = self.pair.rack_speed(self.load.speed)
+        return document | {"drive": drive}
+
+    def loaded(self, why: str) -> Load:
+        """Its load. Raises ParameterError where there is none, that ends with why it is needed."""
+        if self.load is None:
+            raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {why}")
+        return self.load
+
+
+class _RackPairSpec(Spec):
+    """The values of the spec of a pinion and a rack, and how these come to theirs."""
+
+    def pair(self, name: str) -> RackPair:
+        """The pair of `[pair]`, `[pinion]` and `[rack]`, with every "auto" resolved."""
+        self._share_values()
+        with self.blame("rack"):
+            rack = Rack(**{"name": "rack"} | self.rack_inputs("rack"))
+        with self.blame("pinion"):
+            inputs = {"name": "pinion"} | self.gear_inputs("pinion")
+        distance = self.fields_of("pair").get("mounting_distance", NOT_GIVEN)
+        with self.blame("pair"):
+            with naming(Role.PINION):
+                pinion = Gear(**inputs | self._automatic(inputs, distance))
+            return RackPair(pinion=pinion, rack=rack, name=name, mounting_distance=distance)
+
+    def _share_values(self) -> None:
+        """Give both what stands in [pair], unless they have their own; one without a helix angle takes the mate's, opposed."""
+        for owner in ("pinion", "rack"):
+            renamed = f"{owner}.rack" in self.values
+            giving_way = self.giving_way(owner)
+            for field in SHARED:
+                given = self.values.get(f"pair.{field}")
+                if given is None or field not in FIELDS[owner] or (field == "helix_angle" and owner == "rack"):
+                    continue
+                if field in giving_way:
+                    continue
+                if not (renamed and field.startswith("rack")):
+                    self.values.setdefault(f"{owner}.{field}", given)
+        for owner, mate in (("rack", "pinion"), ("pinion", "rack")):
+            own, given = f"{owner}.helix_angle", self.values.get(f"{mate}.helix_angle")
+            if given is not None and own not in self.values:
+                self.values[own] = given._replace(value=0.0 - given.value if isinstance(given.value, float) else given.value)
+
+    def _automatic(self, inputs: dict[str, Any], distance: Any) -> dict[str, float]:
+        """What each "auto" of the pinion comes to: profile shift and tip alteration that the mounting distance asks for."""
+        defaults = {"profile_shift": 0.0, "tip_alteration": AUTO}
+        asked = [field for field, default in defaults.items() if inputs.get(field, default) == AUTO]
+        with suppress(GeometryError):  # single numbers out of range first; what depends on the shift is judged later
+            Gear(**inputs | dict.fromkeys(asked, 0.0))
+        if not (isinstance(distance, float) and is_given(distance)):
+            if "profile_shift" in asked:
+                raise GeometryError("profile_shift", AUTO, "needs mounting_distance in [pair]")
+            return dict.fromkeys(asked, 0.0)
+        m, helix = module_of(inputs), math.radians(inputs.get("helix_angle", 0.0))
+        beyond = distance / m - inputs["teeth"] / math.cos(helix) / 2
+        shift = beyond if "profile_shift" in asked else inputs.get("profile_shift", 0.0)
+        kept = 0.0 if "tip_diameter" in inputs else min(beyond - shift, 0.0)
+        notes = {"profile_shift": f"{AUTO}: mounting distance {distance:g} mm asks for it", "tip_alteration": AUTO}
+        found = {field: value for field, value in (("profile_shift", shift), ("tip_alteration", kept)) if field in asked}
+        for field, value in found.items():
+            key = f"pinion.{field}"
+            self.values[key] = Given(value, self.values.get(key, Given(AUTO, key)).key, notes[field])
+        return found

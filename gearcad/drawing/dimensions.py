@@ -1,0 +1,501 @@
+"""Dimensions and leaders (ISO 129-1), geometrical tolerances (ISO 1101) and datums (ISO 5459). Lengths in mm of paper."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+from gearcad.drawing.annotation_text import Written, cad_words, plain, written_size
+from gearcad.drawing.shapes import (
+    Anchor,
+    Box,
+    Circle,
+    Dimension,
+    Figure,
+    Filled,
+    Line,
+    Measured,
+    Pen,
+    Point,
+    Polyline,
+    Shape,
+    Text,
+    text_width,
+)
+from gearcad.drawing.words import Draughting, Size
+
+
+class Side(Enum):
+    """Of a figure, and of an edge: where its outside is. The value is the way outwards."""
+
+    LEFT = (-1.0, 0.0)
+    RIGHT = (1.0, 0.0)
+    ABOVE = (0.0, 1.0)
+    BELOW = (0.0, -1.0)
+
+    @property
+    def is_upright(self) -> bool:
+        """Whether edges with their outside here, and dimension lines here, are vertical."""
+        return self in (Side.LEFT, Side.RIGHT)
+
+    @property
+    def outwards(self) -> float:
+        """1 or -1: the sign of a step outwards."""
+        return sum(self.value)
+
+    def point(self, along: float, out: float) -> Point:
+        """The point at `along` (x of horizontal edges, y of vertical ones) whose other coordinate is `out`."""
+        return (out, along) if self.is_upright else (along, out)
+
+    def along(self, point: Point) -> float:
+        """x of horizontal edges, y of vertical ones."""
+        return point[1] if self.is_upright else point[0]
+
+    def out(self, point: Point) -> float:
+        """y of horizontal edges, x of vertical ones."""
+        return point[0] if self.is_upright else point[1]
+
+
+ARROW = 3.2
+"""Length of an arrow."""
+
+_HALF_WIDTH = ARROW * math.tan(math.radians(7.5))
+
+
+def arrow(tip: Point, way: Point, pen: Pen = Pen.DIMENSION) -> Filled:
+    """One with its tip at a point; `way` is where it points to (of any length but zero)."""
+    length = math.hypot(*way)
+    along, up = way[0] / length, way[1] / length
+    base = tip[0] - ARROW * along, tip[1] - ARROW * up
+    side = -_HALF_WIDTH * up, _HALF_WIDTH * along
+    return Filled((tip, (base[0] + side[0], base[1] + side[1]), (base[0] - side[0], base[1] - side[1])), pen)
+
+
+FRAME_HEIGHT = 7.0
+"""Twice that of its text."""
+
+_TEXT = 3.5
+_DATUM_LENGTHS = (3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0)
+
+
+class Characteristic(Enum):
+    """What a geometrical tolerance limits."""
+
+    CIRCULAR_RUNOUT = "circular run-out"
+    TOTAL_RUNOUT = "total run-out"
+    CYLINDRICITY = "cylindricity"
+    PARALLELISM = "parallelism"
+    PERPENDICULARITY = "perpendicularity"
+    POSITION = "position"
+    FLATNESS = "flatness"
+    SYMMETRY = "symmetry"
+
+
+def tolerance_frame(characteristic: Characteristic, value: str, datums: str | tuple[str, ...] = ()) -> Figure:
+    """Cells for symbol, value ("0.02", "⌀0.1") and datums ("A", or ("A", "B")); the middle of its left side at (0, 0)."""
+    half = FRAME_HEIGHT / 2
+    shapes: list[Shape] = [each.moved(half, 0.0) for each in _SYMBOLS[characteristic]()]
+    edge = FRAME_HEIGHT
+    for text in (value, *datums):
+        shapes.append(Line((edge, -half), (edge, half), Pen.SYMBOL))
+        width = max(FRAME_HEIGHT, text_width(text, _TEXT) + 0.8 * _TEXT)
+        shapes.append(Text(text, (edge + width / 2, 0.0), _TEXT, Anchor.MIDDLE))
+        edge += width
+    corners = ((0.0, -half), (edge, -half), (edge, half), (0.0, half))
+    return Figure((Polyline.straight(corners, Pen.SYMBOL, closed=True), *shapes))
+
+
+def datum(letter: str, on: Point, side: Side) -> Iterator[Figure]:
+    """A filled triangle that stands on an edge (outside at `side`) or an extension line, and the letter in a box.
+
+    The box is straight before it, or aside of a line that turns once.
+    """
+    base, high = 1.75, 3.0
+    along, surface = side.along(on), side.out(on)
+    corners = (side.point(along - base, surface), side.point(along + base, surface))
+    top = side.point(along, surface + side.outwards * high)
+    triangle = Filled((*corners, top), Pen.SYMBOL)
+    half = FRAME_HEIGHT / 2
+    for length in _DATUM_LENGTHS:
+        out = surface + side.outwards * (high + length)
+        end = side.point(along, out)
+        yield Figure.of(triangle, Line(top, end, Pen.SYMBOL), _boxed(letter, side.point(along, out + side.outwards * half)))
+        for aside in (3.0, -3.0, 8.0, -8.0):
+            corner = side.point(along + aside, out)
+            box = _boxed(letter, side.point(along + aside + (half if aside > 0 else -half), out))
+            yield Figure.of(triangle, Line(top, end, Pen.SYMBOL), Line(end, corner, Pen.SYMBOL), box)
+
+
+def _boxed(letter: str, middle: Point) -> Figure:
+    half = FRAME_HEIGHT / 2
+    box = Box(*middle, *middle).grown(half)
+    corners = [(box.left, box.bottom), (box.right, box.bottom), (box.right, box.top), (box.left, box.top)]
+    return Figure.of(Polyline.straight(corners, Pen.SYMBOL, closed=True), Text(letter, middle, _TEXT, Anchor.MIDDLE))
+
+
+def _runout(*starts: Point) -> tuple[Shape, ...]:
+    """Arrows up to the right."""
+    rise = 3.6
+    shapes: list[Shape] = []
+    for x, y in starts:
+        tip = x + rise, y + rise
+        shapes += [Line((x, y), tip, Pen.SYMBOL), _small_arrow(tip)]
+    return tuple(shapes)
+
+
+def _small_arrow(tip: Point) -> Filled:
+    """Shorter than those of dimensions: a cell is small."""
+    whole = arrow((0.0, 0.0), (1.0, 1.0), Pen.SYMBOL)
+    return Filled(tuple((tip[0] + 0.6 * x, tip[1] + 0.6 * y) for x, y in whole.points), Pen.SYMBOL)
+
+
+def _circular_runout() -> tuple[Shape, ...]:
+    return _runout((-1.8, -1.8))
+
+
+def _total_runout() -> tuple[Shape, ...]:
+    return *_runout((-2.6, -1.8), (-0.4, -1.8)), Line((-2.6, -1.8), (-0.4, -1.8), Pen.SYMBOL)
+
+
+def _cylindricity() -> tuple[Shape, ...]:
+    """A circle between two slanting lines that touch it."""
+    radius, lean = 1.3, 0.5  # tangent of the lines' angle to the vertical
+    off = radius * (1 + lean**2) ** 0.5
+    lines = (Line((x - 1.9 * lean, -1.9), (x + 1.9 * lean, 1.9), Pen.SYMBOL) for x in (-off, off))
+    return Circle((0.0, 0.0), radius, Pen.SYMBOL), *lines
+
+
+def _parallelism() -> tuple[Shape, ...]:
+    return tuple(Line((x - 0.9, -1.8), (x + 0.9, 1.8), Pen.SYMBOL) for x in (-0.8, 0.8))
+
+
+def _perpendicularity() -> tuple[Shape, ...]:
+    return Line((-2.0, -1.7), (2.0, -1.7), Pen.SYMBOL), Line((0.0, -1.7), (0.0, 1.9), Pen.SYMBOL)
+
+
+def _position() -> tuple[Shape, ...]:
+    cross = (Line((-2.2, 0.0), (2.2, 0.0), Pen.SYMBOL), Line((0.0, -2.2), (0.0, 2.2), Pen.SYMBOL))
+    return Circle((0.0, 0.0), 1.3, Pen.SYMBOL), *cross
+
+
+def _flatness() -> tuple[Shape, ...]:
+    corners = ((-2.4, -1.1), (1.2, -1.1), (2.4, 1.1), (-1.2, 1.1))
+    return (Polyline.straight(corners, Pen.SYMBOL, closed=True),)
+
+
+def _symmetry() -> tuple[Shape, ...]:
+    """Three lines, the middle one the longest."""
+    rows = ((1.1, 1.2), (0.0, 2.2), (-1.1, 1.2))
+    return tuple(Line((-half, y), (half, y), Pen.SYMBOL) for y, half in rows)
+
+
+_SYMBOLS = {
+    Characteristic.CIRCULAR_RUNOUT: _circular_runout,
+    Characteristic.TOTAL_RUNOUT: _total_runout,
+    Characteristic.CYLINDRICITY: _cylindricity,
+    Characteristic.PARALLELISM: _parallelism,
+    Characteristic.PERPENDICULARITY: _perpendicularity,
+    Characteristic.POSITION: _position,
+    Characteristic.FLATNESS: _flatness,
+    Characteristic.SYMMETRY: _symmetry,
+}
+
+
+_LENGTHS = (10.0, 15.0, 21.0, 28.0, 36.0, 46.0, 58.0, 72.0)
+_LANDING = 3.0
+"""Of a leader before what it leads to; a text stands upon it."""
+
+_LEADER_LIFT, _LEADER_LEAST_LIFT = 0.9, 0.6
+_BELOW_TEXT = 1.0
+"""From the line under a text to the frame below it."""
+
+
+def leader(
+    tip: Point,
+    what: str | Size | Written | Figure,
+    draughting: Draughting,
+    directions: Iterable[float] = (45.0, 135.0, -45.0, -135.0, 60.0, 120.0, -60.0, -120.0),
+    *,
+    lengths: Iterable[float] = _LENGTHS,
+) -> Iterator[Figure]:
+    """From a point in one of some directions (degrees, none of them vertical) to a text on a short line, or to a figure's side.
+
+    A figure is joined where its own y is 0. All directions with the shortest line, then longer ones.
+    """
+    ways = tuple(directions)
+    for length in lengths:
+        for way in ways:
+            yield Figure(_led(tip, way, length, _content(what, draughting)))
+
+
+def circle_dimension(
+    centre: Point,
+    radius: float,
+    size: Size,
+    draughting: Draughting,
+    directions: Iterable[float] = (45.0, 135.0, -45.0, -135.0, 60.0, 120.0, -60.0, -120.0, 30.0, 150.0, -30.0, -150.0),
+    *,
+    beyond: float = 0.0,
+) -> Iterator[Figure]:
+    """The diameter of a circle: an arrow at it from outside, its text at least `beyond` mm away from the circle.
+
+    Lines and texts, no dimension of a CAD program: those that draw diameters anew put their texts across the circle.
+    """
+    ways, text = tuple(directions), written_size(size, draughting.words)
+    for length in _LENGTHS:
+        for way in ways:
+            cosine, sine = math.cos(math.radians(way)), math.sin(math.radians(way))
+            tip = centre[0] + radius * cosine, centre[1] + radius * sine
+            yield Figure(_led(tip, way, beyond + length, text))
+
+
+def landing_of(led: Figure) -> Line:
+    """The line under the text of a leader, from the leader outwards."""
+    return next(each for each in led.shapes if isinstance(each, Line) and each.start[1] == each.end[1])
+
+
+def with_frame(led: Figure, frame: Figure) -> Figure:
+    """A leader to a text, and a tolerance frame below the line of that (ISO 1101)."""
+    landing, box = landing_of(led), frame.box
+    to_right = landing.end[0] > landing.start[0]
+    left = landing.start[0] if to_right else landing.start[0] - box.width
+    return led + frame.moved(left - box.left, landing.start[1] - _BELOW_TEXT - box.top)
+
+
+def frame_leader(
+    tip: Point, side: Side, frame: Figure, *, clear: float | None = None, datum_letter: str = ""
+) -> Iterator[Figure]:
+    """A frame with a leader whose arrow is square to the edge at `tip`, whose outside is at `side`.
+
+    The frame has the middle of its left side at (0, 0), as `tolerance_frame` makes it. Beyond `clear` (where the outline ends
+    on that side) it may turn once to reach the frame. `datum_letter` is that of the surface as a datum, whose triangle stands
+    below the frame (ISO 5459).
+    """
+    for led, placed in _framed(tip, side, frame, clear):
+        box = placed.box
+        below = (box.left + box.right) / 2, box.bottom
+        yield led + placed + (next(datum(datum_letter, below, Side.BELOW)) if datum_letter else Figure())
+
+
+def _framed(tip: Point, side: Side, frame: Figure, clear: float | None) -> Iterator[tuple[Figure, Figure]]:
+    """Leaders, and the frame where each has it."""
+    start = side.out(tip) if clear is None else clear
+    start = start if (start - side.out(tip)) * side.outwards > 0 else side.out(tip)
+    box = frame.box
+    point = arrow(tip, (-side.value[0], -side.value[1]), Pen.SYMBOL)
+    for length in _LENGTHS:
+        end = side.point(side.along(tip), start + side.outwards * length)
+        line = Line(tip, end, Pen.SYMBOL)
+        if side.is_upright:
+            yield Figure.of(point, line), _beside(frame, end, side.outwards)
+            continue
+        for across in (1.0, -1.0):
+            for landing in (_LANDING, 3 * _LANDING):
+                corner = end[0] + across * landing, end[1]
+                yield Figure.of(point, line, Line(end, corner, Pen.SYMBOL)), _beside(frame, corner, across)
+        up = box.height / 2 * side.outwards
+        yield Figure.of(point, line), frame.moved(end[0] - box.width / 2, end[1] + up)
+
+
+def _content(what: str | Size | Written | Figure, draughting: Draughting) -> Written | Figure:
+    if isinstance(what, str):
+        return plain(what)
+    return written_size(what, draughting.words) if isinstance(what, Size) else what
+
+
+def _led(tip: Point, way: float, length: float, what: Written | Figure) -> tuple[Shape, ...]:
+    """Arrow, line, and what it leads to: upon a line if it is a text, else beside its end."""
+    cosine, sine = math.cos(math.radians(way)), math.sin(math.radians(way))
+    elbow = tip[0] + length * cosine, tip[1] + length * sine
+    across = 1.0 if cosine >= 0 else -1.0
+    shapes: list[Shape] = [arrow(tip, (-cosine, -sine)), Line(tip, elbow, Pen.DIMENSION)]
+    landing = what.width + 1.0 if isinstance(what, Written) else _LANDING
+    end = elbow[0] + across * landing, elbow[1]
+    shapes.append(Line(elbow, end, Pen.DIMENSION))
+    if isinstance(what, Written):
+        place = (elbow[0] + end[0]) / 2, elbow[1] + max(_LEADER_LIFT, what.below + _LEADER_LEAST_LIFT)
+        return (*shapes, *what.at(place, Anchor.CENTRE).shapes)
+    return (*shapes, *_beside(what, end, across).shapes)
+
+
+def _beside(figure: Figure, end: Point, across: float) -> Figure:
+    """A figure with its left or its right side at the end of a line, which joins it where its own y is 0."""
+    box = figure.box
+    left = end[0] if across > 0 else end[0] - box.width
+    return figure.moved(left - box.left, end[1])
+
+
+FIRST_LANE = 10.0
+"""From the outline to the first dimension line."""
+
+LANE_PITCH = 9.0
+"""From one dimension line to the next."""
+
+_LANES, _NEAR = 9, 3
+"""Lanes; and those in which a text goes far aside before it goes further out."""
+
+_FARTHER = (7.0, 15.0, 25.0)
+"""How much further aside."""
+
+_GAP, _BEYOND = 0.8, 1.5
+"""Of extension lines: before they begin, and past the dimension line."""
+
+_LIFT, _LEAST_LIFT = 0.9, 0.6
+"""From the dimension line to the line of the text above it, and to what of the text is below its line."""
+
+_TAIL = 3.0
+"""Of a line behind an arrow that points at it from outside."""
+
+_SHIFTS = (0.0, 0.6, -0.6)
+"""Where along its line a text may stand, over the room that it has on either side of the middle."""
+
+
+def linear_dimension(
+    first: Point,
+    second: Point,
+    side: Side,
+    size: Size,
+    draughting: Draughting,
+    *,
+    clear: float,
+    datum_letter: str = "",
+    frame: Figure | None = None,
+) -> Iterator[Figure]:
+    """A size between two points, its line vertical (LEFT, RIGHT) or horizontal, in lanes outwards from `clear`.
+
+    `clear` is where the outline ends on that side: an x for LEFT and RIGHT, a y for ABOVE and BELOW. What is too narrow has
+    arrows from outside, and its text beside. `datum_letter` is that of the axis or the middle plane as a datum: its triangle
+    stands on the extension line of `first`, opposite to the arrow or for it (ISO 5459). A tolerance `frame`, the middle of its
+    left side at (0, 0), stands at the end of a horizontal line: it is of the middle plane (ISO 1101).
+    """
+    drawn = _Drawn(first, second, side, size, draughting, datum_letter, frame)
+    outs = _lanes(side, clear)
+    for out in outs[:_NEAR]:
+        yield from drawn.in_lane(out)
+    for farther in _FARTHER:
+        for out in outs[:_NEAR]:
+            yield from drawn.beside(out, farther)
+    for out in outs[_NEAR:]:
+        yield from drawn.in_lane(out)
+
+
+def _lanes(side: Side, clear: float) -> list[float]:
+    return [clear + side.outwards * (FIRST_LANE + lane * LANE_PITCH) for lane in range(_LANES)]
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """A dimension to be drawn in one of many lanes."""
+
+    first: Point
+    second: Point
+    side: Side
+    size: Size
+    draughting: Draughting
+    datum_letter: str = ""
+    frame: Figure | None = None
+
+    @property
+    def text(self) -> Written:
+        return written_size(self.size, self.draughting.words)
+
+    def in_lane(self, out: float) -> Iterator[Figure]:
+        """All ways in one lane, best first: text and arrows within, only the text, neither."""
+        low, high = sorted(map(self.side.along, (self.first, self.second)))
+        text, tail = self.text, ARROW + _TAIL
+        room = high - low - 2 * ARROW - 1.0 - text.width
+        if room >= 0:
+            for shift in _SHIFTS if room > 4 else _SHIFTS[:1]:
+                yield self._whole(out, low, high, (low + high + shift * room) / 2, within=True)
+            return
+        if text.width + 1.5 <= high - low:
+            yield self._whole(out, low - tail, high + tail, (low + high) / 2, within=False)
+        yield from self.beside(out)
+
+    def beside(self, out: float, farther: float = 0.0) -> Iterator[Figure]:
+        """The text beside what is measured, `farther` away than it must be; not where a datum stands."""
+        low, high = sorted(map(self.side.along, (self.first, self.second)))
+        within = high - low >= 2 * ARROW + 1.0
+        tail = 0.0 if within else ARROW + _TAIL
+        past = max(tail, _BEYOND) + 1.0 + farther
+        for near, other, way in ((high, low, 1.0), (low, high, -1.0)):
+            if near != self._with_datum:
+                start, end = sorted((near + way * (past + self.text.width), other - way * tail))
+                yield self._whole(out, start, end, near + way * (past + self.text.width / 2), within=within)
+
+    @property
+    def _with_datum(self) -> float | None:
+        """Where along the line a datum stands."""
+        return self.side.along(self.first) if self.datum_letter else None
+
+    def _whole(self, out: float, start: float, end: float, middle: float, *, within: bool) -> Figure:
+        """With its line from `start` to `end`, and the middle of its text at `middle`."""
+        ends = map(self.side.along, (self.first, self.second))
+        held = self._with_datum
+        if not within and held is not None:
+            start, end = (max(start, held), end) if held < middle else (start, min(end, held))
+        shapes = [
+            self._line(start, end, out),
+            *self._arrows(ends, out, within=within),
+            self._extension(self.first, out),
+            self._extension(self.second, out),
+        ]
+        figure = self._figure(out, shapes, self.text, middle)
+        return figure if self.frame is None else figure + self._framed(self.frame, out, (start, end), middle, within=within)
+
+    def _framed(self, frame: Figure, out: float, line: tuple[float, float], middle: float, *, within: bool) -> Figure:
+        """A frame at the end of the line without the text, with an arrow of its own where there is none from outside."""
+        low, high = sorted(map(self.side.along, (self.first, self.second)))
+        way, edge, far = (-1.0, low, line[0]) if middle > high else (1.0, high, line[1])
+        marks: list[Shape] = []
+        if within:
+            far = edge + way * (ARROW + _TAIL)
+            marks = [self._line(edge, far, out), arrow(self.side.point(edge, out), self.side.point(-way, 0.0))]
+        box = frame.box
+        left = far if way > 0 else far - box.width
+        return Figure.of(*marks, frame.moved(left - box.left, out))
+
+    def _line(self, low: float, high: float, out: float) -> Line:
+        return Line(self.side.point(low, out), self.side.point(high, out), Pen.DIMENSION)
+
+    def _arrows(self, ends: Iterable[float], out: float, *, within: bool) -> list[Shape]:
+        """At either end; a datum stands where one would be outside."""
+        high = max(map(self.side.along, (self.first, self.second)))
+        way = 1.0 if within else -1.0
+        return [
+            arrow(self.side.point(each, out), self.side.point(way if each == high else -way, 0.0))
+            for each in ends
+            if within or each != self._with_datum
+        ]
+
+    def _extension(self, point: Point, out: float) -> Line:
+        """From the measured point to a little past the dimension line."""
+        along, start = self.side.along(point), self.side.out(point)
+        way = 1.0 if out > start else -1.0
+        end = out + way * _BEYOND
+        begin = start + way * min(_GAP, abs(out - start) / 2)
+        return Line(self.side.point(along, begin), self.side.point(along, end), Pen.DIMENSION)
+
+    def _figure(self, out: float, shapes: list[Shape], text: Written, middle: float) -> Figure:
+        """With the text above the line: of vertical ones to its left, read from the right."""
+        lift = max(_LIFT, text.below + _LEAST_LIFT)
+        upright = self.side.is_upright
+        place = (out - lift, middle) if upright else (middle, out + lift)
+        texts = text.at(place, Anchor.CENTRE, 90.0 if upright else 0.0)
+        measured = Measured.VERTICAL if upright else Measured.HORIZONTAL
+        length = abs(self.side.along(self.second) - self.side.along(self.first)) / self.draughting.scale
+        words = cad_words(self.size, self.draughting.words, length)
+        on_line = self.side.point(middle, out)
+        parts = (*shapes, *texts.shapes)
+        dimension = Dimension(measured, self.first, self.second, on_line, words, parts, self.draughting.scale)
+        return Figure.of(dimension, self._datum(out)) if self.datum_letter else Figure.of(dimension)
+
+    def _datum(self, out: float) -> Figure:
+        """On the extension line of the first point, away from the second."""
+        along, other = self.side.along(self.first), self.side.along(self.second)
+        away = next(
+            each for each in Side if each.is_upright is not self.side.is_upright and each.outwards * (along - other) > 0
+        )
+        return next(datum(self.datum_letter, self.side.point(along, out), away))

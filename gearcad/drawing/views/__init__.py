@@ -1,0 +1,1 @@
+"""Views of gears, rings, racks, teeth, pairs and planetary trains on a sheet."""

@@ -1,0 +1,17 @@
+from .engagement import engaged as engaged
+from .options import DynamicsOptions as DynamicsOptions
+from .pair_result import ContactStudy as ContactStudy
+from .pair_result import PairStudy as PairStudy
+from .pair_study import study_contact as study_contact
+from .pair_study import study_pair as study_pair
+from .train_result import ModalStudy as ModalStudy
+from .train_result import TrainStudy as TrainStudy
+from .train_study import study_modes as study_modes
+from .train_study import study_train as study_train
+from .trains.members import Inertia as Inertia
+from .trains.members import Mesh as Mesh
+from .trains.members import MeshPair as MeshPair
+from .trains.members import Shaft as Shaft
+from .trains.members import StiffnessWave as StiffnessWave
+from .trains.train import Train as Train
+from .trains.train import TrainModel as TrainModel

@@ -1,1 +1,0 @@
-"""Trains and pairs in time, at any course of speed and torque: steps that are exact for modes, implicit for teeth. SI units."""

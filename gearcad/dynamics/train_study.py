@@ -1,0 +1,313 @@
+"""Study of a train: its modes, the overload of meshes and shafts over speed, and the course at one speed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from gearcad.core.errors import GeometryError
+from gearcad.core.records import Floats, Notice
+from gearcad.core.runtime import Expected, Share, Tell, cores, unheard, untold
+from gearcad.dynamics.engagement import engaged, pair_notices
+from gearcad.dynamics.options import DynamicsOptions, operating_range
+from gearcad.dynamics.response.kv_chart import lines_that_matter
+from gearcad.dynamics.response.speed_charts import OverSpeed, over_speed
+from gearcad.dynamics.time_domain.campbell import campbell_seconds, mesh_campbell
+from gearcad.dynamics.time_domain.spectra import MeshCampbell
+from gearcad.dynamics.time_domain.transient import run_transient
+from gearcad.dynamics.time_domain.transient_result import Transient
+from gearcad.dynamics.tooth_errors.error_result import ToothLaw
+from gearcad.dynamics.tooth_errors.error_sources import MeshTeeth, engaged_teeth, mesh_teeth
+from gearcad.dynamics.tooth_errors.error_study import ErrorPlan, errors_seconds, study_errors
+from gearcad.dynamics.train_result import Course, ModalStudy, TrainStudy
+from gearcad.dynamics.trains.mesh_excitation import Excitation, train_excitation
+from gearcad.dynamics.trains.pair_on_bearings import BearingModes, PairOnBearings
+from gearcad.dynamics.trains.shaft_lines import System, system
+from gearcad.dynamics.trains.steady_response import PeriodicResponse
+from gearcad.dynamics.trains.train import EngagedMesh, Train, coarse_elements, fitted, require_pressed, static_forces
+from gearcad.dynamics.trains.train_modes import NaturalModes, natural_modes
+from gearcad.rating.dynamic_factor import DynamicFactor
+from gearcad.rating.options import RatingOptions
+
+_BEYOND = 1.5
+"""How far beyond the last resonance a chart goes on."""
+
+_SHARE = 0.02
+"""Of a mode's potential energy that a mesh must hold for the mode to be a resonance of it."""
+
+_DRAWN, _DRAWN_OF_MANY = 1024, 256
+"""Samples of a course over a tooth, at least, and over each of many; 8 of the quickest vibration that could be felt."""
+
+_LEAST_LINE, _MOST_LINES = 1e-4, 512
+"""Of the greatest line of a spectrum: what a line must have to be listed; and so many at most."""
+_LINES = 4
+"""Natural frequencies that a Campbell diagram has."""
+
+_QUICK, _CHART_SECONDS, _MEMORY = "potential-energy", 10.0, 3e8
+"""To say beforehand what a study takes: the method of its pairs, CPU seconds of all but runs in time, and bytes."""
+
+_LOWER, _RUN_UP = 3.0, 60
+"""Where flanks part at a speed beyond the chart, the run up to it begins at the speed over the first, and has so many steps."""
+
+
+def study_modes(train: Train, options: DynamicsOptions | None = None) -> ModalStudy:
+    """The natural modes alone, of any train. Raises ParameterError."""
+    options = options or DynamicsOptions()
+    train = engaged(train, options)
+    return ModalStudy(train=train, options=options, modes=natural_modes(train, count=options.frequencies))
+
+
+def study_train(
+    train: Train,
+    options: DynamicsOptions | None = None,
+    *,
+    speeds: Floats | None = None,
+    excitation: Excitation | None = None,
+    method_b: DynamicFactor | None = None,
+    bearings: PairOnBearings | None = None,
+    teeth: Sequence[MeshTeeth] | None = None,
+    tell: Tell = untold,
+    share: Share = unheard,
+    drawn: Share = unheard,
+) -> TrainStudy:
+    """Modes, charts and the course at the train's speed (or at its highest resonance).
+
+    `speeds` (rpm, rising) are those of the chart, at least, in place of the options'. `excitation` is that of the train's own
+    meshes unless given; `method_b` is K_v by ISO 6336-1 of the first mesh. With `bearings` the charts are those of the same
+    mesh between gears that travel as well. `teeth` are those of the meshes, for errors that are drawn, unless the train's own.
+    `tell` hears what is being done, and how much of a run in time, `share` how much of the chart is, `drawn` how much of the
+    errors.
+    Raises ParameterError, GeometryError and SolverError.
+    """
+    if not train.meshes:
+        raise GeometryError(
+            "meshes", 0, "must be one at least: without teeth nothing shakes a train; study_modes has its modes"
+        )
+    train = engaged(train, options)
+    require_pressed(train)
+    options = (options or DynamicsOptions()).graded(RatingOptions())
+    tell("modes")
+    modes = natural_modes(train, count=options.frequencies)
+    on_bearings = None if bearings is None else bearings.modes()
+    excitation = excitation or _own_excitation(train, options)
+    charted_speeds = chart_speeds(train, options, modes, on_bearings) if speeds is None else speeds
+    highest = max(float(charted_speeds[-1]), abs(train.speed))
+    train = fitted(train, highest)
+    charted = system(train) if bearings is None else bearings.system()
+    frequencies, asked = _frequencies(train, charted_speeds)
+    tell("chart")
+    over = over_speed(charted, excitation, frequencies, harmonics=options.harmonics, method_b=method_b, share=share)
+    tell("course")
+    course, more = _course(train, over, asked, options)
+    errors = None
+    if options.drawn:
+        tell("tooth errors")
+        own = _own_teeth(train, options) if teeth is None else teeth
+        places = _error_speeds(train, options, charted_speeds)
+        errors = study_errors(charted, excitation, own, places, train.meshes[0].teeth, _plan(options), drawn)
+    transient = None
+    if options.transient is not None:
+        heard, references = partial(tell, "transient"), over.up.shaft_references
+        shaken = (train, charted, excitation)
+        transient = run_transient(*shaken, options.transient, references=references, otherwise=course.speed, tell=heard)
+    spectra = _spectra(train, charted, excitation, options, charted_speeds, modes, tell) if options.spectra else None
+    return TrainStudy(
+        train=train,
+        options=options,
+        system=charted,
+        excitation=excitation,
+        modes=modes,
+        on_bearings=on_bearings,
+        up=over.up,
+        down=over.down,
+        jumps=over.jumps,
+        course=course,
+        found=(
+            *pair_notices(train),
+            *coarse_elements(train, highest),
+            *over.notices,
+            *more,
+            *_notices(transient),
+            *_notices(spectra),
+        ),
+        method_b=method_b,
+        errors=errors,
+        transient=transient,
+        campbell=spectra,
+    )
+
+
+def expected_train(train: Train, options: DynamicsOptions) -> Expected:
+    """Return what `study_train` takes of drawn tooth errors and a Campbell diagram, about: pairs are as stiff as beams."""
+    train = engaged(train, replace(options, stiffness=_QUICK))
+    options = options.graded(RatingOptions())
+    charted = chart_speeds(train, options, natural_modes(train, count=options.frequencies))
+    train = fitted(train, max(float(charted[-1]), abs(train.speed)))
+    shaken = (system(train), _own_excitation(train, options))
+    seconds = _CHART_SECONDS
+    if options.drawn:
+        places = _error_speeds(train, options, charted)
+        seconds += errors_seconds(*shaken, _own_teeth(train, options), places, train.meshes[0].teeth, _plan(options))
+    if options.spectra:
+        places = _spectrum_speeds(options, charted)
+        seconds += campbell_seconds(train, *shaken, places, duration=options.duration, sampling=options.sampling)
+    return Expected(seconds / cores(), _MEMORY)
+
+
+def _spectrum_speeds(options: DynamicsOptions, speeds: Floats) -> Floats:
+    """Of a Campbell diagram (rpm), over the speeds of a chart."""
+    count = options.mesh_campbell_speeds
+    return np.linspace(options.speed_from or speeds[-1] / count, speeds[-1], count)
+
+
+def _notices(run: Transient | MeshCampbell | None) -> tuple[Notice, ...]:
+    return () if run is None else run.notices
+
+
+def _spectra(
+    train: Train,
+    charted: System,
+    excitation: Excitation,
+    options: DynamicsOptions,
+    speeds: Floats,
+    modes: NaturalModes,
+    tell: Tell,
+) -> MeshCampbell:
+    """Over the speeds of the chart; lines are the natural frequencies whose modes bend teeth most."""
+    tell("campbell")
+    bent = modes.potential_meshes.max(axis=1, initial=0.0)
+    most = [number for number in np.argsort(-bent)[:_LINES].tolist() if bent[number] > _SHARE]
+    return mesh_campbell(
+        train,
+        charted,
+        excitation,
+        _spectrum_speeds(options, speeds),
+        {f"mode {number + 1}": float(modes.frequency[number]) for number in sorted(most)},
+        duration=options.duration,
+        sampling=options.sampling,
+        counted=lambda done, of: tell("campbell", done / of),
+    )
+
+
+def _own_excitation(train: Train, options: DynamicsOptions) -> Excitation:
+    """Of the train's own meshes, with random errors of the teeth if the options ask for them, but for a study of their own."""
+    grade = options.accuracy_grade if options.errors and not options.drawn else None
+    return train_excitation(train, grade=grade, seed=options.seed, distribution=options.distribution)
+
+
+def _own_teeth(train: Train, options: DynamicsOptions) -> list[MeshTeeth]:
+    """Of the train's own meshes: those of pairs have the teeth of these."""
+    grade, single = options.accuracy_grade if options.errors else None, options.premature
+    forces = static_forces(train).tolist()
+    return [
+        engaged_teeth(mesh, number, errors=options.errors, single=single)
+        if isinstance(mesh, EngagedMesh)
+        else mesh_teeth(mesh, number, force, grade, single=single)
+        for number, (mesh, force) in enumerate(zip(train.meshes, forces, strict=True))
+    ]
+
+
+def _plan(options: DynamicsOptions) -> ErrorPlan:
+    return ErrorPlan(
+        law=ToothLaw.SINGLE if options.premature else ToothLaw.SMOOTH,
+        samples=options.error_samples,
+        distribution=options.distribution,
+        seed=options.seed,
+        grade=options.accuracy_grade if options.errors else None,
+    )
+
+
+def _error_speeds(train: Train, options: DynamicsOptions, charted: Floats) -> Floats:
+    """Speeds (rpm) at which errors are drawn: evenly over the chart, and that asked for."""
+    asked = abs(train.speed)
+    first = options.speed_from or charted[-1] / options.error_speeds
+    even = np.linspace(first, charted[-1], options.error_speeds)
+    return np.union1d(even, asked) if even[0] <= asked <= even[-1] else even
+
+
+def _frequencies(train: Train, speeds: Floats) -> tuple[Floats, float]:
+    """Tooth frequencies of the first mesh (1/s) for the chart, and at the speed asked for, which is among them if it can be."""
+    frequency = math.pi * train.meshes[0].teeth / 30
+    charted, asked = speeds * frequency, abs(train.speed) * frequency
+    return np.union1d(charted, asked) if charted[0] <= asked <= charted[-1] else charted, asked
+
+
+def chart_speeds(
+    train: Train, options: DynamicsOptions, modes: NaturalModes, on_bearings: BearingModes | None = None
+) -> Floats:
+    """Of the chart (rpm of the first pinion)."""
+    last = options.speed_to
+    if last is None:
+        felt = (modes.potential_meshes > _SHARE).any(axis=1)
+        last = _BEYOND * float(modes.rpm[felt].max()) if felt.any() else _BEYOND * float(modes.rpm.max())
+        if on_bearings is not None:
+            # Gears that travel are shaken at higher speeds than those that only turn.
+            highest = on_bearings.frequency[on_bearings.potential[:, 0] > _SHARE].max() * 60 / train.meshes[0].teeth
+            last = last if highest < last else _BEYOND * float(highest)
+    first = options.speed_from if options.speed_from else last * options.slowest
+    return np.linspace(first, last, options.chart_speeds)
+
+
+def _course(train: Train, over: OverSpeed, asked: float, options: DynamicsOptions) -> tuple[Course, tuple[Notice, ...]]:
+    """At the train's speed, or where the first mesh's K_v is greatest in operation; and what to know about it."""
+    frequency = asked or _greatest_in_operation(train, over, options)
+    response, notices = over.response(frequency), tuple[Notice, ...]()
+    within = over.up.frequencies[0] <= frequency <= over.up.frequencies[-1]
+    if not within and over.excitation.parting and _pull(response):
+        run_up = np.geomspace(frequency / _LOWER, frequency, _RUN_UP)
+        beyond = over_speed(over.curves.system, over.excitation, run_up, harmonics=over.curves.harmonics)
+        response, notices = beyond.response(frequency), beyond.notices
+    samples = max(_DRAWN, _DRAWN_OF_MANY * max(over.excitation.orders))
+    if over.curves.resolvable:
+        felt, most = float(over.curves.felt_orders(np.array([frequency]))[0]), over.curves.most_orders
+        samples = max(samples, 8 * int(min(felt, most)))
+        if felt > most:
+            notices = (*notices, _unresolved(most))
+    return _drawn(train, response, samples), notices
+
+
+def _greatest_in_operation(train: Train, over: OverSpeed, options: DynamicsOptions) -> float:
+    """Return the tooth frequency (1/s) at which K_v of the first mesh is greatest where the train runs under load."""
+    frequencies, factors = over.up.frequencies, over.up.factors[:, 0]
+    speeds = frequencies * 30 / (math.pi * train.meshes[0].teeth)
+    rows = operating_range(train.speed, options, (float(speeds[0]), float(speeds[-1]))).rows(speeds) & np.isfinite(factors)
+    return float(frequencies[np.nanargmax(np.where(rows, factors, np.nan) if rows.any() else factors)])
+
+
+def _unresolved(most: int) -> Notice:
+    text = (
+        f"at the speed asked for, harmonics beyond the {most} orders that are solved meet natural frequencies that can be felt:"
+        " K_v and the course there are not those of the whole motion"
+    )
+    return Notice("course-unresolved", text)
+
+
+def _pull(response: PeriodicResponse) -> bool:
+    """Whether flanks pull in a linear motion."""
+    return bool((response.senses * response.spring_forces()).min() <= 0)
+
+
+def _drawn(train: Train, response: PeriodicResponse, samples: int) -> Course:
+    """With about so many samples; K_v is that of more."""
+    step = max(1, 8 * int(response.harmonics[-1]) // samples)
+    count = max(samples, 8 * int(response.harmonics[-1]) // step * step)
+    spring = response.spring_forces(count=count)
+    phases = response.phases(count) / (2 * np.pi) * response.excitation.orders[0]
+    crests = (response.senses * spring).max(axis=(0, 1))
+    lines = 2e6 * np.abs(response.approach_coefficients[0])
+    kept = 1 + lines_that_matter(lines[1:], _LEAST_LINE, _MOST_LINES)
+    return Course(
+        speed=float(response.frequencies[0] * 30 / (math.pi * train.meshes[0].teeth)),
+        kv=crests / np.abs(response.system.stiffness * response.static.approach),
+        turn=phases[::step],
+        approach=1e6 * response.approach(count=count)[0, ::step],
+        force=(spring + response.damping_forces(count=count))[0, ::step],
+        spring_force=spring[0, ::step],
+        shaft_torque=response.shaft_torques(count=count)[0, ::step],
+        order=response.harmonics[kept] / response.excitation.orders[0],
+        line=lines[kept],
+    )

@@ -1,0 +1,306 @@
+"""Candidates for a measured gear: the gears of the fits with their residuals, and how certain they are."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from gearcad.core.errors import InputError, SolverError
+from gearcad.core.quantities import NOT_GIVEN
+from gearcad.core.records import Floats, Notice, Pictured, texts
+from gearcad.geometry import BasicRack, Gear
+from gearcad.identify.fit import Fit, read_off, touches
+from gearcad.identify.measurements import Measured, Reading
+from gearcad.identify.standards import FREE, StandardRack, Unknown
+
+_DIGITS = 4
+_WIDTH = 10
+"""Face width in modules of a gear whose width nobody asked for."""
+
+_RADIUS_STEP = 0.01
+_SLACK = 0.05
+"""How far beside the involute a gauge is let pass, in modules: root radii and tip chamfers are not known."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Candidate:
+    """A gear that may have been measured, and how probable it is beside the others.
+
+    `residuals` are readings less what the gear has, in units of their uncertainties; uncertainties are standard ones, mm and
+    degrees, other ways to have made the gear considered. `chi_square` has as many degrees of freedom as there are readings.
+    """
+
+    gear: Gear
+    fit: Fit
+    rack: StandardRack
+    probability: float
+    chi_square: float
+    predicted: tuple[float, ...]
+    residuals: tuple[float, ...]
+    off_involute: tuple[Reading, ...]
+
+    @property
+    def series(self) -> str:
+        """The series of its size: "ISO 54 I", "ISO 54 II", "DIN 780 I", "DIN 780 II", "DP", or "free" for none."""
+        return self.fit.hypothesis.size.series
+
+    @property
+    def transverse(self) -> bool:
+        """Whether its size is that of the transverse section, so that its normal module is of no series."""
+        return self.fit.hypothesis.transverse
+
+    @property
+    def diametral_pitch(self) -> float | None:
+        """Of a size that is one (1/inch)."""
+        return self.fit.hypothesis.size.pitch
+
+    @property
+    def module_uncertainty(self) -> float:
+        """Of the normal module, 0 of one of a series."""
+        return self.fit.uncertainty(Unknown.MODULE)
+
+    @property
+    def helix_uncertainty(self) -> float:
+        return self.fit.uncertainty(Unknown.HELIX_ANGLE)
+
+    @property
+    def shift_uncertainty(self) -> float:
+        return self.fit.uncertainty(Unknown.SHIFT)
+
+    @property
+    def thinning_uncertainty(self) -> float:
+        """Of the normal tooth thinning (mm)."""
+        return self.gear.tooth_thinning * self.fit.uncertainty(Unknown.THINNING)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As identify.json has it."""
+        gear = self.gear
+        return {
+            "probability": self.probability,
+            "chi_square": self.chi_square,
+            "series": self.series,
+            "transverse": self.transverse,
+            "normal_module": gear.normal_module,
+            "module_uncertainty": self.module_uncertainty,
+            "normal_diametral_pitch": None if self.transverse else self.diametral_pitch,
+            "pressure_angle": gear.rack.pressure_angle,
+            "helix_angle": gear.helix_angle,
+            "helix_uncertainty": self.helix_uncertainty,
+            "profile_shift": gear.profile_shift,
+            "shift_uncertainty": self.shift_uncertainty,
+            "tooth_thinning": gear.tooth_thinning,
+            "thinning_uncertainty": self.thinning_uncertainty,
+            "tip_alteration": gear.tip_alteration,
+            "rack": {"name": self.rack.name, "addendum": gear.rack.addendum, "dedendum": gear.rack.dedendum},
+            "predicted": list(self.predicted),
+            "residuals": list(self.residuals),
+        }
+
+    @classmethod
+    def of(cls, measured: Measured, fit: Fit, probability: float) -> Candidate | None:
+        """That of a fit; None where no such gear can be made."""
+        gear = _gear(measured, fit)
+        if gear is None:
+            return None
+        predicted = read_off(measured, measured.readings, fit.unknowns)
+        return cls(
+            gear=gear,
+            fit=fit,
+            rack=fit.ways.racks[fit.best],
+            probability=probability,
+            chi_square=fit.chi_square,
+            predicted=tuple(float(each) for each in predicted),
+            residuals=tuple(
+                (abs(each.value) - float(value)) / each.uncertainty
+                for each, value in zip(measured.readings, predicted, strict=True)
+            ),
+            off_involute=tuple(each for each in measured.readings if not on_involute(gear, each)),
+        )
+
+
+def on_involute(gear: Gear, place: Reading) -> bool:
+    """Whether a gauge touches the flanks of a gear, or has nothing to do with them."""
+    try:
+        diameter = touches(gear.inspection, place)
+    except (InputError, SolverError):
+        return False
+    lowest, highest = sorted((abs(gear.form_diameter), abs(gear.tip_form_diameter)))
+    slack = _SLACK * gear.normal_module
+    return diameter is None or lowest - slack <= diameter <= highest + slack
+
+
+def _gear(measured: Measured, fit: Fit) -> Gear | None:
+    """The gear of a fit, its numbers rounded, with the largest root radius up to its rack's that can be made."""
+    values, rack, size = fit.unknowns, fit.ways.racks[fit.best], fit.hypothesis.size
+    sign = -1 if measured.left_hand else 1
+    dedendum = round(float(values[Unknown.DEDENDUM]), _DIGITS)
+    angle = round(float(values[Unknown.PRESSURE_ANGLE]), _DIGITS)
+    helix = round(float(values[Unknown.HELIX_ANGLE]), _DIGITS)
+    module = float(f"{float(values[Unknown.MODULE]):.6g}") if size.series == FREE else size.module
+    pitch = size.pitch
+    if fit.hypothesis.transverse:
+        module, pitch = float(f"{size.module * math.cos(math.radians(helix)):.8g}"), None
+    try:
+        thinning = round(math.exp(float(values[Unknown.THINNING])), _DIGITS)
+        full = BasicRack(pressure_angle=angle, dedendum=dedendum).full_root_radius(thinning=thinning / module)
+        radius = min(rack.root_radius, math.floor(full / _RADIUS_STEP) * _RADIUS_STEP)
+        return Gear(
+            name="identified",
+            teeth=measured.teeth,
+            normal_module=module if pitch is None else NOT_GIVEN,
+            normal_diametral_pitch=NOT_GIVEN if pitch is None else pitch,
+            face_width=float(f"{_WIDTH * module:.2g}"),
+            helix_angle=sign * helix,
+            profile_shift=round(float(values[Unknown.SHIFT]), _DIGITS),
+            tip_alteration=round(float(values[Unknown.ADDENDUM]) - rack.addendum, _DIGITS) + 0.0,
+            tooth_thinning=thinning,
+            rack=BasicRack(
+                pressure_angle=angle, addendum=rack.addendum, dedendum=dedendum, root_radius=round(max(radius, 0.0), 2)
+            ),
+        )
+    except (InputError, OverflowError):  # a fit far from the readings may have a thinning beyond any float
+        return None
+
+
+def variance(slopes: Floats, fit: Fit) -> float:
+    """Of a reading, by what a fit leaves open, where it has these derivatives (u,)."""
+    return float(slopes @ fit.covariance @ slopes)
+
+
+_CERTAIN = 0.95
+"""The least probability of what is called certain."""
+
+_WORN = 0.12
+"""Tooth thinning in modules above that of gears as they are made."""
+
+_OFF = 2.0
+"""Uncertainties that a reading is off and is told."""
+
+_UNUSUAL = {
+    Unknown.MODULE: "module",
+    Unknown.PRESSURE_ANGLE: "pressure angle",
+    Unknown.HELIX_ANGLE: "helix angle",
+    Unknown.SHIFT: "profile shift",
+    Unknown.ADDENDUM: "height of the tips",
+    Unknown.DEDENDUM: "depth of the roots",
+    Unknown.THINNING: "tooth thinning",
+    Unknown.MATE_SHIFT: "profile shift of the mate",
+}
+
+_LEAST_FIT = 0.002
+"""The least probability that a chi-square as great as the best would have by chance, of readings that fit."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Deciding:
+    """Something else to measure, what each candidate would have there, and how far apart that is.
+
+    With `less` it is two readings, of which the difference counts. `apart` is the distance of each other candidate from the
+    first, in units of what a reading of `place.uncertainty` and the fits leave open.
+    """
+
+    place: Reading
+    less: Reading | None
+    predicted: tuple[float, ...]
+    apart: tuple[float, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """As identify.json has it."""
+        said, less = self.place.to_dict(), None if self.less is None else self.less.to_dict()
+        for each in (said, less or {}):
+            each.pop("value", None)
+        return {**said, "less": less, "predicted": list(self.predicted), "apart": list(self.apart)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Identification(Pictured):
+    """Candidates, the most probable first; what would decide between those that are left; and the chance of such residuals.
+
+    Those that are `alike` have the flanks of the best under another name, and run in its place.
+    """
+
+    measured: Measured
+    candidates: tuple[Candidate, ...]
+    deciding: tuple[Deciding, ...]
+    alike: tuple[Candidate, ...]
+    chance: float
+
+    def __repr__(self) -> str:
+        gear, best = self.best.gear, self.best
+        size = f"m_n {gear.normal_module:.5g}"
+        if best.diametral_pitch is not None:
+            size = f"DP {best.diametral_pitch:g}{' transverse' if best.transverse else ''}"
+        turned = f", helix {gear.helix_angle:.4g} deg" if gear.helix_angle else ""
+        angle = f"{gear.rack.pressure_angle:g} deg{turned}, x {gear.profile_shift:.3f}"
+        sure = "certain" if self.certain else "not certain"
+        return f"<Identification of z = {self.measured.teeth}: {size}, {angle}, {100 * best.probability:.1f} %, {sure}>"
+
+    @property
+    def best(self) -> Candidate:
+        return self.candidates[0]
+
+    @property
+    def fits(self) -> bool:
+        """Whether the best has residuals as uncertainties make them."""
+        return self.chance >= _LEAST_FIT
+
+    @property
+    def certain(self) -> bool:
+        """Whether the best fits, every gauge touches its flanks, and all others together are improbable."""
+        return self.fits and not self.best.off_involute and self.best.probability >= _CERTAIN
+
+    @property
+    def unlisted(self) -> float:
+        """How probable it is that the gear is none of the candidates listed."""
+        return max(1 - sum(each.probability for each in self.candidates), 0.0)
+
+    @property
+    def rivals(self) -> tuple[Candidate, ...]:
+        """Those that are left beside the best."""
+        return () if self.certain else tuple(each for each in self.candidates[1:] if each.probability >= (1 - _CERTAIN) / 5)
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before a gear is made by this."""
+        found = list(self.measured.notices)
+        if not self.fits:
+            found.append(Notice("no-fit", f"no candidate fits: {self._misfit}; count and measure again"))
+        if (thinning := self.best.gear.tooth_thinning) > _WORN * self.best.gear.normal_module:
+            text = f"the teeth of the first candidate are {thinning:.2g} mm thinner than without backlash: worn, perhaps"
+            found.append(Notice("thin-teeth", f"{text}; a gear that is made again has less tooth_thinning"))
+        for each in self.best.off_involute:
+            text = f"the {self.measured.label(each)} would not touch the involute of the first candidate"
+            found.append(Notice("off-involute", text))
+        return tuple(found)
+
+    @property
+    def _misfit(self) -> str:
+        """What is wrong with the best: a reading, or else what such a gear has that hardly any has."""
+        worst = max(range(len(self.measured.readings)), key=lambda each: abs(self.best.residuals[each]))
+        if abs(off := self.best.residuals[worst]) >= _OFF:
+            return f"the {self.measured.label(self.measured.readings[worst])} is {off:+.1f} uncertainties off"
+        unusual = " and ".join(_UNUSUAL[each] for each in self.best.fit.unusual)
+        return f"the first has the readings, but with a {unusual} as hardly any gear has"
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    def to_dict(self) -> dict[str, Any]:
+        """What identify.json holds."""
+        return {
+            "kind": "identify",
+            "teeth": self.measured.teeth,
+            "mate_teeth": self.measured.mate_teeth,
+            "readings": [each.to_dict() for each in self.measured.readings],
+            "certain": self.certain,
+            "chance": self.chance,
+            "unlisted": self.unlisted,
+            "candidates": [each.to_dict() for each in self.candidates],
+            "alike": [self.candidates.index(each) + 1 for each in self.alike],
+            "deciding": [each.to_dict() for each in self.deciding],
+            "warnings": list(self.warnings),
+            "notices": [each.to_dict() for each in self.notices],
+        }

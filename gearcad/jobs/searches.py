@@ -1,0 +1,140 @@
+"""Job `identify`, and the files of a search for sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from gearcad.core.errors import require_whole
+from gearcad.core.output import json_text, staged_files
+from gearcad.designs.spec_writers import write_front, write_pair, write_pairs, write_sized_set, write_sized_sets
+from gearcad.identify.candidates import Identification
+from gearcad.identify.measurements import Measurements, Value
+from gearcad.identify.search import identify_gear
+from gearcad.plots.ratings import save_front
+from gearcad.rating.strength import Part
+from gearcad.sizing import SizedPair, Sizing
+from gearcad.sizing.planetary_sets import SizedSet, SizedSets
+from gearcad.sizing.proposals import unjudged_scuffing
+
+_TABLE, _BEST, _FRONT, _PICTURE, _DOCUMENT = _EVERY = ["pairs.csv", "best.toml", "front.csv", "front.png", "size.json"]
+
+
+def write_sizing(result: Sizing, folder: Path) -> list[Path]:
+    """Write them, complete or not at all; where nothing was found the document alone. Raises OutputError."""
+    names = _EVERY if result.found else [_DOCUMENT]
+    with staged_files(folder, sometimes=_EVERY) as staging:
+        if (best := result.best) is not None:
+            write_pairs(result, staging / _TABLE)
+            write_pair(best, list(_comments(best)), staging / _BEST)
+            write_front(result, staging / _FRONT)
+            save_front(result, staging / _PICTURE)
+        (staging / _DOCUMENT).write_text(json_text(result.to_dict()), encoding="utf-8")
+    return [folder / name for name in names]
+
+
+def _comments(best: SizedPair) -> Iterator[str]:
+    """What the best is for, and what it has."""
+    load, rating = best.task.load, best.task.rating
+    life = "the endurance limit" if rating.life is None else f"{rating.life:g} h"
+    yield f"{load.torque:g} N·m at {load.speed:g} rpm, u = {best.task.ratio:g}, {life}: best by {best.task.criterion.value}"
+    roots = " and ".join(f"{each:.3f}" for each in best.root_safeties)
+    width = "" if best.least_width is None else f"; face width at least {best.least_width:.4g} mm"
+    yield f"{best.mass:.3g} kg, S_H {min(best.flank_safeties):.3f}, S_F {roots}{width}"
+    if (why := unjudged_scuffing(rating)) is not None:
+        yield why
+    if best.strength is not None:
+        yield from map(str, best.strength.notices)
+    yield "no backlash yet: tooth_thinning or tooth_allowance gives it"
+
+
+_SET_SIZES_TABLE, _SET_SIZES_BEST, _SET_SIZES_DOCUMENT = "sets.csv", "best.toml", "size.json"
+
+
+def write_set_sizes(result: SizedSets, folder: Path) -> list[Path]:
+    """Write them, complete or not at all. Raises OutputError."""
+    with staged_files(folder) as staging:
+        best = result.found[0]
+        write_sized_sets(result, staging / _SET_SIZES_TABLE)
+        write_sized_set(best, list(_set_sizes_comments(result, best)), staging / _SET_SIZES_BEST)
+        (staging / _SET_SIZES_DOCUMENT).write_text(json_text(result.to_dict()), encoding="utf-8")
+    return [folder / name for name in (_SET_SIZES_TABLE, _SET_SIZES_BEST, _SET_SIZES_DOCUMENT)]
+
+
+def _set_sizes_comments(result: SizedSets, best: SizedSet) -> Iterator[str]:
+    """What the lightest is for, and what it has."""
+    task = result.task
+    life = "the endurance limit" if task.rating.life is None else f"{task.rating.life:g} h"
+    yield f"{task.torque_words} at {task.speed:g} rpm, i = {task.sets.ratio:g}, {life}: the lightest found"
+    flank, root = (best.least[part] for part in (Part.FLANK, Part.ROOT))
+    safeties = f"S_H {flank:.3f}, S_F {root:.3f}"
+    yield f"{best.mass:.3g} kg without bores, {safeties}; no backlash yet: planetary.tooth_thinning gives it"
+    if (why := unjudged_scuffing(task.rating)) is not None:
+        yield why
+
+
+_MOST = 100
+
+
+def identify(
+    teeth: int,
+    *,
+    tip_diameter: Value | None = None,
+    root_diameter: Value | None = None,
+    span: Mapping[int, Value] | None = None,
+    over_pins: Mapping[float, Value] | None = None,
+    over_balls: Mapping[float, Value] | None = None,
+    between_pins: Mapping[float, Value] | None = None,
+    between_balls: Mapping[float, Value] | None = None,
+    chordal_thickness: Mapping[float, Value] | None = None,
+    helix_angle: Value | None = None,
+    tip_helix_angle: Value | None = None,
+    lead: Value | None = None,
+    centre_distance: Value | None = None,
+    mate_teeth: int | None = None,
+    mate_tip_diameter: Value | None = None,
+    uncertainty: float = 0.02,
+    angle_uncertainty: float = 1.0,
+    count: int = 10,
+) -> Identification:
+    """The standard gears that readings may be of, at most `count`, the most probable first. Lengths in mm, angles in degrees.
+
+    `teeth` are negative for a ring, whose diameters are positive as they are read. `span` is {teeth or spaces spanned: mm},
+    `chordal_thickness` {height below the tip: mm}, the others {diameter of the pins or balls: mm}. A reading is a number, or a
+    number and its own standard uncertainty; the others have `uncertainty` (mm), `angle_uncertainty` (degrees), and a lead 1 %.
+    `helix_angle` is that on the reference circle, 0 for a gear seen to be a spur gear; `tip_helix_angle` is that on the tip
+    circle, as a gear rolled over paper prints it; below 0 for a left hand. Without any of them both are tried. The
+    centre distance, and the mate's tips, are of the pair in which it runs.
+
+    >>> found = identify(24, tip_diameter=52.02, root_diameter=43.01, span={3: 15.40, 4: 21.30}, helix_angle=0)
+    >>> found.certain, found.best.gear.normal_module, found.best.gear.rack.pressure_angle
+    (True, 2.0, 20.0)
+
+    Raises ParameterError for readings that no gear can have, GeometryError where no gear comes near them.
+    """
+    measurements = Measurements(
+        teeth=teeth,
+        tip_diameter=tip_diameter,
+        root_diameter=root_diameter,
+        span=span,
+        over_pins=over_pins,
+        over_balls=over_balls,
+        between_pins=between_pins,
+        between_balls=between_balls,
+        chordal_thickness=chordal_thickness,
+        helix_angle=helix_angle,
+        tip_helix_angle=tip_helix_angle,
+        lead=lead,
+        centre_distance=centre_distance,
+        mate_teeth=mate_teeth,
+        mate_tip_diameter=mate_tip_diameter,
+        uncertainty=uncertainty,
+        angle_uncertainty=angle_uncertainty,
+    )
+    return identify_measured(measurements, count)
+
+
+def identify_measured(measurements: Measurements, count: int = 10) -> Identification:
+    """The same of what a file says, as `read_measurements` has it."""
+    require_whole("count", count, at_least=1, at_most=_MOST)
+    return identify_gear(measurements.measured, count)

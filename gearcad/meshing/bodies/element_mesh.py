@@ -1,0 +1,433 @@
+"""ElementMesh: nodes, elements and named sides of a body, its shape functions, and conversion to other libraries."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from functools import cache, cached_property
+from itertools import groupby, product
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.core.records import Floats, Wholes
+from gearcad.geometry import Gear
+
+
+@dataclass(frozen=True)
+class Shape:
+    """An element: its vertices come first, then, if it is of second order, the nodes half-way along its edges.
+
+    `edges` are pairs of vertices, in the order of the nodes between them; `faces` the local nodes of each side, vertices
+    first, in an order in which its normal points out of the element. Of plane elements they are edges: end, end, middle.
+    Order of nodes and sides are those of Abaqus and CalculiX, so side k, counted from 1, is their S(k).
+    """
+
+    dimension: int
+    order: int
+    vertices: int
+    edges: tuple[tuple[int, int], ...]
+    faces: tuple[tuple[int, ...], ...]
+    face: str
+
+    @property
+    def nodes(self) -> int:
+        """Nodes of one element."""
+        return self.vertices + (len(self.edges) if self.order == 2 else 0)
+
+
+class Element(Enum):
+    """What meshes are made of; the value is the word of commands and files."""
+
+    TRI6 = "tri6"
+    QUAD8 = "quad8"
+    HEX8 = "hex8"
+    HEX20 = "hex20"
+    TET10 = "tet10"
+
+    @property
+    def shape(self) -> Shape:
+        """Its nodes and sides."""
+        return _SHAPES[self]
+
+
+_HEX_EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))
+_HEX_FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+_TET_EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+_TET_FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))
+
+
+def _with_middles(
+    faces: tuple[tuple[int, ...], ...], edges: tuple[tuple[int, int], ...], vertices: int
+) -> tuple[tuple[int, ...], ...]:
+    """Sides of an element of second order: after their vertices the nodes between those that follow each other."""
+    number = {frozenset(edge): vertices + k for k, edge in enumerate(edges)}
+    return tuple((*face, *(number[frozenset(pair)] for pair in zip(face, face[1:] + face[:1], strict=True))) for face in faces)
+
+
+def _plane(vertices: int) -> Shape:
+    """A triangle or quadrangle of second order."""
+    edges = tuple((k, (k + 1) % vertices) for k in range(vertices))
+    return Shape(2, 2, vertices, edges, tuple((*edge, vertices + k) for k, edge in enumerate(edges)), "line3")
+
+
+_SHAPES = {
+    Element.TRI6: _plane(3),
+    Element.QUAD8: _plane(4),
+    Element.HEX8: Shape(3, 1, 8, _HEX_EDGES, _HEX_FACES, "quad4"),
+    Element.HEX20: Shape(3, 2, 8, _HEX_EDGES, _with_middles(_HEX_FACES, _HEX_EDGES, 8), "quad8"),
+    Element.TET10: Shape(3, 2, 4, _TET_EDGES, _with_middles(_TET_FACES, _TET_EDGES, 4), "tri6"),
+}
+
+
+BORE = "bore"
+"""The inner circle of an external gear, that is none where its section is a full disc."""
+
+GAP = "gap"
+"""The ground between the halves of a double helical gear; its ends are "gap_back" and "gap_front"."""
+
+RIM = "rim"
+"""The outside of a ring."""
+
+
+def body_side(gear: Gear) -> str:
+    """The side where the body ends away from the teeth."""
+    return RIM if gear.internal else BORE
+
+
+def rises(gear: Gear, name: str) -> bool:
+    """Whether the "left" or "right" flank is the one with y > 0 of a tooth on +x: the left one is, but that of a ring not."""
+    return (name == "left") != gear.internal
+
+
+def named_left(gear: Gear, *, positive: bool) -> bool:
+    """Whether the flank with y > 0 of a tooth on +x, or else the one with y < 0, is called left."""
+    return positive != gear.internal
+
+
+Cells = NDArray[np.int32]
+"""Nodes of elements: half of what a mesh takes, were they longer."""
+
+
+@dataclass(frozen=True)
+class Faces:
+    """Sides of elements: which element (n,), and which of its sides (n,), counted from 0 as `Shape.faces` are."""
+
+    elements: Cells
+    sides: NDArray[np.int8]
+
+    def __len__(self) -> int:
+        return len(self.elements)
+
+    def shifted(self, elements: int) -> Faces:
+        """The same sides where so many elements stand before them."""
+        return replace(self, elements=self.elements + np.int32(elements))
+
+
+@dataclass(frozen=True)
+class ElementMesh:
+    """Elements of one kind.
+
+    `points` (n, 3) in mm, z = 0 in sections; `cells` (m, nodes of an element), from 0. `parts` are the bodies, each a slice of
+    the elements: {"gear": ...}, or {"pinion": ..., "wheel": ...}. `sides` are the named parts of the surface; no side of an
+    element has two names. `matched` are nodes (k, 2) of cyclic cuts that turn into each other: those of "cut_behind" and
+    of "cut_ahead".
+    """
+
+    element: Element
+    points: Floats
+    cells: Cells
+    parts: Mapping[str, slice]
+    sides: Mapping[str, Faces]
+    matched: Mapping[str, Wholes] = field(default_factory=dict)
+
+    def face_cells(self, name: str) -> Cells:
+        """Nodes (n, nodes of a face) of a named side, face by face, its vertices first, normals outwards."""
+        faces = self.sides[name]
+        local = np.array(self.element.shape.faces)[faces.sides]
+        found: Cells = self.cells[faces.elements[:, None], local]
+        return found
+
+    def nodes(self, name: str) -> Cells:
+        """Numbers (n,) of the nodes of a named side, in order."""
+        return np.unique(self.face_cells(name))
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh of elements and faces of sides; parts and sides are its cell sets, nodes of sides its point sets."""
+
+        return meshio_mesh(self)
+
+    def to_skfem(self) -> Any:
+        """A mesh of scikit-fem, with the parts as subdomains and the sides as boundaries; nodes have other numbers there."""
+
+        return skfem_mesh(self)
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.UnstructuredGrid, with fields of the nodes for each kind of side. Raises ImportError without PyVista."""
+
+        return pyvista_grid(self)
+
+    @cached_property
+    def nbytes(self) -> int:
+        """Memory (bytes) of nodes and elements."""
+        return self.points.nbytes + self.cells.nbytes
+
+
+def joined(meshes: Mapping[str, ElementMesh]) -> ElementMesh:
+    """Several meshes of one kind of element as one, their sides and parts named after them: "pinion_bore"."""
+    first = next(iter(meshes.values()))
+    parts: dict[str, slice] = {}
+    sides: dict[str, Faces] = {}
+    matched: dict[str, Wholes] = {}
+    cells, nodes, elements = list[Cells](), 0, 0
+    for name, mesh in meshes.items():
+        cells.append(mesh.cells + np.int32(nodes))
+        parts[name] = slice(elements, elements + len(mesh.cells))
+        sides |= {f"{name}_{side}": faces.shifted(elements) for side, faces in mesh.sides.items()}
+        matched |= {f"{name}_{cut}": pairs + nodes for cut, pairs in mesh.matched.items()}
+        nodes += len(mesh.points)
+        elements += len(mesh.cells)
+    points = np.concatenate([mesh.points for mesh in meshes.values()])
+    return ElementMesh(first.element, points, np.concatenate(cells), parts, sides, matched)
+
+
+NOWHERE = -1
+"""Of nodes that are on no tooth's side of that kind."""
+
+_TOOTH = re.compile(r"(.+)_(\d+)")
+
+
+def side_fields(mesh: ElementMesh) -> Iterator[tuple[str, NDArray[np.int16] | NDArray[np.uint8]]]:
+    """A field of the nodes for each kind of side, one at a time.
+
+    "left_flank" holds the tooth's number on the nodes of all left flanks, and -1 elsewhere; what is there once, as "bore",
+    is 1 on its nodes and 0 elsewhere.
+    """
+    kinds = [
+        (match[1], int(match[2]), name) if (match := _TOOTH.fullmatch(name)) else (name, None, name) for name in mesh.sides
+    ]
+    for kind, sides in groupby(sorted(kinds, key=lambda each: each[0]), key=lambda each: each[0]):
+        field: NDArray[np.int16] | NDArray[np.uint8] | None = None
+        for _, tooth, name in sides:
+            if field is None:
+                field = np.zeros(len(mesh.points), np.uint8) if tooth is None else np.full(len(mesh.points), NOWHERE, np.int16)
+            field[mesh.face_cells(name)] = 1 if tooth is None else tooth
+        assert field is not None
+        yield kind, field
+
+
+def part_numbers(mesh: ElementMesh) -> NDArray[np.uint8]:
+    """Of each element: which of the parts it belongs to, from 1."""
+    numbers = np.empty(len(mesh.cells), np.uint8)
+    for number, part in enumerate(mesh.parts.values(), 1):
+        numbers[part] = number
+    return numbers
+
+
+_QUAD = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+_TRI = ((0, 0), (1, 0), (0, 1))
+
+_VERTICES: dict[str, tuple[tuple[int, ...], ...]] = {
+    "line3": ((-1,), (1,)),
+    "tri6": _TRI,
+    "quad4": _QUAD,
+    "quad8": _QUAD,
+    "hex8": (*((*place, -1) for place in _QUAD), *((*place, 1) for place in _QUAD)),
+    "tet10": ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)),
+}
+_VERTICES["hex20"] = _VERTICES["hex8"]
+
+_FACE_EDGES = {"line3": ((0, 1),), "quad4": ()}
+"""Pairs of vertices with a node between them, of faces that are no elements of their own."""
+
+_LINEAR = ("quad4", "hex8")
+_SIMPLICES = ("tri6", "tet10")
+
+
+@cache
+def local_places(kind: str) -> Floats:
+    """Places (n, dimension) of the nodes of an element or a face in its own coordinates: -1 to 1, or 0 to 1 in simplices."""
+    vertices = np.array(_VERTICES[kind], float)
+    shape = Element(kind).shape if kind not in _FACE_EDGES else None
+    pairs = _FACE_EDGES[kind] if shape is None else shape.edges[: shape.nodes - shape.vertices]
+    middles = vertices[np.array(pairs, int).reshape(-1, 2)].mean(axis=1)
+    return np.concatenate([vertices, middles])
+
+
+@cache
+def _powers(kind: str) -> Wholes:
+    """Exponents (n, dimension) of the monomials: up to second order in simplices, else with one square at the most."""
+    every = np.array(list(product(range(3), repeat=len(_VERTICES[kind][0]))))
+    if kind in _SIMPLICES:
+        chosen = every.sum(axis=1) <= 2
+    else:
+        chosen = (every == 2).sum(axis=1) <= (0 if kind in _LINEAR else 1)
+    result: Wholes = every[chosen]
+    return result
+
+
+@cache
+def _coefficients(kind: str) -> Floats:
+    """Of the monomials (n,) in the shape functions (n,)."""
+    result: Floats = np.linalg.inv(np.prod(local_places(kind)[:, None] ** _powers(kind), axis=-1))
+    return result
+
+
+def shape_values(kind: str, places: Floats) -> Floats:
+    """Values (p, n) at local places (p, dimension) of the shape functions of an element or a face ("quad8")."""
+    monomials = np.prod(places[:, None] ** _powers(kind), axis=-1)
+    result: Floats = monomials @ _coefficients(kind)
+    return result
+
+
+def shape_slopes(kind: str, places: Floats) -> Floats:
+    """Their derivatives (p, dimension, n) along the local coordinates."""
+    powers = _powers(kind)
+    found = []
+    for axis in range(powers.shape[1]):
+        lower = np.maximum(powers - np.eye(powers.shape[1], dtype=int)[axis], 0)
+        found.append(np.prod(places[:, None] ** lower, axis=-1) * powers[:, axis] @ _coefficients(kind))
+    return np.stack(found, 1)
+
+
+MESHIO_WORDS = {
+    "tri6": "triangle6",
+    "quad8": "quad8",
+    "hex8": "hexahedron",
+    "hex20": "hexahedron20",
+    "tet10": "tetra10",
+    "line3": "line3",
+    "quad4": "quad",
+    "line2": "line",
+    "tri3": "triangle",
+    "quad9": "quad9",
+    "hex27": "hexahedron27",
+}
+"""What meshio calls elements and faces; the order of their nodes is ours."""
+
+_LINEAR_FACES = {"line3": "line2", "tri6": "tri3", "quad4": "quad4", "quad8": "quad4"}
+"""Faces as scikit-fem reads them: their vertices."""
+
+_FACE_NODES = {"line2": 2, "tri3": 3, "quad4": 4, "line3": 3, "tri6": 6, "quad8": 8}
+
+_VTK_FACES = (5, 3, 2, 4, 0, 1)
+"""Our sides of a hexahedron in the order of VTK's nodes in faces: -x, +x, -y, +y, -z, +z."""
+
+_VTK_KINDS = {Element.TRI6: 22, Element.QUAD8: 23, Element.HEX8: 12, Element.HEX20: 25, Element.TET10: 24}
+"""Numbers of VTK's cells; the order of their nodes is ours."""
+
+
+def vtk_grid(mesh: ElementMesh) -> Any:
+    """A vtkUnstructuredGrid that shares nodes and elements with the mesh.
+
+    Fields of its nodes are the kinds of sides (see `side_fields`), of its elements "part", which counts from 1; of the whole
+    it is "matched_cut", nodes (k, 2), where there is a cyclic cut.
+    """
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+
+    def array(values: Any, name: str) -> Any:
+        made = numpy_to_vtk(np.ascontiguousarray(values))
+        made.SetName(name)
+        return made
+
+    grid, points, cells = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
+    points.SetData(array(mesh.points, "points"))
+    grid.SetPoints(points)
+    nodes = mesh.element.shape.nodes
+    offsets = np.arange(0, mesh.cells.size + 1, nodes, dtype=np.int32 if mesh.cells.size < 2**31 else np.int64)
+    cells.SetData(array(offsets, "offsets"), array(mesh.cells.ravel().astype(offsets.dtype, copy=False), "nodes"))
+    grid.SetCells(_VTK_KINDS[mesh.element], cells)
+    for name, values in side_fields(mesh):
+        grid.GetPointData().AddArray(array(values, name))
+    grid.GetCellData().AddArray(array(part_numbers(mesh), "part"))
+    for cut, pairs in mesh.matched.items():
+        grid.GetFieldData().AddArray(array(pairs.astype(np.int32), f"matched_{cut}"))
+    return grid
+
+
+def pyvista_grid(mesh: ElementMesh) -> Any:
+    """The same as pyvista.UnstructuredGrid. Raises ImportError without PyVista."""
+    try:
+        import pyvista
+    except ImportError as error:
+        raise ImportError("ElementMesh.to_pyvista needs PyVista: pip install pyvista") from error
+    return pyvista.UnstructuredGrid(vtk_grid(mesh))
+
+
+def meshio_mesh(mesh: ElementMesh) -> Any:
+    """A meshio.Mesh: elements, then faces of all sides; parts and sides are its cell sets, nodes of sides its point sets."""
+    made = _with_sets(mesh, mesh.element.value, mesh.points, mesh.cells, mesh.element.shape.face)
+    made.point_sets = {name: mesh.nodes(name) for name in mesh.sides}
+    return made
+
+
+def skfem_mesh(mesh: ElementMesh) -> Any:
+    """A mesh of scikit-fem, of second order as ours is; parts are its subdomains, sides its boundaries.
+
+    hex20 and quad8 gain the nodes inside of faces and elements that scikit-fem wants, where their own shape functions put
+    them: the geometry stays as it is. Nodes have numbers of scikit-fem's own. Its search for places in hexahedra and
+    quadrangles ends where rounding does; meshes that it makes of this one, by refining it or so, have its own search again.
+    """
+    from skfem.io.meshio import from_meshio
+
+    from gearcad.meshing.bodies.rounded_mapping import RoundedMapping
+
+    mesh = _vertices_first(mesh)
+    kind, points, cells = mesh.element.value, mesh.points, mesh.cells
+    if mesh.element is Element.HEX20:
+        kind, (points, cells) = "hex27", _with_centres(*_with_face_nodes(mesh), np.arange(20), "hex20")
+    elif mesh.element is Element.QUAD8:
+        kind, (points, cells) = "quad9", _with_centres(points, cells, np.arange(8), "quad8")
+    found = from_meshio(_with_sets(mesh, kind, points, cells, _LINEAR_FACES[mesh.element.shape.face]), ignore_orientation=True)
+    if not found.affine:
+        found._cached_mapping = RoundedMapping(found, found.elem(), found.bndelem)
+    return found
+
+
+def _vertices_first(mesh: ElementMesh) -> ElementMesh:
+    """The same mesh with its nodes numbered as scikit-fem takes them: those between vertices after all of these."""
+    between = np.ones(len(mesh.points), bool)
+    between[mesh.cells[:, : mesh.element.shape.vertices]] = False
+    order = np.argsort(between, kind="stable")
+    number = np.empty(len(order), np.int32)
+    number[order] = np.arange(len(order))
+    return replace(mesh, points=mesh.points[order], cells=number[mesh.cells])
+
+
+def _with_sets(mesh: ElementMesh, kind: str, points: Floats, cells: Cells, face: str) -> Any:
+    """A meshio.Mesh of elements and faces of these kinds, with our parts and sides as its cell sets."""
+    import meshio
+
+    faces = [mesh.face_cells(name)[:, : _FACE_NODES[face]] for name in mesh.sides]
+    blocks = [(MESHIO_WORDS[kind], cells)]
+    if faces:
+        blocks.append((MESHIO_WORDS[face], np.concatenate(faces)))
+    none, start = np.empty(0, np.int64), 0
+    numbers = np.arange(max(len(rows) for _, rows in blocks))
+    sets = {name: [numbers[part], none][: len(blocks)] for name, part in mesh.parts.items()}
+    for name, rows in zip(mesh.sides, faces, strict=True):
+        sets[name] = [none, numbers[start : start + len(rows)]]
+        start += len(rows)
+    return meshio.Mesh(points, blocks, cell_sets=sets)
+
+
+def _with_face_nodes(mesh: ElementMesh) -> tuple[Floats, Cells]:
+    """Points and elements (m, 26) of hexahedra with a node more in each face, in VTK's order."""
+    faces = mesh.cells[:, np.array(mesh.element.shape.faces)[list(_VTK_FACES)]].reshape(-1, 8)
+    _, first, number = np.unique(np.sort(faces[:, :4]), axis=0, return_index=True, return_inverse=True)
+    middles = shape_values("quad8", np.zeros((1, 2)))[0] @ mesh.points[faces[first]]
+    cells = np.concatenate([mesh.cells, len(mesh.points) + number.reshape(-1, 6)], axis=1)
+    return np.concatenate([mesh.points, middles]), cells.astype(np.int32)
+
+
+def _with_centres(points: Floats, cells: Cells, own: Wholes, kind: str) -> tuple[Floats, Cells]:
+    """Points and elements with a node more in the middle of each, where the shape functions of this kind put it."""
+    middle = shape_values(kind, np.zeros((1, len(local_places(kind)[0]))))[0]
+    centres = middle @ points[cells[:, own]]
+    numbers = np.arange(len(points), len(points) + len(cells), dtype=np.int32)
+    return np.concatenate([points, centres]), np.c_[cells, numbers]

@@ -1,1 +1,0 @@
-"""Meshes as files for other programs."""

@@ -1,0 +1,244 @@
+"""Elements of the page, one for each script of this folder: they draw in the browser and compute no gear."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from nicegui import ui
+from nicegui.element import Element
+from nicegui.events import GenericEventArguments
+
+from gearcad.page.words import Words
+
+
+class BarView(Element, component="gear_bar.js"):
+    """Follows the system until somebody chooses; the browser remembers that."""
+
+    def __init__(self, words: Words) -> None:
+        super().__init__()
+        self._props["keys"] = list(_keys(words).items())
+        self._props["words"] = {"dark": words["light or dark"], "keys": words["keys"], "close": words["close"]}
+
+
+def _keys(words: Words) -> dict[str, str]:
+    """What each does."""
+    return {
+        "/": words["find a key"],
+        "Enter": words["next field, with Shift the one before; on a row of data: put on top"],
+        "↑ ↓": words["step a number, with Shift by ten; walk rows of data"],
+        "Esc": words["leave a field or a menu; Tab then leaves the text, too"],
+        "Ctrl+Z": words["undo"],
+        "Ctrl+Y": words["redo"],
+        "Tab": words["from part to part of the page"],
+        "?": words["these keys"],
+    }
+
+
+THREE = ui.scene
+"""Whose package of three.js the script of this element imports."""
+
+
+class BodiesView(Element, component="gear_bodies.js", esm={"gear-surfaces": "surfaces"}):
+    """Bodies, whose surfaces are sent once as long as they are seen; `label` says to those who cannot see it what it is."""
+
+    def __init__(self, label: str, words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["label"], self._props["words"] = label, words
+
+    def show(
+        self, number: int, bodies: Sequence[dict[str, Any]], surfaces: Mapping[str, bytes], error: float, why_not: str
+    ) -> None:
+        """Show bodies, or say why there are none; `number` is higher each time, `error` that of the surfaces (mm).
+
+        `surfaces` are those that the bodies before have not had. They are sent as they are, and not as text of a script.
+        """
+        sent = {"number": number, "bodies": bodies, "surfaces": surfaces, "error": error, "whyNot": why_not}
+        self.client.outbox.enqueue_message("gear_bodies", sent, self.client.id)
+
+
+class FilesView(Element, component="gear_files.js"):
+    """Calls `asked(what, told)`; files that are opened go to `address`. `words` are the page's own."""
+
+    def __init__(self, asked: Callable[[str, Mapping[str, Any]], None], address: str, words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["words"], self._props["address"] = words, address
+        self.on("asked", lambda event: asked(str(event.args.get("what")), event.args))
+
+    def show(self, **state: Any) -> None:
+        """What it has: `specs`, `tables`, `starters`, `makes`; what is `making`, `saved` or `taken`; the `line` of a fault."""
+        self.run_method("show", state)
+
+    def close(self) -> None:
+        """What was chosen is seen behind it."""
+        self.run_method("close")
+
+    def follow(self, link: str) -> None:
+        """The link that holds the design goes into the address; "" where none can."""
+        self.run_method("follow", link)
+
+
+EDITOR = ui.codemirror
+"""The element whose package of CodeMirror the script of the text imports."""
+
+
+class _Typed(Element):
+    """An element whose changes come with numbers: each is taken once and in order, and answered with the last number."""
+
+    def __init__(self, typed: Callable[[dict[str, Any]], None], step: Callable[[bool], None]) -> None:
+        super().__init__()
+        self._heard = 0
+        self.on("typed", lambda event: self._hear(event, typed))
+        self.on("step", lambda event: self._hear(event, lambda change: step(bool(change["forth"]))))
+
+    def _hear(self, event: GenericEventArguments, take: Callable[[dict[str, Any]], None]) -> None:
+        """Take the change if its number is the next one: the browser sends again what has no answer."""
+        if int(event.args["number"]) == self._heard + 1:
+            self._heard += 1
+            take(event.args)
+        self.run_method("hear", self._heard)
+
+    def show(self, state: dict[str, Any]) -> None:
+        """Show a state in which all changes are that have come."""
+        self.run_method("show", state | {"heard": self._heard})
+
+
+class TextView(_Typed, component="spec_text.js", esm={"gear-changes": "changes"}):
+    """The text of a spec: calls `written(text, step)` with the text after typing, and `step(forth)` for keys that undo or redo.
+
+    `show` takes a `text`, and the number of the `line` that is wrong, if there is one.
+    """
+
+    def __init__(self, written: Callable[[str, int], None], step: Callable[[bool], None], label: str) -> None:
+        super().__init__(lambda change: written(str(change["text"]), int(change["step"])), step)
+        self._props["label"] = label
+
+
+class InputsView(_Typed, component="spec_inputs.js", esm={"gear-changes": "changes"}):
+    """Fields of a spec: calls `changed(key, text, step)` with what is typed, and `step(forth)` for keys that undo or redo.
+
+    `words` are those of the fields, in the language of the page. `show` takes what is `given` and `used` under which key, which
+    keys have `changed`, and the `fault`, if there is one; with `reveal` what has changed comes into sight, and drafts go.
+    """
+
+    def __init__(self, changed: Callable[[str, str, int], None], step: Callable[[bool], None], words: dict[str, str]) -> None:
+        super().__init__(lambda change: changed(str(change["key"]), str(change["text"]), int(change["step"])), step)
+        self._props["words"], self._props["tables"] = words, []
+
+    def have(self, tables: list[dict[str, Any]]) -> None:
+        """Make fields of what `gearcad.page.fields` says of the tables of a kind of design."""
+        self._props["tables"] = tables
+        self.update()
+
+
+class LimitsView(Element, component="gear_limits.js"):
+    """Calls `moved` with new values by the places of their variables. `words` are its own, in the language of the page."""
+
+    def __init__(self, moved: Callable[[Mapping[int, float]], None], words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["words"] = words
+        self.on("moved", lambda event: moved(_numbers(event.args)))
+
+    def show(self, state: dict[str, Any]) -> None:
+        """The `variables`, those across and up first; and `limits`, where they are other than before."""
+        self.run_method("show", state)
+
+
+def _numbers(said: Mapping[str, Any]) -> dict[int, float]:
+    """What came from the browser, if it is numbers."""
+    found = {int(at): float(value) for at, value in said.items() if str(at).isdigit() and isinstance(value, int | float)}
+    return {at: value for at, value in found.items() if math.isfinite(value)}
+
+
+class RollView(Element, component="gear_roll.js"):
+    """A slider of the roll angle over some pitches, and a button that lets the gears turn.
+
+    Views on the window hear the event `gear-turn`, whose `detail.turn` is how far the first gear is turned (rad).
+    """
+
+    def __init__(self, words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["words"] = words
+
+    def show(self, pitch: float) -> None:
+        """Roll by pitches of so many radians of the first gear; by none nothing turns."""
+        self.run_method("show", pitch)
+
+
+class RunsView(Element, component="gear_runs.js"):
+    """Calls `start(kind)` and `cancel(number)`; `words` are the page's own."""
+
+    def __init__(self, start: Callable[[str], None], cancel: Callable[[int], None], words: dict[str, str], limits: str) -> None:
+        super().__init__()
+        self._props["words"], self._props["limits"] = words, limits
+        self.on("start", lambda event: start(str(event.args.get("kind"))))
+        self.on("cancel", lambda event: cancel(int(event.args.get("number", -1))))
+
+    def show(self, **state: Any) -> None:
+        """`kinds` that can be started, `runs` in their order, `stale` numbers, `tables` of figures, a fault's `line`."""
+        self.run_method("show", state)
+
+    def tell(self, number: int, told: dict[str, Any]) -> None:
+        """How far a run is."""
+        self.run_method("tell", number, told)
+
+
+class SectionView(Element, component="gear_section.js"):
+    """Draws what `gearcad.page.panels.drawn_data` finds; `label` says to those who cannot see it what it is."""
+
+    def __init__(self, label: str, words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["label"], self._props["words"] = label, words
+
+    def show(self, content: dict[str, Any] | None, kept: dict[str, Any] | None) -> None:
+        self.run_method("show", content, kept)
+
+
+class SharesView(Element, component="gear_shares.js"):
+    """Shows what `gearcad.page.panels.views` finds, and nothing where that is nothing."""
+
+    def __init__(self, words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["words"] = words
+
+    def show(self, content: dict[str, Any] | None) -> None:
+        self.run_method("show", content)
+
+    def wait(self) -> None:
+        """Tell that what is shown is of an older design."""
+        self.run_method("wait")
+
+
+class SheetView(Element, component="gear_sheet.js"):
+    """Shows what `gearcad.page.panels.sheet_content` makes; `words` are the page's own, in its language.
+
+    `store` is the name under which the browser keeps what is folded and what is pinned.
+    """
+
+    def __init__(self, label: str, store: str, words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["label"], self._props["store"], self._props["words"] = label, store, words
+
+    def show(self, content: dict[str, Any]) -> None:
+        self.run_method("show", content)
+
+    def wait(self) -> None:
+        """Tell that what is shown is of an older design."""
+        self.run_method("wait")
+
+
+class TableView(Element, component="gear_table.js"):
+    """Calls `choose(columns by axis)` and `opened(row)`; `words` are the page's own."""
+
+    def __init__(
+        self, choose: Callable[[Mapping[str, Any]], None], opened: Callable[[int], None], words: dict[str, str]
+    ) -> None:
+        super().__init__()
+        self._props["words"] = words
+        self.on("choose", lambda event: choose(event.args))
+        self.on("open", lambda event: opened(int(event.args.get("number", 0))))
+
+    def show(self, **state: Any) -> None:
+        """The table's `name`, what is `told` of it, `columns`, those `chosen`; `heads` and `rows` of the list; a `line`."""
+        self.run_method("show", state)

@@ -1,0 +1,313 @@
+"""Panels of the spec: inputs, text, files, and a design kept beside it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from nicegui import background_tasks, ui
+
+from gearcad.core.errors import GearcadError, printable
+from gearcad.designs.reader import NO_DESIGNS, starter_text, starters
+from gearcad.page.components.elements import FilesView, InputsView, TextView
+from gearcad.page.fields import fields_of, given_texts, used_texts
+from gearcad.page.run_process import DOWNLOADS
+from gearcad.page.runs import Run, Runs, State, await_files
+from gearcad.page.words import Words
+from gearcad.page.workbench import (
+    LARGEST_SPEC,
+    LARGEST_TABLE,
+    SPECS,
+    TABLES,
+    BesideDesign,
+    Folder,
+    TakenError,
+    Workbench,
+    pack,
+    text_of,
+)
+
+
+class InputsPanel:
+    """Follows the workbench itself, not the last good design: what is wrong must be seen where it was typed."""
+
+    def __init__(self, changed: Callable[[str, str, int], None], step: Callable[[bool], None], words: Words) -> None:
+        self._words = words
+        own = {
+            "inputs": words["inputs of the spec"],
+            "search": words["find a key"],
+            "nothing": words["no key has these words"],
+            "textOnly": words["This kind of spec is edited as text."],
+            "out": words["leave out of the spec"],
+            "shared": words["as in"],
+        }
+        self._view = InputsView(changed, step, own)
+        self._layout: Any = None
+        self._keys: frozenset[str] = frozenset()
+
+    def follow(self, bench: Workbench, reveal: bool = False) -> None:
+        """Show what the text says, what the last good design uses where it says nothing, and what is wrong.
+
+        With `reveal` what has changed comes into sight: it was not typed here.
+        """
+        layout = (bench.design.kind, *bench.design.gears, *bench.tables)
+        if layout != self._layout:
+            self._layout = layout
+            self._have(fields_of(bench.design, bench.tables))
+        fault = None if bench.fault is None else bench.fault._asdict() | {"said": self._words.said(bench.fault.line)}
+        given, former = given_texts(bench.tables), given_texts(bench.former)
+        used = {key: text for key, text in used_texts(bench.design, bench.tables).items() if key in self._keys}
+        changed = sorted(key for key in given.keys() | former.keys() if given.get(key) != former.get(key))
+        self._view.show({"given": given, "used": used, "fault": fault, "changed": changed, "reveal": reveal})
+
+    def _have(self, tables: list[dict[str, Any]]) -> None:
+        """Make the fields, in the language of the page."""
+        words = self._words
+        self._keys = frozenset(field["key"] for table in tables for group in table["groups"] for field in group["fields"])
+        for table in tables:
+            table["title"] = words[table["title"]]
+            for group in table["groups"]:
+                group["title"] = ": ".join(words[title] for title in group.pop("titles"))
+                for field in group["fields"]:
+                    field["words"] = words.divided(words[field["words"]])
+        self._view.have(tables)
+
+
+class TextPanel:
+    """Follows the workbench itself; calls `written(text, step)` after typing, and `step(forth)` for keys that undo or redo."""
+
+    def __init__(self, written: Callable[[str, int], None], step: Callable[[bool], None], words: Words) -> None:
+        self._written, self._newline = written, "\n"
+        self._view = TextView(self._typed, step, words["text of the spec"])
+        self._fault = ui.label().classes("spec-fault").props("role=alert lang=en")
+
+    def _typed(self, text: str, step: int) -> None:
+        self._written(text.replace("\n", self._newline), step)
+
+    def follow(self, bench: Workbench) -> None:
+        """Show the text, and what is wrong with it where that is."""
+        self._newline = "\r\n" if "\r\n" in bench.text else "\n"
+        fault = bench.fault
+        self._view.show({"text": bench.text.replace("\r\n", "\n"), "line": fault.at if fault else None})
+        self._fault.set_text(fault.line if fault else "")
+
+
+class BesidePanel:
+    """Calls `changed` when another design is kept, or none."""
+
+    def __init__(self, beside: BesideDesign, words: Words, changed: Callable[[], None]) -> None:
+        self._beside, self._words, self._changed = beside, words, changed
+        self._files: list[str] | None = None
+        with ui.element("div").classes("beside"):
+            with ui.button(words["Beside"]).props("flat dense no-caps"), ui.menu().on("show", self._list) as self._menu:
+                self._list()
+            with ui.element("div").classes("beside-kept") as self._shown:
+                self._name = ui.label()
+                ui.button(words["swap"], on_click=lambda: self._do(beside.swap)).props("flat dense no-caps")
+                ui.button(words["let go"], on_click=lambda: self._do(beside.let_go)).props("flat dense no-caps")
+            self._line = ui.label().classes("beside-line").props("role=alert")
+        self._show("")
+
+    def _list(self) -> None:
+        """What can be kept: the present design, and the specs in the folder; an open menu stays unless these are others."""
+        files = self._beside.folder.specs()
+        if files == self._files:
+            return
+        self._files = files
+        self._menu.clear()
+        with self._menu:
+            ui.menu_item(self._words["keep this design"], lambda: self._do(self._beside.keep))
+            for file in files:
+                ui.menu_item(file, partial(self._do, partial(self._beside.open, file)))
+
+    def _do(self, what: Callable[[], None]) -> None:
+        try:
+            what()
+        except GearcadError as error:
+            self._show(str(error))
+            return
+        self._show("")
+        self._changed()
+
+    def _show(self, line: str) -> None:
+        kept = self._beside.kept
+        self._shown.set_visibility(kept is not None)
+        self._name.set_text("" if kept is None else f"{self._words['kept']}: {kept.design.name}")
+        self._line.set_text(line)
+
+
+_REST = 0.4
+"""Seconds without a change after which the address follows."""
+
+_LOOK = 0.25
+
+Opened = Callable[[str, str], None]
+"""Called with a text and what it is called by."""
+
+
+class FilesPanel:
+    """Follows the workbench. `opened` takes a spec's text and name, `tabled` the name and text of a table of results."""
+
+    def __init__(self, key: str, bench: Workbench, words: Words, opened: Opened, tabled: Opened) -> None:
+        self._key, self._bench, self._words, self._opened, self._tabled = key, bench, words, opened, tabled
+        self._folder, self._runs = Folder(bench.folder), Runs()
+        self._view = FilesView(self._asked, f"/given/{key}", _words(words))
+        self._names = _names(words)
+        self._run: Run | None = None
+        self._timer = ui.timer(_LOOK, self._look, active=False)
+        self._task: asyncio.Task[None] | None = None
+        self._linked = ""
+        self._client = ui.context.client
+        await_files(key, {"spec": (LARGEST_SPEC, self._given_spec), "table": (LARGEST_TABLE, self._given_table)})
+
+    def follow(self) -> None:
+        """Let the address hold the design, once nobody types any more."""
+        if self._bench.text != self._linked:
+            if self._task is not None:
+                self._task.cancel()
+            self._task = background_tasks.create(self._link(self._bench.text))
+
+    def close(self) -> None:
+        """The tab was closed."""
+        await_files(self._key, None)
+        self._runs.close()
+        if self._task is not None:
+            self._task.cancel()
+
+    async def _link(self, text: str) -> None:
+        await asyncio.sleep(_REST)
+        self._linked = text
+        try:
+            self._view.follow(pack(self._bench.name, text))
+        except GearcadError as error:
+            self._view.follow("")
+            self._view.show(line=str(error))
+
+    def _asked(self, what: str, told: Mapping[str, Any]) -> None:
+        """What was chosen in the menu; what is wrong with it is a line there."""
+        name = str(told.get("name", ""))
+        ways: dict[str, Callable[[], None]] = {
+            "look": self._show,
+            "open": lambda: self._take(self._folder.spec(name), Path(name).stem),
+            "begin": lambda: self._take(starter_text(name)[1], Path(starter_text(name)[0]).stem),
+            "table": lambda: self._given_table(name, self._folder.find(name, TABLES, LARGEST_TABLE).read_bytes()),
+            "spec": lambda: ui.download(self._bench.text.encode(), f"{self._bench.design.name}.toml", "application/toml"),
+            "save": lambda: self._save(name, replace=told.get("replace") is True),
+            "make": lambda: self._make(str(told.get("kind"))),
+            "stop": lambda: None if self._run is None else self._runs.cancel(self._run),
+        }
+        self._view.show(line="", taken="", saved="")
+        try:
+            ways.get(what, lambda: None)()
+        except TakenError as error:
+            self._view.show(taken=str(error))
+        except GearcadError as error:
+            self._view.show(line=str(error))
+        except OSError as error:
+            self._view.show(line=error.strerror or str(error))
+
+    def _show(self) -> None:
+        design = self._bench.design
+        self._view.show(
+            specs=self._folder.specs(),
+            tables=self._folder.names(TABLES),
+            starters=[{"name": name, "words": words} for name, words in starters().items() if _is_spec(name)],
+            makes=[{"key": key, "words": self._names[key]} for key, kind in DOWNLOADS.items() if kind.accepts(design)],
+            name=design.name,
+        )
+
+    def _take(self, text: str, name: str) -> None:
+        self._opened(text, name)
+        self._show()
+        self._view.close()
+
+    def _given_spec(self, name: str, content: bytes) -> None:
+        with self._client:
+            try:
+                self._take(text_of(content, printable(name)), _stem(printable(name)))
+            except GearcadError as error:
+                self._view.show(line=str(error))
+
+    def _given_table(self, name: str, content: bytes) -> None:
+        with self._client:
+            try:
+                self._tabled(content.decode("utf-8-sig"), printable(name))
+                self._view.close()
+            except UnicodeDecodeError:
+                self._view.show(line=f"{printable(name)}: is no table of results, for it is not CSV in UTF-8")
+            except GearcadError as error:
+                self._view.show(line=str(error))
+
+    def _save(self, name: str, *, replace: bool) -> None:
+        self._view.show(saved=self._folder.save(name, self._bench.text, replace=replace), specs=self._folder.specs())
+
+    def _make(self, kind: str) -> None:
+        bench = self._bench
+        if kind in DOWNLOADS and DOWNLOADS[kind].accepts(bench.design):
+            if bench.fault is not None and bench.fault.written:
+                self._view.show(line=bench.fault.line)
+                return
+            self._run = self._runs.start(kind, bench.text, bench.name, bench.folder, {})
+            self._timer.activate()
+            self._look()
+
+    def _look(self) -> None:
+        """While something is being made: what; at the end the browser takes it."""
+        run = self._run
+        if run is None:
+            return
+        if not run.state.ended:
+            self._view.show(making=f"{self._names[run.asked.kind]} {run.step}")
+            return
+        self._timer.deactivate()
+        self._run = None
+        self._view.show(making="", line=run.line if run.state is State.FAILED else "")
+        if run.state is State.DONE:
+            ui.download.from_url(f"/made/{self._runs.key}/{run.number}")
+
+
+def _is_spec(name: str) -> bool:
+    return starter_text(name)[0].endswith(SPECS) and name not in NO_DESIGNS
+
+
+def _stem(name: str) -> str:
+    """What a browser calls a file, without its end; it names nothing until it is written into a spec."""
+    return name.removesuffix(SPECS[0])
+
+
+def _names(words: Words) -> dict[str, str]:
+    return {
+        "step": "STEP",
+        "stl": "STL",
+        "3mf": "3MF",
+        "glb": "GLB",
+        "dxf": words["contours (DXF)"],
+        "csv": words["points (CSV)"],
+        "drawing-pdf": words["drawing (PDF)"],
+        "drawing-dxf": words["drawing (DXF)"],
+        "drawing-svg": words["drawing (SVG)"],
+        "data": words["data (JSON)"],
+    }
+
+
+def _words(words: Words) -> dict[str, str]:
+    return {
+        "file": words["File"],
+        "open": words["Open"],
+        "browse": words["a file of this computer"],
+        "starters": words["starters"],
+        "table": words["Table of results"],
+        "save": words["Save"],
+        "spec": words["download the spec"],
+        "name": words["name of the file"],
+        "store": words["save to the folder"],
+        "replace": words["replace it"],
+        "along": words["Take along"],
+        "cancel": words["cancel"],
+        "link": words["Link"],
+        "copy": words["copy a link that holds the design"],
+        "copied": words["copied"],
+    }

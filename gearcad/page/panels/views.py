@@ -1,0 +1,218 @@
+"""Panels that show: section, solid bodies, roll angle, load shares, data sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from gearcad.core.errors import GearcadError
+from gearcad.designs.design import Design
+from gearcad.designs.keys import DesignKind
+from gearcad.page.components.elements import BodiesView, RollView, SectionView
+from gearcad.page.panels import Panel
+from gearcad.page.panels.drawn_data import Bodies, bodies_of, plain, section_of
+from gearcad.page.panels.sheet_content import Figures, FiguresPanel, called, figures, keys_of, shown_notices
+from gearcad.page.words import Words
+from gearcad.sheet import sheet_of
+
+
+class SectionPanel(Panel[dict[str, Any] | None]):
+    """The mesh in its transverse section; the outlines of a design that is kept are dashed in it."""
+
+    compares = True
+
+    def __init__(self, words: Words) -> None:
+        self._words, self._view = words, SectionView(words["transverse section"], _own(words))
+        self._kept: dict[str, Any] | None = None
+
+    def find(self, design: Design) -> dict[str, Any] | None:
+        found = section_of(design)
+        return None if found is None else section_in(self._words, plain(found))
+
+    def show(self, found: dict[str, Any] | None) -> None:
+        self._view.show(found, self._kept)
+
+    def keep(self, found: dict[str, Any] | None) -> None:
+        self._kept = found
+
+
+def section_in(words: Words, found: dict[str, Any]) -> dict[str, Any]:
+    """A section whose gears are called in the words of the page."""
+    return found | {"bodies": [body | {"name": called(words, body["name"])} for body in found["bodies"]]}
+
+
+def _own(words: Words) -> dict[str, str]:
+    """What the script of the view says."""
+    return {
+        "tip": words["tip circle"],
+        "reference": words["reference circle"],
+        "base": words["base circle"],
+        "form": words["root form circle"],
+        "root": words["root circle"],
+        "active": words["active root circle"],
+        "pitch": words["working pitch circle"],
+        "fit": words["all of it"],
+        "mesh": words["the mesh"],
+        "flanks": words["flanks that touch"],
+        "left": words["left flanks"],
+        "right": words["right flanks"],
+        "both": words["both, backlash split"],
+        "height": words["height of the section"],
+        "nothing": words["This kind of design has no section."],
+    }
+
+
+class BodiesPanel(Panel[Bodies]):
+    """The gears in mesh, as solid bodies."""
+
+    def __init__(self, words: Words) -> None:
+        self._words, self._number = words, 0
+        self._shown: Bodies | None = None
+        self._view = BodiesView(words["the gears in mesh"], _bodies_own(words))
+
+    def find(self, design: Design) -> Bodies:
+        return bodies_of(design)
+
+    def show(self, found: Bodies) -> None:
+        if found == self._shown:
+            return
+        former = self._shown.surfaces if self._shown else {}
+        self._number += 1
+        self._shown = found
+        bodies: list[dict[str, Any]] = [plain(body._asdict()) for body in found.bodies]
+        surfaces = {key: content for key, content in found.surfaces.items() if key not in former}
+        self._view.show(self._number, bodies, surfaces, float(found.error), self._words[found.why_not])
+
+
+def _bodies_own(words: Words) -> dict[str, str]:
+    """What the script of the view says."""
+    return {
+        "front": words["front"],
+        "top": words["top"],
+        "iso": words["oblique"],
+        "fit": words["all of it"],
+        "edges": words["edges"],
+        "cut": words["cut across"],
+        "whole": words["not cut"],
+        "measure": words["measure"],
+        "click": words["click at two points"],
+        "facets": words["error of the facets"],
+        "noWebGL": words["This browser has no WebGL: bodies cannot be drawn. All else works."],
+        "lost": words["The graphics card gave up: bodies come back when it does."],
+    }
+
+
+class RollPanel(Panel[float]):
+    """By how much the first gear is turned."""
+
+    def __init__(self, words: Words) -> None:
+        self._view = RollView(_roll_own(words))
+        self._shown = 0.0
+
+    def find(self, design: Design) -> float:
+        """The angular pitch of the first gear (rad); 0 where nothing turns."""
+        found = section_of(design)
+        return 0.0 if found is None else float(found["pitch"])
+
+    def show(self, found: float) -> None:
+        if found != self._shown:
+            self._shown = found
+            self._view.show(found)
+
+
+def _roll_own(words: Words) -> dict[str, str]:
+    """What the script of the view says."""
+    return {
+        "roll": words["roll angle"],
+        "turn": words["let the gears turn (space)"],
+        "stop": words["stop the gears (space)"],
+        "speed": words["base pitches a second"],
+    }
+
+
+class SharesPanel(Panel[dict[str, Any] | None]):
+    """A bar for each planet of a train, with what it carries least and most; nothing of other designs."""
+
+    def __init__(self, words: Words) -> None:
+        from gearcad.page.components.elements import SharesView  # only here: who finds shares elsewhere needs no NiceGUI
+
+        self._shown = False
+        self._view = SharesView(
+            {
+                "title": words["load shares of the planets"],
+                "planet": words["Planet"],
+                "factor": words["mesh load factor"],
+            }
+        )
+
+    def aside(self, design: Design) -> Callable[[Design], dict[str, Any] | None] | None:
+        return shares_of if design.kind is DesignKind.PLANETARY else None
+
+    def find(self, design: Design) -> dict[str, Any] | None:
+        return shares_of(design)
+
+    def wait(self) -> None:
+        self._view.wait()
+
+    def show(self, found: dict[str, Any] | None) -> None:
+        if found is not None or self._shown:
+            self._view.show(found)
+        self._shown = found is not None
+
+
+def shares_of(design: Design) -> dict[str, Any] | None:
+    """Shares of all planets, 1 where all carry alike, and K_gamma, or why there are none. None for what has no planets."""
+    if design.kind is not DesignKind.PLANETARY:
+        return None
+    from gearcad.page.panels.drawn_data import train_study
+
+    try:
+        study = train_study(design)
+    except GearcadError as error:
+        return {"shares": [], "why_not": str(error)}
+    if study.sharing is None:
+        return {"shares": [], "why_not": study.why_not.get("sharing", "")}
+    found = study.sharing.to_dict()
+    shares = zip(found["least_shares"], found["shares"], found["greatest_shares"], strict=True)
+    return {"shares": [[float(each) for each in three] for three in shares], "factor": float(found["mesh_load_factor"])}
+
+
+_PINNED = {
+    "gear": "teeth normal_module helix_angle profile_shift tip_diameter",
+    "pair": "centre_distance working_transverse_pressure_angle transverse_contact_ratio overlap_ratio total_contact_ratio"
+    " normal_backlash circumferential_backlash",
+    "rack": "teeth normal_module helix_angle length",
+    "planetary": "ratio centre_distance planets",
+}
+"""The figures that an engineer looks at first: on top until somebody chooses others."""
+
+_PINS = [f"{table}.{key}" for table, keys in _PINNED.items() for key in keys.split()]
+
+_FOLDED = ("Basic rack", "Shaper cutter", "Transverse section", "Line of action, from T1", "Body", "Material", "Rating")
+"""Blocks that are shut at first: inputs, and what few look for."""
+
+
+class SheetPanel(FiguresPanel):
+    """Every derived quantity in blocks."""
+
+    def __init__(self, words: Words) -> None:
+        super().__init__(words["data sheet"], "gearcad-sheet", words)
+
+    def find(self, design: Design) -> Figures:
+        return sheet_figures(design)
+
+
+def sheet_figures(design: Design) -> Figures:
+    """Those of the sheet of a design."""
+    try:
+        sheet = sheet_of(design)
+    except GearcadError as error:
+        return Figures((), {}, notices=({"text": str(error), "keys": []},))
+    return figures(
+        sheet.sections,
+        name=sheet.name,
+        what=sheet.title,
+        notices=shown_notices(sheet.notices, keys_of(design)),
+        pins=_PINS,
+        folded=_FOLDED,
+    )

@@ -1,0 +1,17 @@
+from .members import Carrier as Carrier
+from .members import Central as Central
+from .members import PairStage as PairStage
+from .members import Rim as Rim
+from .members import SetMesh as SetMesh
+from .members import SetType as SetType
+from .members import TrainLoad as TrainLoad
+from .poses import Drive as Drive
+from .poses import GearPlace as GearPlace
+from .poses import MeshPhases as MeshPhases
+from .poses import PlanetPose as PlanetPose
+from .poses import StagePose as StagePose
+from .poses import TrainPose as TrainPose
+from .poses import drive_of as drive_of
+from .poses import mesh_phases as mesh_phases
+from .poses import phases_between as phases_between
+from .train import PlanetaryTrain as PlanetaryTrain

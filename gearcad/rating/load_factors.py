@@ -1,0 +1,532 @@
+"""LoadFactors: all load factors of a pair under a load, by ISO 6336-1 or DIN 3990-1, or as given.
+
+K_v of Method B is in `gearcad.rating.load_factor_formulas`, K_Hbeta of a misalignment in `gearcad.rating.load_factor_formulas`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple
+
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Notice, PerGear, is_assumed
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material, of_both
+from gearcad.rating.contact_stress import contact_ratio_factor
+from gearcad.rating.dynamic_factor import DynamicFactor, flank_wear
+from gearcad.rating.editions import Edition
+from gearcad.rating.load_factor_formulas import (
+    STATED,
+    STIFFENING_RATIO,
+    UNLOADED_ENDS,
+    FlankWear,
+    HelixFactors,
+    arrangement_factor,
+    bearing_width,
+    dynamic_factor_c,
+    face_load_exponent,
+    face_load_factor,
+    flank_limit,
+    helix_factors,
+    initial_misalignment,
+    inner_diameter,
+    least_misalignment,
+    lower_limit,
+    manufacturing_misalignment,
+    mass_of,
+    offset_limit,
+    pair_mass,
+    proven_misalignment,
+    root_face_load_factor,
+    root_limit,
+    shaft_deflection,
+    shaft_term,
+    speed_measure,
+    speed_measure_limit,
+    transverse_load_factor,
+    width_to_height,
+    within,
+)
+from gearcad.rating.nominal_rating import require_ratable
+from gearcad.rating.options import (
+    AlphaDeviation,
+    BearingArrangement,
+    ContactPattern,
+    HelixModification,
+    RatingOptions,
+    accuracy_grades,
+    base_pitch_deviations,
+    helix_slope_deviations,
+    helix_slopes_of_grade_five,
+    profile_form_deviations,
+)
+from gearcad.rating.tolerances import Accuracy
+from gearcad.rating.tooth_stiffness import MeshStiffness, mesh_stiffness
+
+GIVEN = "given"
+ASSUMED = "assumed"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """`factors` and the `details` behind them under their symbols, µm, N/mm, N/(mm·µm), rpm, kg/mm; a mapping is of both gears.
+
+    `sources` are the clauses that factors are from. `unknown` are symbols of factors in whose place 1 stands, `verify` those
+    that rest on a text that was not at hand.
+    """
+
+    factors: Mapping[str, float]
+    sources: Mapping[str, str]
+    details: Mapping[str, float | Mapping[str, float]] = field(default_factory=dict)
+    unknown: tuple[str, ...] = ()
+    notices: tuple[Notice, ...] = ()
+    assumed: tuple[str, ...] = ()
+    verify: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadedMesh:
+    """What is rated, and what follows from it at once. Loads in N and N/mm, lengths in mm, speed in m/s."""
+
+    pair: GearPair
+    materials: PerGear[Material]
+    load: Load
+    options: RatingOptions
+
+    @cached_property
+    def width(self) -> float:
+        """b: the common face width."""
+        return self.pair.common_width.width
+
+    @cached_property
+    def specific_load(self) -> float:
+        """F_t K_A K_gamma/b."""
+        force = 2000 * abs(self.load.torque) / self.pair.pinion.reference_diameter
+        return force * self.load.application_factor * self.options.mesh_load_factor / self.width
+
+    @cached_property
+    def stiffness(self) -> MeshStiffness:
+        """At that load."""
+        return mesh_stiffness(self.pair, self.materials, self.specific_load)
+
+    @cached_property
+    def speed(self) -> float:
+        """v at the reference circle."""
+        return math.pi * self.pair.pinion.reference_diameter * abs(self.load.speed) / 60_000
+
+    @cached_property
+    def wear(self) -> FlankWear:
+        """How the flanks run in. Raises ParameterError where that depends on a limit that is not known."""
+        return flank_wear(self.materials)
+
+    @cached_property
+    def grade(self) -> int:
+        """The accuracy grade of the coarser gear."""
+        return max(accuracy_grades(self.pair, self.options))
+
+    def cited(self, clause: str, method: str) -> str:
+        """A clause of ISO 6336-1:2006, which later editions share as far as is known; DIN 3990-1 is cited without."""
+        edition = self.options.standard
+        if edition is Edition.DIN_1987:
+            return f"{edition.dated_part(1)} ({method})"
+        return f"{Edition.ISO_2006.dated_part(1)}, {clause} ({method})"
+
+
+def term_of(mesh: LoadedMesh) -> float:
+    """K' l s/d_1^2 (d_1/d_sh)^4: 0 of a pinion in the middle between its bearings.
+
+    Raises ParameterError where the pinion is not there but its shaft is not given.
+    """
+    options, diameter = mesh.options, mesh.pair.pinion.reference_diameter
+    place = options.pinion_place
+    if not options.pinion_offset:
+        if place is BearingArrangement.OVERHUNG:
+            permitted = f'must not be 0 mm for bearing_arrangement "{place.value}": how far the pinion overhangs'
+            raise ParameterError("rating.pinion_offset", options.pinion_offset, permitted, "mm")
+        return 0.0
+    span, shaft = options.bearing_span, options.shaft_diameter
+    for name, value in (("bearing_span", span), ("shaft_diameter", shaft)):
+        if value is None:
+            raise ParameterError(f"rating.{name}", None, "must be given with pinion_offset: the shaft bends by it")
+    assert span is not None and shaft is not None  # seen to just now
+    factor = arrangement_factor(place, options.stiffening, diameter / shaft)
+    return shaft_term(factor, span, options.pinion_offset, diameter, shaft)
+
+
+def assumed_shaft(mesh: LoadedMesh) -> tuple[str, ...]:
+    """What stands for a shaft that is not given."""
+    options = mesh.options
+    if options.pinion_offset and options.bearing_arrangement is None:
+        return (f"bearing_arrangement = {options.pinion_place.value}: torque comes from the side of the nearer bearing",)
+    if options.pinion_offset or options.bearing_span is not None:
+        return ()
+    return ("K_Hbeta: the pinion is in the middle between its bearings (s = 0), so f_sh is of the pinion alone",)
+
+
+def shaft_notices(mesh: LoadedMesh) -> Iterator[Notice]:
+    """Where the shaft is not one of figure 13."""
+    options = mesh.options
+    span, shaft, offset = options.bearing_span, options.shaft_diameter, abs(options.pinion_offset)
+    if span is None or shaft is None or not offset:
+        return
+    limit = offset_limit(options.pinion_place)
+    if offset > limit * span:
+        text = f"f_sh is stated for s/l up to {limit:g}, here {offset / span:.3g}"
+        yield Notice("shaft-offset", f"K_Hbeta: {text}")
+    ratio = mesh.pair.pinion.reference_diameter / shaft
+    if options.stiffening and ratio < STIFFENING_RATIO:
+        text = f"d_1/d_sh is {ratio:.3g}: a pinion stiffens its shaft from {STIFFENING_RATIO:g} on, so K' is that without"
+        yield Notice("no-stiffening", f"K_Hbeta: {text}")
+
+
+_NOT_FOUND = 'must be "C" or a number here: a load distribution of our own is found by gearcad rate, before the rating'
+
+
+def face_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
+    """K_Hbeta and K_Fbeta under F_m/b (N/mm). Raises ParameterError for a shaft that is half given, and as tolerances do."""
+    method = mesh.options.face_load_factor
+    if method == "fe":
+        raise ParameterError("rating.face_load_factor", method, _NOT_FOUND)
+    flank = (
+        Finding(factors={"K_Hbeta": method}, sources={"K_Hbeta": GIVEN}, notices=tuple(_notices_of_given(method)))
+        if not isinstance(method, str)
+        else _method_c(mesh, mean_load)
+    )
+    return _with_root(mesh, flank)
+
+
+class Misalignment(NamedTuple):
+    """F_beta_x, and what it is of: f_sh, f_Hbeta of both gears, f_ma, B_1 and B_2, and the least that is taken. In µm."""
+
+    deflection: float
+    slopes: PerGear[float]
+    manufacture: float
+    factors: HelixFactors
+    least: float
+    initial: float
+
+    @classmethod
+    def of(cls, mesh: LoadedMesh, mean_load: float) -> Misalignment:
+        """Under F_m/b (N/mm), by (52) or, with a proven contact pattern, (53). Raises ParameterError."""
+        options = mesh.options
+        slopes = helix_slope_deviations(mesh.pair, options)
+        deflection = _shaft_deflection(mesh, mean_load)
+        manufacture = options.manufacturing_misalignment
+        if manufacture is None:
+            manufacture = manufacturing_misalignment(*slopes)
+        least = least_misalignment(mean_load, max(slopes))
+        factors = helix_factors(options.helix_modification, options.standard)
+        if options.contact_pattern is ContactPattern.PROVEN:
+            compensation = options.given_compensation
+            if compensation is None:
+                compensation = min(helix_slopes_of_grade_five(mesh.pair, options))
+            initial = proven_misalignment(deflection, compensation, factors, least)
+        else:
+            initial = initial_misalignment(deflection, manufacture, factors, least)
+        return cls(deflection, slopes, manufacture, factors, least, initial)
+
+
+def _method_c(mesh: LoadedMesh, mean_load: float) -> Finding:
+    options, stiffness = mesh.options, mesh.stiffness.mesh_beta
+    off = Misalignment.of(mesh, mean_load)
+    worn = float(mesh.wear.beta(off.initial, mesh.speed))
+    effective = off.initial - worn
+    given = options.shaft_deflection is not None
+    return Finding(
+        factors={"K_Hbeta": face_load_factor(effective, stiffness, mean_load)},
+        sources={"K_Hbeta": mesh.cited("7.5", "Method C")},
+        details={
+            "F_m_b": mean_load,
+            "f_sh": off.deflection,
+            "f_Hbeta": {role.value: slope for role, slope in off.slopes.items()},
+            "f_ma": off.manufacture,
+            "B_1": off.factors.deflection,
+            "B_2": off.factors.manufacture,
+            "F_betax_min": off.least,
+            "F_betax": off.initial,
+            "y_beta": worn,
+            "F_betay": effective,
+            "c_gamma_beta": stiffness,
+        },
+        notices=(*(() if given else shaft_notices(mesh)), *_notices(mesh, effective, mean_load)),
+        assumed=() if given else assumed_shaft(mesh),
+        verify=("K_Hbeta",) if _recalled(mesh) else (),
+    )
+
+
+def _recalled(mesh: LoadedMesh) -> bool:
+    """Whether figure 13, (53) or what DIN 3990-1 has of modified flanks is in K_Hbeta: each by one source, or from memory."""
+    options = mesh.options
+    of_shaft = bool(options.pinion_offset) and options.shaft_deflection is None
+    modified = options.helix_modification is not HelixModification.NONE
+    of_din = options.standard is Edition.DIN_1987 and modified
+    return of_shaft or of_din or options.contact_pattern is ContactPattern.PROVEN
+
+
+def _shaft_deflection(mesh: LoadedMesh, mean_load: float) -> float:
+    """f_sh (µm): as given, or by (57)."""
+    if mesh.options.shaft_deflection is not None:
+        return mesh.options.shaft_deflection
+    compliance = helix_factors(mesh.options.helix_modification, mesh.options.standard).compliance
+    diameter = mesh.pair.pinion.reference_diameter
+    return shaft_deflection(mean_load, mesh.width, diameter, shaft_term=term_of(mesh), compliance=compliance)
+
+
+def _notices(mesh: LoadedMesh, effective: float, mean_load: float) -> Iterator[Notice]:
+    """Where little of the width carries, and of crowned gears that the options do not know of."""
+    if (width := bearing_width(effective, mesh.stiffness.mesh_beta, mean_load)) < 1:
+        text = f"only {width:.0%} of the face width would carry: F_beta_y = {effective:.3g} µm is too much for this load"
+        yield Notice("narrow-bearing", f"K_Hbeta: {text}")
+    modified = [
+        role.value
+        for role, gear in mesh.pair.gears.items()
+        if gear.modification.lead_crowning or gear.modification.end_relief or gear.modification.helix_angle_modification
+    ]
+    if modified and mesh.options.helix_modification is HelixModification.NONE:
+        text = "flanks are modified along the face width, which Method C leaves out: helix_modification tells, or "
+        yield Notice("helix-modification-unsaid", f'K_Hbeta: {text}face_load_factor = "fe"', " and ".join(modified))
+
+
+def _notices_of_given(factor: float) -> Iterator[Notice]:
+    """Above 2 a load that falls off evenly does not reach the other end: b_cal/b = 2/K_Hbeta (ISO 6336-1:2006, 7.5)."""
+    if factor > 2:
+        text = f"a load that falls off evenly so much would be carried by {2 / factor:.0%} of the face width"
+        yield Notice("narrow-bearing", f"K_Hbeta = {factor:.4g}: {text}")
+
+
+def _with_root(mesh: LoadedMesh, flank: Finding) -> Finding:
+    """With K_Fbeta beside K_Hbeta."""
+    factor, ratio = flank.factors["K_Hbeta"], width_to_height(mesh.pair)
+    unloaded = mesh.options.helix_modification in UNLOADED_ENDS
+    root = factor if unloaded else root_face_load_factor(factor, ratio)
+    exponent = 1.0 if unloaded else face_load_exponent(ratio)
+    return Finding(
+        factors={**flank.factors, "K_Fbeta": root},
+        sources={**flank.sources, "K_Fbeta": mesh.cited("7.6", "from K_Hbeta")},
+        details={**flank.details, "b_h": ratio, "N_F": exponent},
+        notices=flank.notices,
+        assumed=flank.assumed,
+        verify=(*flank.verify, *(("K_Fbeta",) if unloaded else ())),
+    )
+
+
+def transverse_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
+    """K_Halpha and K_Falpha under F_tH/b (N/mm), by the larger of f_pb and f_falpha. Raises ParameterError as tolerances do."""
+    given = mesh.options.transverse_load_factor
+    if not isinstance(given, str):
+        return Finding(factors={"K_Halpha": given, "K_Falpha": given}, sources={"K_Halpha": GIVEN, "K_Falpha": GIVEN})
+    pair, stiffness = mesh.pair, mesh.stiffness.mesh_alpha
+    gamma, alpha = pair.total_contact_ratio, pair.transverse_contact_ratio
+    pitch, profile = max(base_pitch_deviations(pair, mesh.options)), max(profile_form_deviations(pair, mesh.options))
+    deviation = max(pitch, profile)
+    literal = mesh.options.alpha_deviation_rule is AlphaDeviation.LITERAL
+    worn = float(mesh.wear.alpha(deviation if literal else pitch, mesh.speed))
+    factor = transverse_load_factor(gamma, stiffness, deviation, worn, mean_load)
+    of_flank = flank_limit(gamma, alpha, contact_ratio_factor(alpha, pair.overlap_ratio))
+    of_root = root_limit(gamma, alpha)
+    return Finding(
+        factors={"K_Halpha": within(factor, of_flank), "K_Falpha": within(factor, of_root)},
+        sources=dict.fromkeys(("K_Halpha", "K_Falpha"), mesh.cited("8.3", "Method B")),
+        details={
+            "F_tH_b": mean_load,
+            "f_pb": pitch,
+            "f_falpha": profile,
+            "y_alpha": worn,
+            "c_gamma_alpha": stiffness,
+            "K_alpha": factor,
+            "K_Halpha_max": of_flank,
+            "K_Falpha_max": of_root,
+        },
+    )
+
+
+_MAIN_END = 1.15
+
+_NO_SPEED = Notice("no-speed", "K_v: the speed is 0 rpm, so K_v is not known; 1 stands in its place in all factors after it")
+_MEMORY_GRADE = 12
+"""The grade whose K_1 is from memory."""
+
+
+def dynamic_factor(mesh: LoadedMesh) -> Finding:
+    """K_v by the method of the options. Raises ParameterError for a grade that Method C or the tolerances do not cover."""
+    method = mesh.options.dynamic_factor
+    if not isinstance(method, str):
+        return Finding(factors={"K_v": method}, sources={"K_v": GIVEN})
+    if not mesh.speed:
+        return Finding(factors={"K_v": 1.0}, sources={}, unknown=("K_v",), notices=(_NO_SPEED,))
+    return _method_b(mesh) if method == "B" else _dynamic_method_c(mesh)
+
+
+def _method_b(mesh: LoadedMesh) -> Finding:
+    """By the resonance ratio, with the masses of both bodies."""
+    masses = [mass_of(gear, material.density) for gear, material in zip(mesh.pair.gears, mesh.materials, strict=True)]
+    mass = pair_mass(*masses)
+    found = DynamicFactor.at(mesh.pair, mesh.materials, mesh.specific_load, mesh.stiffness, mass, mesh.options)
+    speed = abs(mesh.load.speed)
+    ratio, (b_p, b_f, b_k), (y_p, y_f) = speed / found.resonance_speed, found.effects(speed), found.allowances(speed)
+    details = {
+        "m_red": mass,
+        "n_E1": found.resonance_speed,
+        "N": ratio,
+        "N_S": lower_limit(mesh.specific_load),
+        "f_pb": found.pitch_deviation,
+        "f_falpha": found.profile_deviation,
+        "y_p": float(y_p),
+        "y_f": float(y_f),
+        "C_a": found.tip_relief,
+        "B_p": float(b_p),
+        "B_f": float(b_f),
+        "B_k": b_k,
+    }
+    return Finding(
+        factors={"K_v": float(found.values(speed))},
+        sources={"K_v": mesh.cited("6.5", "Method B")},
+        details=details,
+        notices=(*found.notices, *_resonance_notices(details["N_S"], ratio)),
+        assumed=tuple(_assumed_masses(mesh)),
+    )
+
+
+def _resonance_notices(lower: float, ratio: float) -> Iterator[Notice]:
+    if lower < ratio <= _MAIN_END:
+        text = f"the pair runs in its main resonance, N = {ratio:.3g}: K_v is uncertain there, and such speeds are best avoided"
+        yield Notice("main-resonance", f"K_v: {text}")
+
+
+def _assumed_masses(mesh: LoadedMesh) -> Iterator[str]:
+    """Of which bodies m_red is."""
+    yield "K_v: m_red of plain discs or rims of the gears' own material, without hubs, shafts and what else turns with them"
+    if mesh.pair.internal and inner_diameter(mesh.pair.wheel) is None:
+        yield "K_v: the ring is held, as its rim is not given: m_red is that of the pinion"
+
+
+def _dynamic_method_c(mesh: LoadedMesh) -> Finding:
+    """By speed and grade alone."""
+    pair, edition = mesh.pair, mesh.options.standard
+    measure = speed_measure(mesh.speed, float(pair.pinion.teeth), pair.gear_ratio)
+    factor = dynamic_factor_c(mesh.specific_load, measure, pair.overlap_ratio, mesh.grade, edition)
+    return Finding(
+        factors={"K_v": factor},
+        sources={"K_v": mesh.cited("6.6", "Method C")},
+        details={"v_z1_100": measure},
+        notices=tuple(_notices_of_c(mesh, measure)),
+        verify=("K_v",) if mesh.grade == _MEMORY_GRADE or measure > STATED else (),
+    )
+
+
+def _notices_of_c(mesh: LoadedMesh, measure: float) -> Iterator[Notice]:
+    """Where the pair leaves what Method C is stated for."""
+    limit = speed_measure_limit(mesh.pair.overlap_ratio)
+    if measure >= limit:
+        text = (
+            f"stated below v z_1/100 sqrt(u²/(1 + u²)) = {limit:g} m/s, here {measure:.3g} m/s: well below the main resonance"
+        )
+        yield Notice("dynamic-factor-c-speed", f"K_v of Method C: {text}")
+    if mesh.options.accuracy is not Accuracy.ISO_1995:
+        text = f"its grades are those of {Accuracy.ISO_1995.value}, not the classes of {mesh.options.accuracy.value}"
+        yield Notice("dynamic-factor-c-grade", f"K_v of Method C: {text}")
+
+
+_OF_BODIES = "ISO 6336-1:2006, Method A: load along the face of solid bodies (finite elements)"
+
+
+class BodyLoad(NamedTuple):
+    """K_Hbeta that solid bodies find, whose flanks stand off by F_beta_y (µm): the mounting's if `mounted`, else C's."""
+
+    factor: float
+    misalignment: float
+    mounted: bool
+
+    @property
+    def said(self) -> str:
+        """What was put in, and why it is more than Method C makes of the same."""
+        source = "[mounting]" if self.mounted else "Method C, as [mounting] has none"
+        return (
+            f"K_Hbeta: the solid bodies stand off by F_beta_y = {self.misalignment:.3g} µm of {source}; "
+            "their bores are held all along, so that they give way to a tilt less than c_gamma_beta of Method C says"
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadFactors:
+    """K_A, K_gamma, K_v, K_Hbeta, K_Fbeta, K_Halpha and K_Falpha; each is of the load times all before it.
+
+    `details` are the figures behind them under their symbols (µm, N/mm, N/(mm·µm), rpm, kg/mm; a mapping is of both gears),
+    `sources` the clause of each factor. `unknown` are symbols of factors in whose place 1 stands, `assumed` what was taken for
+    granted, `verify` factors that rest on a text that was not at hand.
+    """
+
+    application: float = 1.0
+    mesh_load: float = 1.0
+    dynamic: float = 1.0
+    face_flank: float = 1.0
+    face_root: float = 1.0
+    transverse_flank: float = 1.0
+    transverse_root: float = 1.0
+    details: Mapping[str, float | Mapping[str, float]] = field(default_factory=dict)
+    sources: Mapping[str, str] = field(default_factory=dict)
+    unknown: tuple[str, ...] = ()
+    notices: tuple[Notice, ...] = ()
+    assumed: tuple[str, ...] = ()
+    verify: tuple[str, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        pair: GearPair,
+        materials: Material | PerGear[Material],
+        load: Load,
+        options: RatingOptions | None = None,
+    ) -> LoadFactors:
+        """Of a pair of one material or two, under a load; numbers in the options stand as they are given.
+
+        Raises ParameterError without a torque, for what a method needs and was not given, and beyond the tables of tolerances;
+        GeometryError for a pair whose contact the standard does not describe, double helical ones among them.
+        """
+        require_ratable(pair, load)
+        mesh = LoadedMesh(pair=pair, materials=of_both(materials), load=load, options=options or RatingOptions())
+        speed = dynamic_factor(mesh)
+        mean_load = mesh.specific_load * speed.factors["K_v"]
+        face = face_load_factors(mesh, mean_load)
+        across = transverse_load_factors(mesh, mean_load * face.factors["K_Hbeta"])
+        found = (speed, face, across)
+        return cls(
+            application=load.application_factor,
+            mesh_load=mesh.options.mesh_load_factor,
+            dynamic=speed.factors["K_v"],
+            face_flank=face.factors["K_Hbeta"],
+            face_root=face.factors["K_Fbeta"],
+            transverse_flank=across.factors["K_Halpha"],
+            transverse_root=across.factors["K_Falpha"],
+            details={symbol: value for each in found for symbol, value in each.details.items()},
+            sources={
+                "K_A": ASSUMED if is_assumed(load.application_factor) else GIVEN,
+                "K_gamma": ASSUMED if is_assumed(mesh.options.mesh_load_factor) else GIVEN,
+                **{symbol: clause for each in found for symbol, clause in each.sources.items()},
+            },
+            unknown=tuple(symbol for each in found for symbol in each.unknown),
+            notices=tuple(notice for each in found for notice in each.notices),
+            assumed=tuple(text for each in found for text in each.assumed),
+            verify=tuple(symbol for each in found for symbol in each.verify),
+        )
+
+    def with_bodies(self, found: BodyLoad) -> LoadFactors:
+        """Of options in which K_Hbeta of a load distribution stands as a number: cited as what it is."""
+        return replace(self, sources={**self.sources, "K_Hbeta": _OF_BODIES}, assumed=(*self.assumed, found.said))
+
+    def to_dict(self) -> dict[str, float | None]:
+        """Values under their symbols; None of those that are not known."""
+        values = {
+            "K_A": self.application,
+            "K_gamma": self.mesh_load,
+            "K_v": self.dynamic,
+            "K_Hbeta": self.face_flank,
+            "K_Fbeta": self.face_root,
+            "K_Halpha": self.transverse_flank,
+            "K_Falpha": self.transverse_root,
+        }
+        return {symbol: None if symbol in self.unknown else value for symbol, value in values.items()}

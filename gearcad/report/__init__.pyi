@@ -1,0 +1,10 @@
+from .check import report_html as report_html
+from .check import stiffness_html as stiffness_html
+from .check import write_report as write_report
+from .check import write_stiffness_report as write_stiffness_report
+from .dynamics import dynamics_html as dynamics_html
+from .dynamics import write_dynamics_report as write_dynamics_report
+from .planetary import planetary_html as planetary_html
+from .planetary import write_planetary_report as write_planetary_report
+from .strength import rate_html as rate_html
+from .strength import write_rate_report as write_rate_report

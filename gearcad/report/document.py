@@ -1,0 +1,277 @@
+"""HTML documents of all reports: symbols, sentences, figures and tables in a template."""
+
+from __future__ import annotations
+
+import base64
+import html
+import io
+import platform
+import re
+from collections.abc import Callable, Container, Iterable, Mapping
+from datetime import date
+from functools import cache, partial
+from importlib import metadata
+from itertools import count
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from gearcad.core import symbols
+from gearcad.core.output import source_date
+from gearcad.core.quantities import symbols_of
+from gearcad.core.records import is_assumed
+from gearcad.core.runtime import templates
+from gearcad.core.symbols import Symbol
+from gearcad.geometry import Gear, GearPair
+from gearcad.load import Load
+from gearcad.material import Material, Materials, by_gear
+from gearcad.mounting import Mounting
+from gearcad.plots.gears import pair_inches, plot_pair
+from gearcad.plots.paper import FIGURE_INCHES, new_figure, short
+from gearcad.version import __version__
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+    from markupsafe import Markup
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gearcad.check.result import CheckResult
+
+
+_KNOWN = {
+    key.rpartition(".")[2]: of.symbol
+    for table in (symbols.SCUFFING, symbols.GEAR_RATING, symbols.RATING, symbols.STRENGTH)
+    for key, of in table.items()
+    if "_" in key and of.symbol
+} | {"K_Bgamma": "K_Bγ", "F_beta_y": "F_βy", "q_prime": "q'"}
+"""By the names that documents have."""
+
+_NAME = re.compile(r"(?<!\w)[A-Za-z]+(?:_[A-Za-z0-9]+)+(?!\w)")
+
+_KEY_OR_INDEX = re.compile(r"(?<![\w.])((?:[a-z]+\.)*[a-z]{2,}[a-z0-9]*(?:_[a-z0-9]+)+)(?!\w)|_([^\s*/,;)]*[^\s*/,;).:])")
+
+
+def written(text: str) -> str:
+    """A text in which symbols stand under the names of documents, such as sigma_Hlim, with their letters: σ_Hlim."""
+    return _NAME.sub(lambda name: _KNOWN.get(name[0], name[0]), text)
+
+
+def indexed(text: str) -> Markup:
+    """Symbols with their indices lowered: Y_F, F_t K_A/b; names of more than one letter before "_" are keys, set as code."""
+    from markupsafe import Markup, escape
+
+    def set_off(found: re.Match[str]) -> str:
+        return f"<code>{found[1]}</code>" if found[1] else f"<sub>{found[2]}</sub>"
+
+    return Markup(_KEY_OR_INDEX.sub(set_off, str(escape(text))))
+
+
+def listed(names: Iterable[str]) -> str:
+    """Symbols that documents list, those of one gear under its name: planet.Y_M, ring.formula."""
+    return ", ".join(map(_of_gear, dict.fromkeys(names)))
+
+
+def _of_gear(name: str) -> str:
+    gear, dot, symbol = name.rpartition(".")
+    words = "the formulas of the root" if symbol == "formula" else written(symbol)
+    return f"{words} of the {gear}" if dot else words
+
+
+def sentences(template: str, macro: str, *values: object) -> str:
+    """What a macro of a template says of values: plain text, in which its lines follow each other."""
+    said = str(getattr(_plain().get_template(template).module, macro)(*values))
+    return re.sub(r"[ \n]*\n[ \n]*", " ", said).strip(" ")
+
+
+@cache
+def _plain() -> Environment:
+    """Of texts, in which nothing is escaped: a page does that, where it shows them."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    loader = FileSystemLoader(templates())
+    environment = Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined)
+    environment.filters |= {"short": _short, "to": format, "beyond": _beyond, "listed": listed}
+    return environment
+
+
+def _short(value: float | None) -> str:
+    """A figure, or that there is none."""
+    return "none" if value is None else short(value)
+
+
+def _beyond(value: float, reference: float, digits: int = 1) -> str:
+    """By how many percent a value is above its reference, or with a minus below it."""
+    return f"{100 * (value / reference - 1):+.{digits}f}"
+
+
+_LIBRARIES = ("numpy", "scipy", "scikit-fem", "gmsh", "matplotlib")
+"""What the figures of a report rest on, besides our own code."""
+
+_HEADING = re.compile(r"<h2>(.*?)</h2>")
+
+
+def page_html(template: str, design_name: str, **values: Any) -> str:
+    """The page without links to elsewhere: pictures and styles are inside. Its date is that of `source_date`, or today."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    loader = FileSystemLoader(templates())
+    environment = Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined)
+    environment.filters |= {"short": short, "finished": _finished}
+    environment.filters |= {"written": written, "indexed": indexed, "listed": listed}
+    fixed = source_date()
+    made = {"version": __version__, "versions": _versions(), "date": (fixed.date() if fixed else date.today()).isoformat()}
+    return environment.get_template(template).render(name=design_name, **made, **values)
+
+
+def _versions() -> list[str]:
+    libraries = (f"{name} {metadata.version(name)}" for name in _LIBRARIES)
+    return [f"gearcad {__version__}", f"Python {platform.python_version()}", *libraries]
+
+
+def _finished(content: Markup) -> Markup:
+    """The content with a name for each section, a list of them before the first, and tables that scroll by themselves."""
+    from markupsafe import Markup
+
+    sections: dict[str, str] = {}
+
+    def named(heading: re.Match[str]) -> str:
+        anchor = _anchor(heading[1], sections)
+        sections[anchor] = heading[1]
+        return f'<h2 id="{anchor}">{heading[1]}</h2>'
+
+    text = _HEADING.sub(named, str(content))
+    text = text.replace("<table>", '<div class="scroll"><table>').replace("</table>", "</table></div>")
+    entries = "".join(f'<li><a href="#{anchor}">{title}</a></li>\n' for anchor, title in sections.items())
+    before, first, rest = text.partition("<h2 id=")
+    return Markup(f'{before}<nav aria-label="Contents">\n<ul>\n{entries}</ul>\n</nav>\n{first}{rest}')
+
+
+def _anchor(title: str, taken: Container[str]) -> str:
+    """A name for a section, made of the words of its title."""
+    plain = html.unescape(re.sub(r"<[^>]*>", "", title)).lower()
+    words = "-".join(re.findall(r"[a-z0-9]+", plain)) or "section"
+    return next(name for number in count(1) if (name := f"section-{words}" + f"-{number}" * (number > 1)) not in taken)
+
+
+_DOTS_PER_INCH = 160
+"""Of the pictures of fields; the others are lines."""
+
+_PACKED = 4
+"""Level at which zlib packs them: half the time of the usual 6, and 6 % more bytes."""
+
+
+class Picture(NamedTuple):
+    """A figure: its title, its address (the picture itself), and what it shows in sentences."""
+
+    title: str
+    address: str
+    caption: str
+
+
+def pair_picture(pair: GearPair) -> Picture:
+    """Both gears as they stand in mesh."""
+    address = picture_address(partial(plot_pair, pair), "svg", pair_inches(pair))
+    return Picture("The pair in mesh", address, sentences("captions_check.txt", "pair", pair))
+
+
+def picture_address(draw: Callable[[Axes], Axes], kind: str, inches: tuple[float, float] = FIGURE_INCHES) -> str:
+    """What is drawn on axes, as a data: URL of an "svg" or "png"."""
+    return figure_address(lambda figure: draw(figure.subplots()), kind, inches)
+
+
+def figure_address(draw: Callable[[Figure], object], kind: str, inches: tuple[float, float] = FIGURE_INCHES) -> str:
+    """What is drawn on a figure, as a data: URL of an "svg" or "png"."""
+    from matplotlib import style
+
+    with style.context(["default", {"svg.hashsalt": "gearcad"}]):
+        figure, stream = new_figure(inches), io.BytesIO()
+        draw(figure)
+        nothing = {"Date": None} if kind == "svg" else {"Software": None}
+        packed: dict[str, Any] = {"pil_kwargs": {"compress_level": _PACKED}} if kind == "png" else {}
+        figure.savefig(stream, format=kind, dpi=_DOTS_PER_INCH, metadata=nothing, **packed)
+    media = {"svg": "image/svg+xml", "png": "image/png"}[kind]
+    return f"data:{media};base64,{base64.b64encode(stream.getvalue()).decode('ascii')}"
+
+
+_GEAR = (
+    "teeth normal_module helix_angle profile_shift tip_alteration tooth_thinning face_width rack.pressure_angle rack.addendum"
+    " rack.dedendum rack.root_radius reference_diameter base_diameter tip_diameter root_diameter form_diameter body.bore"
+)
+_PAIR = (
+    "centre_distance working_transverse_pressure_angle profile_shift_sum transverse_contact_ratio common_width.width"
+    " circumferential_backlash"
+)
+
+_ROUNDING = 1e-9
+"""Below this a length or number is rounding."""
+
+
+class Row(NamedTuple):
+    """One line of a table; `values` are those of pinion and wheel, or one for both."""
+
+    words: str
+    symbol: str
+    values: tuple[str, ...]
+    unit: str
+    source: str
+
+
+def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[Row]:
+    """What describes the gears: their fields `keys`, and the modifications of their flanks."""
+    gears = (pair.pinion, pair.wheel)
+    values = [_flat(gear.to_dict() | {"modification": gear.flank_form.in_use}) for gear in gears]
+    written = symbols_of(Gear) | symbols.GEAR
+    present = [key for key in written if key.startswith("modification.") and any(key in gear for gear in values)]
+    return [_row(written[key], *(gear.get(key) for gear in values)) for key in (*keys.split(), *present)]
+
+
+def pair_rows(pair: GearPair) -> list[Row]:
+    """What describes the pair."""
+    values = _flat(pair.to_dict())
+    written = symbols_of(GearPair) | symbols.PAIR
+    return [_row(written[key], values[key]) for key in _PAIR.split()]
+
+
+def load_rows(material: Materials, load: Load, mounting: Mounting) -> list[Row]:
+    """Material and load, and the mounting where it is not that of the drawing."""
+    words = symbols_of(Material)
+    rows: list[tuple[Symbol, Any]] = [
+        (words[key]._replace(words=f"{words[key].words}{f', {gear}' if gear else ''}"), value)
+        for gear, each in by_gear(material).items()
+        for key, value in vars(each).items()
+    ]
+    rows += [(symbols_of(Load)[key], value) for key, value in vars(load).items()]
+    rows += [(symbols_of(Mounting)[key], value) for key, value in vars(mounting).items() if value]
+    return [_row(symbol, value) for symbol, value in rows if value is not None]
+
+
+def rating_rows(result: CheckResult) -> list[Row]:
+    """The rating by symbols: values of the pair, then those of each gear, then what the formulas say of a ring."""
+    values = result.rating.to_dict()
+    rows = [_row(symbol, values[key]) for key, symbol in symbols.RATING.items()]
+    gears = (values["pinion"], values["wheel"])
+    rows += [_row(symbol, *(gear[key] for gear in gears)) for key, symbol in symbols.GEAR_RATING.items()]
+    if formula := values["wheel"].get("formula"):
+        rows += [_row(symbol, None, formula[key]) for key, symbol in symbols.RING_FORMULA.items()]
+    return rows
+
+
+def _row(symbol: symbols.Symbol, *values: Any) -> Row:
+    unit = {"deg": "°"}.get(symbol.unit, symbol.unit)
+    return Row(symbol.words, symbol.symbol, tuple(_text(value) for value in values), unit, symbol.source)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, tuple | list):
+        return " to ".join(_text(each) for each in value)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        text = "-" if value is None else str(value)
+    else:
+        text = f"{value:.6g}" if abs(value) > _ROUNDING else "0"
+    return f"{text} (assumed)" if is_assumed(value) else text
+
+
+def _flat(document: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in document.items():
+        found |= _flat(value, f"{prefix}{key}.") if isinstance(value, Mapping) else {prefix + key: value}
+    return found

@@ -1,0 +1,224 @@
+"""Blocks of data sheets of planetary trains and trains, and of a rating."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+from gearcad.core import symbols
+from gearcad.core.errors import format_number
+from gearcad.core.quantities import symbols_of
+from gearcad.core.records import PerGear, Role, is_assumed
+from gearcad.core.symbols import Symbol
+from gearcad.designs.train_keys import MAIN, TORQUES, TRAIN, TRAIN_PARTS
+from gearcad.dynamics.planetary.planetary_strength import TrainStrength
+from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
+from gearcad.rating.strength import Part, StrengthRating
+from gearcad.sheet.blocks import ABSENT, Block, Row, Section, block, flattened, pair_section, value_text
+
+_TRAIN_KEYS = (
+    "set_type planets input output fixed ratio basic_ratio centre_distance planet_angles positions"
+    " free_tip_distance tip_distance"
+).split()
+_OF_TRAIN = symbols_of(PlanetaryTrain) | symbols.PLANETARY
+_OF_MEMBER = symbols_of(Central) | symbols_of(Rim) | symbols_of(Carrier) | symbols.PLANETARY_MEMBER
+
+
+def planetary_sections(train: Mapping[str, Any]) -> tuple[Section, ...]:
+    """Those of the document of a train."""
+    pairs = {name: flattened(pair) for name, pair in (*train["meshes"].items(), *train["stages"].items())}
+    return Section((), tuple(_blocks(train))), pair_section(pairs)
+
+
+def _blocks(train: Mapping[str, Any]) -> Iterator[Block]:
+    rows = (_planetary_row("planetary", key, _OF_TRAIN[key], train[key]) for key in _TRAIN_KEYS if train.get(key) is not None)
+    yield from block("Planetary train", rows)
+    for name, member in train["members"].items():
+        given = {key: value for key, value in member.items() if value not in (None, [], 0) or key == "support_stiffness"}
+        rows = (_planetary_row(name, key, _OF_MEMBER[key], value) for key, value in given.items() if value is not None)
+        yield from block(name, (row for row in rows if row.symbol.words))
+
+
+def _planetary_row(of: str, key: str, symbol: Symbol, value: Any) -> Row:
+    text = " ".join(map(format_number, value)) if isinstance(value, list) else value_text(value)
+    return Row(f"{of}.{key}", symbol, (value,), (text,))
+
+
+_TITLES = {"inertia": "Inertias", "shaft": "Shafts", "mesh": "Meshes"}
+
+
+def train_sections(document: Mapping[str, Any]) -> Iterator[Section]:
+    """Those of the document of `data.json`, without what nothing has a value of."""
+    known = {key: field.symbol for key, field in TRAIN[MAIN].items()} | symbols.TRAIN
+    own = {key: value for key, value in document[MAIN].items() if key != TORQUES}
+    yield Section((), (Block("Train", _given(_train_row(MAIN, key, known[key], [value]) for key, value in own.items())),))
+    for table in TRAIN_PARTS:
+        if not (parts := document[table]):
+            continue
+        known = {key: field.symbol for key, field in TRAIN[table].items()} | symbols.TRAIN_PARTS[table]
+        rows = (_train_row(table, key, symbol, [part.get(key) for part in parts.values()]) for key, symbol in known.items())
+        yield Section(tuple(parts), (Block(_TITLES[table], _given(rows)),))
+
+
+def _given(rows: Iterable[Row]) -> tuple[Row, ...]:
+    """Those in which something stands."""
+    return tuple(row for row in rows if set(row.texts) - {ABSENT, "0"})
+
+
+def _train_row(table: str, key: str, symbol: Symbol, values: list[Any]) -> Row:
+    return Row(f"{table}.{key}", symbol, tuple(values), tuple(map(_shown, values)))
+
+
+def _shown(value: Any) -> str:
+    if value is None or value == []:
+        return ABSENT
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, list):
+        return " ".join(map(_shown, value)) if len(value) <= 2 else f"{len(value)} values"
+    return f"{value + 0.0:.6g}" if isinstance(value, float) else str(value)
+
+
+LONGEST_LIFE = 1e6
+"""Hours above which a life is told as more than that."""
+
+_TOLD = {
+    "permissible_torque": Symbol("T_1", "N·m", "", "torque on the pinion at the required safety"),
+    "life": Symbol("", "h", "", "life at the required safety"),
+    "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety"),
+}
+
+_CYCLES = {Part.FLANK: "ISO 6336-2, 11", Part.ROOT: "ISO 6336-3, 12"}
+"""Where the standard counts load cycles."""
+
+_BEHIND = "Behind the load factors"
+
+_GROUPS = {
+    "Load factors": "K_A K_gamma K_v K_Hbeta K_Fbeta K_Halpha K_Falpha",
+    "Contact stress": "Z_H Z_E Z_eps Z_beta Z_B Z_D sigma_H0 sigma_H",
+    "What the flanks bear": "sigma_Hlim Z_NT Z_L Z_v Z_R Z_W Z_X sigma_HG sigma_HP",
+    "Root stress": "Y_F Y_S Y_beta Y_B Y_DT sigma_F0 sigma_F",
+    "What the roots bear": "sigma_Flim Y_ST Y_NT Y_delta_relT Y_RrelT Y_X Y_M sigma_FG sigma_FP",
+}
+
+FACTORS = (*_GROUPS, _BEHIND)
+"""Titles of the blocks of factors and stresses."""
+
+_OF_ONE = {"Z_B": Role.PINION, "Z_D": Role.WHEEL}
+"""Whose factor it is, of those that documents have by themselves."""
+
+
+_SHORT = {
+    "permissible_torque.flank": "torque for S_Hmin",
+    "permissible_torque.root": "torque for S_Fmin",
+    "damage.flank": "damage for S_Hmin",
+    "damage.root": "damage for S_Fmin",
+    "life.flank": "life for S_Hmin",
+    "life.root": "life for S_Fmin",
+}
+"""Words of rows that stand apart from the safety that they are of."""
+
+_WHOLE = 1e7
+"""Below this a number has no exponent."""
+
+
+class Quantity(NamedTuple):
+    """A number of the pair, or those of both gears under the names of documents; `verify`: whether it rests on one source."""
+
+    key: str
+    symbol: Symbol
+    value: Any
+    verify: bool = False
+
+
+def safety_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> Iterator[Quantity]:
+    """Of flanks and roots: safety beside the required one, torque, damage, life, cycles; then of scuffing."""
+    for part in Part:
+        name, safety = part.value, symbols.STRENGTH[f"S_{part.index}"]
+        yield Quantity(f"safety.{name}", safety, document["safety"][name])
+        required = Symbol(f"{safety.symbol}min", "", "", f"required safety of the {name}")
+        yield Quantity(f"required.{name}", required, document["required"][name])
+        torque = _TOLD["permissible_torque"]._replace(words=f"torque on the {rating.gear_names.pinion} at the required safety")
+        yield Quantity(f"permissible_torque.{name}", torque, document["permissible_torque"][name])
+        yield Quantity(f"damage.{name}", _TOLD["damage"], document["damage"][name])
+        yield Quantity(f"life.{name}", _TOLD["life"], document["life"][name])
+        cycles = symbols.STRENGTH["N_L"]._replace(source=_CYCLES[part])
+        yield Quantity(f"load_cycles.{name}", cycles, document["load_cycles"][name])
+    for symbol, key in (("S_int", "integral"), ("S_B", "flash")):
+        yield Quantity(f"safety.scuffing.{key}", symbols.STRENGTH[symbol], document["safety"]["scuffing"][key])
+
+
+def factor_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> dict[str, list[Quantity]]:
+    """All factors and stresses, each with its clause, by what they are of."""
+    values, verify = {**document["factors"], **document["stresses"]}, {each.rpartition(".")[2] for each in rating.verify}
+    sources = document["sources"]
+
+    def quantity(key: str) -> Quantity:
+        symbol, value = symbols.STRENGTH[key], values[key]
+        words = symbol.words
+        if key in _OF_ONE:
+            role = _OF_ONE[key]
+            value = {name: value if each is role else None for each, name in rating.names.items()}
+            words = words.replace(role.value, rating.gear_names.pick(role))
+        symbol = symbol._replace(source=sources.get(key, symbol.source), words=words)
+        return Quantity(f"factors.{key}", symbol, value, key in verify)
+
+    found = {title: [quantity(key) for key in keys.split() if key in values] for title, keys in _GROUPS.items()}
+    written, details = symbols.LOAD_FACTOR_DETAILS, document["load_factors"] or {}
+    behind = [Quantity(f"load_factors.{key}", written[key], value) for key, value in details.items() if key in written]
+    first, *others = found.items()
+    return {title: of for title, of in (first, (_BEHIND, behind), *others) if of}
+
+
+def strength_sections(rating: StrengthRating, name: str = "") -> tuple[Section, ...]:
+    """Safeties, then factors by what they are of, a column for each gear, without what is not known; of a mesh its `name`."""
+    document = rating.to_dict()
+    groups = {"Safety": list(safety_quantities(rating, document)), **factor_quantities(rating, document)}
+    before = f"{name}." if name else "strength."
+    rows = {title: [_row(before, each, rating.names) for each in quantities] for title, quantities in groups.items()}
+    blocks = tuple(each for title, of in rows.items() for each in block(title, filter(_is_known, of)))
+    return (Section(tuple(rating.gear_names), blocks, name),)
+
+
+def train_strength_sections(strength: TrainStrength) -> tuple[Section, ...]:
+    """The least safeties of every gear, each with its mesh, then the sections of each mesh."""
+    rows = []
+    for name, gear in strength.members.items():
+        least = [gear.least(part) for part in Part]
+        texts = tuple(ABSENT if each is None else f"{_text(each.safety)} ({each.mesh})" for each in least)
+        values = tuple(None if each is None else each.safety for each in least)
+        rows.append(Row(f"least.{name}", Symbol("", "", "", name), values, texts))
+    sections = [Section(tuple(f"S_{part.index}" for part in Part), block("Least safeties", filter(_is_known, rows)))]
+    for name, rating in strength.meshes.items():
+        sections += strength_sections(rating, name)
+    return tuple(sections)
+
+
+def _is_known(row: Row) -> bool:
+    return set(row.texts) != {ABSENT}
+
+
+def _row(before: str, of: Quantity, names: PerGear[str]) -> Row:
+    values = tuple(of.value[name] for name in names) if isinstance(of.value, Mapping) else (of.value,)
+    symbol = of.symbol._replace(words=_SHORT.get(of.key, of.symbol.words))
+    symbol = symbol._replace(source=f"{symbol.source} (verify)") if of.verify else symbol
+    text = _hours if of.symbol.unit == "h" else _text
+    return Row(f"{before}{of.key}", symbol, values, tuple(map(text, values)))
+
+
+def _hours(value: float | str | None) -> str:
+    """A life; beyond all machines no digits are told."""
+    return f"> {LONGEST_LIFE:.0f}" if isinstance(value, float) and LONGEST_LIFE < value < math.inf else _text(value)
+
+
+def _text(value: Any) -> str:
+    if value is None:
+        return ABSENT
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not isinstance(value, float):
+        return str(value)
+    text = f"{value:.4g}"
+    text = f"{float(text):.0f}" if "e+" in text and abs(value) < _WHOLE else text
+    return f"{text} (assumed)" if is_assumed(value) else text

@@ -1,0 +1,456 @@
+"""Shot: a product before the camera, still or in a loop that closes, and its picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from gearcad.core.errors import GeometryError
+from gearcad.core.records import Floats, Notice
+from gearcad.geometry import Gear, GearPair
+from gearcad.planetary import PlanetaryTrain
+from gearcad.planetary.train_data import shafts_of
+from gearcad.solids.files.cutaway import Camera, Cut, Cutaway, Direction, View, close_up, framed, points_of
+from gearcad.solids.files.products import GearProduct, PairProduct, RackPairProduct, RackProduct
+from gearcad.solids.files.scenes import Part
+from gearcad.solids.files.studio import Animation, Pixels, studio, write_animation, write_png
+from gearcad.solids.files.train_products import TrainProduct, turns_of
+from gearcad.solids.train_plan import Standing, TrainLayout
+
+
+def looks_alike_after(gear: Gear) -> int:
+    """Of how many equal parts a turn of the gear is: its teeth, fewer with bolt holes, one with a keyway."""
+    body = gear.body
+    return 1 if body.keyway_width else math.gcd(gear.tooth_count, body.bolt_holes)
+
+
+def plain_gear(gear: Gear) -> Gear:
+    """The gear without keyway and bolt holes."""
+    plain = replace(gear.body, keyway=False, keyway_width=0.0, keyway_depth=0.0)
+    return replace(gear, body=replace(plain, bolt_circle=0.0, bolt_holes=0, bolt_diameter=0.0))
+
+
+def plain_pair(pair: GearPair) -> GearPair:
+    """Both gears without them."""
+    return replace(pair, pinion=plain_gear(pair.pinion), wheel=plain_gear(pair.wheel))
+
+
+def plain_train(train: PlanetaryTrain) -> PlanetaryTrain:
+    """All gears of a train without them."""
+    return replace(
+        train,
+        centrals=tuple(replace(each, gear=plain_gear(each.gear)) for each in train.centrals),
+        rims=tuple(replace(each, gear=plain_gear(each.gear)) for each in train.rims),
+        stages=tuple(replace(each, pair=plain_pair(each.pair)) for each in train.stages),
+    )
+
+
+FRAMES_PER_SECOND = 25
+
+_SMOOTH, _SHORT = 24, 96
+"""Frames a tooth pitch, and up to how many frames that is: a longer loop is quicker."""
+
+QUICK, _QUICKEST = 4.0, 2.5
+"""Frames a pitch of the gear whose teeth pass fastest, and the least: with 2 nobody sees which way it turns."""
+
+MOST_FRAMES = 480
+"""Of the longest loop."""
+
+_SWING = 2.0
+"""Pitches that a rack goes either way at the most; the pinion stays on the rack."""
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A motion: the `scene` at a share of it, 0 ... 1, in so many `frames` (the last one ends where the first begins).
+
+    `pitches` pass on the gear whose teeth pass fastest. It `closes` where all then looks as at first.
+    """
+
+    scene: Callable[[float], Sequence[Part]]
+    frames: int
+    pitches: float
+    closes: bool = True
+    notices: tuple[Notice, ...] = ()
+
+    @property
+    def seconds(self) -> float:
+        """How long it lasts."""
+        return self.frames / FRAMES_PER_SECOND
+
+    @property
+    def turns(self) -> dict[str, float]:
+        """Turns of each part over the loop, counter-clockwise positive."""
+        begun, ended = self.scene(0.0), self.scene(1.0)
+        return {one.name: (other.rotation - one.rotation) / 360 for one, other in zip(begun, ended, strict=True)}
+
+
+def come_round(passed: Iterable[Fraction]) -> Fraction:
+    """After how many times all that passes so much each time has passed whole numbers; at least one passes anything."""
+    moving = [each for each in passed if each]
+    return Fraction(math.lcm(*(each.denominator for each in moving)), math.gcd(*(each.numerator for each in moving)))
+
+
+def frames_for(pitches: float) -> int | None:
+    """Frames of a loop in which so many pitches pass; None where that is too long."""
+    if pitches * _QUICKEST > MOST_FRAMES:
+        return None
+    wanted = min(_SMOOTH * pitches, max(_SHORT, min(QUICK * pitches, MOST_FRAMES)))
+    return math.ceil(round(wanted, 6))  # pitches that are whole but for rounding
+
+
+def gear_loop(product: GearProduct) -> Loop:
+    """A gear about its axis: by one pitch, or as many as bring a keyway or bolt holes round."""
+    gear = product.gear
+    pitches = gear.tooth_count // looks_alike_after(gear)
+    if (frames := frames_for(pitches)) is None:
+        return simpler(gear_loop(replace(product, gear=plain_gear(gear))))
+    return Loop(lambda share: product.scene(360 * share * pitches / gear.tooth_count), frames, pitches)
+
+
+def pair_loop(product: PairProduct) -> Loop:
+    """A pair by one pitch, or by as many as bring keyways and bolt holes round."""
+    gears = list(product.pair.gears)
+    pitches = int(come_round(Fraction(looks_alike_after(gear), gear.tooth_count) for gear in gears))
+    if (frames := frames_for(pitches)) is None:
+        return simpler(pair_loop(replace(product, pair=plain_pair(product.pair))))
+    return Loop(lambda share: product.scene(360 * share * pitches / gears[0].tooth_count), frames, pitches)
+
+
+def rack_loop(product: RackPairProduct) -> Loop:
+    """A rack has ends: it goes forth and back from where it stands, and its pinion with it."""
+    rack, pinion = product.pair.rack, product.pair.pinion
+    pitches = min(_SWING, max(rack.length / rack.transverse_pitch / 2 - 1, 0.5))
+    turn = 360 * pitches / pinion.tooth_count
+    return Loop(lambda share: product.scene(turn * math.sin(math.tau * share)), _SHORT, 4 * pitches)
+
+
+def simpler(loop: Loop) -> Loop:
+    """A loop of gears without keyways and bolt holes, which says so."""
+    text = f"keyways and bolt holes are left out: with them it would come round in more than {MOST_FRAMES} frames only"
+    return replace(loop, notices=(Notice("features-left-out", text, where="turning"), *loop.notices))
+
+
+_LARGEST = 10**6
+"""Denominator of the fractions that turns, which are floats, are taken for."""
+
+_EXACT = 1e-9
+"""By how much they may miss them, and whole pitches, relatively."""
+
+_SAME = 1e-6
+"""Distance (mm), and share of a pitch, that counts as none."""
+
+
+def train_loop(product: TrainProduct, *, carrier_held: bool = False) -> Loop:
+    """A train as its speeds say, until all of it looks as at first; where that is too long, or if asked for, its carrier held.
+
+    Raises ParameterError for speeds that contradict each other.
+    """
+    simple = plain_train(product.train)
+    if simple != product.train:
+        return simpler(train_loop(replace(product, train=simple), carrier_held=carrier_held))
+    carrier, central = _driven(product)
+    held = _closed(product, 0.0, central - carrier)
+    if carrier_held and held is not None:
+        return held
+    if (loop := _closed(product, carrier, central)) is not None:
+        return loop
+    if held is not None:
+        text = f"it would come round in more than {MOST_FRAMES} frames only: its carrier is held still, as if seen from there"
+        return replace(held, notices=(Notice("carrier-held", text, where="turning"),))
+    return _cut_short(product, carrier, central)
+
+
+def _driven(product: TrainProduct) -> tuple[float, float]:
+    """Turns of the carrier, and of the central by which a pose is told beside it (see `PlanetaryTrain.pose`)."""
+    train = product.train
+    turns, (first, second) = turns_of(product.plan.layout, product.speeds), train.centrals
+    held_first = train.fixed is not None and shafts_of(train)[train.fixed].member == first.name
+    return turns[train.carrier.name], turns[first.name if held_first else second.name]
+
+
+def _closed(product: TrainProduct, carrier: float, central: float) -> Loop | None:
+    """The shortest loop with turns in this proportion; None where nothing turns, or it is too long."""
+    turning = _Turning(product, carrier, central)
+    rates = turning.rates
+    if rates is None or not any(rates):
+        return None
+    once = come_round(rates)
+    for times in range(1, product.train.planets + 1):
+        turns = float(times * once)
+        pitches = turning.pitches(turns)
+        if (frames := frames_for(pitches)) is None:
+            return None
+        if turning.looks_alike_after(turns):
+            return Loop(lambda share: turning.scene(share * turns), frames, pitches)  # noqa: B023 - returned at once
+    return None
+
+
+def _cut_short(product: TrainProduct, carrier: float, central: float) -> Loop:
+    """As much of the motion as the longest loop shows."""
+    turning = _Turning(product, carrier, central)
+    turns = MOST_FRAMES / QUICK / turning.pitches(1.0)
+    text = f"it would come round in more than {MOST_FRAMES} frames only: at its end the loop jumps"
+    return Loop(
+        lambda share: turning.scene(share * turns),
+        MOST_FRAMES,
+        turning.pitches(turns),
+        closes=False,
+        notices=(Notice("does-not-close", text, where="turning"),),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Turning:
+    """A train whose carrier and told central turn in a proportion."""
+
+    product: TrainProduct
+    carrier: float
+    central: float
+
+    def scene(self, turns: float) -> list[Part]:
+        """All in its place after so many times these turns."""
+        return self.product.scene(360 * self.carrier * turns, 360 * self.central * turns)
+
+    def layout(self, turns: float) -> TrainLayout:
+        """The same without bodies."""
+        return self.product.plan.turned(360 * self.carrier * turns, 360 * self.central * turns).layout
+
+    @cached_property
+    def _both(self) -> list[tuple[Standing, float]]:
+        """What stands, and its own turns each time."""
+        begun, turned = self.layout(0.0).standing, self.layout(1.0).standing
+        return [(one, (other.rotation - one.rotation) / 360) for one, other in zip(begun, turned, strict=True)]
+
+    @property
+    def rates(self) -> list[Fraction] | None:
+        """Pitches that pass each time of all with an axis at rest, and equal parts of the carrier; None where not exact."""
+        passed = [self.carrier * _symmetry(self.product.train)]
+        passed += [turns * each.body.gear.tooth_count for each, turns in self._both if each.axle.on is None]
+        found = [Fraction(each).limit_denominator(_LARGEST) for each in passed]
+        exact = all(abs(each - one) <= _EXACT * max(1.0, abs(one)) for each, one in zip(found, passed, strict=True))
+        return found if exact else None
+
+    def pitches(self, turns: float) -> float:
+        """Most pitches that pass of any gear in so many times."""
+        return max(abs(turns * each * standing.body.gear.tooth_count) for standing, each in self._both)
+
+    def looks_alike_after(self, turns: float) -> bool:
+        """Whether every body then stands where one of its kind stood at first, its teeth where teeth were."""
+        begun = list(self.layout(0.0).standing)
+        return all(any(_alike(one, other) for one in begun) for other in self.layout(turns).standing)
+
+
+def _alike(one: Standing, other: Standing) -> bool:
+    if one.body.key != other.body.key or math.dist(one.offset, other.offset) > _SAME:
+        return False
+    passed = (other.rotation - one.rotation) / 360 * one.body.gear.tooth_count
+    return abs(passed - round(passed)) < _SAME
+
+
+def _symmetry(train: PlanetaryTrain) -> int:
+    """Of how many equal parts the carrier is."""
+    angles = sorted(angle % 360 for angle in train.angles)
+    for parts in range(train.planets, 1, -1):
+        turned = sorted((angle + 360 / parts) % 360 for angle in angles)
+        if all(abs((a - b + 180) % 360 - 180) < _SAME for a, b in zip(angles, turned, strict=True)):
+            return parts
+    return 1
+
+
+Product = GearProduct | PairProduct | RackProduct | RackPairProduct | TrainProduct
+
+_FIXED = {
+    View.FRONT: Direction((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
+    View.SIDE: Direction((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+    View.TOP: Direction((0.0, 1.0, 0.0), (0.0, 0.0, -1.0)),
+    View.MESH: Direction((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
+}
+"""Third-angle views of what stands along z."""
+
+_UP = (0.0, 0.0, 1.0)
+_OF_GEAR = Direction((0.45, -0.9, 0.8), _UP)
+_OF_PAIR = Direction((-0.3, -1.0, 0.75), _UP)
+_OF_RING = Direction((0.35, -0.8, 1.3), _UP)
+_SETTINGS_OF_RACK = Direction((0.5, 0.8, 1.1), (0.0, 1.0, 0.0))
+_OF_RACK_PAIR = Direction((-1.1, -0.35, 0.9), _UP)
+_OF_TRAIN = Direction((0.45, -0.85, 1.1), _UP)
+_OF_TRAIN_APART = Direction((0.55, -0.9, 0.6), _UP)
+"""From above the corner from which most of the teeth is seen."""
+
+_GAP, _GAP_OF_RING = 0.3, 0.8
+"""Between what was moved apart, as a share of the pinion's diameter: a ring is seen from high above."""
+
+
+def direction_of(product: Product, view: View) -> Direction:
+    """From where a product is seen in a view."""
+    if view is not View.CORNER:
+        return _FIXED[view]
+    if isinstance(product, TrainProduct):
+        return _OF_TRAIN_APART if product.options.exploded else _OF_TRAIN
+    if isinstance(product, PairProduct):
+        return _OF_RING if product.pair.internal else _OF_PAIR
+    if isinstance(product, GearProduct):
+        return _OF_RING if product.gear.internal else _OF_GEAR
+    return _SETTINGS_OF_RACK if isinstance(product, RackProduct) else _OF_RACK_PAIR
+
+
+def cuts_of(product: Product, parts: Sequence[Part], cutaway: Cutaway) -> dict[str, Cut]:
+    """What a cutaway takes off each part: all on the near side of the plane through the axes along x, of a quarter what is
+    on one side of the part's own axis. A train is cut about its own axis, a rack across its width or in the middle of it.
+    """
+    near, aside = (
+        np.array([0.0, -1.0, 0.0]),
+        np.array([math.copysign(1.0, direction_of(product, View.CORNER).eye[0]), 0.0, 0.0]),
+    )
+    upper = np.array([0.0, 0.0, 1.0])
+    found = {}
+    for part in parts:
+        point, normals = np.array(part.offset), (near, aside)
+        if isinstance(product, TrainProduct):
+            point = np.zeros(3)
+        elif isinstance(product, RackProduct):
+            point, normals = np.array([product.rack.length / 2, 0.0, product.rack.face_width / 2]), (upper, aside)
+        elif isinstance(product, RackPairProduct) and part is parts[1]:
+            point, normals = np.array([0.0, 0.0, part.offset[2] + product.pair.rack.face_width / 2]), (near, upper)
+        found[part.name] = Cut(point, normals if cutaway is Cutaway.QUARTER else normals[:1])
+    return found
+
+
+def apart(product: PairProduct | RackPairProduct, parts: Sequence[Part]) -> tuple[float, float, float]:
+    """How far (mm) the second part of a pair is moved for the first to come free, with a gap: a ring down, others aside.
+
+    Trains move themselves apart.
+    """
+    diameter = product.pair.pinion.tip_diameter
+    pinion, mate = (points_of([part]) for part in parts)
+    if isinstance(product, PairProduct) and product.pair.internal:
+        return 0.0, 0.0, float(pinion[:, 2].min() - mate[:, 2].max()) - _GAP_OF_RING * diameter
+    return float(pinion[:, 0].max() - mate[:, 0].min()) + _GAP * diameter, 0.0, 0.0
+
+
+class Close(NamedTuple):
+    """The pitch point (mm) of a mesh, and its normal module."""
+
+    x: float
+    y: float
+    module: float
+
+
+def close_by(product: Product) -> Close:
+    """Where teeth mesh; of a train those of its first central with the first planet. Raises GeometryError without a mesh."""
+    if isinstance(product, GearProduct | RackProduct):
+        raise GeometryError("view", View.MESH, "needs a pair or a train: one part has no mesh")
+    if isinstance(product, TrainProduct):
+        mesh, planet = product.train.meshes[0], product.plan.layout.planets[0][0]
+        central, rim = mesh.central.gear, mesh.rim.gear
+        share = central.teeth / (central.teeth + rim.teeth)  # a ring has negative teeth
+        return Close(planet.axle.x * share, planet.axle.y * share, central.normal_module)
+    pair = product.pair
+    radius = pair.working_pitch_diameters.pinion / 2 if isinstance(pair, GearPair) else pair.pitch_radius
+    return Close(radius, 0.0, pair.pinion.normal_module)
+
+
+_CLOSE, _WIDE = 4.0, 1.2
+"""Half the height (normal modules) that a mesh shows close by, and the least width over height at which it does."""
+
+_OF_RACK = 1.5
+"""How far of a rack is shown to either side of its pinion from the corner, in tip diameters."""
+
+_LOOKED_AT = 8
+"""Scenes of a loop for which the camera is set."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shot:
+    """A picture of a product in `size` (width, height) pixels; of one in a `loop` it moves. See `gearcad.picture`."""
+
+    product: Product
+    view: View = View.CORNER
+    size: tuple[int, int]
+    cutaway: Cutaway | None = None
+    exploded: bool = False
+    transparent: bool = False
+    loop: Loop | None = None
+
+    def write_png(self, path: Path) -> None:
+        """Write it as it is at first."""
+        with studio(self.size, transparent=self.transparent) as room:
+            write_png(room.photograph(*self._set(0.0)), path)
+
+    def write_animation(self, kind: Animation, path: Path) -> None:
+        """Write all frames of its loop."""
+        write_animation(self.frames(), path, kind, 1000 // FRAMES_PER_SECOND)
+
+    def frames(self) -> Iterator[Pixels]:
+        """One picture after the other; what leads on to the first is the last."""
+        count = self.loop.frames if self.loop else 1
+        with studio(self.size, transparent=self.transparent) as room:
+            for number in range(count):
+                yield room.photograph(*self._set(number / count))
+
+    def scene(self, share: float) -> list[Part]:
+        """The parts in their places at a share of the loop."""
+        parts = list(self.loop.scene(share) if self.loop else self.product.scene())
+        return [parts[0], *(_moved(part, self._apart) for part in parts[1:])] if any(self._apart) else parts
+
+    def _set(self, share: float) -> tuple[Sequence[Part], Camera, dict[str, Cut]]:
+        parts = self.scene(share)
+        return parts, self.camera, cuts_of(self.product, parts, self.cutaway) if self.cutaway else {}
+
+    @cached_property
+    def camera(self) -> Camera:
+        """From where it is seen, whatever the share."""
+        width, height = self.size
+        direction = direction_of(self.product, self.view)
+        points = np.concatenate([self._looked_at(number / _LOOKED_AT) for number in range(_LOOKED_AT if self.loop else 1)])
+        if self.view is not View.MESH:
+            return framed(points, direction, width / height)
+        place = close_by(self.product)
+        return close_up(points, direction, (place.x, place.y), _CLOSE * place.module * max(1.0, _WIDE * height / width))
+
+    def _looked_at(self, share: float) -> Floats:
+        """Points (n, 3) that are to be in the picture at a share of the loop."""
+        parts = self.scene(share)
+        cuts = cuts_of(self.product, parts, self.cutaway) if self.cutaway else {}
+        found = []
+        for part in parts:
+            points = points_of([part])
+            if part.name in cuts:
+                points = points[cuts[part.name].left(points)]
+            if self.view is View.CORNER and isinstance(self.product, RackPairProduct):
+                points = points[abs(points[:, 1]) <= _OF_RACK * self.product.pair.pinion.tip_diameter]
+            found.append(points)
+        return np.concatenate(found)
+
+    @cached_property
+    def _apart(self) -> tuple[float, float, float]:
+        """How far parts but the first are moved (mm); trains move themselves."""
+        if not self.exploded or not isinstance(self.product, PairProduct | RackPairProduct):
+            return 0.0, 0.0, 0.0
+        return apart(self.product, self.product.scene())
+
+
+def loop_of(product: Product, view: View) -> Loop:
+    """How a product turns; close by, a train is seen from its carrier. Raises GeometryError for what does not turn."""
+    if isinstance(product, TrainProduct):
+        return train_loop(product, carrier_held=view is View.MESH)
+    if isinstance(product, PairProduct):
+        return pair_loop(product)
+    if isinstance(product, RackPairProduct):
+        return rack_loop(product)
+    if isinstance(product, GearProduct):
+        return gear_loop(product)
+    raise GeometryError("turning", True, "needs something that turns: a rack by itself does not")
+
+
+def _moved(part: Part, by: tuple[float, float, float]) -> Part:
+    x, y, z = part.offset
+    return replace(part, offset=(x + by[0], y + by[1], z + by[2]))

@@ -1,0 +1,12 @@
+from .beam import PotentialEnergy as PotentialEnergy
+from .beam import WeberBanaschek as WeberBanaschek
+from .comparison import StiffnessComparison as StiffnessComparison
+from .finite_elements import PlaneStrainContact as PlaneStrainContact
+from .finite_elements import PlaneStressContact as PlaneStressContact
+from .finite_elements import SolidContact as SolidContact
+from .finite_elements import StrainEnergy as StrainEnergy
+from .method import StiffnessMethod as StiffnessMethod
+from .methods import CLOSED_FORMS as CLOSED_FORMS
+from .methods import METHODS as METHODS
+from .methods import MethodB as MethodB
+from .methods import compare_methods as compare_methods
