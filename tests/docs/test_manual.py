@@ -14,8 +14,8 @@ sys.path.insert(0, str(DOCS))
 from manual.blocks import blocks_of, is_long  # noqa: E402
 from manual.running import run_page  # noqa: E402
 
-OTHERS = {"README.md", "papers.md"}
-"""How the manual is made, which is no page of it; and what `test_papers_page.py` runs."""
+OTHERS = {"README.md", "papers.md", "overview.md"}
+"""How the manual is made, which is no page of it; and what `test_papers_page.py` and `test_readme_commands.py` run."""
 
 PAGES = [page for page in sorted(DOCS.rglob("*.md")) if page.relative_to(DOCS).as_posix() not in OTHERS]
 

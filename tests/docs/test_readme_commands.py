@@ -1,4 +1,4 @@
-"""Every command of the README ends well, section by section, and its Python runs from top to bottom."""
+"""Commands of the README and of the overview end well, section by section; the README's Python runs from top to bottom."""
 
 from __future__ import annotations
 
@@ -21,7 +21,12 @@ from manual.blocks import blocks_of  # noqa: E402
 from manual.running import environment, run_command  # noqa: E402
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-SECTIONS = {section.partition("\n")[0]: section for section in re.split(r"^## ", README, flags=re.MULTILINE)[1:]}
+OVERVIEW = (ROOT / "docs" / "overview.md").read_text(encoding="utf-8")
+SECTIONS = {
+    section.partition("\n")[0]: section
+    for page in (README, OVERVIEW)
+    for section in re.split(r"^## ", page, flags=re.MULTILINE)[1:]
+}
 FALLS_SHORT = ("check", "mesh", "rate")
 """Commands whose exit status 1 is their verdict."""
 
