@@ -64,7 +64,10 @@ def half_width(load_per_width: Size, radius: Size, modulus: float) -> Size:
 
 
 def half_width_by_curvature(load_per_width: float, curvature: float, modulus: float) -> float:
-    """The same by the relative curvature 1/R (1/mm); infinite where one surface is hollower than the other is round."""
+    """Half width a (mm) from the relative curvature 1/R (1/mm).
+
+    The result is infinite where a concave surface is more curved than the convex one.
+    """
     return math.sqrt(4 * load_per_width / (math.pi * modulus * curvature)) if curvature > 0 else math.inf
 
 
@@ -363,7 +366,7 @@ def flank_rating(pair: GearPair, materials: PerGear[Material], tangential_force:
 
 
 def flank_notices(pair: GearPair) -> Iterator[Notice]:
-    """Where the pair leaves the range that part 2 states for its formulas."""
+    """Yield a notice if the pair's transverse contact ratio is above 2, the range that ISO 6336-2 states for its formulas."""
     if (ratio := pair.transverse_contact_ratio) > 2:
         text = f"Z_eps, Z_B and Z_D hold for a contact ratio up to 2, here {ratio:.4f}"
         yield Notice("flank-contact-ratio", f"sigma_H: {text}: two pairs of teeth share the load at any time")

@@ -81,7 +81,9 @@ class DynamicFactor:
         inertias: PerGear[float],
         options: RatingOptions | None = None,
     ) -> DynamicFactor:
-        """Of a pair of one material or two, with the deviations of the options' accuracy grade; inertias in kg·m².
+        """Return the inputs of K_v for a pair of one material or two, with the tolerances of the options' accuracy grade.
+
+        `inertias` are in kg·m².
 
         Raises ParameterError and GeometryError: as `rate` and `flank_tolerances` do, and for through-hardened material without
         contact_endurance_limit.
@@ -102,7 +104,10 @@ class DynamicFactor:
         mass: float,
         options: RatingOptions,
     ) -> DynamicFactor:
-        """Of a pair at a specific load (N/mm), with the stiffness that it has there and the reduced mass m_red (kg/mm)."""
+        """Return the inputs of K_v for a pair at a specific load.
+
+        `specific_load` is in N/mm, `stiffness` is the mesh stiffness under that load, `mass` is the reduced mass m_red (kg/mm).
+        """
         limits = endurance_limits_of(materials)
         return cls(
             teeth=pair.pinion.teeth,
@@ -178,7 +183,10 @@ class DynamicFactor:
 
 
 def flank_wear(materials: PerGear[Material]) -> FlankWear:
-    """How the flanks of both gears run in. Raises ParameterError where that depends on a limit that is not known."""
+    """Return the kind of running-in of both gears and their limits sigma_Hlim (MPa).
+
+    Raises ParameterError if the kind depends on a limit that is not known.
+    """
     limits = endurance_limits_of(materials).map(lambda limits: limits.contact)
     if materials.pinion == materials.wheel:  # errors need not say whose
         kind = _running_in(materials.pinion, limits.pinion)
@@ -187,7 +195,11 @@ def flank_wear(materials: PerGear[Material]) -> FlankWear:
 
 
 def _running_in(material: Material, flank_limit: float | None) -> RunningIn:
-    """How flanks of a material run in: as those of hardened steel, which wear least, where its group is not known."""
+    """Return the kind of running-in of a material's flanks.
+
+    A material without a group counts as hardened steel, which wears least. Raises ParameterError if the kind needs a flank
+    limit and none is given.
+    """
     kind = RunningIn.SURFACE_HARDENED if material.group is None else RunningIn.of(material.group)
     if kind.needs_flank_limit and flank_limit is None:
         permitted = f"must be given for material group {material.group}: how its flanks run in depends on it"

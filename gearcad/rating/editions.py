@@ -59,7 +59,7 @@ def power(base: Values, exponent: Values) -> Values:
 
 
 def magnitude(values: Values) -> Values:
-    """Without the sign."""
+    """Return the magnitude (absolute value)."""
     return number_or_array(values, np.abs(values))
 
 
@@ -169,7 +169,7 @@ def relieved(pinion: FlankModification, wheel: FlankModification = _UNMODIFIED) 
 
 
 def edition_notices(edition: Edition, *, modified: bool) -> Iterator[Notice]:
-    """That the edition of 2019 is known at second hand only, and what it was asked of the profiles."""
+    """Yield notices for the edition of 2019: its text was not at hand, and profiles that are not modified raise Z_B and Z_D."""
     if edition is not Edition.ISO_2019:
         return
     text = (

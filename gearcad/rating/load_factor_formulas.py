@@ -152,7 +152,7 @@ class RunningIn(Enum):
 
     @classmethod
     def of(cls, group: MaterialGroup) -> RunningIn:
-        """That of a group of materials."""
+        """Return the kind of running-in of a group of materials."""
         if group in (MaterialGroup.GREY_IRON, MaterialGroup.FERRITIC_NODULAR_IRON):
             return cls.CAST_IRON
         return cls.SURFACE_HARDENED if group in _HARDENED else cls.THROUGH_HARDENED
@@ -182,7 +182,7 @@ class _Rule(NamedTuple):
     most: tuple[float, float, float]
 
     def allowance(self, deviation: float | Floats, speed: ArrayLike, softness: float | Floats) -> Floats:
-        """What wears off deviations (µm) at circumferential speeds (m/s); all broadcast."""
+        """Return the running-in allowance (µm) of deviations (µm) at circumferential speeds (m/s); all broadcast."""
         v = np.abs(np.asarray(speed, float))
         most = np.select([v <= _SLOW, v <= _FAST], self.most[:2], self.most[2])
         result: Floats = np.minimum(np.minimum(self.part * deviation, most) / softness, deviation)
@@ -204,7 +204,7 @@ _BETA = {
 def running_in_alpha(
     deviation: float | Floats, kind: RunningIn, speed: ArrayLike, flank_limit: float | Floats | None = None
 ) -> Floats:
-    """y_alpha (8.3.5): what wears off deviations f_pb or f_falpha at circumferential speeds (m/s); all broadcast.
+    """y_alpha (8.3.5): running-in allowance (µm) of deviations f_pb or f_falpha at circumferential speeds (m/s); all broadcast.
 
     For two materials it is the mean of theirs. Through-hardened gears need their `flank_limit` sigma_H_lim (MPa). Raises
     ParameterError.
@@ -215,7 +215,10 @@ def running_in_alpha(
 def running_in_beta(
     misalignment: float | Floats, kind: RunningIn, speed: ArrayLike, flank_limit: float | Floats | None = None
 ) -> Floats:
-    """y_beta (clause 7): what wears off an initial misalignment F_beta_x; F_beta_y = F_beta_x - y_beta. Else as y_alpha."""
+    """y_beta (clause 7): running-in allowance (µm) of an initial misalignment F_beta_x; F_beta_y = F_beta_x - y_beta.
+
+    Arguments are those of `running_in_alpha`.
+    """
     return _BETA[kind].allowance(misalignment, speed, _softness(kind, flank_limit))
 
 
@@ -375,7 +378,7 @@ UNLOADED_ENDS = frozenset(
 
 
 def helix_factors(modification: HelixModification, edition: Edition) -> HelixFactors:
-    """Those of a helix modification."""
+    """Return the factors B_1, B_2 and the compliance (57) for a helix modification by an edition."""
     return (_HELIX_DIN if edition is Edition.DIN_1987 else {}).get(modification, _HELIX[modification])
 
 

@@ -1,6 +1,6 @@
 """LoadFactors: all load factors of a pair under a load, by ISO 6336-1 or DIN 3990-1, or as given.
 
-K_v of Method B is in `gearcad.rating.load_factor_formulas`, K_Hbeta of a misalignment in `gearcad.rating.load_factor_formulas`.
+The formulas of K_v (Method B) and of K_Hbeta (from a misalignment) are in `gearcad.rating.load_factor_formulas`.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ class LoadedMesh:
 
     @cached_property
     def stiffness(self) -> MeshStiffness:
-        """At that load."""
+        """Mesh stiffness under the specific load, N/(mm·µm)."""
         return mesh_stiffness(self.pair, self.materials, self.specific_load)
 
     @cached_property
@@ -120,7 +120,7 @@ class LoadedMesh:
 
     @cached_property
     def wear(self) -> FlankWear:
-        """How the flanks run in. Raises ParameterError where that depends on a limit that is not known."""
+        """Running-in of the flanks of both gears. Raises ParameterError if it depends on a limit that is not known."""
         return flank_wear(self.materials)
 
     @cached_property
@@ -158,7 +158,7 @@ def term_of(mesh: LoadedMesh) -> float:
 
 
 def assumed_shaft(mesh: LoadedMesh) -> tuple[str, ...]:
-    """What stands for a shaft that is not given."""
+    """Return one sentence if the pinion's place on its shaft, or its bearing arrangement, was assumed; else nothing."""
     options = mesh.options
     if options.pinion_offset and options.bearing_arrangement is None:
         return (f"bearing_arrangement = {options.pinion_place.value}: torque comes from the side of the nearer bearing",)
@@ -168,7 +168,7 @@ def assumed_shaft(mesh: LoadedMesh) -> tuple[str, ...]:
 
 
 def shaft_notices(mesh: LoadedMesh) -> Iterator[Notice]:
-    """Where the shaft is not one of figure 13."""
+    """Yield a notice for each way in which the shaft leaves the range of figure 13."""
     options = mesh.options
     span, shaft, offset = options.bearing_span, options.shaft_diameter, abs(options.pinion_offset)
     if span is None or shaft is None or not offset:
@@ -277,7 +277,9 @@ def _shaft_deflection(mesh: LoadedMesh, mean_load: float) -> float:
 
 
 def _notices(mesh: LoadedMesh, effective: float, mean_load: float) -> Iterator[Notice]:
-    """Where little of the width carries, and of crowned gears that the options do not know of."""
+    """Yield notices if only a part of the face width carries, and if gears have helix modifications that the options do not
+    state.
+    """
     if (width := bearing_width(effective, mesh.stiffness.mesh_beta, mean_load)) < 1:
         text = f"only {width:.0%} of the face width would carry: F_beta_y = {effective:.3g} µm is too much for this load"
         yield Notice("narrow-bearing", f"K_Hbeta: {text}")
@@ -299,7 +301,7 @@ def _notices_of_given(factor: float) -> Iterator[Notice]:
 
 
 def _with_root(mesh: LoadedMesh, flank: Finding) -> Finding:
-    """With K_Fbeta beside K_Hbeta."""
+    """Return the finding of K_Hbeta with K_Fbeta added."""
     factor, ratio = flank.factors["K_Hbeta"], width_to_height(mesh.pair)
     unloaded = mesh.options.helix_modification in UNLOADED_ENDS
     root = factor if unloaded else root_face_load_factor(factor, ratio)
@@ -362,7 +364,7 @@ def dynamic_factor(mesh: LoadedMesh) -> Finding:
 
 
 def _method_b(mesh: LoadedMesh) -> Finding:
-    """By the resonance ratio, with the masses of both bodies."""
+    """Return K_v of Method B: from the resonance ratio, with the masses of both gear bodies."""
     masses = [mass_of(gear, material.density) for gear, material in zip(mesh.pair.gears, mesh.materials, strict=True)]
     mass = pair_mass(*masses)
     found = DynamicFactor.at(mesh.pair, mesh.materials, mesh.specific_load, mesh.stiffness, mass, mesh.options)
@@ -398,14 +400,14 @@ def _resonance_notices(lower: float, ratio: float) -> Iterator[Notice]:
 
 
 def _assumed_masses(mesh: LoadedMesh) -> Iterator[str]:
-    """Of which bodies m_red is."""
+    """Yield one sentence for each assumption about the bodies whose mass is in m_red."""
     yield "K_v: m_red of plain discs or rims of the gears' own material, without hubs, shafts and what else turns with them"
     if mesh.pair.internal and inner_diameter(mesh.pair.wheel) is None:
         yield "K_v: the ring is held, as its rim is not given: m_red is that of the pinion"
 
 
 def _dynamic_method_c(mesh: LoadedMesh) -> Finding:
-    """By speed and grade alone."""
+    """Return K_v of Method C: from speed and accuracy grade alone."""
     pair, edition = mesh.pair, mesh.options.standard
     measure = speed_measure(mesh.speed, float(pair.pinion.teeth), pair.gear_ratio)
     factor = dynamic_factor_c(mesh.specific_load, measure, pair.overlap_ratio, mesh.grade, edition)
@@ -419,7 +421,7 @@ def _dynamic_method_c(mesh: LoadedMesh) -> Finding:
 
 
 def _notices_of_c(mesh: LoadedMesh, measure: float) -> Iterator[Notice]:
-    """Where the pair leaves what Method C is stated for."""
+    """Yield a notice for each way in which the pair leaves the range that Method C is stated for."""
     limit = speed_measure_limit(mesh.pair.overlap_ratio)
     if measure >= limit:
         text = (
@@ -443,7 +445,7 @@ class BodyLoad(NamedTuple):
 
     @property
     def said(self) -> str:
-        """What was put in, and why it is more than Method C makes of the same."""
+        """Sentence that states the misalignment used for the solid bodies, and why K_Hbeta is larger than by Method C."""
         source = "[mounting]" if self.mounted else "Method C, as [mounting] has none"
         return (
             f"K_Hbeta: the solid bodies stand off by F_beta_y = {self.misalignment:.3g} µm of {source}; "
@@ -482,7 +484,7 @@ class LoadFactors:
         load: Load,
         options: RatingOptions | None = None,
     ) -> LoadFactors:
-        """Of a pair of one material or two, under a load; numbers in the options stand as they are given.
+        """Return the load factors of a pair of one material or two, under a load; numbers in the options are used as given.
 
         Raises ParameterError without a torque, for what a method needs and was not given, and beyond the tables of tolerances;
         GeometryError for a pair whose contact the standard does not describe, double helical ones among them.
@@ -515,7 +517,10 @@ class LoadFactors:
         )
 
     def with_bodies(self, found: BodyLoad) -> LoadFactors:
-        """Of options in which K_Hbeta of a load distribution stands as a number: cited as what it is."""
+        """Return these load factors with K_Hbeta cited as found by solid bodies.
+
+        The options must already hold that K_Hbeta as a number.
+        """
         return replace(self, sources={**self.sources, "K_Hbeta": _OF_BODIES}, assumed=(*self.assumed, found.said))
 
     def to_dict(self) -> dict[str, float | None]:

@@ -34,7 +34,7 @@ class Family(Enum):
 
     @classmethod
     def of(cls, group: MaterialGroup) -> Family:
-        """That of a group."""
+        """Return the family of a group of materials."""
         return _FAMILIES[group]
 
 
@@ -103,7 +103,11 @@ _Coefficients = Sequence[tuple[float, ...]]
 
 
 def _lines(ranges: _Ranges, contact: _Coefficients, root: _Coefficients, of_root: _Ranges | None = None) -> _Lines:
-    """Of coefficients (A, B) or (A, B, flat) for ML, MQ and ME; the lines of the root may have ranges `of_root`."""
+    """Return the lines of contact and root for each material quality.
+
+    `contact` and `root` are coefficients (A, B) or (A, B, flat) for ML, MQ and ME; the lines of the root may have ranges
+    `of_root`.
+    """
     return {
         quality: (_line(contact[number], ranges[quality]), _line(root[number], (of_root or ranges)[quality]))
         for number, quality in enumerate(MaterialQuality)
@@ -245,7 +249,10 @@ def endurance_limits(material: Material) -> EnduranceLimits:
 
 
 def endurance_limits_of(materials: PerGear[Material]) -> PerGear[EnduranceLimits]:
-    """Those of both gears; errors say whose, unless both are of one material. Raises ParameterError."""
+    """Return the endurance limits of both gears. Raises ParameterError.
+
+    Errors name the gear, unless both gears are of one material.
+    """
     if materials.pinion == materials.wheel:
         both = endurance_limits(materials.pinion)
         return PerGear(both, both)

@@ -165,7 +165,7 @@ def rate(
 
 
 def _recalled(pair: GearPair, edition: Edition, wheel: RootRating) -> tuple[str, ...]:
-    """What of the rating of a ring, or by the edition of 2019, is to be verified."""
+    """Return the symbols to be verified in the rating of a ring, or in a rating by the edition of 2019."""
     formula = () if wheel.formula is None else ("wheel.formula",)
     ring = ("q_prime", "Z_D", "wheel.Y_B", *formula) if pair.internal else ()
     return (*ring, *(symbol for symbol in RECALLED if edition is Edition.ISO_2019 and symbol not in ring))
@@ -190,7 +190,7 @@ def require_ratable(pair: GearPair | RackPair, load: Load) -> None:
 
 
 def scope_notices(pair: GearPair | RackPair) -> Iterator[Notice]:
-    """Where the pair leaves the scope of the whole standard (ISO 6336-1, clause 1)."""
+    """Yield a notice for each way in which the pair leaves the scope of the whole standard (ISO 6336-1, clause 1)."""
     if not 15 <= (angle := pair.pinion.rack.pressure_angle) <= 25:
         text = f"ISO 6336 is confirmed for pressure angles from 15 to 25 deg, here {angle:g} deg"
         yield Notice("scope-pressure-angle", text)
@@ -199,7 +199,7 @@ def scope_notices(pair: GearPair | RackPair) -> Iterator[Notice]:
 
 
 def _ring_notices(pair: GearPair) -> Iterator[Notice]:
-    """What of the rating of a ring is to be verified."""
+    """Yield a notice that values in the rating of a ring are to be verified."""
     if pair.internal:
         text = (
             "Z_D = 1, Y_B and the root formulas of rings are as remembered of ISO 6336:2006, whose text was not at hand:"
@@ -302,7 +302,7 @@ def _rack_root(pair: RackPair, mesh: RootMesh) -> RootRating:
 
 
 def _stiffness(pair: RackPair, materials: PerGear[Material], specific_load: float) -> MeshStiffness:
-    """With 1/z_n2 = 0 and x_2 = 0; C_R and C_B are the means of pinion and rack."""
+    """Return the mesh stiffness of a pinion and a rack: 1/z_n2 = 0, x_2 = 0, C_R and C_B are the means of pinion and rack."""
     pinion, rack = pair.pinion, pair.rack
     q = tooth_flexibility((pinion.virtual_teeth, math.inf), (pinion.profile_shift, 0.0))
     dedendum = rack.root_depth / rack.normal_module
@@ -311,7 +311,11 @@ def _stiffness(pair: RackPair, materials: PerGear[Material], specific_load: floa
 
 
 def _flank(pair: RackPair, materials: PerGear[Material], force: float, edition: Edition) -> FlankRating:
-    """With (u + 1)/u = 1; the curvature at B and D over that at C is the pinion's."""
+    """Return the flank rating of a pinion and a rack, with (u + 1)/u = 1.
+
+    The curvature at B and D over that at C is the pinion's. Raises GeometryError if single contact begins below the pinion's
+    base circle.
+    """
     pinion, path = pair.pinion, pair.path_of_contact
     zone = zone_factor(pinion.base_helix_angle, pinion.transverse_pressure_angle, pair.working_transverse_pressure_angle)
     elasticity = elasticity_of(materials)

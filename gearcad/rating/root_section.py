@@ -94,7 +94,7 @@ class LoadPoint:
 
 
 def load_point(virtual: VirtualGear, virtual_contact_ratio: float) -> LoadPoint:
-    """Where a single pair carries at the greatest lever, for the virtual contact ratio eps_alphan = eps_alpha/cos^2 beta_b.
+    """Return the outer point of single pair contact, from the virtual contact ratio eps_alphan = eps_alpha/cos^2 beta_b.
 
     d_en = 2 sqrt((sqrt(d_an^2/4 - d_bn^2/4) - p_bn (eps_alphan - 1))^2 + d_bn^2/4) (28), p_bn = pi m_n cos alpha_n;
     alpha_en = arccos(d_bn/d_en) (29), gamma_e = s_n/(m_n z_n) + inv alpha_n - inv alpha_en (30),
@@ -111,7 +111,7 @@ def load_point(virtual: VirtualGear, virtual_contact_ratio: float) -> LoadPoint:
 
 
 def virtual_tool(gear: Gear, virtual: VirtualGear) -> FilletTool:
-    """The tip of the tool, set to cut the virtual gear; of a spur gear its very own.
+    """Return the tip of the tool, set to cut the virtual gear; for a spur gear this is its own tool.
 
     A hob stays what it is; a shaper cutter becomes its own virtual spur gear, with z_0 z_n/z teeth, the same shift and corner.
     Raises GeometryError where that cannot reach the virtual gear's root.
@@ -125,7 +125,10 @@ def virtual_tool(gear: Gear, virtual: VirtualGear) -> FilletTool:
 
 
 def _virtual_shaper(gear: Gear, virtual: VirtualGear, radius: float) -> ShaperTip:
-    """With a corner of `radius` (mm). Without cutter the gear's own counterpart, at its axis."""
+    """Return the tip of the shaper cutter for the virtual gear, with a corner of `radius` (mm).
+
+    Without a cutter it is the gear's own counterpart, on the gear's axis. Raises GeometryError if such a tip is not feasible.
+    """
     m, angle, own = gear.normal_module, math.radians(virtual.pressure_angle), gear.cutter.teeth is None
     z_n = virtual.teeth
     z_0 = abs(z_n) if gear.cutter.teeth is None else gear.cutter.teeth * z_n / gear.teeth
@@ -234,7 +237,7 @@ def tangent_angle(g: float, h: float, virtual_teeth: float) -> float | None:
 
 
 def hob_section(gear: Gear, virtual: VirtualGear, load: LoadPoint) -> RootSection:
-    """By the equations for a hob: that of its own rack.
+    """Return the root section by the equations for a hob, with the gear's own rack.
 
     G = rho_fP/m_n - h_fP/m_n + x (12), H = (2/z_n) (pi/2 - E/m_n) - pi/3 (13), then s_Fn (15), rho_F (17) and h_Fe (18).
     Raises GeometryError for teeth without such a section.
@@ -269,7 +272,9 @@ def _no_tangent(gear: Gear) -> GeometryError:
 
 
 def generated_section(gear: Gear, virtual: VirtualGear, load: LoadPoint) -> RootSection:
-    """On the fillet that the tool generates on the virtual gear: chord, radius of curvature and place are those of the curve.
+    """Return the root section on the fillet that the tool generates on the virtual gear.
+
+    Chord, radius of curvature and place are those of the curve.
 
     The force is tangential to the base circle, so it meets the middle of the tooth at r_bn/cos alpha_Fen. Raises GeometryError
     for teeth without such a section, with a sharp corner there, or whose load passes beyond it.
@@ -317,7 +322,7 @@ class _GeneratedFillet:
         return math.pi + direction if self.internal else -direction
 
     def theta_at(self, lean: float) -> float | None:
-        """Where the fillet leans so much (rad); None where it does not."""
+        """Return the angle theta (rad) at which the fillet leans by `lean` (rad), or None if it has no such point."""
         if not self.lean(0.0) > lean > self.lean(self.tool.last_angle):
             return None
         return root_between(lambda theta: float(self.lean(theta)) - lean, 0.0, self.tool.last_angle, xtol=1e-15, rtol=8.9e-16)
@@ -402,7 +407,10 @@ def virtual_rack(rack: Rack) -> VirtualGear:
 
 
 def rack_load_point(rack: Rack, virtual_contact_ratio: float) -> RackLoadPoint:
-    """Where a single pair carries at the greatest lever: eps_alphan - 1 base pitches down the line of action from the tip."""
+    """Return the outer point of single pair contact on a rack.
+
+    It is eps_alphan - 1 base pitches down the line of action from the tip.
+    """
     angle = math.radians(rack.rack.pressure_angle)
     down = (virtual_contact_ratio - 1) * rack.normal_pitch * math.cos(angle) * math.sin(angle)
     return RackLoadPoint(

@@ -42,7 +42,7 @@ class FormulaRoot:
 
     @classmethod
     def of(cls, rating: RootRating, tool_radius: float) -> FormulaRoot:
-        """What is of interest of a rating by formula."""
+        """Return the section, factors and stress of a rating by formula; `tool_radius` is rho_fPv (mm)."""
         return cls(
             tool_radius=tool_radius,
             section=rating.section,
@@ -163,7 +163,7 @@ class RootMesh:
 
     @classmethod
     def of(cls, pair: GearPair | RackPair, tangential_force: float, edition: Edition, accuracy_grade: int) -> RootMesh:
-        """That of a pair."""
+        """Return the load and rules of the roots of a pair, under `tangential_force` F_t (N)."""
         pinion = pair.pinion
         return cls(
             tangential_force=tangential_force,
@@ -184,7 +184,7 @@ class RootMesh:
     def rating(
         self, section: RootSection, load: LoadPoint, virtual: VirtualGear, *, width: float, rim_thickness_factor: float
     ) -> RootRating:
-        """Of a tooth that carries over a width (mm)."""
+        """Return the root rating of a tooth that carries over `width` (mm)."""
         y_f, y_s = form_factor(section, load, virtual, self.load_distribution), stress_correction_factor(section)
         y_beta = helix_angle_factor(self.helix_angle, self.overlap_ratio, self.edition)
         y_dt = deep_tooth_factor(self.virtual_contact_ratio, self.accuracy_grade, self.edition)
@@ -220,7 +220,7 @@ def root_rating(gear: Gear, mesh: RootMesh, width: float) -> RootRating:
 
 
 def root_notices(gear: Gear, role: Role, rating: RootRating, mesh: RootMesh) -> Iterator[Notice]:
-    """Where one gear leaves the range that part 3 states for its formulas."""
+    """Yield a notice for each way in which one gear leaves the range that ISO 6336-3 states for its formulas."""
     root = f"{role.value} root"
     yield from _section_notices(gear, rating, root)
     yield from notch_notices(rating, root)
@@ -229,20 +229,20 @@ def root_notices(gear: Gear, role: Role, rating: RootRating, mesh: RootMesh) -> 
 
 
 def notch_notices(rating: RootRating, root: str) -> Iterator[Notice]:
-    """Where a notch is not one that Y_S knows."""
+    """Yield a notice if q_s is outside the range that Y_S is stated for."""
     if not 1 <= (notch := rating.section.notch_parameter) < 8:
         yield Notice("notch-parameter", f"Y_S is stated for q_s from 1 to 8, here {notch:.3g}", root)
 
 
 def deep_notices(mesh: RootMesh, root: str) -> Iterator[Notice]:
-    """Where more than one pair of teeth carries at any time."""
+    """Yield a notice if more than one pair of teeth carries at any time."""
     if (ratio := mesh.virtual_contact_ratio) >= 2:
         text = f"Y_F assumes that one pair of teeth carries alone, but eps_alphan is {ratio:.4f}"
         yield Notice("deep-teeth", text, root)
 
 
 def _section_notices(gear: Gear, rating: RootRating, root: str) -> Iterator[Notice]:
-    """What the section is, or is not."""
+    """Yield notices on how the section was found, or why the formulas do not hold for it."""
     if shaped(gear):
         yield Notice("generated-root", _generated(gear, rating), root)
         return
@@ -254,7 +254,7 @@ def _section_notices(gear: Gear, rating: RootRating, root: str) -> Iterator[Noti
 
 
 def _generated(gear: Gear, rating: RootRating) -> str:
-    """That the section is ours, and what the standard's formulas say."""
+    """Return the text that names the generated section as our own method, and gives the values of the standard's formulas."""
     own = (
         f"Y_F and Y_S are those of the fillet as it is generated, at tangents of {rating.section.lean:g} deg (ours, no clause)"
     )

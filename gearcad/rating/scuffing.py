@@ -46,12 +46,12 @@ class Risk(StrEnum):
 
 
 def integral_risk(safety: float) -> Risk:
-    """That of S_int (ISO/TR 13989-2, 6.1.1): high below 1, critical up to 2, low above."""
+    """Return the risk for a safety S_int (ISO/TR 13989-2, 6.1.1): high below 1, critical up to 2, low above."""
     return Risk.HIGH if safety < 1 else Risk.CRITICAL if safety <= 2 else Risk.LOW
 
 
 def flash_risk(margin: float) -> Risk:
-    """That of Theta_S - Theta_B (K): high below 0, critical below 50 K, low from there on."""
+    """Return the risk for a margin Theta_S - Theta_B (K): high below 0, critical below 50 K, low from there on."""
     return Risk.HIGH if margin < 0 else Risk.CRITICAL if margin < LEAST_MARGIN else Risk.LOW
 
 
@@ -104,12 +104,12 @@ class Scuffing:
 
     @property
     def integral_risk(self) -> Risk | None:
-        """By S_int."""
+        """Risk by S_int; None if S_int is not known."""
         return None if self.integral_safety is None else integral_risk(self.integral_safety)
 
     @property
     def flash_risk(self) -> Risk | None:
-        """By Theta_S - Theta_B."""
+        """Risk by Theta_S - Theta_B; None if the margin is not known."""
         return None if self.margin is None else flash_risk(self.margin)
 
     @property

@@ -49,7 +49,7 @@ class SlidingMesh:
 
     @classmethod
     def of(cls, pair: GearPair, driver: Role = Role.PINION) -> SlidingMesh:
-        """Those of a pair, on the path of contact between the tip form circles."""
+        """Return the sizes of a pair, on the path of contact between the tip form circles."""
         path, pitch, pinion = pair.path_of_contact, pair.pinion.transverse_base_pitch, pair.pinion
         return cls(
             gear_ratio=pair.gear_ratio,
@@ -209,7 +209,7 @@ class Oil:
 
     @classmethod
     def of(cls, options: RatingOptions) -> Oil:
-        """That of a rating; what is not given is assumed, and said."""
+        """Return the oil of a rating; values that are not given are assumed and listed in `assumed`."""
         assumed: list[str] = []
 
         def known(value: Given | None, usual: Given, words: str) -> Given:
@@ -282,7 +282,7 @@ class FlashPath:
 
     @classmethod
     def of(cls, pair: GearPair, grade: int) -> FlashPath:
-        """That of a pair of an accuracy grade, with unmodified profiles (9.2, 9.4, 9.6).
+        """Return the path of contact of a pair of an accuracy grade, with unmodified profiles (9.2, 9.4, 9.6).
 
         Up to a total contact ratio of 2 a flank takes (Q - 2)/15 of the load at A and E and 1/3 more at B and D, where it
         is left alone, Q the grade and at least 7 (57 to 60); above it 1/eps_alpha, the mean of all.
@@ -381,7 +381,7 @@ class FlashTemperature:
 
     @property
     def bulk(self) -> float:
-        """Theta_M (°C) = Theta_oil + 0.47 X_S X_mp Theta_flm (22): of the teeth."""
+        """Theta_M (°C) = Theta_oil + 0.47 X_S X_mp Theta_flm (22): bulk temperature of the teeth."""
         return self.oil_temperature + FLASH_BULK * self.lubrication * self.mating * self.mean_flash
 
     @property
@@ -532,12 +532,12 @@ class IntegralTemperature:
 
     @property
     def mean_flash(self) -> Size:
-        """theta_flaint (K) (18): its mean over the path of contact."""
+        """theta_flaint (K) (18): mean flash temperature over the path of contact."""
         return self.tip_flash * self.contact_ratio_factor
 
     @property
     def bulk(self) -> Size:
-        """theta_M (°C) (20): of the teeth."""
+        """theta_M (°C) (20): bulk temperature of the teeth."""
         return self.oil_temperature + INTEGRAL_BULK * self.lubrication * self.mating * self.mean_flash
 
     @property
@@ -558,7 +558,7 @@ class ScuffingLimits:
 
     @classmethod
     def of(cls, oil: Oil, stage: int, structure: float) -> ScuffingLimits:
-        """Those of an oil that fails in a load stage."""
+        """Return the scuffing limits of an oil that fails in load stage `stage`, for flanks of structure factor X_W."""
         torque, lubricant = stage_torque(stage), oil.lubricant_factor
         return cls(
             stage=stage,

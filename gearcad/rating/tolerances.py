@@ -68,7 +68,7 @@ _COVERED: Mapping[Accuracy, Mapping[str, Range | Whole]] = {
 
 
 def equations(accuracy: Accuracy) -> Equations:
-    """Those of an edition, for grade 5."""
+    """Return the equations of an edition, for grade 5."""
     return _EQUATIONS[accuracy]
 
 
@@ -280,7 +280,7 @@ class GearTolerances(Generic[Values]):
         return values if permitted is None else _within(name, values, permitted)
 
     def _graded(self, fifth: Values) -> Values:
-        """Of the grade, where also the sizes that no equation has are covered."""
+        """Return tolerances of the grade, from those of grade 5; nan where a size outside the equations is not covered."""
         for name in ("teeth", "helix_angle"):
             if name not in covered(self.accuracy):
                 continue
@@ -298,7 +298,10 @@ def _within(name: str, values: Values, permitted: Range | Whole) -> Values:
 
 
 def gear_tolerances(gear: Gear, grade: int, accuracy: Accuracy = Accuracy.ISO_1995) -> GearTolerances[float]:
-    """Those of one gear, a ring's by its magnitudes. Raises ParameterError for a grade that the edition does not have."""
+    """Return the tolerances (µm) of one gear; a ring counts by its magnitudes.
+
+    Raises ParameterError for a grade that the edition does not have.
+    """
     return GearTolerances(
         accuracy=accuracy,
         grade=grade,

@@ -64,7 +64,7 @@ def ring_rim_factor(ratio: float, edition: Edition) -> float:
 
 @dataclass(frozen=True)
 class Rim(ABC):
-    """The rim of one gear, as thick as `ratio` says; None of a ring whose rim is not given."""
+    """Rim of one gear; `ratio` is its relative thickness, None for a ring whose rim is not given."""
 
     ratio: float | None
 
@@ -74,7 +74,7 @@ class Rim(ABC):
 
     @abstractmethod
     def notices(self, edition: Edition, where: str) -> Iterator[Notice]:
-        """What to know of its strength."""
+        """Yield the notices on the strength of the rim."""
 
     @abstractmethod
     def not_covered(self) -> str:
@@ -82,7 +82,7 @@ class Rim(ABC):
 
 
 class ExternalRim(Rim):
-    """Below the teeth of an external gear; `ratio` s_R/h_t."""
+    """Rim below the teeth of an external gear; `ratio` is s_R/h_t."""
 
     ratio: float
 
@@ -102,7 +102,7 @@ class ExternalRim(Rim):
 
 
 class RingRim(Rim):
-    """Outside the teeth of a ring; `ratio` s_R/m_n."""
+    """Rim outside the teeth of a ring; `ratio` is s_R/m_n."""
 
     def factor(self, edition: Edition) -> float:
         return 1.0 if self.ratio is None else ring_rim_factor(self.ratio, edition)
@@ -298,7 +298,7 @@ def stiffness_of(
     materials: PerGear[Material],
     specific_load: float,
 ) -> MeshStiffness:
-    """By q', C_R and C_B of a pair."""
+    """Return the mesh stiffness of a pair from q', C_R and C_B."""
     xi, theoretical = material_factor(pair_modulus(materials)), theoretical_stiffness(flexibility)
     return MeshStiffness(
         flexibility=flexibility,
@@ -313,7 +313,7 @@ def stiffness_of(
 
 
 def stiffness_notices(pair: GearPair, specific_load: float) -> Iterator[Notice]:
-    """Where the pair or its load leaves the range that clause 9 states for its formulas."""
+    """Yield a notice for each way in which the pair or its load leaves the range that clause 9 states for its formulas."""
     for role, gear in pair.gears.items():
         yield from blank_notices(gear, role.value)
     first, second = _by_teeth(pair)
@@ -326,7 +326,7 @@ def stiffness_notices(pair: GearPair, specific_load: float) -> Iterator[Notice]:
 
 
 def load_notices(specific_load: float, transverse_contact_ratio: float) -> Iterator[Notice]:
-    """Where load (N/mm) or contact ratio leave the range that clause 9 states."""
+    """Yield a notice for load (N/mm) or contact ratio outside the range that clause 9 states."""
     if specific_load > HIGH_LOAD:
         text = f"c': confirmed up to a specific load of {HIGH_LOAD:g} N/mm, here {specific_load:.0f} N/mm"
         yield Notice("stiffness-high-load", text)
@@ -336,7 +336,7 @@ def load_notices(specific_load: float, transverse_contact_ratio: float) -> Itera
 
 
 def blank_notices(gear: Gear, owner: str) -> Iterator[Notice]:
-    """Where the body of a gear ("pinion" or "wheel") is not one that C_R knows."""
+    """Yield a notice for each way in which the body of a gear ("pinion" or "wheel") leaves the range of C_R."""
     web, rim = _blank(gear)
     if gear.internal:
         yield from _ring_notices(gear)
@@ -353,7 +353,7 @@ def blank_notices(gear: Gear, owner: str) -> Iterator[Notice]:
 
 
 def _ring_notices(gear: Gear) -> Iterator[Notice]:
-    """What q' has for a ring; and that C_R, which is of webs, leaves out its rim."""
+    """Yield notices on q' for a ring, to be verified, and on C_R, which covers webs and leaves out the ring's rim."""
     text = "c': q' takes the ring for a rack (1/z_n2 = 0), as remembered of ISO 6336-1, whose text was not at hand: verify it"
     yield Notice("stiffness-ring-to-verify", text)
     if not gear.body.web_thickness:

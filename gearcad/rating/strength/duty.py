@@ -63,14 +63,14 @@ INFINITE = "infinite"
 
 
 class Part(Enum):
-    """What of a gear is rated."""
+    """The part of a gear that is rated: flank or root."""
 
     FLANK = "flank"
     ROOT = "root"
 
     @property
     def index(self) -> str:
-        """That of its symbols: sigma_H, S_F."""
+        """Index of the part in symbols: H as in sigma_H, F as in S_F."""
         return "H" if self is Part.FLANK else "F"
 
 
@@ -98,12 +98,15 @@ class PartStrength:
 
     @cached_property
     def factors(self) -> Mapping[str, float]:
-        """Of permissible stress, under their symbols; none where they are not known."""
+        """Factors of the permissible stress under their symbols; empty if they are not known."""
         return {} if self.resistance is None else self.resistance.factors(self.cycles)
 
     @cached_property
     def permissible_torque(self) -> float | None:
-        """On the pinion at the required safety, with load factors of its own; sought when it is first asked for."""
+        """Permissible torque (N·m) on the pinion at the required safety, with its own load factors; None if not known.
+
+        The search runs at the first access.
+        """
         return None if self.find_torque is None else self.find_torque()
 
     @property
@@ -124,13 +127,13 @@ class PartStrength:
         return Verdict.PASSED if self.safety >= self.required else Verdict.FAILED
 
     def stresses(self) -> dict[str, float | None]:
-        """Under their symbols."""
+        """Stresses (MPa) under their symbols."""
         of = self.part.index
         return {f"sigma_{of}": self.stress, f"sigma_{of}G": self.strength, f"sigma_{of}P": self.permissible_stress}
 
 
 def told(value: float | None) -> Any:
-    """As JSON has it: a number, or that it is infinite."""
+    """Return a value as JSON can hold it: the value itself, or the word for infinity."""
     return INFINITE if value is not None and math.isinf(value) else value
 
 
@@ -180,7 +183,7 @@ class Duty:
 
     @cached_property
     def loaded_cycles(self) -> PerGear[float] | PerGear[None]:
-        """Those of `cycles` that carry."""
+        """Load cycles of both gears that carry torque, out of `cycles`; None if cycles are not known."""
         return self.cycles.map(lambda cycles: None if cycles is None else cycles * self._loaded)
 
     @cached_property
@@ -369,7 +372,7 @@ def torque_at_safety(safety_of: Callable[[float], float], required: float, torqu
 
 
 def _between(safety_of: Callable[[float], float], required: float, low: float, high: float) -> float:
-    """As `torque_at_safety`, of a torque `low` that holds and `high` that does not."""
+    """Return the torque of `torque_at_safety` by a search between `low`, which holds, and `high`, which does not."""
 
     def excess(logarithm: float) -> float:
         ratio = safety_of(math.exp(logarithm)) / required
@@ -391,7 +394,10 @@ def _falling(curve: Points) -> list[tuple[float, float]]:
 
 
 def judged(part: Part, role: Role, duty: Duty, resistance: Resistance, required: float) -> PartStrength:
-    """What a part bears of its duty: of a spectrum the safety is that at which the damage is 1 (ISO 6336-6)."""
+    """Return the strength of a part under its duty.
+
+    The safety under a spectrum is the factor on the stresses at which the damage is 1 (ISO 6336-6).
+    """
     cycles, rate = duty.cycles.pick(role), duty.cycles_per_hour.pick(role)
     shares, stresses = duty.stresses(part, role)
     # A single load is held against the life factor, which stays after the last corner; Miner's line goes on.
@@ -412,7 +418,7 @@ def judged(part: Part, role: Role, duty: Duty, resistance: Resistance, required:
 
 
 def _safety(part: Part, role: Role, duty: Duty, resistance: Resistance, scale: float) -> float:
-    """With all torques times `scale`."""
+    """Return the safety of a part with all torques times `scale`."""
     cycles = duty.cycles.pick(role)
     shares, stresses = duty.stresses(part, role, scale)
     if duty.steady or cycles is None:
@@ -427,6 +433,6 @@ def _beyond_knee(cycles: Floats, stresses: Floats, resistance: Resistance) -> fl
 
 
 def _permissible_torque(part: Part, role: Role, duty: Duty, resistance: Resistance, required: float) -> float | None:
-    """In N·m; None for one beyond all that a search looks at."""
+    """Return the permissible torque (N·m), or None if it is beyond the range of the search."""
     scale = torque_at_safety(partial(_safety, part, role, duty, resistance), required, 1.0)
     return scale * abs(duty.whole_torque) if math.isfinite(scale) else None

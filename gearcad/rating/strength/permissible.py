@@ -60,7 +60,7 @@ class Conditions:
 
     @classmethod
     def of(cls, pair: GearPair | RackPair, load: Load, options: RatingOptions) -> Conditions:
-        """Those of a pair at the speed of the load."""
+        """Return the conditions of a pair at the speed of the load."""
         pinion = pair.pinion
         teeth: PerGear[Gear | Rack] = PerGear(pinion, pair.wheel if isinstance(pair, GearPair) else pair.rack)
         given = {name: PerGear(*(getattr(gear, name, None) for gear in teeth)) for name in _ROUGHNESS}

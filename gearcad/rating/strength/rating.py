@@ -57,17 +57,17 @@ class StrengthRating(Pictured):
 
     @property
     def name(self) -> str:
-        """That of the pair."""
+        """Name of the pair."""
         return self.pair.name
 
     @property
     def names(self) -> PerGear[str]:
-        """Under what documents have the values of both gears."""
+        """Keys of both gears in documents."""
         return self.nominal.names
 
     @property
     def gear_names(self) -> PerGear[str]:
-        """What both gears are called where a rating is told: pinion and wheel, or as in their set."""
+        """Names of both gears in texts: pinion and wheel, or their names in a set."""
         return self.own_names or self.names
 
     @property
@@ -117,7 +117,7 @@ class StrengthRating(Pictured):
 
     @property
     def scuffing_unasked(self) -> str:
-        """What is to be said of flanks that may scuff where no safety is required; "" where there is nothing to say."""
+        """Sentence on the scuffing risk where no safety is required; "" if the risk is low or not known."""
         found = self.scuffing
         if self.options.required_safety_scuffing is not None or found is None or found.risk in (None, Risk.LOW):
             return ""
@@ -127,7 +127,7 @@ class StrengthRating(Pictured):
 
     @property
     def told_load(self) -> str:
-        """Of a spectrum, in words: of which load the stresses and load factors are that are told; "" without one."""
+        """Sentence that names the load of a spectrum to which stresses and load factors belong; "" without a spectrum."""
         if not self.options.bins or self.governing is None:
             return ""
         load = self.governing.load
@@ -136,12 +136,12 @@ class StrengthRating(Pictured):
 
     @property
     def governing_number(self) -> int | None:
-        """Which of `cases` it is, counted from 1."""
+        """Number of the governing load among `cases`, counted from 1."""
         return next((number for number, case in enumerate(self.cases, 1) if case is self.governing), None)
 
     @property
     def halves(self) -> int:
-        """Of how many pairs `cases` have one: of a double helical pair each half has its share of the torque."""
+        """Number of halves of the pair: 2 if double helical, else 1; `cases` are the loads of one half."""
         return 2 if self.pair.pinion.double_helix.present else 1
 
     @property
@@ -167,7 +167,7 @@ class StrengthRating(Pictured):
 
     @property
     def not_judged(self) -> Mapping[str, str]:
-        """What was not, and why."""
+        """Reason for each part that was not judged, under its name."""
         found = {name: each.reason for name, each in self.every if each.safety is None}
         if self.options.required_safety_scuffing is not None and self.scuffing_verdict is Verdict.NOT_JUDGED:
             found["scuffing"] = "its temperatures are not known" if self.scuffing is None else self.scuffing.reason
@@ -175,7 +175,7 @@ class StrengthRating(Pictured):
 
     @property
     def verdict(self) -> str:
-        """In one line."""
+        """Verdict on strength in one line."""
         if self.strength is Verdict.NOT_ASKED:
             return f"strength {NOT_ASKED_WORDS}"
         if self.strength is Verdict.NOT_JUDGED:
@@ -192,13 +192,13 @@ class StrengthRating(Pictured):
         return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """What rate.json holds, but for kind and name."""
+        """Return the content of rate.json without its kind and name."""
 
         return strength_document(self)
 
 
 def _least(values: Iterator[float | None]) -> float | None:
-    """Of those that are known."""
+    """Return the least of the values that are known; None if none is."""
     return min((value for value in values if value is not None), default=None)
 
 
@@ -267,14 +267,14 @@ def strength_document(of: StrengthRating) -> dict[str, Any]:
 
 
 def _tolerances(of: StrengthRating) -> dict[str, Any]:
-    """Of both gears; of a pair with allowances the limits of its backlash."""
+    """Return the tolerances of both gears; for a pair with allowances also the limits of its backlash."""
     backlash = None if isinstance(of.pair, RackPair) else of.pair.backlash_limits
     gears = _gears(of, PerGear(*(_tolerances_of(of, role) for role in Role)))
     return gears if backlash is None else gears | {"backlash_limits": backlash._asdict()}
 
 
 def _tolerances_of(of: StrengthRating, role: Role) -> dict[str, Any] | None:
-    """Those of the flanks of a gear, and what an allowance leaves of its tooth thickness; None of a rack."""
+    """Return the flank tolerances of a gear and the tooth thickness limits under its allowance; None if it has neither."""
     if isinstance(of.pair, RackPair):
         limits = of.pair.pinion.thickness_limits if role is Role.PINION else None
     else:
@@ -299,7 +299,7 @@ def _sources(of: StrengthRating, keys: tuple[str, ...]) -> dict[str, str]:
 
 
 def _plain(details: Mapping[str, Any]) -> dict[str, Any]:
-    """As JSON has them, which knows no infinite numbers."""
+    """Return details as JSON can hold them, with a word in place of infinite numbers."""
     return {key: _plain(value) if isinstance(value, Mapping) else told(value) for key, value in details.items()}
 
 
@@ -312,7 +312,7 @@ def _by_part(of: StrengthRating, value: Callable[[PartStrength], Any]) -> dict[s
 
 
 def _by_symbol(of: StrengthRating, values: PerGear[Any]) -> dict[str, Any]:
-    """What both gears have under symbols, None of one that has it not, each under the gears' names."""
+    """Return the values of both gears by symbol, each under the gears' names; None for a gear without that symbol."""
     keys = dict.fromkeys(key for each in values for key in each)
     return {key: _gears(of, PerGear(*(each.get(key) for each in values))) for key in keys}
 

@@ -42,7 +42,9 @@ def half_of(pair: GearPair) -> GearPair:
 
 
 def load_factors_of_half(half: GearPair, materials: PerGear[Material], load: Load, options: RatingOptions) -> LoadFactors:
-    """Those of a half under its half of the load: f_sh by (58) of ISO 6336-1, where it is not given.
+    """Return the load factors of one half under its half of the load.
+
+    f_sh is by (58) of ISO 6336-1, if it is not given.
 
     The pinion is taken to be in the middle between its bearings. Raises what `LoadFactors.of` raises.
     """
@@ -63,7 +65,7 @@ def load_factors_of_half(half: GearPair, materials: PerGear[Material], load: Loa
 
 
 def given_factors(load: Load, options: RatingOptions) -> LoadFactors:
-    """Of a load. Raises ParameterError for one that is not given."""
+    """Return the load factors as given in the options. Raises ParameterError if one of them is not a number."""
     given = {"dynamic_factor": options.dynamic_factor, "face_load_factor": options.face_load_factor}
     given["transverse_load_factor"] = options.transverse_load_factor
     for name, value in given.items():
@@ -83,7 +85,7 @@ def given_factors(load: Load, options: RatingOptions) -> LoadFactors:
 
 @dataclass(frozen=True)
 class Reasons:
-    """Of a pair; `error` is what is in the way of its load factors."""
+    """Reasons why parts of a pair are not judged; `error` is the error that prevents its load factors."""
 
     pair: GearPair | RackPair
     materials: PerGear[Material]
@@ -94,7 +96,7 @@ class Reasons:
     error: InputError | None
 
     def of(self, part: Part, role: Role) -> str:
-        """The first one; "" for a part that can be judged."""
+        """Return the first reason; "" for a part that can be judged."""
         own = self._of_flank(role) if part is Part.FLANK else self._of_root(role)
         return next(chain(self._of_material(part, role), own, self._of_load()), "")
 
@@ -161,12 +163,12 @@ class StrengthTask:
 
     @cached_property
     def rated_load(self) -> Load:
-        """What `rated` carries."""
+        """Load of `rated`: half the torque if the pair is halved."""
         return replace(self.load, torque=self.load.torque / 2) if self.halved else self.load
 
     @cached_property
     def nominal(self) -> Rating:
-        """By geometry and torque."""
+        """Nominal rating, by geometry and torque."""
         if isinstance(self.rated, RackPair):
             return rate_rack(self.rated, self.materials, self.rated_load, self.options)
         return rate(self.rated, self.materials, self.rated_load, self.options)
@@ -196,7 +198,10 @@ class StrengthTask:
         )
 
     def load_factors_of(self, load: Load) -> LoadFactors:
-        """Of a load of `rated`. Raises what `LoadFactors.of` raises; of a rack what is not given."""
+        """Return the load factors of `rated` under a load.
+
+        Raises what `LoadFactors.of` raises; for a rack, ParameterError if a factor is not given.
+        """
         if isinstance(self.rated, RackPair):
             return given_factors(load, self.options)
         find = load_factors_of_half if self.halved else LoadFactors.of
@@ -205,7 +210,7 @@ class StrengthTask:
 
     @cached_property
     def load_factors(self) -> LoadFactors | InputError:
-        """Of the load, or what is in their way."""
+        """Load factors of the load, or the error that prevents them."""
         try:
             self.duty.cases()
             return self.load_factors_of(self.rated_load)
@@ -222,7 +227,7 @@ class StrengthTask:
 
     @cached_property
     def hardening(self) -> WorkHardening:
-        """Z_W."""
+        """Work hardening factor Z_W."""
         return work_hardening(self.materials, self.conditions)
 
     def part(self, part: Part, role: Role) -> PartStrength:
@@ -263,7 +268,7 @@ class StrengthTask:
 
     @cached_property
     def scuffing(self) -> Scuffing | None:
-        """Against scuffing, of gears whose load factors are known: under the hottest of the loads."""
+        """Scuffing of gears whose load factors are known, under the hottest of the loads."""
         pair = self.rated
         if isinstance(pair, RackPair) or isinstance(self.load_factors, InputError):
             return None
@@ -273,7 +278,7 @@ class StrengthTask:
 
     @cached_property
     def tolerances(self) -> PerGear[GearTolerances[float] | None]:
-        """Of both gears; None of a rack, and of gears that the standard has none for."""
+        """Flank tolerances of both gears; None for a rack, and for gears outside the standard."""
         return PerGear.each(self._tolerances)
 
     def _tolerances(self, role: Role) -> GearTolerances[float] | None:
@@ -371,7 +376,7 @@ _MATTERS = 0.01
 
 
 def notices_of(task: StrengthTask, parts: Mapping[Part, PerGear[PartStrength]]) -> Iterator[Notice]:
-    """Of the nominal rating, of load factors and scuffing, and of damage by loads that a life factor would have none of."""
+    """Yield the notices of the nominal rating, load factors, scuffing, and damage beyond the last corner of the S-N line."""
     yield from task.nominal.notices
     if not isinstance(task.load_factors, InputError):
         yield from task.load_factors.notices
@@ -381,7 +386,7 @@ def notices_of(task: StrengthTask, parts: Mapping[Part, PerGear[PartStrength]]) 
 
 
 def _beyond_knee(parts: Mapping[Part, PerGear[PartStrength]], names: PerGear[str]) -> Iterator[Notice]:
-    """Of all parts in one."""
+    """Yield one notice for all parts with damage beyond the last corner of the S-N line."""
     found = [
         f"{share:.0%} of the {part.value} of the {names.pick(role)}"
         for part, both in parts.items()
@@ -420,7 +425,7 @@ def rate_strength(
 
 
 def _rating(task: StrengthTask) -> StrengthRating:
-    """All of it."""
+    """Return the full rating of a task."""
     parts = {part: PerGear(*(task.part(part, role) for role in Role)) for part in Part}
     factors = None if isinstance(task.load_factors, InputError) else task.load_factors
     return StrengthRating(
