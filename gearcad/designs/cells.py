@@ -27,7 +27,7 @@ from gearcad.designs.train_keys import (
 
 
 class Layout(Enum):
-    """What separates the cells; the value is the separator of a text."""
+    """The kind of file that holds a table; the value is the separator of a text's cells."""
 
     COMMA = ","
     SEMICOLON = ";"
@@ -36,7 +36,7 @@ class Layout(Enum):
 
 
 class Unreadable(NamedTuple):
-    """A cell of a workbook without a value for us: what it shows, and what is wrong with it."""
+    """A workbook cell without a usable value: what it shows, and why it cannot be read."""
 
     shown: str
     fault: str
@@ -224,12 +224,12 @@ class Decimal(Enum):
 
     @property
     def separator(self) -> str:
-        """What stands between cells."""
+        """Return the character that separates the cells of a line: `;` with a decimal comma, `,` with a point."""
         return ";" if self is Decimal.COMMA else ","
 
     @property
     def encoding(self) -> str:
-        """That of the file, as Python calls it."""
+        """Return the name of the file's encoding, as Python spells it."""
         return "utf-8-sig" if self is Decimal.COMMA else "utf-8"
 
     def number(self, text: str) -> str:
@@ -282,7 +282,10 @@ def column_letter(index: int) -> str:
 
 
 def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
-    """What full keys can make; none of [material] and [load] makes anything. A pinion may have a wheel or a rack."""
+    """Return the kinds of design that full keys can make. [material] and [load] alone make none.
+
+    A pinion may have a wheel or a rack.
+    """
     keys = tuple(keys)
     owners = {key.partition(".")[0] for key in keys}
     planetary = {"planetary", *OF_SETS}

@@ -117,7 +117,7 @@ _fence: ContextVar[Path | None] = ContextVar("the folder in which files must be"
 
 @contextmanager
 def files_only_in(folder: Path) -> Iterator[None]:
-    """What is read meanwhile by this thread names files in `folder` only, wherever links lead. Raises ParameterError."""
+    """Restrict specs that this thread reads meanwhile to files in `folder`, links followed. Others raise ParameterError."""
     token = _fence.set(folder.resolve())
     try:
         yield
@@ -158,7 +158,7 @@ def _found(key: str, name: Any, folder: Path) -> Any:
 
 
 def _resolved(path: Path) -> Path:
-    """Where links lead; of a path that leads nowhere, what is outside of everything."""
+    """Return the path with all links followed, or the root folder for a path that leads nowhere (a loop of links)."""
     try:
         return path.resolve()
     except (OSError, RuntimeError):  # a loop of links
@@ -268,7 +268,7 @@ _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM",
 
 
 class Described(Protocol):
-    """What has derived properties and warnings of its own: a gear, a rack, or a pair of them."""
+    """An object with derived properties and notices of its own: a gear, a rack, or a pair of them."""
 
     @property
     def notices(self) -> tuple[Notice, ...]: ...
@@ -307,12 +307,12 @@ class Design(ABC):
 
     @property
     def described(self) -> Mapping[str, Described]:
-        """What has derived properties and warnings of its own, under its name in `data.json`."""
+        """Return the objects with derived properties and notices, under their names in `data.json`."""
         return self.gears
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What an engineer should know before making this."""
+        """Return the notices of all described objects: facts that an engineer should know before manufacture."""
         return tuple(notice.within(name) for name, each in self.described.items() for notice in each.notices)
 
     @property

@@ -49,7 +49,7 @@ class ToothedDesign(Design):
 
     @property
     def assembly(self) -> GearPair | RackPair | None:
-        """What stands in mesh; None for a gear or a rack by itself."""
+        """Return the pair in mesh, or None for a single gear or rack."""
         return None
 
     def to_dict(self) -> dict[str, Any]:
@@ -86,9 +86,10 @@ def require_known_tables(tables: Mapping[str, Any], where: Where) -> None:
 
 
 def beside_teeth(spec: Spec, tables: Mapping[str, Any], gears: tuple[str, ...] = ()) -> dict[str, Any]:
-    """What the tables beside those of the teeth make, as keyword arguments of a ToothedDesign.
+    """Return the objects of the tables beside the teeth, as keyword arguments of a ToothedDesign.
 
-    Those of `gears` may have materials of their own: "material" is then PerGear of two, else that of all.
+    The gears named in `gears` may have materials of their own. Then "material" is a PerGear of two, otherwise one Material for
+    all.
     """
     made: dict[str, Any] = {
         table: spec.simple(table, BESIDE[table]) for table in BESIDE if table in tables and table != "material"
@@ -103,7 +104,7 @@ def beside_teeth(spec: Spec, tables: Mapping[str, Any], gears: tuple[str, ...] =
 
 
 class Inputs(TypedDict, total=False):
-    """What a job may be given beside a pair and its load, under the names of a spec's tables."""
+    """Inputs that a job may get in addition to a pair and its load, under the names of a spec's tables."""
 
     material: Materials
     mounting: Mounting
@@ -116,7 +117,7 @@ class Inputs(TypedDict, total=False):
 
 @dataclass(frozen=True, kw_only=True)
 class GearedDesign(ToothedDesign):
-    """A gear or a pair with the inputs that later stages need; None for those of which a spec says nothing."""
+    """A gear or a pair with the inputs that later stages need; inputs that the spec does not give are None."""
 
     load: Load | None = None
     mounting: Mounting | None = None
@@ -133,7 +134,7 @@ class GearedDesign(ToothedDesign):
 
     @property
     def assembly(self) -> GearPair | None:
-        """What stands in mesh; None for a single gear."""
+        """Return the pair in mesh, or None for a single gear."""
         return None
 
 
@@ -147,7 +148,7 @@ def require_tables(tables: Mapping[str, Any], where: Where) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class GearDesign(GearedDesign):
-    """A single gear, and what later stages need."""
+    """A single gear, with the inputs that later stages need."""
 
     kind: ClassVar[DesignKind] = DesignKind.GEAR
 
@@ -156,7 +157,7 @@ class GearDesign(GearedDesign):
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
-        """That of [gear]. Raises SpecError."""
+        """Return the design that [gear] describes. Raises SpecError."""
         spec = cls.spec(tables, where)
         beside = beside_teeth(spec, tables)
         name = spec.name("gear", default_name)
@@ -187,7 +188,7 @@ class RackDesign(ToothedDesign):
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
-        """That of [rack]. Raises SpecError."""
+        """Return the design that [rack] describes. Raises SpecError."""
         spec = cls.spec(tables, where)
         beside = beside_teeth(spec, tables)
         if own := spec.given_of("rack.material"):

@@ -19,7 +19,10 @@ from gearcad.lazy_table import LazyTable
 
 
 class DesignKind(Enum):
-    """What a spec makes; the value names its module in `kinds`, and its main table: of a pinion and a rack that is [pair]."""
+    """Kind of design that a spec makes.
+
+    The value names its module in `kinds` and its main table; the main table of a pinion and a rack is [pair].
+    """
 
     GEAR = "gear"
     PAIR = "pair"
@@ -30,7 +33,7 @@ class DesignKind(Enum):
 
     @property
     def words(self) -> str:
-        """As one says it to whoever never typed the value."""
+        """Return the name of the kind for readers, such as "rack and pinion" or "planetary train"."""
         return {"rack_pair": "rack and pinion", "planetary": "planetary train"}.get(self.value, self.value)
 
 
@@ -145,7 +148,7 @@ def _own_material() -> dict[str, FieldSchema]:
 
 
 def fields_of_mates() -> dict[str, FieldSchema]:
-    """What the keys of a gear that has mates say of themselves."""
+    """Return the fields of a gear that has mates, by their keys."""
     return GEAR_FIELDS | _own_material() | _own_drawing()
 
 
@@ -187,7 +190,10 @@ FIELDS = LazyTable(("gear", "pair", "pinion", "wheel", "rack", *_HOMES), _fields
 
 
 def field_of(table: str, key: str) -> FieldSchema | None:
-    """What a key of a table says of itself; None for one that is unknown. Drawings are imported for what no gear has itself."""
+    """Return the schema of a key in a table, or None for an unknown key.
+
+    The drawing module is imported only for keys that a gear itself does not have.
+    """
     if table in ("gear", "pinion", "wheel") and key in GEAR_FIELDS:
         return GEAR_FIELDS[key]
     return FIELDS[table].get(key)
@@ -232,7 +238,7 @@ def explain_unknown_key(table: str, key: str) -> str:
 
 
 def permitted_words(key: str, permitted: Collection[str]) -> str:
-    """What may stand in the place of a key that is like none: of many the nearest."""
+    """Return words that list the permitted keys. If there are many, list only those nearest to `key`."""
     if len(permitted) <= _MOST_LISTED:
         return f"permitted are {', '.join(permitted)}"
     nearest = difflib.get_close_matches(key, permitted, n=_NEAREST, cutoff=0.0)

@@ -1,8 +1,7 @@
 """Designs of pairs: `[pair]` with `[pinion]` and `[wheel]`, or with `[pinion]` and `[rack]`.
 
-What both gears share may stand in `[pair]`; a gear's own value wins, and the wheel takes the opposite hand, a ring the same.
-
-What both share may stand in `[pair]`; one's own value wins, and the rack takes the opposite hand.
+Values that both parts share may stand in `[pair]`. A part's own value wins. A wheel or rack takes the opposite hand, a ring the
+same hand.
 """
 
 from __future__ import annotations
@@ -43,7 +42,7 @@ from gearcad.rating.options import RatingOptions
 
 @dataclass(frozen=True, kw_only=True)
 class PairDesign(GearedDesign):
-    """A pair of gears, and what later stages need; `material` is that of both, or of each."""
+    """A pair of gears, with the inputs that later stages need; `material` is that of both gears, or one for each."""
 
     kind: ClassVar[DesignKind] = DesignKind.PAIR
 
@@ -52,7 +51,7 @@ class PairDesign(GearedDesign):
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
-        """That of [pair], [pinion] and [wheel]. Raises SpecError."""
+        """Return the design that [pair], [pinion] and [wheel] describe. Raises SpecError."""
         spec = cls.spec(tables, where)
         beside = beside_teeth(spec, tables, PerGear._fields)
         name = spec.name("pair", default_name)
@@ -72,7 +71,7 @@ class PairDesign(GearedDesign):
 
     @property
     def materials(self) -> PerGear[Material]:
-        """Those of both gears; steel where nothing is said."""
+        """Return the materials of both gears; steel if none is given."""
         return of_both(self.material or Material())
 
     @property
@@ -95,7 +94,7 @@ class PairDesign(GearedDesign):
         return {**self.gears, "pair": self.pair}
 
     def loaded(self, why: str) -> Load:
-        """Its load. Raises ParameterError where there is none, that ends with why it is needed."""
+        """Return the load. Raises ParameterError if there is none; the message ends with `why` it is needed."""
         if self.load is None:
             raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {why}")
         return self.load
@@ -122,7 +121,7 @@ _OPPOSED = ("helix_angle", "double_helix.offset")
 
 
 class PairSpec(Spec):
-    """The values of a pair's spec, and how its gears come to theirs."""
+    """The values of a pair's spec, and the methods that make its gears from them."""
 
     def pair(self, name: str) -> GearPair:
         """The pair of `[pair]`, `[pinion]` and `[wheel]`, with every "auto" resolved."""
@@ -184,7 +183,7 @@ class PairSpec(Spec):
             raise GeometryError(error.parameter, error.value, permitted) from error
 
     def _fewest_teeth(self, name: str, inputs: PerGear[dict[str, Any]]) -> int | None:
-        """Of a ring that takes the pinion with all else as it is; None if none was found."""
+        """Return the fewest ring teeth that fit the pinion with all other inputs unchanged, or None if none was found."""
         pinion: int = inputs.pinion["teeth"]
 
         def makes(more: int) -> bool:
@@ -213,7 +212,7 @@ class PairSpec(Spec):
                 raise GeometryError("wheel.tip_diameter", gear["tip_diameter"], permitted, "mm")
 
     def _inputs(self, role: Role) -> dict[str, Any]:
-        """Those of a gear as they are written, named by its role unless it has a name."""
+        """Return the inputs of a gear as written in the spec. The name is its role unless the spec gives one. Raises SpecError."""
         with self.blame(role.value):
             return {"name": role.value} | self.gear_inputs(role.value)
 
@@ -299,7 +298,7 @@ _GEARS = ("pinion", "rack")
 
 @dataclass(frozen=True, kw_only=True)
 class RackPairDesign(ToothedDesign):
-    """A pinion and a rack, and what later stages need."""
+    """A pinion and a rack, with the inputs that later stages need."""
 
     kind: ClassVar[DesignKind] = DesignKind.RACK_PAIR
     elsewhere: ClassVar[str] = (
@@ -314,7 +313,7 @@ class RackPairDesign(ToothedDesign):
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
-        """That of [pair], [pinion] and [rack]. Raises SpecError."""
+        """Return the design that [pair], [pinion] and [rack] describe. Raises SpecError."""
         spec = cls.spec(tables, where)
         beside = beside_teeth(spec, tables, _GEARS)
         name = spec.name("pair", default_name)
@@ -338,7 +337,7 @@ class RackPairDesign(ToothedDesign):
 
     @property
     def materials(self) -> PerGear[Material]:
-        """Those of pinion and rack; steel where nothing is said."""
+        """Return the materials of pinion and rack; steel if none is given."""
         return of_both(self.material or Material())
 
     @property
@@ -371,14 +370,14 @@ class RackPairDesign(ToothedDesign):
         return document | {"drive": drive}
 
     def loaded(self, why: str) -> Load:
-        """Its load. Raises ParameterError where there is none, that ends with why it is needed."""
+        """Return the load. Raises ParameterError if there is none; the message ends with `why` it is needed."""
         if self.load is None:
             raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {why}")
         return self.load
 
 
 class _RackPairSpec(Spec):
-    """The values of the spec of a pinion and a rack, and how these come to theirs."""
+    """The values of the spec of a pinion and a rack, and the methods that make both from them."""
 
     def pair(self, name: str) -> RackPair:
         """The pair of `[pair]`, `[pinion]` and `[rack]`, with every "auto" resolved."""
@@ -412,7 +411,10 @@ class _RackPairSpec(Spec):
                 self.values[own] = given._replace(value=0.0 - given.value if isinstance(given.value, float) else given.value)
 
     def _automatic(self, inputs: dict[str, Any], distance: Any) -> dict[str, float]:
-        """What each "auto" of the pinion comes to: profile shift and tip alteration that the mounting distance asks for."""
+        """Return the value of each pinion field that stands as "auto": profile shift and tip alteration (in modules).
+
+        Both follow from the mounting distance (mm). Raises GeometryError for an automatic shift without one.
+        """
         defaults = {"profile_shift": 0.0, "tip_alteration": AUTO}
         asked = [field for field, default in defaults.items() if inputs.get(field, default) == AUTO]
         with suppress(GeometryError):  # single numbers out of range first; what depends on the shift is judged later

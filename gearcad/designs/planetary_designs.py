@@ -84,16 +84,16 @@ class PlanetarySpec(Spec):
 
     @property
     def tables(self) -> tuple[str, ...]:
-        """Those of the gears of the set, each once."""
+        """Return the tables of the gears of the set, each once."""
         return tuple(dict.fromkeys((*self.meshes, *self.meshes.values())))
 
     def name_of(self, table: str) -> str:
-        """What the user calls a gear."""
+        """Return the name of the gear that a table describes: the user's name, otherwise that of the table."""
         given = self.values.get(f"{table}.name")
         return table if given is None else str(given.value)
 
     def stage_name(self, stage: str) -> str:
-        """What the user calls a stage, by the beginning of its keys."""
+        """Return the name of a stage, given the beginning of its keys: the user's name, otherwise `stage_1` or the key."""
         given = self.values.get(f"{stage}.name")
         if given is not None:
             return str(given.value)
@@ -192,7 +192,10 @@ class PlanetarySpec(Spec):
                 self.values[f"{own}.{key}"] = given._replace(value=0.0 - given.value) if turned else given
 
     def _spread_helix(self, key: str) -> None:
-        """What stands in [planetary] is the first central's; a stepped planet's second mesh has to say its own."""
+        """Give the first central the helix value that stands in [planetary].
+
+        Raises GeometryError for a value other than 0 if the second mesh of a stepped planet does not give its own.
+        """
         first, second = self._meshes
         given = self.values.get(f"{MAIN}.{key}")
         if given is not None:
@@ -234,9 +237,9 @@ _TAKEN = ("kind", "name", "gearcad", "materials", "drawings", "assumed", SPEEDS,
 
 @dataclass(frozen=True, kw_only=True)
 class PlanetaryDesign(ToothedDesign):
-    """A planetary train, and what later stages need.
+    """A planetary train, with the inputs that later stages need.
 
-    `speeds` (rpm) are those of members that are given beside the speed of the input: a differential needs one.
+    `speeds` (rpm) are those of members that are given in addition to the speed of the input: a differential needs one.
     """
 
     kind: ClassVar[DesignKind] = DesignKind.PLANETARY
@@ -268,7 +271,7 @@ class PlanetaryDesign(ToothedDesign):
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
-        """That of [planetary] and the tables of its gears. Raises SpecError."""
+        """Return the design that [planetary] and the tables of its gears describe. Raises SpecError."""
         spec = cls.spec(tables, where)
         given = {table: kind for table, kind in {**BESIDE, "load": TrainLoad}.items() if table != "material"}
         beside: dict[str, Any] = {table: spec.simple(table, kind) for table, kind in given.items() if table in tables}
@@ -287,7 +290,7 @@ class PlanetaryDesign(ToothedDesign):
 
     @property
     def gears(self) -> dict[str, Gear]:
-        """Those of the train."""
+        """Return the gears of the train by name."""
         return self.train.gears
 
     @property
@@ -297,11 +300,11 @@ class PlanetaryDesign(ToothedDesign):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Those of the gears, the train and the load."""
+        """Return the notices of the gears, the train and the load."""
         return (*super().notices, *(self.load.notices if self.load is not None else ()))
 
     def pair_name(self, name: str) -> str:
-        """What the design of a mesh or stage is called."""
+        """Return the design name of the pair of a mesh or stage: `DESIGN-NAME`."""
         return f"{self.name}-{name}"
 
     def require_kind(self, *kinds: DesignKind, why: str) -> None:
@@ -310,7 +313,7 @@ class PlanetaryDesign(ToothedDesign):
         super().require_kind(*kinds, why=f"`gearcad planetary` writes the specs of its meshes for that, {specs}")
 
     def loaded(self, why: str) -> TrainLoad:
-        """Its load. Raises ParameterError where there is none, that ends with why it is needed."""
+        """Return the load. Raises ParameterError if there is none; the message ends with `why` it is needed."""
         if self.load is None:
             permitted = f"must be given, in N·m on {self.train.output}, or load.input_torque, on {self.train.input}: {why}"
             raise ParameterError("load.output_torque", None, permitted)
@@ -322,7 +325,7 @@ class PlanetaryDesign(ToothedDesign):
 
 
 def _material(spec: PlanetarySpec, train: PlanetaryTrain, *, given: bool) -> TrainMaterial | None:
-    """That of all gears, or of each by its name; None where the spec says nothing. Raises SpecError."""
+    """Return the material of all gears, or one for each gear by name, or None if the spec gives none. Raises SpecError."""
     found = materials_of(spec, spec.tables)
     if not isinstance(found, dict):
         return Material() if found is None and given else found
@@ -376,7 +379,10 @@ def _stage(spec: PlanetarySpec, owner: str, wheel_on: str) -> PairStage:
 
 
 def _speeds(spec: PlanetarySpec, train: PlanetaryTrain, load: TrainLoad | None) -> dict[str, float]:
-    """What is given of the speeds of members. Raises ParameterError where one contradicts the others, or that of the load."""
+    """Return the given speeds of members (rpm) by name.
+
+    Raises ParameterError if one contradicts another or the speed of the load.
+    """
     given = spec.fields_of(f"{MAIN}.{SPEEDS}")
     of_load = {} if load is None or not load.speed else {train.input: load.speed}
     if of_load and train.input in given:

@@ -184,7 +184,7 @@ def _meshed(centrals: list[str], stepped: bool, where: Where) -> dict[str, str]:
 
 
 def _lists(listed: Mapping[str, list[Mapping[str, Any]]], where: Where) -> tuple[dict[str, str], dict[str, str]]:
-    """What the user calls the tables of the set, and the centrals among them with the rim that each meshes."""
+    """Return the written name of each table of the set, and the centrals, each with the rim that it meshes. Raises SpecError."""
     centrals, rims = listed["central"], listed["rim"]
     for key, found, counts in (("central", centrals, (2,)), ("rim", rims, (1, 2))):
         if len(found) not in counts:
@@ -254,7 +254,7 @@ class TableMesh(NamedTuple):
         return -distance if self.ring else distance
 
     def automatic(self, inputs: Inputs) -> int:
-        """How many of its profile shifts are to be derived."""
+        """Return the number of profile shifts in this mesh that are to be derived."""
         return sum(inputs[table].get("profile_shift") == AUTO for table in (self.central, self.rim))
 
 
@@ -374,7 +374,10 @@ class TrainGears:
                     self._note(table, "profile_shift", shift, f"{AUTO}: centre distance {distance:g} mm asks for it")
 
     def _split(self, inputs: Inputs) -> ShiftSplit | None:
-        """How two automatic shifts share their sum."""
+        """Return how two automatic profile shifts share their sum, or None if the spec does not say.
+
+        Raises GeometryError if no mesh has two automatic shifts.
+        """
         given = self.spec.values.get(f"{MAIN}.profile_shift_split")
         if given is None:
             return None

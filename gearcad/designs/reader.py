@@ -1,8 +1,7 @@
 """Reader of spec files and of starters, and an editor of specs that keeps comments and layout.
 
 The main table decides the kind: `[gear]`, `[pair]` with `[pinion]` and `[wheel]`, `[rack]`, which may have a `[pinion]` in its
-`[pair]`, `[train]`, or `[planetary]` with its gears. Whatever is not understood is
-refused, so nothing is silently ignored.
+`[pair]`, `[train]`, or `[planetary]` with its gears. Unknown input is refused, so nothing is silently ignored.
 """
 
 from __future__ import annotations
@@ -69,7 +68,11 @@ def nested(values: Mapping[str, Any], kind: DesignKind) -> dict[str, dict[str, A
 
 
 def kind_of(tables: Mapping[str, Any]) -> DesignKind:
-    """By the main table; the larger kind says what cannot stand beside its tables, and a pair what nothing lacks."""
+    """Return the kind of design, decided by the main table.
+
+    If several main tables are present, the larger kind wins; its reader reports tables that cannot stand beside its own. Tables
+    of no kind count as a pair, whose reader reports what is missing.
+    """
     if "rack" in tables and "train" not in tables:
         paired = any(table in tables for table in MAIN_TABLES[DesignKind.PAIR])
         return DesignKind.RACK_PAIR if paired else DesignKind.RACK

@@ -165,7 +165,7 @@ def _led_back(
 
 
 def _sizes(gears: PerGear[GearInputs]) -> dict[str, Any]:
-    """What the formulas of profile shift and centre distance want to know of both gears, as GearPair has it."""
+    """Return the inputs of the formulas for profile shift and centre distance, under their names in GearPair."""
     return {
         "normal_module": module_of(gears.pinion),
         "teeth": gears.map(lambda gear: gear["teeth"]),
@@ -267,7 +267,7 @@ Simple = TypeVar("Simple")
 
 
 class Given(NamedTuple):
-    """A value, the key under which the user wrote it, and how it came about if it was not written."""
+    """A value, the key under which the user wrote it, and its origin if it was not written."""
 
     value: Any
     key: str
@@ -276,7 +276,7 @@ class Given(NamedTuple):
 
 @dataclass(frozen=True)
 class Spec:
-    """The values of one spec under their dotted keys, and how to make inputs of them.
+    """The values of one spec under their dotted keys, and the methods that make inputs of them.
 
     The values of an owner, such as a gear, are those of the table of its name, unless it is among `names`.
     """
@@ -316,7 +316,7 @@ class Spec:
             raise self._explained(error, owner) from error
 
     def _place(self, parameter: str, owner: str) -> tuple[str, str]:
-        """Whose a parameter of an error about `owner` is, and which field of it."""
+        """Return the owner and the field that the parameter of an error about `owner` means."""
         if (first := parameter.partition(".")[0]) in _ROLES or (first == "rack" and owner == "pair"):
             owner, _, parameter = parameter.partition(".")
         return owner, parameter
@@ -366,7 +366,7 @@ class Spec:
         return f"; its profile_shift is {round(shift.value, _DIGITS_TOLD) + 0.0:.6g} ({shift.note})"
 
     def _unwritten(self, owner: str, field: str) -> Given:
-        """Where a value that nobody wrote comes from."""
+        """Return the origin of a value that the user did not write: a named rack, a derivation, the file's name or a default."""
         named = self.values.get(f"{owner}.rack")
         if named and field.startswith("rack."):
             return named._replace(key=self._written(owner, field), note=f"of {named.value}")
@@ -381,7 +381,7 @@ class Spec:
         return default if given is None else str(given.value)
 
     def giving_way(self, owner: str) -> set[str]:
-        """What an owner does not share, as it has that or something in its place."""
+        """Return the fields that an owner does not share, because it has them or an alternative to them."""
         given = [each for each in ALTERNATIVES if any(f"{owner}.{field}" in self.values for field in each)]
         return {field for each in given for field in each}
 
@@ -394,7 +394,10 @@ class Spec:
         return {key[len(owner) + 1 :]: given for key, given in self.values.items() if key.startswith(f"{owner}.")}
 
     def simple(self, owner: str, kind: type[Simple], values: Mapping[str, Any] | None = None) -> Simple:
-        """What a table of plain `values`, or those of its owner, makes: a Material, a Load, a Mounting, or a job's options."""
+        """Return the object that a table of plain `values` makes: a Material, a Load, a Mounting, or a job's options.
+
+        Without `values` those of the owner's table are used. Raises SpecError.
+        """
         values = self.fields_of(owner) if values is None else values
         with self.blame(owner):
             if not isinstance(values.get("name", ""), str):
@@ -505,7 +508,7 @@ _DRAWINGS_TABLE = ".drawing."
 
 
 def drawings_of(spec: Spec) -> dict[str, PartDrawing]:
-    """What gears have of their own, by their tables. Raises SpecError."""
+    """Return the drawing options that gears have of their own, by their tables. Raises SpecError."""
     owners = dict.fromkeys(key.partition(_DRAWINGS_TABLE)[0] for key in spec.values if _DRAWINGS_TABLE in key)
     if not owners:
         return {}
@@ -515,7 +518,10 @@ def drawings_of(spec: Spec) -> dict[str, PartDrawing]:
 
 
 def drawing_documents(drawing: DrawingOptions | None, drawings: Mapping[str, PartDrawing]) -> dict[str, Any]:
-    """What documents say of drawings, nothing where nothing is given; of a template the name of its file alone."""
+    """Return the entries of a document about drawings; empty if no options are given.
+
+    A template is given by its file name alone.
+    """
     found: dict[str, Any] = {}
     if drawing is not None:
         template = Path(drawing.template).name if drawing.template else None
@@ -530,10 +536,10 @@ _TABLE = "material"
 
 
 def materials_of(spec: Spec, gears: Sequence[str]) -> Material | dict[str, Material] | None:
-    """That of all gears; by gear where any has its own; None where the spec says nothing. Raises SpecError.
+    """Return the material of all gears, or one for each gear if any has its own, or None if none is given. Raises SpecError.
 
-    What stands in a gear's own table counts before its name in [material], and that before the rest of [material]. A name
-    such as "Eh MQ" takes the place of group and quality, and a group or a quality that of such a name.
+    A value in a gear's own table counts before its name in [material], and that before the rest of [material]. A name such as
+    "Eh MQ" replaces group and quality, and a group or a quality replaces such a name.
     """
     common = _common(spec, gears)
     own = {gear: _own(spec, gear) for gear in gears}
@@ -543,13 +549,13 @@ def materials_of(spec: Spec, gears: Sequence[str]) -> Material | dict[str, Mater
 
 
 def common_material(spec: Spec, gears: Sequence[str]) -> Material:
-    """That of what has none of its own. Raises SpecError."""
+    """Return the material of the gears that have none of their own. Raises SpecError."""
     values = {key: given.value for key, given in _common(spec, gears).items()}
     return spec.simple(_TABLE, Material, values=values)
 
 
 def _common(spec: Spec, gears: Sequence[str]) -> dict[str, Given]:
-    """What [material] says of all gears."""
+    """Return the values of [material] that apply to all gears, by key. Raises SpecError."""
     common = {key: given for key, given in spec.given_of(_TABLE).items() if key not in gears}
     for key in common.keys() - schema_of(Material).keys():
         full = f"{_TABLE}.{key}"
@@ -559,7 +565,7 @@ def _common(spec: Spec, gears: Sequence[str]) -> dict[str, Given]:
 
 
 def _own(spec: Spec, gear: str) -> list[Mapping[str, Given]]:
-    """What a spec says of the material of one gear, the last of which counts most."""
+    """Return the values that a spec gives for the material of one gear, in layers; the last counts most. Raises SpecError."""
     layers: list[Mapping[str, Given]] = []
     if (named := spec.values.get(f"{_TABLE}.{gear}")) is not None:
         if not isinstance(named.value, str) or grade_of(named.value) is None:

@@ -81,7 +81,7 @@ def toml_text(tables: Mapping[str, Mapping[str, Any]], comments: Sequence[str] =
 
 
 def _materials(design: PairDesign) -> dict[str, Material]:
-    """By the tables that hold them."""
+    """Return the materials of a pair by the tables that hold them."""
     if isinstance(design.material, PerGear):
         return {f"{role.value}.material": material for role, material in design.material.items()}
     return {} if design.material is None else {"material": design.material}
@@ -152,13 +152,13 @@ def _loaded_pairs_plain(value: float) -> float:
 
 
 def _plain_design(mesh: EngagedMesh) -> PairDesign:
-    """Of a pair that came without one."""
+    """Return a design for the pair of a mesh that has no design of its own."""
     of = mesh.teeth_of
     return PairDesign(name=plain_name(mesh.name), pair=of.pair, material=of.material, mounting=of.mounting, rating=of.rating)
 
 
 def _dynamics(train: Train, mesh: EngagedMesh, own: PairDesign) -> DynamicsOptions:
-    """By the method and with the damping of the train, on the inertias that its gears are part of there."""
+    """Return [dynamics] options for one pair: stiffness method, damping ratio and inertias (kg·m²) of the train."""
     inertias = {each.name: each.inertia for each in train.inertias}
     options = replace(
         own.dynamics or DynamicsOptions(),
@@ -171,7 +171,7 @@ def _dynamics(train: Train, mesh: EngagedMesh, own: PairDesign) -> DynamicsOptio
 
 
 def _comments(study: TrainStudy, mesh: EngagedMesh, place: int) -> Iterator[str]:
-    """What a spec says of where it comes from, line by line."""
+    """Yield the comment lines that say where the spec of a pair comes from."""
     yield f"Mesh {mesh.name} of the train {study.train.name}, written by `gearcad dynamics`: a pair for `gearcad check`,"
     yield "`gearcad build` and every other command of pairs; the rest of the train is left out."
     drives = "the pinion drives" if mesh.course.driver is Role.PINION else "the wheel drives: the torque is against the turn"
@@ -195,10 +195,10 @@ _SOURCES = {
 
 @dataclass(frozen=True, kw_only=True)
 class MeshPairs:
-    """The pairs of a planetary train by the names of its meshes and stages, under what one planet carries.
+    """The pairs of a planetary train by the names of its meshes and stages, with the load that one planet carries.
 
-    `computed_factor` is the K_gamma that is taken if the load gives none. Without a load the pairs have none. What asks for
-    loads raises what `power_flow` and `mesh_loads` raise.
+    `computed_factor` is the K_gamma used if the load gives none. Without a load the pairs have none. Members that need loads
+    raise what `power_flow` and `mesh_loads` raise.
     """
 
     design: PlanetaryDesign
@@ -212,12 +212,12 @@ class MeshPairs:
 
     @cached_property
     def loads(self) -> dict[str, MeshLoad]:
-        """Those of the set's meshes; none without a load."""
+        """Return the loads of the set's meshes by name; empty without a load."""
         return {} if self.flow is None else mesh_loads(self.design.train, self.flow, self.computed_factor)
 
     @cached_property
     def stage_loads(self) -> dict[str, Load]:
-        """Those of the stages; none without a load."""
+        """Return the loads of the stages by name; empty without a load."""
         return {} if self.flow is None else stage_loads(self.design.train, self.flow)
 
     @cached_property
@@ -254,7 +254,7 @@ class MeshPairs:
         )
 
     def _comments(self, name: str) -> Iterator[str]:
-        """What a spec of a pair says of where it comes from, line by line."""
+        """Yield the comment lines that say where the spec of a pair comes from."""
         train = self.design.train
         mesh = next((mesh for mesh in train.meshes if mesh.name == name), None)
         yield f"{'Mesh' if mesh else 'Stage'} {name} of the planetary train {self.design.name}, written by `gearcad planetary`:"
@@ -279,7 +279,7 @@ _DIGITS = 12
 
 
 def pair_keys(sized: SizedPair) -> dict[str, dict[str, Any]]:
-    """What a spec has of a pair: values by table and key. The wheel's shift follows from the centre distance."""
+    """Return the values of a pair's spec by table and key. The wheel's shift follows from the centre distance."""
     task = sized.task
     one, other = task.materials
     tables: dict[str, dict[str, Any]] = {
@@ -387,7 +387,7 @@ def write_found(result: SearchResult, path: Path) -> None:
 
 
 def _columns(rows: Sequence[dict[str, str]]) -> list[str]:
-    """What any of them has: the name, the train, then gear by gear."""
+    """Return the columns that any row has: the name, then the train, then gear by gear."""
     there = set().union(*rows)
     tables = ("name", "planetary", *_GEARS)
     keys = list(dict.fromkeys(key for row in rows for key in row if key in there))
@@ -400,9 +400,9 @@ def _found_sets_cells(candidate: Candidate) -> dict[str, str]:
 
 
 def set_keys(candidate: Candidate) -> dict[str, object]:
-    """What a spec has of a set, by the keys of all tables. The shifts of centrals follow from the centre distance, so it fits.
+    """Return the values of a set's spec by full key. The shifts of centrals follow from the centre distance.
 
-    The thinning is there to be given: without it no set has backlash.
+    The thinning is listed so that the user can fill it in: without it no set has backlash.
     """
     task, roles = candidate.task, candidate.task.roles(candidate.kind)
     train: dict[str, object] = {
@@ -428,7 +428,7 @@ def _plain(value: object) -> str:
 
 
 def _of_gear(candidate: Candidate, name: str) -> dict[str, object]:
-    """What a gear has for itself."""
+    """Return the values that belong to one gear of the set, by key."""
     own: dict[str, object] = {"teeth": candidate.teeth[name]}
     rim = name.startswith("planet")
     own["profile_shift"] = candidate.profile_shifts[name] if rim else AUTO
@@ -444,7 +444,7 @@ def _of_gear(candidate: Candidate, name: str) -> dict[str, object]:
 
 
 def sized_keys(sized: SizedSet) -> dict[str, dict[str, Any]]:
-    """What a spec has of a set: values by table and key."""
+    """Return the values of a sized set's spec by table and key."""
     tables: dict[str, dict[str, Any]] = {"planetary": {"name": sized.name}}
     for key, value in set_keys(sized.candidate).items():
         table, _, name = key.partition(".")

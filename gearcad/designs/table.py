@@ -87,7 +87,7 @@ def _sound_train(key: str, value: Cell) -> dict[str, Cell]:
 
 
 def fault_alone(key: str, value: Cell, where: Where, *, of: DesignKind | None = None) -> SpecError | None:
-    """What is wrong with a value whatever the others are; `where` locates a key for the message.
+    """Return the fault of a value that is wrong whatever the others are, or None. `where` locates a key for the message.
 
     `of` is the kind of design where it is a train or a planetary train.
     """
@@ -161,7 +161,7 @@ def missing_faults(given: Collection[str], kind: DesignKind, where: Where) -> It
 
 
 def _missing_of_set(given: Collection[str], where: Where) -> Iterator[SpecError]:
-    """Those of a planetary train; which gears its set lacks is said where it is read."""
+    """Yield the faults of missing keys of a planetary train. Gears that its set lacks are reported where it is read."""
     kind, main = DesignKind.PLANETARY, DesignKind.PLANETARY.value
     for table in OF_SETS:
         if any(key.startswith(f"{table}.") for key in given) and f"{table}.teeth" not in given:
@@ -273,7 +273,7 @@ class Row:
             raise SpecError(f"{self.where('name')}: {error}", "name") from error
 
     def _kind(self) -> DesignKind:
-        """What the table makes; in one of gears and pairs, what the row has values for. Raises SpecError."""
+        """Return the kind that the table makes; if it holds gears and pairs, the kind of this row's values. Raises SpecError."""
         kinds = kinds_of(self.columns)
         if len(kinds) > 1:
             filled = (*self.values, *self.unread)
@@ -369,7 +369,7 @@ def open_table(path: Path | str) -> Table:
 
 
 def _text_of(file: Path) -> str:
-    """What a file holds; nothing where it cannot be read, which its reader will say."""
+    """Return the text of a file, or "" if it cannot be read; its reader reports that."""
     try:
         return file.read_text(encoding="utf-8", errors="replace")
     except OSError:

@@ -167,7 +167,7 @@ def _typed(value: Any, field: FieldSchema) -> Any:
 
 
 def missing_keys(given: Iterable[str]) -> Iterator[str]:
-    """What the parts among the keys `given` must have, and have not."""
+    """Yield the keys that parts must have but that are not among `given`."""
     fields: dict[tuple[str, str], set[str]] = {}
     for key in map(TrainKey.of, given):
         if key is not None and key.table in TRAIN_PARTS:
@@ -178,7 +178,7 @@ def missing_keys(given: Iterable[str]) -> Iterator[str]:
 
 
 def missing_fault(key: str, where: Where) -> SpecError:
-    """That a key of a part is missing."""
+    """Return the SpecError for a missing key of a part."""
     return SpecError(f"{where(key)}: {shown(key)} is missing: must be given", key)
 
 
@@ -214,7 +214,10 @@ def designed_pair(design: PairDesign) -> DesignedPair:
 
 
 def read_pair(given: Any, where: Where, owner: str, mesh: str) -> DesignedPair:
-    """That of the value of `owner`, the key `pair` of a mesh: the name of a spec, or its tables. Raises SpecError."""
+    """Return the pair of a mesh from the value of its key `pair`: the name of a spec, or its tables. Raises SpecError.
+
+    `owner` is the key as written in the spec, `mesh` the name of the mesh for messages.
+    """
     if not isinstance(given, str | Mapping) or (isinstance(given, str) and (not given.strip() or "\0" in given)):
         permitted = 'must be the file of a pair\'s spec, as in pair = "fzg-c.toml", or its tables, headed [train.mesh.pair]'
         raise SpecError(f"{where(owner)}: {mesh}.pair = {format_number(given)}: {permitted}", owner)
@@ -243,7 +246,7 @@ def _of_file(path: Path) -> PairDesign:
 
 @dataclass(frozen=True)
 class _Inside:
-    """Where the keys of a pair's tables stand inside those of a mesh."""
+    """Locator of the keys of a pair's tables inside those of a mesh."""
 
     where: Where
     owner: str
@@ -287,7 +290,7 @@ _LISTS = {"inertia": "inertias", "shaft": "shafts", "mesh": "meshes"}
 
 @dataclass(frozen=True, kw_only=True)
 class TrainDesign(Design):
-    """A train of shafts and meshes, and what the study of its dynamics looks at."""
+    """A train of shafts and meshes, with the options for the study of its dynamics."""
 
     kind: ClassVar[DesignKind] = DesignKind.TRAIN
     elsewhere: ClassVar[str] = "a train is for `gearcad dynamics` and `gearcad data`"
@@ -311,14 +314,17 @@ class TrainDesign(Design):
 
     @property
     def models(self) -> tuple[TrainModel, ...]:
-        """What is studied: the model of `train` first."""
+        """Return the models to study, with that of `train` first."""
         return (self.train.model, *self.other_models)
 
     @classmethod
     def read(
         cls, tables: Mapping[str, Any], where: Where, default_name: str, names: Mapping[str, str] = MappingProxyType({})
     ) -> Self:
-        """That of [train]; beside it there is [dynamics]. `names`: what the user calls tables of lists. Raises SpecError."""
+        """Return the design that [train] describes; only [dynamics] may stand beside it. Raises SpecError.
+
+        `names` holds the user's names for the tables of lists.
+        """
         for table in tables:
             if table not in ("train", "dynamics"):
                 raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [train]: permitted is [dynamics]")
@@ -407,7 +413,7 @@ class _Reader:
         return tuple(found)
 
     def _missing(self, owner: str, field: str) -> SpecError:
-        """What a part must have, and has not."""
+        """Return the SpecError for a field that a part must have and does not have."""
         if owner in self.names:
             return missing_fault(f"{self.names[owner]}.{field}", self.where)
         return SpecError(f"{self.where(owner)}: {field} is missing in [[{owner.partition('[')[0]}]]")
@@ -467,14 +473,14 @@ class _Reader:
 
 
 def _hint(key: str, permitted: tuple[str, ...]) -> str:
-    """What may stand in the place of an unknown key; of many the nearest."""
+    """Return a hint for an unknown key: the one it resembles, otherwise the permitted keys (of many, the nearest)."""
     if near := difflib.get_close_matches(key, permitted, n=1):
         return f"did you mean {near[0]}?"
     return permitted_words(key, permitted)
 
 
 def _models(given: Any) -> tuple[TrainModel, ...]:
-    """Those of a list; none of a single word. Raises ParameterError."""
+    """Return the models of a list; empty for a single word. Raises ParameterError."""
     if not isinstance(given, list | tuple):
         return ()
     if not given:

@@ -142,7 +142,7 @@ class TrainKey(NamedTuple):
 
     @classmethod
     def of(cls, key: str) -> Self | None:
-        """What a key says; None for one that no train has."""
+        """Return the key in its parts, or None for a key that no train has."""
         table, _, rest = key.partition(".")
         name, _, field = rest.rpartition(".")
         if table in TRAIN_PARTS:
@@ -159,12 +159,12 @@ class TrainKey(NamedTuple):
 
     @property
     def schema(self) -> FieldSchema:
-        """What it says of itself."""
+        """Return the schema of the field."""
         return _TORQUE if self.field == TORQUES else TRAIN[self.table][self.field]
 
     @property
     def general(self) -> str:
-        """That of all parts of the kind."""
+        """Return the key that stands for all parts of its kind."""
         return str(self._replace(name=ALL)) if self.name else str(self)
 
 
@@ -197,7 +197,7 @@ def explain_unknown_key_of_train(key: str, names: Mapping[str, tuple[str, ...]] 
 
 
 def _unknown_part(table: str, name: str, written: str, names: Mapping[str, tuple[str, ...]]) -> str:
-    """That the train has no such part; its key is `written` with a name put in."""
+    """Return the message that the train has no part of this name. `written` is the key with a place for a name."""
     known = names[table]
     if near := difflib.get_close_matches(name, known, n=1):
         return f"the train has no {table} {shown(name)}; did you mean {written.format(near[0])}?"

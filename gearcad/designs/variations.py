@@ -136,8 +136,9 @@ def _found(owner: str, field: str, known: Mapping[str, Symbol]) -> tuple[str, Sy
 
 
 def column_symbol(heading: str) -> tuple[str, Symbol] | None:
-    """Whose the quantity of a column of results is ("pinion", "wheel", the name of a train's part, or ""), and how it is
-    written; None for an unknown one.
+    """Return the owner and the symbol of a result column, or None for an unknown one.
+
+    The owner is "pinion", "wheel", the name of a train's part, or "".
 
     Columns are `pinion.tip_diameter`, `pair.tip_clearances.wheel`, `check.root_tension_pinion`, `check.rating.wheel.Y_F` or
     `shaft.input.length`.
@@ -157,7 +158,7 @@ def column_symbol(heading: str) -> tuple[str, Symbol] | None:
 
 
 def _of_own(heading: str) -> tuple[str, Symbol] | None:
-    """Of gears that have materials or drawings of their own."""
+    """Return owner and symbol of a column about a gear's own material or drawing, or None."""
     table, _, rest = heading.partition(".")
     owner, _, field = rest.partition(".")
     own = {"materials": Material, "drawings": PartDrawing}.get(table)
@@ -165,7 +166,7 @@ def _of_own(heading: str) -> tuple[str, Symbol] | None:
 
 
 def _of_part(heading: str) -> tuple[str, Symbol] | None:
-    """Of a train: whose it is by the name of its part."""
+    """Return owner and symbol of a column about a train, or None; the owner is the name of its part."""
     table, _, rest = heading.partition(".")
     if table == "train" and rest in symbols.TRAIN:
         return "", symbols.TRAIN[rest]
@@ -179,7 +180,7 @@ def _of_part(heading: str) -> tuple[str, Symbol] | None:
 
 
 class SpecValues(NamedTuple):
-    """What a spec says: its kind and name, and its other values under their keys, each with the key that the user wrote."""
+    """The content of a spec: its kind and name, and its other values under their keys, each with the key that the user wrote."""
 
     kind: DesignKind
     name: str
@@ -266,7 +267,7 @@ Value = TypeVar("Value")
 
 @dataclass(frozen=True)
 class Choices:
-    """A key that takes one of several values; `text` says them as the user did."""
+    """A key that takes one of several values; `text` gives them as the user wrote them."""
 
     key: str
     text: str
@@ -277,7 +278,7 @@ class Choices:
         return [self.values[int(fraction * len(self.values))] for fraction in fractions]
 
     def found_from(self, folder: Path) -> Choices:
-        """With files, which are seen from the `folder` of the spec, as they are found from here."""
+        """Return the choices with file names that are relative to the `folder` of the spec made valid from here."""
         return replace(self, values=tuple(with_files_found({self.key: each}, folder)[self.key] for each in self.values))
 
 
@@ -306,7 +307,10 @@ class Span:
 def read_variations(
     texts: Sequence[str], kind: DesignKind, base: Collection[str], *, sampled: bool = False
 ) -> tuple[Choices | Span, ...]:
-    """What several `KEY=VALUES` say of a design whose spec has the keys `base`. Raises ParameterError, also for a key twice."""
+    """Return the variations that several texts `KEY=VALUES` describe. Raises ParameterError, also if a key is varied twice.
+
+    `base` holds the keys that the spec of the design has.
+    """
     read = tuple(read_variation(text, kind, base, sampled=sampled) for text in texts)
     keys = [variation.key for variation in read]
     for text, key in zip(texts, keys, strict=True):
@@ -316,7 +320,10 @@ def read_variations(
 
 
 def read_variation(text: str, kind: DesignKind, base: Collection[str] = (), *, sampled: bool) -> Choices | Span:
-    """What one `KEY=VALUES` says; the keys `base` of its spec say which parts a train has."""
+    """Return the variation that one text `KEY=VALUES` describes. Raises ParameterError.
+
+    The keys `base` of its spec say which parts a train has.
+    """
     name, _, values = (part.strip() for part in _parted(text, kind, base))
     if not name or not values:
         raise ParameterError("vary", text, "must be KEY=FIRST:LAST:COUNT or KEY=VALUE,VALUE ...")
@@ -397,7 +404,7 @@ def _key_of_planetary(text: str, name: str) -> str:
 
 
 def _value(key: str, text: str) -> Cell:
-    """What a cell with this text would be; the sum makes -0.0 a plain zero."""
+    """Return the value of a cell with this text; "" for a blank one. Adding 0.0 turns -0.0 into a plain zero."""
     value = CellReader(Layout.COMMA).value(key, text, 0)
     return "" if value is None else value + 0.0 if isinstance(value, float) else value
 
@@ -483,8 +490,10 @@ VariantValue = Cell | tuple[Cell, ...]
 
 @dataclass(frozen=True)
 class Variants:
-    """Designs that differ in `what`, in words with units; `labels` say how, one for each: by the values of one `key`, or, where
-    it is "", in words."""
+    """Designs that differ in `what`, in words with units.
+
+    `labels` has one entry for each design: the value of the one `key`, or words if `key` is "".
+    """
 
     what: str
     labels: tuple[str, ...]
@@ -525,7 +534,7 @@ def _require_few(read: Sequence[Choices]) -> None:
 
 
 def _design(base: SpecValues, point: Mapping[str, VariantValue]) -> Design:
-    """That of the spec with the values of a point put in."""
+    """Return the design of the spec with the values of a point put in."""
     values = {key: given.value for key, given in without_varied(base.values, point).items()} | dict(point)
     return design_from_values(values, base.kind, where=_where(base, point), default_name=base.name)
 
@@ -544,7 +553,7 @@ def _where(base: SpecValues, point: Mapping[str, VariantValue]) -> Callable[[str
 
 
 def _words(key: str) -> str:
-    """What a key is, whose, and in which unit."""
+    """Return words for a key: the quantity, its owner and its unit. An unknown key is returned unchanged."""
     found = column_symbol(key)
     if found is None or not found[1].words:
         return key
@@ -553,7 +562,7 @@ def _words(key: str) -> str:
 
 
 def _short(keys: Sequence[str]) -> dict[str, str]:
-    """What the keys are called where there are several: by their last words, as long as these differ."""
+    """Return short names of several keys: their last words if these all differ, otherwise the full keys."""
     last = [key.rpartition(".")[2].replace("_", " ") for key in keys]
     alike = len(set(last)) < len(last)
     return {key: key if alike else words for key, words in zip(keys, last, strict=True)}

@@ -72,22 +72,22 @@ def fields_of(design: Design, tables: Mapping[str, Any]) -> list[dict[str, Any]]
 
 
 def table_title(table: str) -> str:
-    """What a table is called: its name, in words."""
+    """Return the title of a table: its name in words."""
     return table.replace("_", " ").capitalize()
 
 
 def part_title(part: str) -> str:
-    """What a part of a table is called."""
+    """Return the title of a part of a table."""
     return _TITLES.get(part, table_title(part))
 
 
 def words_of(key: str, field: FieldSchema) -> str:
-    """What a key is called, in words."""
+    """Return the words for a key: those of its symbol, otherwise its name without underscores."""
     return field.symbol.words or key.rpartition(".")[2].replace("_", " ")
 
 
 def _speeds(members: tuple[str, ...]) -> dict[str, FieldSchema]:
-    """Of a train's members, which can have speeds of their own beside that of the input."""
+    """Return fields for the speeds (rpm) of a train's members, which a spec may give in addition to the speed of the input."""
     speed = schema_of(Load)["speed"]
     return {
         f"{SPEEDS}.{each}": replace(speed, name=each, required=False, symbol=Symbol("n", "rpm", "", each)) for each in members
@@ -119,7 +119,7 @@ def _groups(table: str, fields: Mapping[str, FieldSchema], members: tuple[str, .
 
 
 def _field(key: str, field: FieldSchema, members: tuple[str, ...]) -> dict[str, Any]:
-    """What the browser needs of one field; numbers are typed as text, so that what is half typed is not lost."""
+    """Return the description of one field for the browser. Numbers are typed as text, so that unfinished input is not lost."""
     symbol = field.symbol
     least, most = _bounds(field)
     return {
@@ -138,7 +138,7 @@ def _field(key: str, field: FieldSchema, members: tuple[str, ...]) -> dict[str, 
 
 
 def _bounds(field: FieldSchema) -> tuple[float | None, float | None]:
-    """What a number can be, as far as one range says it."""
+    """Return the least and the greatest value of a number, as far as one range gives them; None for no bound."""
     permitted = field.permitted
     if isinstance(permitted, Range):
         return (None if permitted.most is None else -permitted.most) if permitted.signed else permitted.least, permitted.most
@@ -167,12 +167,12 @@ def _choices(field: FieldSchema) -> list[str]:
 
 
 def given_texts(tables: Mapping[str, Any]) -> dict[str, str]:
-    """What a spec says, as one types it, under dotted keys; what no field can hold is left to the text."""
+    """Return the values of a spec as typed text, under dotted keys. Values that no field can hold are left to the text view."""
     return _texts(tables, "")
 
 
 def used_texts(design: Design, tables: Mapping[str, Any]) -> dict[str, str]:
-    """What a design uses - given, shared, derived or by default - under the same keys: it stands in empty fields."""
+    """Return the values that a design uses (given, shared, derived or default) under the same keys. Empty fields show them."""
     used = dict(_by_default(design.kind))
     for table, content in design.to_dict().items():
         if isinstance(content, Mapping):
@@ -188,7 +188,7 @@ def _named(tables: Mapping[str, Any]) -> dict[str, str]:
 
 @cache
 def _by_default(kind: DesignKind) -> Mapping[str, str]:
-    """What tables that stand beside a gear are where a spec does not say it."""
+    """Return the default values, as typed text, of tables that stand beside a gear."""
     made: dict[str, str] = {}
     for table in BESIDE if kind is not DesignKind.PLANETARY else [each for each in BESIDE if each not in ("load", "mounting")]:
         made |= _texts(_defaults(BESIDE[table]), f"{table}.")
@@ -243,7 +243,7 @@ _SHIFTS, _HELIX, _TEETH = (-0.8, 1.4), (0.0, 30.0), (5, 60)
 
 @dataclass(frozen=True)
 class Variable:
-    """An input that one moves: its value, its keys with the sign that it has under each, and between what it is shown."""
+    """An input that the user moves: its value, its keys with the sign under each, and the range in which it is shown."""
 
     free: Free
     value: float
@@ -253,11 +253,11 @@ class Variable:
 
     @property
     def step(self) -> float:
-        """How far one step moves it."""
+        """Return the change of the value in one step: 1 tooth, 0.1 degrees, or 0.01 for other inputs."""
         return {Free.TEETH: 1.0, Free.HELIX: 0.1}.get(self.free, 0.01)
 
     def typed(self, value: float) -> dict[str, str]:
-        """What one would type for another value, under its keys."""
+        """Return the text that the user would type for another value, under each of its keys."""
         if self.free is Free.TEETH:
             return {key: str(round(value)) for key in self.keys}
         digits = 1 if self.free is Free.HELIX else 3
@@ -271,7 +271,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class LimitMap:
-    """A map, what is across and up in it, and what else one moves beside it."""
+    """A map, the variables across and up in it, and the variables that the user moves beside it."""
 
     map: ShiftMap
     across: Variable
@@ -331,14 +331,14 @@ def _shift(free: Free, gear: Gear, key: str) -> Variable:
 
 
 def _helix(gear: Gear, keys: Mapping[str, int]) -> Variable:
-    """Its magnitude; the hand stays."""
+    """Return the variable for the magnitude of a helix angle (degrees); the hand stays."""
     hand, size = (-1 if gear.helix_angle < 0 else 1), abs(gear.helix_angle)
     most = max(_HELIX[1], math.ceil(size / 10) * 10)
     return Variable(Free.HELIX, size, {key: hand * sign for key, sign in keys.items()}, _HELIX[0], most)
 
 
 def _helix_keys(tables: Mapping[str, Any], mirrored: int) -> dict[str, int]:
-    """Where the spec of a pair has its helix angle, or would have it."""
+    """Return the keys under which the spec of a pair has, or would have, its helix angle, with the sign under each."""
     signs = {"pinion": 1, "wheel": mirrored}
     of_gears = {f"{table}.helix_angle": sign for table, sign in signs.items() if "helix_angle" in _table(tables, table)}
     return of_gears or {"pair.helix_angle": 1}

@@ -31,9 +31,9 @@ from gearcad.jobs.job import Job
 
 @dataclass(frozen=True, kw_only=True)
 class RunKind:
-    """A job with its options; `report` is the file to read, `taken` the pattern of those to take along.
+    """A job with its options; `report` is the file to read, `taken` the pattern of the files to download.
 
-    `takes` tells for which designs it is, of the kinds that the job accepts.
+    `takes` says which designs it accepts, of the kinds that the job accepts.
     """
 
     job: Callable[[], Job[Any, Any]]
@@ -164,22 +164,22 @@ Found = TypeVar("Found")
 
 
 async def found_aside(find: Callable[[Design], Found], design: Design) -> Found:
-    """What a function of a module finds of a design, one of all sessions after the other.
+    """Return the result of a module's function for a design, computed in another process, one at a time for all sessions.
 
-    Raises what it raises, and WorkerLostError where its process is gone.
+    Raises the errors of the function, and WorkerLostError if its process has ended.
     """
     found: Found = await asyncio.get_running_loop().run_in_executor(_ASIDE, isolated, _found, (find, design), _LONGEST)
     return found
 
 
 def close_aside() -> None:
-    """The server ends: so does what is being found."""
+    """Stop the computation in the other process when the server ends."""
     _ASIDE.shutdown(wait=False, cancel_futures=True)
     close_workers()
 
 
 def _found(asked: tuple[Callable[[Design], Any], Design]) -> Any:
-    """In the process beside the server."""
+    """Run a function on a design with low priority, in the process beside the server."""
     with suppress(AttributeError, OSError):
         os.setpriority(os.PRIO_PROCESS, 0, _NICENESS)
     find, design = asked
@@ -207,7 +207,7 @@ class Asked:
     into: str
 
     def line(self) -> bytes:
-        """It as a line of JSON."""
+        """Return the request as a line of JSON."""
         return json.dumps(vars(self)).encode() + b"\n"
 
 
@@ -230,7 +230,7 @@ def _listen() -> None:
 
 
 def _bound() -> None:
-    """What the system itself can bound: the size of a file, who waits, and who goes first where memory ends."""
+    """Set the limits that the system can enforce: the size of a file, low priority, and being ended first if memory runs out."""
     with suppress(AttributeError, OSError):
         os.nice(_NICENESS)
     with suppress(ImportError, ValueError, OSError):  # Windows has no limits

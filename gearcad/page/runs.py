@@ -47,7 +47,7 @@ def _most_memory() -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Limits:
-    """What one run may take: seconds, and bytes of memory (Linux)."""
+    """Limits of one run: seconds, and bytes of memory (Linux)."""
 
     seconds: float = 3600.0
     memory: float = field(default_factory=_most_memory)
@@ -59,7 +59,7 @@ class Limits:
 
 
 class State(Enum):
-    """How far a run is."""
+    """State of a run."""
 
     WAITING = "waiting"
     RUNNING = "running"
@@ -74,7 +74,7 @@ class State(Enum):
 
 @dataclass
 class Run:
-    """One of them: what was asked, and what its process has told so far. A thread fills it, others read it."""
+    """One run: its request, and the reports of its process so far. A thread fills it, others read it."""
 
     number: int
     asked: Asked
@@ -99,7 +99,7 @@ class Run:
 
     @property
     def folder(self) -> Path:
-        """Where its files are."""
+        """Return the folder that holds the files of the run."""
         return Path(self.asked.into)
 
     def file(self, name: str) -> Path | None:
@@ -136,7 +136,7 @@ def do_run(run: Run, limits: Limits) -> None:
 
 
 def _follow(run: Run, process: subprocess.Popen[bytes], lines: queue.SimpleQueue[bytes], limits: Limits) -> None:
-    """Until it has ended, or must."""
+    """Follow the process of a run until it ends, is cancelled or exceeds a limit."""
     end, clock = time.monotonic() + limits.seconds, Clock(None)
     while not run.state.ended:
         if run.stop.is_set():
@@ -161,7 +161,7 @@ def _excess(process: subprocess.Popen[bytes], end: float, limits: Limits) -> str
 
 
 def _take(run: Run, told: Mapping[str, Any], clock: Clock) -> Clock:
-    """What a line of the process tells; the clock by which time left is told."""
+    """Store the content of a line from the process in the run, and return the clock for the time left."""
     if "expected" in told:
         return Clock(Expected(**told["expected"]))
     if "step" in told:
@@ -267,12 +267,12 @@ _OPEN: dict[str, Runs] = {}
 
 
 def runs_of(key: str) -> Runs | None:
-    """Those of an open session by their key, which nobody else knows."""
+    """Return the runs of an open session by its secret key, or None."""
     return _OPEN.get(key)
 
 
 def close_all_runs() -> None:
-    """The server ends: so do the runs of all sessions, and their files go."""
+    """End the runs of all sessions and remove their files, because the server ends."""
     closed = list(_OPEN.values())
     for runs in closed:
         runs.close()
@@ -281,9 +281,9 @@ def close_all_runs() -> None:
 
 
 class Runs:
-    """Those of a session: one at a time, the others wait; `close` ends them and removes their files.
+    """The runs of a session: one at a time, the others wait; `close` ends them and removes their files.
 
-    `permitted` is what each run of any session may take.
+    `permitted` holds the limits of each run of any session.
     """
 
     permitted: ClassVar[Limits] = Limits()
@@ -417,7 +417,7 @@ _WAITING: dict[str, Takers] = {}
 
 
 def await_files(key: str, takers: Takers | None) -> None:
-    """From here on let files come under a session's key, which nobody else knows; none any more without takers."""
+    """Accept uploaded files under a session's secret key from now on; without takers, stop accepting them."""
     if takers is None:
         _WAITING.pop(key, None)
     else:

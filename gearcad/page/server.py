@@ -230,7 +230,7 @@ class Lines(logging.Filter):
 
 
 def _line(record: logging.LogRecord) -> str:
-    """What a record says, or the error that it is about; of the text of a traceback only its end."""
+    """Return the message of a record, or the error that it is about; of the text of a traceback only its last line."""
     error = record.msg if isinstance(record.msg, Exception) else record.exc_info[1] if record.exc_info else None
     if error is not None:
         told = f"a page failed ({type(error).__name__}: {error})"
@@ -289,7 +289,7 @@ def _stop(_number: int, _frame: object) -> None:
 
 
 def _hang_up(_number: int, _frame: object) -> None:
-    """As SIGTERM, for which the server has its own handler while it serves."""
+    """Raise SIGTERM for a hang-up, because the server handles SIGTERM itself while it serves."""
     signal.raise_signal(signal.SIGTERM)
 
 
@@ -324,7 +324,7 @@ def _bury_the_dead(temporary: Path) -> None:
 
 
 def _wait() -> None:
-    """Until no thread minds the process of a run any more."""
+    """Wait until no thread watches the process of a run, at most `_PATIENCE` seconds."""
     end = time.monotonic() + _PATIENCE
     for thread in threading.enumerate():
         if thread.name == _RUNS:

@@ -52,7 +52,7 @@ def hand_over(handed: Handed) -> str:
 
 
 def take_over(key: str) -> Handed | None:
-    """What was left under a key, once."""
+    """Return the handover that was left under a key, once; None if there is none."""
     return _HANDED.pop(key, None)
 
 
@@ -89,7 +89,7 @@ class Tabs:
 
     @contextmanager
     def under(self, key: str) -> Iterator[None]:
-        """Where elements of a key are put."""
+        """Put the elements made in this context into the pane of a key."""
         with self._panes[key]:
             yield
 
@@ -136,7 +136,7 @@ class Following:
             self._task = background_tasks.create(self._find())
 
     def look(self, panel: Panel[Any]) -> None:
-        """A panel is seen again."""
+        """Bring the panels up to date because one of them is seen again."""
         background_tasks.create(self._show(panel, self._design(), self._change))
 
     async def compare(self, kept: Callable[[], Design | None]) -> None:
@@ -151,13 +151,13 @@ class Following:
         self.follow()
 
     def end(self) -> None:
-        """Nobody looks any more."""
+        """Stop following because the tab was closed."""
         for task in (self._task, self._later):
             if task is not None:
                 task.cancel()
 
     async def _find(self) -> None:
-        """Until all panels show the last design."""
+        """Update the panels that are seen until all show the last design. Slow panels only show that they wait."""
         shown = 0
         while shown != self._change:
             shown, design = self._change, self._design()
@@ -171,7 +171,7 @@ class Following:
             self._later = background_tasks.create(self._find_later())
 
     async def _find_later(self) -> None:
-        """What takes long, of the last design: when the hand rests, and without keeping anything else waiting."""
+        """Update the slow panels for the last design after a pause in typing, without delaying the others."""
         shown = 0
         while shown != self._change:
             shown, design = self._change, self._design()
@@ -191,7 +191,10 @@ class Following:
         return change == self._change
 
     async def _found(self, panel: Panel[Any], design: Design) -> tuple[Any] | None:
-        """What a panel finds, or None where it fails: what gearcad raises, panels tell themselves; this is a fault of ours."""
+        """Return the content of a panel in a tuple, or None if it fails.
+
+        Panels show gearcad's own errors themselves; any other error is a fault of the program.
+        """
         line, aside = self._faults.get(panel), panel.aside(design)
         try:
             found = (await (run.io_bound(panel.find, design) if aside is None else found_aside(aside, design)),)

@@ -34,7 +34,7 @@ class Language(StrEnum):
 
     @property
     def endonym(self) -> str:
-        """What it is called by those who speak it."""
+        """Return the name of the language in that language."""
         return {"en": "English", "de": "Deutsch"}[self.value]
 
 
@@ -55,7 +55,7 @@ class Words:
 
     @classmethod
     def of(cls, language: Language) -> Words:
-        """Those of the shipped template."""
+        """Return the words of a language from the shipped template."""
         tables = _tables()
         code = language.value
         return cls(
@@ -77,7 +77,7 @@ class Words:
         return _LONG_WORD.sub(lambda long: joint.sub(_SOFT_HYPHEN, long[0]), text)
 
     def said(self, line: str) -> str:
-        """What the line of a fault says is permitted; "" where this language has no words for that."""
+        """Return the translated words for what the line of a fault permits; "" if this language has none."""
         end = line[line.rfind(": must be ") + len(": ") :]
         for pattern, words in self.permitted.items():
             if found := re.fullmatch(pattern, end):
@@ -102,7 +102,7 @@ def language_of(asked: str | None, accepted: str) -> Language:
 
 
 def _rank(accepted: str) -> float:
-    """How much a browser likes one of its languages, such as `de-AT;q=0.8`; 1 where it does not say."""
+    """Return the quality (0 ... 1) that a browser gives one of its languages, such as `de-AT;q=0.8`; 1 if none is given."""
     quality = accepted.partition("q=")[2].strip()
     try:
         return float(quality) if quality else 1.0

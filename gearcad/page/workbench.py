@@ -150,7 +150,7 @@ class Workbench:
 
 
 def _value(key: str, typed: str) -> Cell | None:
-    """What was typed, as a cell of a design table is read, with a decimal point or comma. Raises ParameterError."""
+    """Return the typed text as the value of a table cell, with a decimal point or comma. Raises ParameterError."""
     return CellReader(Layout.SEMICOLON).value(key, typed, 0)
 
 
@@ -168,7 +168,7 @@ _BETWEEN = "\0"
 
 
 def pack(name: str, text: str) -> str:
-    """What stands in the address for a design. Raises ParameterError for a text that no address can hold."""
+    """Return the part of the address that holds a design. Raises ParameterError for a text too long for an address."""
     packed = base64.urlsafe_b64encode(zlib.compress(f"{name}{_BETWEEN}{text}".encode(), 9)).decode("ascii").rstrip("=")
     if len(packed) > LONGEST:
         raise ParameterError(DESIGN, name, f"must fit into {LONGEST} characters of a link: save it to a file")
@@ -230,7 +230,7 @@ class Folder:
         self.path = path
 
     def specs(self) -> list[str]:
-        """Its specs, whether they make gears or not; no other TOML."""
+        """Return the names of the specs in the folder, whether they make gears or not; no other TOML files."""
         return [name for name in self.names(SPECS) if self._is_spec(name)]
 
     def names(self, suffixes: Collection[str]) -> list[str]:
@@ -286,7 +286,7 @@ class TakenError(ParameterError):
 
 
 def text_of(content: bytes, name: str) -> str:
-    """What a browser has sent as the file of a spec. Raises SpecError."""
+    """Return the text of a spec file that a browser has sent. Raises SpecError."""
     if len(content) > LARGEST_SPEC:
         raise SpecError(f"{name}: is no spec: it has more than {LARGEST_SPEC // 1024} kB")
     try:

@@ -14,7 +14,7 @@ from gearcad.page.words import Words
 
 
 class BarView(Element, component="gear_bar.js"):
-    """Follows the system until somebody chooses; the browser remembers that."""
+    """Switch for light and dark; it follows the system until the user chooses, and the browser remembers the choice."""
 
     def __init__(self, words: Words) -> None:
         super().__init__()
@@ -23,7 +23,7 @@ class BarView(Element, component="gear_bar.js"):
 
 
 def _keys(words: Words) -> dict[str, str]:
-    """What each does."""
+    """Return the effect of each key of the keyboard, in the language of the page."""
     return {
         "/": words["find a key"],
         "Enter": words["next field, with Shift the one before; on a row of data: put on top"],
@@ -67,11 +67,15 @@ class FilesView(Element, component="gear_files.js"):
         self.on("asked", lambda event: asked(str(event.args.get("what")), event.args))
 
     def show(self, **state: Any) -> None:
-        """What it has: `specs`, `tables`, `starters`, `makes`; what is `making`, `saved` or `taken`; the `line` of a fault."""
+        """Show a state of the menu.
+
+        Keys of the state are `specs`, `tables`, `starters` and `makes`; `making`, `saved` or `taken`; and `line`, the message
+        of a fault.
+        """
         self.run_method("show", state)
 
     def close(self) -> None:
-        """What was chosen is seen behind it."""
+        """Close the menu, so that the chosen content is visible."""
         self.run_method("close")
 
     def follow(self, link: str) -> None:
@@ -146,7 +150,7 @@ class LimitsView(Element, component="gear_limits.js"):
 
 
 def _numbers(said: Mapping[str, Any]) -> dict[int, float]:
-    """What came from the browser, if it is numbers."""
+    """Return the finite numbers that the browser sent, by their integer keys."""
     found = {int(at): float(value) for at, value in said.items() if str(at).isdigit() and isinstance(value, int | float)}
     return {at: value for at, value in found.items() if math.isfinite(value)}
 
@@ -180,7 +184,7 @@ class RunsView(Element, component="gear_runs.js"):
         self.run_method("show", state)
 
     def tell(self, number: int, told: dict[str, Any]) -> None:
-        """How far a run is."""
+        """Report the progress of a run to the browser."""
         self.run_method("tell", number, told)
 
 

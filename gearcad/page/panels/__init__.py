@@ -1,4 +1,4 @@
-"""The panels of the page: each finds what it shows of a design, away from the browser, and shows it."""
+"""The panels of the page: each computes its content from a design without the browser, and then shows it."""
 
 from __future__ import annotations
 
@@ -14,18 +14,19 @@ Found = TypeVar("Found")
 
 
 class Panel(ABC, Generic[Found]):
-    """A part of the page that follows the design. It is built where NiceGUI's elements are being put when it is made.
+    """A part of the page that follows the design. It is built at the place where NiceGUI puts elements when it is made.
 
-    One that `compares` shows a kept design beside it.
+    A panel that `compares` shows a kept design next to the present one.
     """
 
     compares: ClassVar[bool] = False
 
     @abstractmethod
     def find(self, design: Design) -> Found:
-        """What is to be shown of a design: computed in a thread, by jobs and what they are made of; no element is touched.
+        """Return the content to show for a design.
 
-        A design that this panel has nothing to say of gets what says so; what gearcad raises is such a thing.
+        It is computed in a thread, by jobs and the functions that they use; no element is touched. For a design without content
+        in this panel, and for errors that gearcad raises, return content that says so.
         """
 
     def aside(self, design: Design) -> Callable[[Design], Found] | None:

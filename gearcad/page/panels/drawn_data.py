@@ -63,7 +63,7 @@ _DIGITS = 5
 
 
 def turns(gear: Gear, rotation: float, z: float) -> list[list[float]]:
-    """How far sections are turned (rad) at heights of the first gear (mm), straight between those that are told."""
+    """Return the turn (rad) of sections at heights of the first gear (mm), as [height, turn] rows to interpolate linearly."""
     own = np.array([0.0, gear.face_width])
     if gear.double_helix.present:
         middle = gear.face_width / 2
@@ -165,7 +165,7 @@ def rack_of(
 
 
 def colour_of(colour: Colour) -> str:
-    """As CSS has it."""
+    """Return a colour as CSS text, `rgb(r, g, b)`."""
     return f"rgb({', '.join(str(round(255 * share)) for share in colour)})"
 
 
@@ -175,7 +175,7 @@ def _listed(points: Floats) -> list[float]:
 
 
 def plain(found: Any) -> Any:
-    """What is sent, its numbers without what ours remember of where they come from."""
+    """Return the data to send, with subclasses of float replaced by plain floats."""
     if isinstance(found, Mapping):
         return {key: plain(value) for key, value in found.items()}
     if isinstance(found, (list, tuple)):
@@ -203,7 +203,7 @@ def train_section(design: PlanetaryDesign) -> dict[str, Any]:
 
 @of_last
 def layout_of(design: PlanetaryDesign) -> TrainLayout:
-    """Where everything stands."""
+    """Return the layout of the train: the places of all its gears and axles."""
     return TrainLayout(design.train, design.train.pose())
 
 
@@ -215,15 +215,16 @@ def ratios_of(design: PlanetaryDesign, layout: TrainLayout) -> dict[str, float]:
 
 
 def roll_pitch(design: PlanetaryDesign, ratios: dict[str, float]) -> float:
-    """How far the input turns (rad) while a tooth of the first central passes a planet."""
+    """Return the angle (rad) by which the input turns while a tooth of the first central passes a planet."""
     central, carrier = design.train.centrals[0], design.train.carrier.name
     return 2 * math.pi / abs(central.gear.teeth * (ratios[central.name] - ratios[carrier]))
 
 
 def _slacks(layout: TrainLayout) -> tuple[dict[str, float], float]:
-    """How far all turn (rad) until the left flanks of the first central touch those of the planets, and these the second.
+    """Return the turns (rad) that bring left flanks into contact: of shafts by name, and of the planets.
 
-    Shafts by their names, and planets. The first central and the carrier stay; stages keep their backlash split.
+    After them the left flanks of the first central touch those of the planets, and these those of the second. The first central
+    and the carrier stay; stages keep their backlash split.
     """
     first, second = layout.train.meshes
     planet = _slack(first, first.rim_role)
@@ -234,12 +235,12 @@ def _slacks(layout: TrainLayout) -> tuple[dict[str, float], float]:
 
 
 def _slack(mesh: SetMesh, role: Role) -> float:
-    """How far one of both gears turns (rad) until the left flanks of the pinion touch, backlash being split."""
+    """Return the turn (rad) of one gear until the left flanks of the pinion touch, if the backlash is split at first."""
     return mesh.pair.circumferential_backlash / mesh.pair.working_pitch_diameters.pick(role)
 
 
 def _meshes(layout: TrainLayout, numbers: dict[str, int], orbit: float) -> Iterator[dict[str, Any]]:
-    """Those of all planets; `towards` is where the mate of the pinion stands (rad).
+    """Yield the meshes of all planets; `towards` is the direction (rad) of the pinion's mate.
 
     One side of a planet's teeth touches the first central, the other side the second.
     """
@@ -360,7 +361,7 @@ class Bodies(NamedTuple):
 
 
 def bodies_of(design: Design) -> Bodies:
-    """Those of a design with teeth."""
+    """Return the bodies of a design with teeth, or the reason why there are none."""
     if not isinstance(design, ToothedDesign):
         return Bodies(why_not=_NO_BODIES)
     try:
@@ -375,7 +376,7 @@ def bodies_of(design: Design) -> Bodies:
 
 @lru_cache(maxsize=_MOST_KEPT)
 def surface_of(cut: Gear | Rack) -> Surface:
-    """That of a gear or a rack. Raises GeometryError for a ring without a rim."""
+    """Return the surface of a gear or a rack. Raises GeometryError for a ring without a rim."""
     facets = tessellate(cut, _error(cut)) if isinstance(cut, Gear) else tessellate_rack(cut, _error(cut))
     counts = np.array([len(facets.vertices), len(facets.faces)], "<u4")
     corners = facets.faces.astype("<u2" if len(facets.vertices) < _SHORT else "<u4")
@@ -388,7 +389,7 @@ def _error(cut: Gear | Rack) -> float:
 
 
 def _standing(design: ToothedDesign) -> Iterator[tuple[Gear | Rack, Body]]:
-    """What is cut of teeth, each as a body whose surface is not known."""
+    """Yield each gear and rack with its body, whose surface is not known yet."""
     if isinstance(design, PairDesign):
         pair, pose = design.pair, design.pair.wheel_pose()
         place, rotation = (pose.x, 0.0, pose.z), math.radians(pose.rotation)
@@ -424,5 +425,5 @@ def _of_train(design: PlanetaryDesign) -> Iterator[tuple[Gear | Rack, Body]]:
 
 @of_last
 def train_study(design: Design) -> PlanetaryStudy:
-    """That of a train; finite elements tell how stiff its meshes are, which takes a second."""
+    """Return the study of a train. Finite elements compute the stiffness of its meshes, which takes a second."""
     return planetary(design)

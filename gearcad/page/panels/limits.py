@@ -1,4 +1,4 @@
-"""What limits the profile shifts of a design, as a map in which one moves it, with sliders beside it."""
+"""Panel of the limits of profile shifts: a map in which the user moves the design, with sliders beside it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Panel of runs: what takes longer than a keystroke, with the figures of earlier runs beside it."""
+"""Panel of runs: computations that take longer than a keystroke, with the figures of earlier runs beside them."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ _MOST_CHANGES = 12
 
 
 def verb_of(run: Run) -> str:
-    """What was done: runs of one verb have the same figures."""
+    """Return the verb of the job of a run; runs of one verb have the same figures."""
     return RUNS[run.asked.kind].job().verb
 
 
 def changes_between(former: Mapping[str, str], given: Mapping[str, str]) -> list[str]:
-    """What one spec says otherwise than another, key by key."""
+    """Return the differences between two specs as words, one for each key; beyond a limit only their number is given."""
     keys = [key for key in dict.fromkeys((*former, *given)) if former.get(key) != given.get(key)]
     told = [f"{key} {former.get(key, '-')} → {given.get(key, '-')}" for key in keys[:_MOST_CHANGES]]
     return told if len(keys) <= _MOST_CHANGES else [*told, f"+ {len(keys) - _MOST_CHANGES}"]
@@ -75,7 +75,7 @@ def _text(value: Any, words: Words) -> str:
 
 
 def _verdicts(words: Words) -> dict[str, str]:
-    """What a computation or a rating comes to."""
+    """Return the words for each verdict of a computation or a rating."""
     return {
         Verdict.PASSED.value: words["passed"],
         Verdict.FAILED.value: words["not passed"],
@@ -91,7 +91,7 @@ _LOOK = 0.25
 
 
 class Outlook(NamedTuple):
-    """What a run would take, or why it would not begin."""
+    """The expected duration or size of a run, or the reason why it would not begin."""
 
     told: str = ""
     why: str = ""
@@ -136,7 +136,7 @@ class RunsPanel:
         self._task = background_tasks.create(self._expect(self._bench.design))
 
     def hand_over(self) -> Runs:
-        """Its runs, which go on in the panel that gets them."""
+        """Return the runs of the panel, which go on in the panel that gets them."""
         self._handed = True
         return self._runs
 
@@ -223,7 +223,7 @@ class RunsPanel:
         }
 
     def _tables(self) -> list[dict[str, Any]]:
-        """Of each verb its figures, the newest run first."""
+        """Return a table of figures for each verb, with the newest run first."""
         done = [each for each in reversed(self._runs.all) if each.state is State.DONE]
         found = []
         for verb in dict.fromkeys(map(verb_of, done)):
@@ -240,7 +240,7 @@ class RunsPanel:
 
 
 def expected_of(design: Design) -> dict[str, Outlook]:
-    """What is known beforehand of each run that is for designs of this kind."""
+    """Return the outlook of each run that accepts designs of this kind, by its key."""
     found = {}
     for key, kind in ANALYSES.items():
         if kind.accepts(design):
@@ -263,7 +263,7 @@ def _left(of: Run) -> str:
 
 
 def _figure(words: str) -> str:
-    """What is known roughly, without the words around it."""
+    """Return a rough figure without the words around it."""
     return words.removeprefix("about ").removesuffix(" left")
 
 

@@ -43,7 +43,7 @@ _OF_A_GEAR = re.compile(rf"({'|'.join(_QUANTITIES)}) of the (.+)")
 
 
 def title_in(words: Words, title: str) -> str:
-    """What a design is: "helical pair, z = 13 / 44"."""
+    """Return the title of a design in the language of the page, such as "helical pair, z = 13 / 44"."""
     return _WORDS.sub(lambda found: words[found[0]] if found[0] in _KINDS else found[0], title)
 
 
@@ -58,7 +58,7 @@ def value_in(words: Words, text: str) -> str:
 
 
 def called(words: Words, name: str) -> str:
-    """What gears, and those that mesh, are called: as the tables of specs, if they are called as these."""
+    """Return the name of gears, or of gears in mesh, in the language of the page if it is the name of spec tables."""
     parts = [words.table.get(part.replace("_", " ").capitalize()) for part in name.split("-")]
     return "-".join(part for part in parts if part) if all(parts) else name
 
@@ -91,7 +91,7 @@ def cells_of(sections: Iterable[Section]) -> Cells:
 
 
 def changed_cells(cells: Cells, former: Cells) -> dict[tuple[str, str], str]:
-    """What those that are shown otherwise than before were; what was not there before has not changed."""
+    """Return the former text of each cell that is shown differently now. New cells do not count as changed."""
     return {place: former[place].text for place, cell in cells.items() if place in former and former[place].text != cell.text}
 
 
@@ -103,7 +103,10 @@ def shown_sections(
     changed: Mapping[tuple[str, str], str] | None = None,
     kept: Cells | None = None,
 ) -> list[dict[str, Any]]:
-    """What the browser makes tables of; blocks whose English titles are `folded` are shut until somebody opens them."""
+    """Return the sections as the browser needs them for tables.
+
+    Blocks whose English titles are `folded` are shut until the user opens them.
+    """
     before, beside = changed or {}, kept or {}
     return [
         {
@@ -123,7 +126,7 @@ def shown_sections(
 
 
 def _title(title: str, words: Words) -> str:
-    """That of a block: what it is about, or the gear that it is of."""
+    """Return the title of a block in the language of the page: its subject, or the gear that it describes."""
     known = words[_SAID.get(title, title)]
     return called(words, title) if known == title else known
 
@@ -158,14 +161,14 @@ def _row(row: Row, section: Section, words: Words, changed: Mapping[tuple[str, s
 
 
 def _beside(cell: Cell, kept: Cell | None, words: Words) -> dict[str, str]:
-    """What the kept design has, where that is shown otherwise, and how much more this one has."""
+    """Return the text of the kept design's cell, if it is different, and the difference from it; otherwise an empty mapping."""
     if kept is None or kept.text == cell.text:
         return {}
     return {"kept": value_in(words, kept.text), "difference": _difference(cell, kept)}
 
 
 def _difference(cell: Cell, kept: Cell) -> str:
-    """With as many decimals as are shown; "" where there is no difference of numbers."""
+    """Return the difference of two cells with as many decimals as are shown; "" unless both are finite numbers."""
     numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in (cell.value, kept.value))
     if not numbers or not all(math.isfinite(each.value) for each in (cell, kept)):
         return ""
@@ -206,7 +209,7 @@ _MOST = 2
 
 
 def keys_of(design: Design) -> frozenset[str]:
-    """Those of the fields that the specs of a kind have."""
+    """Return the keys of all fields that the specs of this kind of design have."""
     return frozenset(field["key"] for table in fields_of(design, {}) for group in table["groups"] for field in group["fields"])
 
 
@@ -219,7 +222,7 @@ def shown_notices(notices: Collection[Notice], keys: Collection[str]) -> tuple[d
 
 
 def _keys(notice: Notice, keys: Collection[str]) -> list[str]:
-    """Of the table that the notice names; else of those of what is in mesh."""
+    """Return the keys that a notice is about: those of the table that it names, otherwise those of the parts in mesh."""
     fields = _ABOUT.get(notice.code, "").split()
     for tables in (re.split(": |-", notice.where), ("pair", "pinion", "wheel", "planetary")):
         about = dict.fromkeys(f"{table}.{field}" for field in fields for table in tables)
@@ -249,7 +252,7 @@ class Figures(NamedTuple):
 
 
 def figures(sections: tuple[Section, ...], **others: Any) -> Figures:
-    """Those of sections."""
+    """Return the figures of sections."""
     return Figures(sections, cells_of(sections), **others)
 
 
@@ -296,7 +299,7 @@ class FiguresPanel(Panel[Figures]):
 def shown_figures(
     found: Figures, words: Words, changed: dict[tuple[str, str], str] | None = None, kept: Figures | None = None
 ) -> dict[str, Any]:
-    """As the browser has them."""
+    """Return the figures as the browser needs them."""
     beside = None if kept is None else kept.cells
     title, reason = _headline(found.title, words)
     told = [{"label": "", "text": f"{found.name}: {title_in(words, found.what)}"}] if found.what else []
@@ -314,7 +317,7 @@ def shown_figures(
 
 
 def _headline(verdict: str, words: Words) -> tuple[str, str]:
-    """What a verdict comes to, in the language of the page, and why."""
+    """Return a verdict in two parts: its head in the language of the page, and its reason."""
     heads = {
         "strength passed": words["strength passed"],
         "strength NOT passed": words["strength NOT passed"],
@@ -343,13 +346,13 @@ _VERDICTS = {True: "passed", False: "failed", None: ""}
 
 
 class StrengthPanel(FiguresPanel):
-    """What `gearcad rate` says of a design."""
+    """Panel with the result of `gearcad rate` for a design."""
 
     def __init__(self, words: Words) -> None:
         super().__init__(words["rating"], "gearcad-strength", words)
 
     def aside(self, design: Design) -> Callable[[Design], Figures] | None:
-        """Of a planetary train: how planets share the load is asked of finite elements."""
+        """Return the rating as a function for another process if it takes long: load shares of planets need finite elements."""
         return strength_figures if _takes_long(design) else None
 
     def find(self, design: Design) -> Figures:
@@ -369,7 +372,7 @@ def _takes_long(design: Design) -> bool:
 
 
 def strength_figures(design: Design) -> Figures:
-    """Those of the rating of a design; without one a line that says why, or what to give."""
+    """Return the figures of the rating of a design. Without a rating, a line gives the reason or the missing input."""
     from gearcad.jobs.strength import KEYS, Rate
 
     if design.kind not in Rate.accepts:
@@ -385,7 +388,7 @@ def strength_figures(design: Design) -> Figures:
 
 
 def _rating(design: Design) -> StrengthRating | TrainStrength:
-    """That of a train is read from its study, which the load shares are of too."""
+    """Return the rating of a design. The rating of a train is read from its study, which also gives the load shares."""
     from gearcad.jobs.strength import Rate, strength_in_study
 
     if isinstance(design, PlanetaryDesign):
@@ -396,7 +399,7 @@ def _rating(design: Design) -> StrengthRating | TrainStrength:
 
 
 def _rated(found: StrengthRating | TrainStrength, design: Design) -> Figures:
-    """What a rating comes to; of a train of all its meshes."""
+    """Return the figures of a rating; for a train, of all its meshes."""
     from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 
     train = isinstance(found, TrainStrength)

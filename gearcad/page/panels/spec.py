@@ -112,7 +112,10 @@ class BesidePanel:
         self._show("")
 
     def _list(self) -> None:
-        """What can be kept: the present design, and the specs in the folder; an open menu stays unless these are others."""
+        """List the designs that can be kept: the present one, and the specs in the folder.
+
+        An open menu stays if these are unchanged.
+        """
         files = self._beside.folder.specs()
         if files == self._files:
             return
@@ -187,7 +190,7 @@ class FilesPanel:
             self._view.show(line=str(error))
 
     def _asked(self, what: str, told: Mapping[str, Any]) -> None:
-        """What was chosen in the menu; what is wrong with it is a line there."""
+        """Do the action chosen in the menu. A fault is shown as a line there."""
         name = str(told.get("name", ""))
         ways: dict[str, Callable[[], None]] = {
             "look": self._show,
@@ -274,7 +277,7 @@ def _is_spec(name: str) -> bool:
 
 
 def _stem(name: str) -> str:
-    """What a browser calls a file, without its end; it names nothing until it is written into a spec."""
+    """Return the name of an uploaded file without its suffix. It names no file until it is written into a spec."""
     return name.removesuffix(SPECS[0])
 
 

@@ -270,7 +270,7 @@ def _read(text: str, name: str) -> ResultsTable:
 
 
 def first_columns(table: ResultsTable) -> list[str]:
-    """What is drawn of a table at first: x, y, and no colour."""
+    """Return the columns drawn at first: x, y, and "" for no colour."""
     numbers = table.numbers or ("seconds", "seconds")
     x, y = (next((column for column in wanted if column in numbers), "") for wanted in _WANTED)
     x = x or numbers[0]

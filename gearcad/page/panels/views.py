@@ -42,7 +42,7 @@ def section_in(words: Words, found: dict[str, Any]) -> dict[str, Any]:
 
 
 def _own(words: Words) -> dict[str, str]:
-    """What the script of the view says."""
+    """Return the words that the script of the section view uses."""
     return {
         "tip": words["tip circle"],
         "reference": words["reference circle"],
@@ -85,7 +85,7 @@ class BodiesPanel(Panel[Bodies]):
 
 
 def _bodies_own(words: Words) -> dict[str, str]:
-    """What the script of the view says."""
+    """Return the words that the script of the bodies view uses."""
     return {
         "front": words["front"],
         "top": words["top"],
@@ -103,7 +103,7 @@ def _bodies_own(words: Words) -> dict[str, str]:
 
 
 class RollPanel(Panel[float]):
-    """By how much the first gear is turned."""
+    """Panel for the angle by which the first gear is turned."""
 
     def __init__(self, words: Words) -> None:
         self._view = RollView(_roll_own(words))
@@ -121,7 +121,7 @@ class RollPanel(Panel[float]):
 
 
 def _roll_own(words: Words) -> dict[str, str]:
-    """What the script of the view says."""
+    """Return the words that the script of the roll slider uses."""
     return {
         "roll": words["roll angle"],
         "turn": words["let the gears turn (space)"],
@@ -203,7 +203,7 @@ class SheetPanel(FiguresPanel):
 
 
 def sheet_figures(design: Design) -> Figures:
-    """Those of the sheet of a design."""
+    """Return the figures of the data sheet of a design."""
     try:
         sheet = sheet_of(design)
     except GearcadError as error:
