@@ -31,16 +31,16 @@ _SMALL, _LEAST = 0.7, 1.8
 """Height of limit deviations and of subscripts over that of the text, and the least (mm) that one can read."""
 
 _SUBSCRIPT_DROP = 0.3
-"""How far subscripts stand below the line, over the height."""
+"""Drop of subscripts below the line, over the height."""
 
 _STACK_AIR = 0.18
-"""Between the two of a stack, over the height."""
+"""Distance between the two deviations of a stack, over the height."""
 
 _BOX_AIR = 0.28
-"""From a text to the box around it, over the height."""
+"""Distance from a text to the box around it, over the height."""
 
 _LEAST_AIR = 0.1
-"""Between letters of the upper one that reach below its line ("µm") and the lower one."""
+"""Distance (mm) between descending letters of the upper deviation ("µm") and the lower deviation."""
 
 _SYMBOL_WITH_SUBSCRIPT = re.compile(r"_([^\s_,;:/()=]+)")
 
@@ -60,7 +60,7 @@ class _Ring(NamedTuple):
 
 @dataclass(frozen=True)
 class Written:
-    """Texts, rings and boxes, by where they are along a line and above it; `height` is that of its capitals."""
+    """Texts, rings and boxes, positioned along a line and above it; `height` is the height of the capitals."""
 
     pieces: tuple[_Piece, ...]
     width: float
@@ -69,7 +69,7 @@ class Written:
     boxes: tuple[Box, ...] = ()
 
     def then(self, other: Written, air: float = 0.0) -> Written:
-        """The other behind it, `air` between them."""
+        """Return this text with another one behind it, `air` (mm) between them."""
         start = self.width + air
         return replace(
             self,
@@ -81,19 +81,19 @@ class Written:
 
     @cached_property
     def below(self) -> float:
-        """How far it reaches below its line."""
+        """Reach of the text below its line (mm)."""
         return max(0.0, -self._box_of_one().bottom)
 
     @cached_property
     def above(self) -> float:
-        """How far it reaches above its line."""
+        """Reach of the text above its line (mm)."""
         return self._box_of_one().top
 
     def _box_of_one(self) -> Box:
         return self.at((0.0, 0.0)).box if self.pieces else Box(0.0, 0.0, 0.0, self.height)
 
     def at(self, place: Point, anchor: Anchor = Anchor.LEFT, rotation: float = 0.0, pen: Pen = Pen.FINE_TEXT) -> Figure:
-        """It at a place; rotation 0 or 90 degrees."""
+        """Return the figure of the text placed at `place` (mm), turned by 0 or 90 degrees."""
         cosine, sine = math.cos(math.radians(rotation)), math.sin(math.radians(rotation))
         back, down = anchor.along * self.width, anchor.up * self.height
 
@@ -111,12 +111,12 @@ class Written:
 
 
 def plain(words: str, height: float = 3.5) -> Written:
-    """A text as it is."""
+    """Return a text without symbols or limits."""
     return Written((_Piece(words, 0.0, 0.0, height),) if words else (), text_width(words, height), height)
 
 
 def boxed(written: Written) -> Written:
-    """A text in a box, as exact sizes have it (ISO 1101)."""
+    """Return a text in a box, as theoretically exact dimensions have it (ISO 1101)."""
     air = _BOX_AIR * written.height
     room = plain("", written.height)
     whole = replace(room, width=air).then(written).then(replace(room, width=air))
@@ -128,7 +128,7 @@ def _corners(box: Box) -> list[Point]:
 
 
 def ringed(letter: str, height: float = 3.5) -> Written:
-    """A letter in a ring, as the E of ISO 14405-1."""
+    """Return a letter in a ring, as the E of ISO 14405-1."""
     radius, small = 0.7 * height, 0.8 * height
     start = radius - text_width(letter, small) / 2
     return Written(
@@ -137,7 +137,9 @@ def ringed(letter: str, height: float = 3.5) -> Written:
 
 
 def deviations(upper: str, lower: str, height: float = 3.5) -> Written:
-    """Limit deviations one above the other, their digits in line: a zero has no sign, and stands where digits do."""
+    """Return limit deviations one above the other, with their digits aligned. A zero has no sign and is aligned with the
+    digits.
+    """
     small = max(_SMALL * height, _LEAST)
     sign = text_width("+", small)
     starts = [0.0 if each[:1] in "+−" else sign for each in (upper, lower)]
@@ -149,7 +151,7 @@ def deviations(upper: str, lower: str, height: float = 3.5) -> Written:
 
 
 def symbol(words: str, height: float = 3.5) -> Written:
-    """Symbols: what follows a "_" is a subscript, up to a space or a mark ("d_b", "A_sne / A_sni")."""
+    """Return a text with symbols: the part behind a "_" is a subscript, up to a space or a mark ("d_b", "A_sne / A_sni")."""
     whole = plain("", height)
     for number, part in enumerate(_SYMBOL_WITH_SUBSCRIPT.split(words)):
         if part:
@@ -163,16 +165,18 @@ def _subscript(words: str, height: float) -> Written:
 
 
 _AIR = 0.35
-"""Between the parts of a size, over the height of its text."""
+"""Distance between the parts of a size, over the height of its text."""
 
 _MOST_DECIMALS = 4
-"""Of deviations: half of a standard tolerance may end with half a micrometre (JS7 of 8: 0.0075)."""
+"""Most decimals of deviations: half of a standard tolerance may end with half a micrometre (JS7 of 8: 0.0075)."""
 
 _OF_CAD = {"\\": "\\\\", "{": "\\{", "}": "\\}", "⌀": "%%c", "±": "%%p", "°": "%%d"}
 
 
 def written_size(size: Size, words: Words, height: float = 3.5) -> Written:
-    """Value, fit, limit deviations (one above the other, or ± where they are alike), E in a ring; an exact one in a box."""
+    """Return a size as a text: value, fit, limit deviations and the E in a ring. Deviations stand one above the other, or
+    behind ± if equal. An exact size is in a box.
+    """
     opening, closing = ("(", ")") if size.reference else ("", "")
     air = _AIR * height
     whole = plain(opening + _nominal(size, words), height)
@@ -190,7 +194,7 @@ def written_size(size: Size, words: Words, height: float = 3.5) -> Written:
 
 
 def cad_words(size: Size, words: Words, measured: float) -> str:
-    """What the text of a CAD program's dimension holds: "%%c<> H7 {\\S+0.025^0;}".
+    """Return the text of a CAD program's dimension: "%%c<> H7 {\\S+0.025^0;}".
 
     "<>" stands for what it measures, where that (mm) is what the size is.
     """
@@ -215,7 +219,7 @@ def _nominal(size: Size, words: Words) -> str:
 
 
 def _limits(size: Size, words: Words) -> tuple[str, str, str] | None:
-    """Deviation of either sign if both are alike (else ""), the upper one, the lower one; None without deviations."""
+    """Return the deviation if both are alike (else ""), the upper and the lower deviation; None without deviations."""
     if size.upper is None or size.lower is None:
         return None
     decimals = max(_decimals(size.upper), _decimals(size.lower))
@@ -230,7 +234,7 @@ def _deviation(value: float, decimals: int, words: Words) -> str:
 
 
 def _decimals(value: float) -> int:
-    """How many it needs."""
+    """Return the number of decimals that a deviation (mm) needs, at most `_MOST_DECIMALS`."""
     text = f"{value:.{_MOST_DECIMALS}f}".rstrip("0")
     return len(text) - text.index(".") - 1
 
@@ -240,10 +244,10 @@ def _escaped(text: str) -> str:
 
 
 _MARGIN = 1.5
-"""Between the text of a cell and its side."""
+"""Distance (mm) between the text of a cell and its side."""
 
 _CLEAR = 0.3
-"""Between letters that reach down, of subscripts too, and the line below them."""
+"""Distance (mm) between descending letters or subscripts and the line below them."""
 
 
 @dataclass(frozen=True)
@@ -256,7 +260,9 @@ class Cell:
     anchor: Anchor = Anchor.LEFT
 
     def written(self, height: float, room: float) -> tuple[Written, bool]:
-        """No longer than `room`, and whether it was shortened for that; symbols and limits never are."""
+        """Return the text of the cell, no longer than `room` (mm), and whether it was shortened. Symbols and limits are never
+        shortened.
+        """
         if self.symbolic:
             return symbol(self.text, height), False
         behind = None if self.limits is None else deviations(*self.limits, height)
@@ -274,7 +280,7 @@ def table(
     height: float = 2.5,
     pen: Pen = Pen.FINE_TEXT,
 ) -> tuple[Figure, tuple[str, ...]]:
-    """Cells within lines, the upper left corner at (0, 0), downwards; and the texts that had to be shortened.
+    """Return a table of cells and lines, and the texts that were shortened. The upper left corner is at (0, 0).
 
     `columns` are their widths; a row of one cell in a table of more columns goes over all of them.
     """
@@ -299,5 +305,5 @@ def table(
 
 
 def _above(figure: Figure, floor: float) -> Figure:
-    """Higher, if it reaches below a floor."""
+    """Return the figure, moved up if it reaches below a floor (mm)."""
     return figure.moved(0.0, max(0.0, floor - figure.box.bottom)) if figure.shapes else figure

@@ -24,14 +24,14 @@ from gearcad.planetary import PlanetaryTrain
 from gearcad.solids.train_plan import stage_keys
 
 _LEGIBLE = 80.0
-"""Least size over all (mm of paper) of an assembly, unless no larger paper makes it larger."""
+"""Least overall size (mm of paper) of an assembly; a smaller one is drawn on larger paper if that makes it larger."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class AssemblySheet:
-    """A sheet to be laid out: what frames its views, and these at any scale; `extent` (mm) is the largest size over all.
+    """The content of an assembly sheet: furniture, rows, and views at any scale. `extent` (mm) is the largest overall size.
 
-    `mass` (kg) is that of all parts, None where it is not known.
+    `mass` (kg) is the mass of all parts; None where it is not known.
     """
 
     furniture: Furniture
@@ -43,9 +43,10 @@ class AssemblySheet:
     mass: float | None = None
 
     def drawn(self, name: str, notices: Sequence[Notice] = ()) -> Sheet:
-        """It, on the paper and at the scale asked for or found; where nothing is asked for, on larger paper if it is small.
+        """Return the sheet on the paper and at the scale that the options ask for, else at those the layout finds.
 
-        Raises ParameterError where what was asked for has no room.
+        If the options ask for neither and the assembly would be small, larger paper is taken. Raises ParameterError where the
+        paper or scale asked for has no room.
         """
         options, found = self.furniture.options, self._found
         shown = {key: value for row in self.rows for key, value in row.numbers.items()}
@@ -108,7 +109,7 @@ class Item(PartLine):
 
 
 def pair_items(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, PartDrawing], words: Words) -> tuple[Item, ...]:
-    """Pinion and mate."""
+    """Return the parts list lines of a pair: the pinion, then its mate."""
     return tuple(
         _item(number, 1, part.role, part, "pinion" if number == 1 else _kind(part.gear), options, parts, words)
         for number, part in enumerate(drawn.parts, 1)
@@ -118,7 +119,9 @@ def pair_items(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, Pa
 def train_items(
     drawn: DrawnTrain, plan: TrainPlan, options: DrawingOptions, parts: Mapping[str, PartDrawing], words: Words
 ) -> tuple[Item, ...]:
-    """The gears in the order of the train, those of the planets as many as there are, and the carrier if it is drawn."""
+    """Return the parts list lines of a train: its gears in their order, planets with their number, and the carrier if it is
+    drawn.
+    """
     known = {part.role: part for part in drawn.parts}
     found = []
     for number, (key, kind) in enumerate(_kinds(plan), 1):
@@ -133,14 +136,14 @@ def train_items(
 
 
 def member_title(train: PlanetaryTrain, name: str, words: Words) -> str:
-    """What a member, a central gear or the carrier, is called."""
+    """Return the title of a member: a central gear or the carrier."""
     internal = {central.name: central.gear.internal for central in train.centrals}
     kind = "carrier" if name not in internal else "ring" if internal[name] else "sun"
     return titled(words, kind, name)
 
 
 def _kinds(plan: TrainPlan) -> Iterator[tuple[str, str]]:
-    """Keys of the gears, each with the word for what it is."""
+    """Yield the key of each gear with the word for its kind."""
     train = plan.train
     for central in train.centrals:
         yield central.name, "ring" if central.gear.internal else "sun"
@@ -177,7 +180,7 @@ def _item(
 
 
 def pair_rows(drawn: DrawnPair, words: Words) -> tuple[Row, ...]:
-    """In order: where the axes are, what meshes, with how much backlash, how accurate."""
+    """Return the rows of a pair's data table in order: axes, teeth, backlash, accuracy."""
     return tuple(_pair_rows(drawn, words))
 
 
@@ -215,7 +218,9 @@ def _pair_rows(drawn: DrawnPair, words: Words) -> Iterator[Row]:
 
 
 def distance_row(pair: GearPair | RackPair, words: Words) -> Row:
-    """The centre distance and its allowance, or how far a pinion's axis is from a rack's reference line."""
+    """Return the row of the centre distance with its allowance, or of a pinion's mounting distance from a rack's reference
+    line (mm).
+    """
     if isinstance(pair, RackPair):
         value = pair.mounting_distance
         return _pair_row("mounting_distance", words, "H", words.number(value, 3), {"pair.mounting_distance": value})
@@ -227,7 +232,9 @@ def distance_row(pair: GearPair | RackPair, words: Words) -> Row:
 
 
 def backlash_row(name: str, symbol: str, pair: GearPair | RackPair, words: Words) -> Row:
-    """Of one name ("normal_backlash"): between limits where tolerances are known, else its nominal value."""
+    """Return the row of a backlash (mm) by its name ("normal_backlash"): limits if tolerances are known, else the nominal
+    value.
+    """
     limits = pair.backlash_limits if isinstance(pair, GearPair) else None
     if limits is None:
         value = getattr(pair, name)
@@ -239,14 +246,14 @@ def backlash_row(name: str, symbol: str, pair: GearPair | RackPair, words: Words
 
 
 def _teeth(drawn: DrawnPair, words: Words) -> Row:
-    """Those of both; of a ring negative, as in its own table."""
+    """Return the row with the numbers of teeth of both parts; a ring's number is negative, as in its own table."""
     counts = {f"{part.role}.teeth": float(part.gear.teeth or 0) for part in drawn.parts}
     text = " / ".join(words.number(count, 0) for count in counts.values())
     return _pair_row("teeth", words, "z_1 / z_2", text, counts, first="1", second="2")
 
 
 def _helix(gear: Gear | Rack, pair: GearPair | RackPair, words: Words) -> Row:
-    """Angle and hand of the pinion; a double helical one has both."""
+    """Return the row of the pinion's helix angle (degrees) and hand; a double helical pinion has both hands."""
     angle = gear.helix_angle
     hand = "right" if angle > 0 else "left"
     if isinstance(pair, GearPair) and pair.double_helical:
@@ -261,17 +268,18 @@ def _pair_row(key: str, words: Words, symbol: str, text: str, numbers: Mapping[s
 
 
 NAME = "assembly"
-"""Of the sheet, and of its files."""
+"""Name of the sheet, and of its files."""
 
 _Z_TO_THE_LEFT = -1
-"""The end that the other view shows is at the left of the section."""
+"""Direction of z in the section: to the left, so that the end shown in the other view is at its left."""
 
 _SAME_PITCH = 5e-4
-"""Diameters (mm) that three decimals do not tell apart."""
+"""Difference of diameters (mm) that three decimals do not show."""
 
 
 def draw_pair(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, PartDrawing] | None = None) -> Sheet:
-    """The sheet of a pair; `parts` is what the parts' own sheets have, by their roles ("pinion", "wheel", "rack").
+    """Return the sheet of a pair; `parts` are the options of the parts' own sheets, by their roles ("pinion", "wheel",
+    "rack").
 
     Raises ParameterError where sheet or scale asked for have no room for it.
     """
@@ -301,7 +309,9 @@ def draw_pair(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, Par
 
 
 def _pair_remarks(drawn: DrawnPair, words: Words) -> Iterator[str]:
-    """What one must know of the views: pitch circles that are not the reference circles, a rim that nobody gave."""
+    """Yield notes on the views: pitch circles that differ from the reference circles, and an outside diameter that is
+    assumed.
+    """
     pair = drawn.pair
     if isinstance(pair, RackPair):
         if abs(pair.pitch_line_height) > _SAME_PITCH:
@@ -329,7 +339,9 @@ def _pair_notices(pair: GearPair | RackPair) -> Iterator[Notice]:
 
 
 def train_rows(plan: TrainPlan, items: Mapping[str, int], words: Words) -> tuple[Row, ...]:
-    """In order: the train as a whole, its meshes, its stages; `items` are item numbers by keys of gears."""
+    """Return the rows of a train's data table in order: train, meshes, stages. `items` are item numbers by the keys of
+    gears.
+    """
     return tuple(_train_rows(plan.train, items, words))
 
 
@@ -359,7 +371,7 @@ def _train_rows(train: PlanetaryTrain, items: Mapping[str, int], words: Words) -
 
 
 def _mesh(gears: Mapping[str, Gear], pair: GearPair, where: str, items: Mapping[str, int], words: Words) -> Iterator[Row]:
-    """Module, teeth and backlash of two gears; `where` documents have the pair."""
+    """Yield the rows of two gears in mesh: module, teeth and backlash. `where` is the path of the pair in documents."""
     first, _ = gears
     numbers = {f"{first}.normal_module": pair.pinion.normal_module}
     numbers |= {f"{name}.teeth": float(gear.teeth) for name, gear in gears.items()}
@@ -373,7 +385,7 @@ def _mesh(gears: Mapping[str, Gear], pair: GearPair, where: str, items: Mapping[
 
 
 def _pair_of(gears: Mapping[str, Gear], items: Mapping[str, int]) -> dict[str, str]:
-    """The item numbers of two gears, as words name them."""
+    """Return the item numbers of two gears under the names that the words have in braces."""
     first, second = (str(items[key]) for key in gears)
     return {"first": first, "second": second}
 
@@ -383,11 +395,12 @@ def _train_row(key: str, words: Words, symbol: str, text: str, numbers: Mapping[
 
 
 _EVEN = 1e-3
-"""Degrees by which equal angles of planets may differ."""
+"""Difference (degrees) up to which planets are equally spaced."""
 
 
 def draw_train(drawn: DrawnTrain, options: DrawingOptions, parts: Mapping[str, PartDrawing] | None = None) -> Sheet:
-    """The sheet of a train; `parts` is what the gears' own sheets have, by the names of members, rims and gears of stages.
+    """Return the sheet of a train; `parts` are the options of the gears' own sheets, by the names of members, rims and stage
+    gears.
 
     Raises ParameterError where sheet or scale asked for have no room for it.
     """
@@ -417,7 +430,9 @@ def draw_train(drawn: DrawnTrain, options: DrawingOptions, parts: Mapping[str, P
 
 
 def _train_remarks(plan: TrainPlan, items: Mapping[str, int], words: Words) -> Iterator[str]:
-    """What one must know of the views."""
+    """Yield notes on the views: their section, the carrier, stages, planet angles, pitch circles and assumed outside
+    diameters.
+    """
     if plan.bent:
         yield words["assembly.note_section"]
     if plan.carrier is None:
@@ -441,7 +456,7 @@ def _train_remarks(plan: TrainPlan, items: Mapping[str, int], words: Words) -> I
 
 
 def _differs(key: str, plan: TrainPlan) -> bool:
-    """Whether a gear has a pitch circle that is not its reference circle."""
+    """Return whether a gear has a pitch circle that differs from its reference circle."""
     body = plan.layout.bodies.get(key)
     if body is None:
         return False
@@ -450,7 +465,7 @@ def _differs(key: str, plan: TrainPlan) -> bool:
 
 
 def _pitch(key: str, plan: TrainPlan, items: Mapping[str, int], words: Words) -> str:
-    """Item and working pitch diameters of a gear."""
+    """Return the item number and working pitch diameters (mm) of a gear as a text."""
     return f"{items[key]}: " + " / ".join(f"⌀{words.number(2 * radius, 3)}" for radius in pitch_radii(plan.train, key))
 
 

@@ -28,7 +28,7 @@ from gearcad.drawing.words import Draughting, Size
 
 
 class Side(Enum):
-    """Of a figure, and of an edge: where its outside is. The value is the way outwards."""
+    """A side of a figure, or the side of an edge on which its outside is. The value is the direction outwards."""
 
     LEFT = (-1.0, 0.0)
     RIGHT = (1.0, 0.0)
@@ -46,15 +46,15 @@ class Side(Enum):
         return sum(self.value)
 
     def point(self, along: float, out: float) -> Point:
-        """The point at `along` (x of horizontal edges, y of vertical ones) whose other coordinate is `out`."""
+        """Return the point at `along` (x of horizontal edges, y of vertical ones) whose other coordinate is `out`."""
         return (out, along) if self.is_upright else (along, out)
 
     def along(self, point: Point) -> float:
-        """x of horizontal edges, y of vertical ones."""
+        """Return the coordinate of a point along the edge: x of horizontal edges, y of vertical ones."""
         return point[1] if self.is_upright else point[0]
 
     def out(self, point: Point) -> float:
-        """y of horizontal edges, x of vertical ones."""
+        """Return the coordinate of a point across the edge: y of horizontal edges, x of vertical ones."""
         return point[0] if self.is_upright else point[1]
 
 
@@ -65,7 +65,7 @@ _HALF_WIDTH = ARROW * math.tan(math.radians(7.5))
 
 
 def arrow(tip: Point, way: Point, pen: Pen = Pen.DIMENSION) -> Filled:
-    """One with its tip at a point; `way` is where it points to (of any length but zero)."""
+    """Return an arrow with its tip at a point; `way` is its direction (of any length but zero)."""
     length = math.hypot(*way)
     along, up = way[0] / length, way[1] / length
     base = tip[0] - ARROW * along, tip[1] - ARROW * up
@@ -74,14 +74,14 @@ def arrow(tip: Point, way: Point, pen: Pen = Pen.DIMENSION) -> Filled:
 
 
 FRAME_HEIGHT = 7.0
-"""Twice that of its text."""
+"""Height of a tolerance frame: twice the height of its text."""
 
 _TEXT = 3.5
 _DATUM_LENGTHS = (3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0)
 
 
 class Characteristic(Enum):
-    """What a geometrical tolerance limits."""
+    """A characteristic that a geometrical tolerance limits (ISO 1101)."""
 
     CIRCULAR_RUNOUT = "circular run-out"
     TOTAL_RUNOUT = "total run-out"
@@ -94,7 +94,9 @@ class Characteristic(Enum):
 
 
 def tolerance_frame(characteristic: Characteristic, value: str, datums: str | tuple[str, ...] = ()) -> Figure:
-    """Cells for symbol, value ("0.02", "⌀0.1") and datums ("A", or ("A", "B")); the middle of its left side at (0, 0)."""
+    """Return a frame of cells: symbol, value ("0.02", "⌀0.1") and datums ("A", or ("A", "B")). The middle of its left side is
+    at (0, 0).
+    """
     half = FRAME_HEIGHT / 2
     shapes: list[Shape] = [each.moved(half, 0.0) for each in _SYMBOLS[characteristic]()]
     edge = FRAME_HEIGHT
@@ -108,7 +110,8 @@ def tolerance_frame(characteristic: Characteristic, value: str, datums: str | tu
 
 
 def datum(letter: str, on: Point, side: Side) -> Iterator[Figure]:
-    """A filled triangle that stands on an edge (outside at `side`) or an extension line, and the letter in a box.
+    """Yield a datum triangle on an edge (outside at `side`) or an extension line, with its letter in a box, in each possible
+    place.
 
     The box is straight before it, or aside of a line that turns once.
     """
@@ -136,7 +139,7 @@ def _boxed(letter: str, middle: Point) -> Figure:
 
 
 def _runout(*starts: Point) -> tuple[Shape, ...]:
-    """Arrows up to the right."""
+    """Return arrows up to the right, one from each start."""
     rise = 3.6
     shapes: list[Shape] = []
     for x, y in starts:
@@ -146,7 +149,7 @@ def _runout(*starts: Point) -> tuple[Shape, ...]:
 
 
 def _small_arrow(tip: Point) -> Filled:
-    """Shorter than those of dimensions: a cell is small."""
+    """Return an arrow shorter than those of dimensions, because a cell is small."""
     whole = arrow((0.0, 0.0), (1.0, 1.0), Pen.SYMBOL)
     return Filled(tuple((tip[0] + 0.6 * x, tip[1] + 0.6 * y) for x, y in whole.points), Pen.SYMBOL)
 
@@ -160,7 +163,7 @@ def _total_runout() -> tuple[Shape, ...]:
 
 
 def _cylindricity() -> tuple[Shape, ...]:
-    """A circle between two slanting lines that touch it."""
+    """Return a circle between two slanting lines that touch it."""
     radius, lean = 1.3, 0.5  # tangent of the lines' angle to the vertical
     off = radius * (1 + lean**2) ** 0.5
     lines = (Line((x - 1.9 * lean, -1.9), (x + 1.9 * lean, 1.9), Pen.SYMBOL) for x in (-off, off))
@@ -186,7 +189,7 @@ def _flatness() -> tuple[Shape, ...]:
 
 
 def _symmetry() -> tuple[Shape, ...]:
-    """Three lines, the middle one the longest."""
+    """Return three lines, the middle one the longest."""
     rows = ((1.1, 1.2), (0.0, 2.2), (-1.1, 1.2))
     return tuple(Line((-half, y), (half, y), Pen.SYMBOL) for y, half in rows)
 
@@ -205,11 +208,11 @@ _SYMBOLS = {
 
 _LENGTHS = (10.0, 15.0, 21.0, 28.0, 36.0, 46.0, 58.0, 72.0)
 _LANDING = 3.0
-"""Of a leader before what it leads to; a text stands upon it."""
+"""Length of a leader's level end before a figure; a text stands on a line 1 mm longer than itself."""
 
 _LEADER_LIFT, _LEADER_LEAST_LIFT = 0.9, 0.6
 _BELOW_TEXT = 1.0
-"""From the line under a text to the frame below it."""
+"""Distance from the line under a text to the frame below it."""
 
 
 def leader(
@@ -220,9 +223,10 @@ def leader(
     *,
     lengths: Iterable[float] = _LENGTHS,
 ) -> Iterator[Figure]:
-    """From a point in one of some directions (degrees, none of them vertical) to a text on a short line, or to a figure's side.
+    """Yield leaders from a point to a text on a short line, or to a figure's side.
 
-    A figure is joined where its own y is 0. All directions with the shortest line, then longer ones.
+    `directions` are in degrees, none of them vertical. A figure is joined where its own y is 0. All directions come with the
+    shortest line first, then with longer ones.
     """
     ways = tuple(directions)
     for length in lengths:
@@ -239,9 +243,11 @@ def circle_dimension(
     *,
     beyond: float = 0.0,
 ) -> Iterator[Figure]:
-    """The diameter of a circle: an arrow at it from outside, its text at least `beyond` mm away from the circle.
+    """Yield dimensions of a circle's diameter: an arrow at it from outside, the text at least `beyond` mm away from the
+    circle.
 
-    Lines and texts, no dimension of a CAD program: those that draw diameters anew put their texts across the circle.
+    They are lines and texts, not dimensions of a CAD program: programs that redraw diameters put their texts across the
+    circle.
     """
     ways, text = tuple(directions), written_size(size, draughting.words)
     for length in _LENGTHS:
@@ -252,12 +258,12 @@ def circle_dimension(
 
 
 def landing_of(led: Figure) -> Line:
-    """The line under the text of a leader, from the leader outwards."""
+    """Return the line under the text of a leader, from the leader outwards."""
     return next(each for each in led.shapes if isinstance(each, Line) and each.start[1] == each.end[1])
 
 
 def with_frame(led: Figure, frame: Figure) -> Figure:
-    """A leader to a text, and a tolerance frame below the line of that (ISO 1101)."""
+    """Return a leader to a text, with a tolerance frame below the line under the text (ISO 1101)."""
     landing, box = landing_of(led), frame.box
     to_right = landing.end[0] > landing.start[0]
     left = landing.start[0] if to_right else landing.start[0] - box.width
@@ -267,7 +273,7 @@ def with_frame(led: Figure, frame: Figure) -> Figure:
 def frame_leader(
     tip: Point, side: Side, frame: Figure, *, clear: float | None = None, datum_letter: str = ""
 ) -> Iterator[Figure]:
-    """A frame with a leader whose arrow is square to the edge at `tip`, whose outside is at `side`.
+    """Yield a frame with a leader whose arrow is square to the edge at `tip`, whose outside is at `side`.
 
     The frame has the middle of its left side at (0, 0), as `tolerance_frame` makes it. Beyond `clear` (where the outline ends
     on that side) it may turn once to reach the frame. `datum_letter` is that of the surface as a datum, whose triangle stands
@@ -280,7 +286,7 @@ def frame_leader(
 
 
 def _framed(tip: Point, side: Side, frame: Figure, clear: float | None) -> Iterator[tuple[Figure, Figure]]:
-    """Leaders, and the frame where each has it."""
+    """Yield leaders, each with the frame in its place."""
     start = side.out(tip) if clear is None else clear
     start = start if (start - side.out(tip)) * side.outwards > 0 else side.out(tip)
     box = frame.box
@@ -306,7 +312,7 @@ def _content(what: str | Size | Written | Figure, draughting: Draughting) -> Wri
 
 
 def _led(tip: Point, way: float, length: float, what: Written | Figure) -> tuple[Shape, ...]:
-    """Arrow, line, and what it leads to: upon a line if it is a text, else beside its end."""
+    """Return the shapes of a leader: arrow, line and content. A text stands on the landing line, a figure beside its end."""
     cosine, sine = math.cos(math.radians(way)), math.sin(math.radians(way))
     elbow = tip[0] + length * cosine, tip[1] + length * sine
     across = 1.0 if cosine >= 0 else -1.0
@@ -321,35 +327,35 @@ def _led(tip: Point, way: float, length: float, what: Written | Figure) -> tuple
 
 
 def _beside(figure: Figure, end: Point, across: float) -> Figure:
-    """A figure with its left or its right side at the end of a line, which joins it where its own y is 0."""
+    """Return a figure with its left or right side at the end of a line, which joins it where its own y is 0."""
     box = figure.box
     left = end[0] if across > 0 else end[0] - box.width
     return figure.moved(left - box.left, end[1])
 
 
 FIRST_LANE = 10.0
-"""From the outline to the first dimension line."""
+"""Distance from the outline to the first dimension line."""
 
 LANE_PITCH = 9.0
-"""From one dimension line to the next."""
+"""Distance from one dimension line to the next."""
 
 _LANES, _NEAR = 9, 3
-"""Lanes; and those in which a text goes far aside before it goes further out."""
+"""Number of lanes, and of near ones: a text moves far aside in these before it moves further out."""
 
 _FARTHER = (7.0, 15.0, 25.0)
-"""How much further aside."""
+"""Additional distances aside."""
 
 _GAP, _BEYOND = 0.8, 1.5
-"""Of extension lines: before they begin, and past the dimension line."""
+"""Gap before extension lines, and their length past the dimension line."""
 
 _LIFT, _LEAST_LIFT = 0.9, 0.6
-"""From the dimension line to the line of the text above it, and to what of the text is below its line."""
+"""Distance from the dimension line to the line of the text above it, and least distance to the parts below that line."""
 
 _TAIL = 3.0
-"""Of a line behind an arrow that points at it from outside."""
+"""Length of the line behind an arrow that points inwards from outside."""
 
 _SHIFTS = (0.0, 0.6, -0.6)
-"""Where along its line a text may stand, over the room that it has on either side of the middle."""
+"""Shift of a text along its line, over the room that it has on either side of the middle."""
 
 
 def linear_dimension(
@@ -363,12 +369,13 @@ def linear_dimension(
     datum_letter: str = "",
     frame: Figure | None = None,
 ) -> Iterator[Figure]:
-    """A size between two points, its line vertical (LEFT, RIGHT) or horizontal, in lanes outwards from `clear`.
+    """Yield dimensions between two points in each possible place: lanes outwards from `clear`, best first.
 
-    `clear` is where the outline ends on that side: an x for LEFT and RIGHT, a y for ABOVE and BELOW. What is too narrow has
-    arrows from outside, and its text beside. `datum_letter` is that of the axis or the middle plane as a datum: its triangle
-    stands on the extension line of `first`, opposite to the arrow or for it (ISO 5459). A tolerance `frame`, the middle of its
-    left side at (0, 0), stands at the end of a horizontal line: it is of the middle plane (ISO 1101).
+    The dimension line is vertical (LEFT, RIGHT) or horizontal. `clear` is where the outline ends on that side: an x for LEFT
+    and RIGHT, a y for ABOVE and BELOW. A narrow dimension has its arrows outside and its text beside them. `datum_letter`
+    marks the axis or the middle plane as a datum. Its triangle stands on the extension line of `first`, opposite to the arrow
+    or in its place (ISO 5459). A tolerance `frame`, the middle of its left side at (0, 0), stands at the end of a horizontal
+    line and applies to the middle plane (ISO 1101).
     """
     drawn = _Drawn(first, second, side, size, draughting, datum_letter, frame)
     outs = _lanes(side, clear)
@@ -402,7 +409,9 @@ class _Drawn:
         return written_size(self.size, self.draughting.words)
 
     def in_lane(self, out: float) -> Iterator[Figure]:
-        """All ways in one lane, best first: text and arrows within, only the text, neither."""
+        """Yield all forms of the dimension in one lane, best first: text and arrows within, only the text within, neither
+        within.
+        """
         low, high = sorted(map(self.side.along, (self.first, self.second)))
         text, tail = self.text, ARROW + _TAIL
         room = high - low - 2 * ARROW - 1.0 - text.width
@@ -415,7 +424,9 @@ class _Drawn:
         yield from self.beside(out)
 
     def beside(self, out: float, farther: float = 0.0) -> Iterator[Figure]:
-        """The text beside what is measured, `farther` away than it must be; not where a datum stands."""
+        """Yield the dimension with its text beside the measured length, `farther` (mm) away than necessary; not where a datum
+        stands.
+        """
         low, high = sorted(map(self.side.along, (self.first, self.second)))
         within = high - low >= 2 * ARROW + 1.0
         tail = 0.0 if within else ARROW + _TAIL
@@ -427,11 +438,11 @@ class _Drawn:
 
     @property
     def _with_datum(self) -> float | None:
-        """Where along the line a datum stands."""
+        """Position of the datum along the line; None without a datum."""
         return self.side.along(self.first) if self.datum_letter else None
 
     def _whole(self, out: float, start: float, end: float, middle: float, *, within: bool) -> Figure:
-        """With its line from `start` to `end`, and the middle of its text at `middle`."""
+        """Return the dimension with its line from `start` to `end` and the middle of its text at `middle`."""
         ends = map(self.side.along, (self.first, self.second))
         held = self._with_datum
         if not within and held is not None:
@@ -446,7 +457,7 @@ class _Drawn:
         return figure if self.frame is None else figure + self._framed(self.frame, out, (start, end), middle, within=within)
 
     def _framed(self, frame: Figure, out: float, line: tuple[float, float], middle: float, *, within: bool) -> Figure:
-        """A frame at the end of the line without the text, with an arrow of its own where there is none from outside."""
+        """Return a frame at the end of the line away from the text. It has its own arrow if the dimension has none outside."""
         low, high = sorted(map(self.side.along, (self.first, self.second)))
         way, edge, far = (-1.0, low, line[0]) if middle > high else (1.0, high, line[1])
         marks: list[Shape] = []
@@ -461,7 +472,7 @@ class _Drawn:
         return Line(self.side.point(low, out), self.side.point(high, out), Pen.DIMENSION)
 
     def _arrows(self, ends: Iterable[float], out: float, *, within: bool) -> list[Shape]:
-        """At either end; a datum stands where one would be outside."""
+        """Return an arrow for either end; none at a datum whose arrow would be outside."""
         high = max(map(self.side.along, (self.first, self.second)))
         way = 1.0 if within else -1.0
         return [
@@ -471,7 +482,7 @@ class _Drawn:
         ]
 
     def _extension(self, point: Point, out: float) -> Line:
-        """From the measured point to a little past the dimension line."""
+        """Return the extension line from a measured point to a little past the dimension line."""
         along, start = self.side.along(point), self.side.out(point)
         way = 1.0 if out > start else -1.0
         end = out + way * _BEYOND
@@ -479,7 +490,7 @@ class _Drawn:
         return Line(self.side.point(along, begin), self.side.point(along, end), Pen.DIMENSION)
 
     def _figure(self, out: float, shapes: list[Shape], text: Written, middle: float) -> Figure:
-        """With the text above the line: of vertical ones to its left, read from the right."""
+        """Return the dimension with its text above the line; a vertical line has it at its left, read from the right."""
         lift = max(_LIFT, text.below + _LEAST_LIFT)
         upright = self.side.is_upright
         place = (out - lift, middle) if upright else (middle, out + lift)
@@ -493,7 +504,7 @@ class _Drawn:
         return Figure.of(dimension, self._datum(out)) if self.datum_letter else Figure.of(dimension)
 
     def _datum(self, out: float) -> Figure:
-        """On the extension line of the first point, away from the second."""
+        """Return the datum on the extension line of the first point, away from the second point."""
         along, other = self.side.along(self.first), self.side.along(self.second)
         away = next(
             each for each in Side if each.is_upright is not self.side.is_upright and each.outwards * (along - other) > 0

@@ -40,8 +40,9 @@ class DrawnGear:
 
     @property
     def direction(self) -> int:
-        """1 where z goes to the right in the section on its sheet, -1 to the left: the end of an external gear that has a hub
-        is at the left, and that at z = face width unless a hub is at z = 0 alone."""
+        """Direction of z in the section on the sheet: 1 to the right, -1 to the left. The end of an external gear that has a
+        hub is at the left; so is the end at z = face width, unless a hub is at z = 0 alone.
+        """
         part = self.gear
         if isinstance(part, Rack) or part.internal or (part.body.hub_length and part.body.hub_side is HubSide.BACK):
             return 1
@@ -59,7 +60,7 @@ class DrawnPair:
 
 @dataclass(frozen=True, kw_only=True)
 class DrawnTrain:
-    """A planetary train by its name, and those of its gears of which more is known than the train says.
+    """A planetary train by its name, and those of its gears that have more data than the train itself gives.
 
     The `role` of each part is the name of its member, rim, or gear of a stage.
     """
@@ -77,7 +78,7 @@ _BRINELL = (
     MaterialGroup.MALLEABLE_IRON,
     MaterialGroup.GREY_IRON,
 )
-"""Groups whose hardness ISO 6336-5 has in HBW, all others' in HV."""
+"""Groups whose hardness ISO 6336-5 gives in HBW; all others are in HV."""
 
 _IRON = _BRINELL[2:]
 """Groups of cast iron: an unnamed material has their name."""
@@ -87,9 +88,9 @@ _STEEL = Material().name
 
 
 def material_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> str:
-    """As the sheet shall name it, else the name of the material; "" where nothing is known.
+    """Return the material as the sheet names it: as given for the sheet, else the name of the material; "" if unknown.
 
-    Without a name it is what the group says, and steel is said to be assumed where there is no group either.
+    A material without a name is called by its group. Without a group either, the text says that steel is assumed.
     """
     if options.material is not None:
         return options.material
@@ -105,7 +106,9 @@ def material_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> st
 
 
 def treatment_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> str:
-    """As it was given, else what the group of the material is, and its hardness; with the depth of the case. "" if unknown."""
+    """Return the heat treatment as given, else the treatment of the material group with its hardness; "" if unknown. The case
+    depth follows.
+    """
     text = options.heat_treatment or ("" if drawn.material is None else _of_group(drawn.material, words))
     depth = options.case_depth or ""
     if depth and not depth.upper().startswith("CHD"):

@@ -12,11 +12,11 @@ from gearcad.drawing.shapes import Anchor, Arc, Box, Circle, Figure, Line, Pen, 
 from gearcad.drawing.words import Draughting
 
 _ON_LINE = 1e-6
-"""mm from a line that are none."""
+"""Distance (mm) up to which a point is taken to be on a line."""
 
 
 def centre_line(*points: Point) -> Figure:
-    """A line from the first to the last of points in a row; others cross it at all between."""
+    """Return a centre line from the first to the last of points in a row; other lines cross it at the points between."""
     pieces = list(pairwise(points))
     if len(pieces) > 1:  # the first one too begins at the crossing
         pieces[0] = pieces[0][::-1]
@@ -24,13 +24,13 @@ def centre_line(*points: Point) -> Figure:
 
 
 def centre_cross(centre: Point, reach: float) -> Figure:
-    """A level and an upright line, so far to each side of a centre."""
+    """Return a level and an upright centre line that extend by `reach` (mm) to each side of a centre."""
     x, y = centre
     return centre_line((x - reach, y), centre, (x + reach, y)) + centre_line((x, y - reach), centre, (x, y + reach))
 
 
 def centre_star(box: Box, places: Sequence[Point], half: float) -> Figure:
-    """A level and an upright line through the origin to the sides of a box, and radial ones `half` to each side of places.
+    """Return the level and upright centre line of a box, and radial ones that extend by `half` (mm) to each side of places.
 
     A place on one of the two has no line of its own.
     """
@@ -45,7 +45,7 @@ def centre_star(box: Box, places: Sequence[Point], half: float) -> Figure:
 
 
 def centre_circle(radius: float, places: Iterable[Point]) -> Figure:
-    """A circle about the origin, on which there are places where others cross it."""
+    """Return a centre circle about the origin, divided at the places where other lines cross it."""
     turns = sorted(math.degrees(math.atan2(y, x)) for x, y in places)
     if len(turns) < 2:
         return Figure.of(Circle((0.0, 0.0), radius, Pen.CENTRE))
@@ -65,7 +65,7 @@ _TOOTH = 2.0
 
 
 def freehand(path: list[Point], *, closed: bool = False) -> Polyline:
-    """A thin wavy line along a path of straight pieces; a closed one ends where it begins."""
+    """Return a thin wavy line along a path of straight pieces; a closed one ends at its start."""
     row = [*path, path[0]] if closed else path
     wave = max(_WAVE, sum(math.dist(*piece) for piece in pairwise(row)) / _MOST)
     vertices: list[Vertex] = []
@@ -80,13 +80,13 @@ def freehand(path: list[Point], *, closed: bool = False) -> Polyline:
 
 
 def zigzag(start: Point, end: Point) -> Polyline:
-    """A thin straight line with a zigzag in its middle."""
+    """Return a thin straight line with a zigzag in its middle."""
     length = math.dist(start, end)
     along = ((end[0] - start[0]) / length, (end[1] - start[1]) / length)
     high = min(_TOOTH, length / 4)
 
     def at(place: float, aside: float) -> Point:
-        """`place` from the start, `aside` to the left."""
+        """Return the point `place` (mm) from the start and `aside` (mm) to the left of the line."""
         return start[0] + along[0] * place - along[1] * aside, start[1] + along[1] * place + along[0] * aside
 
     middle = length / 2
@@ -104,7 +104,7 @@ _STROKE, _STEM = 8.0, 9.0
 
 
 def section_arrows(start: Point, end: Point, looking: Side, letter: str = "A") -> Figure:
-    """Thick ends of the cutting line from `start` to `end`, arrows the way one looks, and the letter beside each.
+    """Return the thick ends of a cutting line, arrows in the viewing direction, and the letter beside each.
 
     The line is vertical where one looks to the left or right, horizontal otherwise; `start` and `end` are outside the outline.
     """
@@ -124,7 +124,7 @@ def section_arrows(start: Point, end: Point, looking: Side, letter: str = "A") -
 
 
 def view_label(words: str, above: Point, height: float = 5.0) -> Figure:
-    """The name of a view ("A–A", "X (5:1)") over it: the middle of its line at a point."""
+    """Return the name of a view ("A–A", "X (5:1)"), its line centred on the point `above`."""
     return Figure.of(Text(words, above, height, Anchor.CENTRE, pen=Pen.TEXT))
 
 
@@ -137,9 +137,10 @@ _PLACES = (0.5, 0.3, 0.7, 0.15, 0.85)
 
 
 def roughness_symbol(value: str, *, height: float = 2.5, side: Side = Side.ABOVE, count: str = "") -> Figure:
-    """Removal of material required, and the value ("Ra 1.6"); its point at (0, 0), upright, or (LEFT) read from the right.
+    """Return the roughness symbol for required removal of material, with its value ("Ra 1.6").
 
-    `count` stands before it: of how many surfaces it is ("2×").
+    Its point is at (0, 0). It stands upright, or with `side` LEFT is read from the right. `count` ("2×") stands before it: the
+    number of surfaces it applies to. Raises ValueError for the other sides.
     """
     if side not in (Side.ABOVE, Side.LEFT):
         raise ValueError("A symbol would stand upside down: it needs a leader.")
@@ -156,9 +157,10 @@ def roughness_symbol(value: str, *, height: float = 2.5, side: Side = Side.ABOVE
 
 
 def roughness(start: Point, end: Point, side: Side, value: str, draughting: Draughting, *, count: str = "") -> Iterator[Figure]:
-    """On an edge or an extension line from `start` to `end` whose outside is at `side`; below and at the right by a leader.
+    """Yield a roughness symbol in each of its possible places, best first, for an edge or an extension line.
 
-    `count` says of how many such surfaces it is ("2×").
+    The edge runs from `start` to `end`, its outside at `side`. ABOVE and LEFT the symbol stands on the edge, then on a leader;
+    BELOW and RIGHT on a leader only. `count` ("2×") is the number of surfaces it applies to.
     """
     places = [(start[0] + (end[0] - start[0]) * part, start[1] + (end[1] - start[1]) * part) for part in _PLACES]
     if side in (Side.ABOVE, Side.LEFT):
@@ -169,7 +171,7 @@ def roughness(start: Point, end: Point, side: Side, value: str, draughting: Drau
 
 
 def _on_leader(place: Point, side: Side, symbol: Figure, draughting: Draughting) -> Iterator[Figure]:
-    """The symbol stands on the horizontal part of a leader."""
+    """Yield the symbol on the horizontal part of a leader, in each of its possible places."""
     directions = {
         Side.ABOVE: (60.0, 120.0, 30.0, 150.0),
         Side.BELOW: (-60.0, -120.0, -30.0, -150.0),
@@ -182,7 +184,9 @@ def _on_leader(place: Point, side: Side, symbol: Figure, draughting: Draughting)
 
 
 def general_roughness(value: str, at: Point = (0.0, 0.0), *, height: float = 3.5) -> Figure:
-    """That of all surfaces without another: the symbol with its value, and a bare one in brackets; its point at `at`."""
+    """Return the general roughness: the symbol with its value, and a bare one in brackets; its point is at `at`. It applies to
+    all surfaces without a symbol of their own.
+    """
     symbol = roughness_symbol(value, height=height)
     low, high = _LOW * height, _HIGH * height
     start = symbol.box.right + 0.6 * height
@@ -198,14 +202,16 @@ def general_roughness(value: str, at: Point = (0.0, 0.0), *, height: float = 3.5
 
 
 def _at(along: float, up: float, side: Side) -> Point:
-    """Turned by 90 degrees where the outside is at the left."""
+    """Return a point of a symbol, turned by 90 degrees if the outside is at the left or the right."""
     return (-up, along) if side.is_upright else (along, up)
 
 
 def projection_symbol(projection: Projection, at: Point = (0.0, 0.0), *, height: float = 8.0) -> Figure:
-    """A truncated cone from its side and from its small end; its left end, on the axis, at `at`.
+    """Return the projection symbol: a truncated cone from its side and from its small end. Its left end is on the axis at
+    `at`.
 
-    First angle: the cone at the left with its small end at the left, its rings at the right; third angle: they at the left.
+    First angle: the cone is at the left, its small end at the left, and the rings are at the right. Third angle: the rings are
+    at the left.
     """
     big, small, length, air = height / 2, height / 4, height, 0.5 * height
     over = 0.25 * height

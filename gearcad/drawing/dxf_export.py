@@ -39,12 +39,15 @@ _REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
 
 def one_line(words: str) -> str:
-    """Without control characters: a space for each, and a mark for halves of letters, which no file can hold."""
+    """Return a text without control characters: a space replaces each, and a replacement mark each half of a surrogate pair,
+    which no file can hold.
+    """
     return "".join(map(_printable, words))
 
 
 def as_code(words: str) -> str:
-    """A text for an entity of DXF, in which "%%c", "^J", and a backslash with "U+2300" or "M+18140" would be codes.
+    """Return a text as the code of a DXF entity, in which "%%c", "^J", and a backslash with "U+2300" or "M+18140" would be
+    codes.
 
     >>> as_code("90 %, 50%%c")
     '90 %, 50%%%%%%c'
@@ -54,7 +57,7 @@ def as_code(words: str) -> str:
 
 
 def as_read(code: str) -> str:
-    """What `as_code` was made of.
+    """Return the text from which `as_code` made a code.
 
     >>> as_read(as_code("90 %, 50%%c ^ <&>"))
     '90 %, 50%%c ^ <&>'
@@ -74,7 +77,7 @@ _STYLE = "ISO129"
 _LINEAR, _OWN_BLOCK, _TEXT_STAYS = 0, 32, 128
 
 _WIDER, _SPARE = 1.25, 2.0
-"""Fonts of other programs are so much wider than ours, and a text should have so much room left (mm)."""
+"""Largest width of other programs' fonts over ours, and room (mm) that a text should have left."""
 
 _LOOK = {
     "dimtxt": 3.5,  # height of the text
@@ -96,7 +99,7 @@ _LOOK = {
 
 
 def add_dimension_style(document: Drawing, text_style: str, scale: float, decimal_mark: str) -> None:
-    """The style of all dimensions: parts are on paper `scale` times as large as they are."""
+    """Add the style of all dimensions to a document; parts are on paper `scale` times as large as they are."""
     style = document.dimstyles.add(_STYLE)
     look = {**_LOOK, "dimlfac": 1 / scale, "dimdsep": ord(decimal_mark)}
     style.dxf.update({**look, "dimtxsty": text_style})
@@ -106,7 +109,7 @@ def add_dimension_style(document: Drawing, text_style: str, scale: float, decima
 
 
 def add_dimension(dimension: Dimension, space: BaseLayout, attributes: dict[str, Any]) -> BlockLayout:
-    """Add a dimension, and give back its block, in which its parts are to be drawn."""
+    """Add a dimension and return its block, in which its parts are to be drawn."""
     from ezdxf.entities import Dimension as Entity
 
     document = space.doc
@@ -132,7 +135,7 @@ def add_dimension(dimension: Dimension, space: BaseLayout, attributes: dict[str,
 
 
 def _points(dimension: Dimension) -> dict[str, Any]:
-    """What is measured, and where the line of the dimension is."""
+    """Return the DXF attributes of a dimension's type, direction, measured points and line."""
     upright = dimension.measured is Measured.VERTICAL
     end = (dimension.line[0], dimension.second[1]) if upright else (dimension.second[0], dimension.line[1])
     kind = _LINEAR | _OWN_BLOCK | _TEXT_STAYS
@@ -146,7 +149,7 @@ def _points(dimension: Dimension) -> dict[str, Any]:
 
 
 def is_drawn_alike(dimension: Dimension) -> bool:
-    """Whether programs that draw a dimension anew set its text where it is: between the points that are measured.
+    """Return whether programs that redraw a dimension leave its text in place: between the measured points.
 
     LibreCAD pushes texts aside that are longer than what is measured, from wherever they were put.
     """
@@ -158,18 +161,18 @@ def is_drawn_alike(dimension: Dimension) -> bool:
 
 
 def _axis(dimension: Dimension) -> int:
-    """Along which it measures: 0 for x, 1 for y."""
+    """Return the axis along which a dimension measures: 0 for x, 1 for y."""
     return 1 if dimension.measured is Measured.VERTICAL else 0
 
 
 def _length(dimension: Dimension) -> float:
-    """On paper."""
+    """Return the measured length on paper (mm)."""
     axis = _axis(dimension)
     return abs(dimension.second[axis] - dimension.first[axis])
 
 
 def _text_box(dimension: Dimension) -> Box:
-    """That of its texts, or the point of the line where it has none."""
+    """Return the box of a dimension's texts, or the point of its line if it has none."""
     boxes = [part.box for part in dimension.parts if isinstance(part, Text)]
     return Box.of_all(boxes) if boxes else Box.around([dimension.line])
 
@@ -178,12 +181,12 @@ TITLE, LANGUAGE = "Title", "Language"
 """Names of properties of a document."""
 
 TEXT_STYLE = "lc_opengost-br"
-"""LibreCAD has fonts of its own and takes the one of this name, which has nearly all our letters; others go by the file."""
+"""Name of the text style. LibreCAD takes its own font of this name, with nearly all our letters; others use the font file."""
 
 _BLACK = 7
 
 _LINE_TYPES = {Pen.CENTRE: "CENTER", Pen.HIDDEN: "HIDDEN"}
-"""Names that programs know which do not read what line types are made of; dashes are in mm, as pens have them."""
+"""Names of line types, for programs that know them by name only; dashes are in mm, as pens have them."""
 
 _LARGEST_OF_GROUP_05 = 594.0
 """Longer side of A2: larger sheets have lines of group 0.7 (ISO 128-2)."""
@@ -201,7 +204,8 @@ _MOST_OF_A_PROPERTY = 250
 def sheet_document(
     figure: Figure, size: tuple[float, float], scale: float, *, title: str, language: Language = Language.ENGLISH
 ) -> Drawing:
-    """A document with one sheet of paper of a `size` (across, up), on which parts are `scale` times as large as they are.
+    """Return a document with one sheet of paper of a `size` (across, up; mm), on which parts are `scale` times as large as
+    they are.
 
     Model space is the paper. Dimensions measure the part: a program that draws them anew writes its sizes.
     """
@@ -220,7 +224,7 @@ def sheet_document(
 
 
 def _add_layers(document: Drawing, size: tuple[float, float]) -> None:
-    """A layer and a line type for each pen."""
+    """Add a layer and a line type for each pen."""
     for pen in Pen:
         width, dashes = pen.stroke
         line_type = _LINE_TYPES.get(pen, "CONTINUOUS")
@@ -234,14 +238,14 @@ def _add_layers(document: Drawing, size: tuple[float, float]) -> None:
 
 
 def _add_styles(document: Drawing, scale: float, language: Language) -> None:
-    """The style of texts and that of dimensions."""
+    """Add the style of texts and the style of dimensions."""
     document.header["$LTSCALE"] = 1.0
     document.styles.add(TEXT_STYLE, font=font_file().name).dxf.width = STRETCH
     add_dimension_style(document, TEXT_STYLE, scale, language.decimal_mark)
 
 
 def _set_paper(document: Drawing, size: tuple[float, float]) -> None:
-    """How far the sheet reaches, that it is seen whole, and how it is plotted: one to one, without margins."""
+    """Set the extents of the sheet (mm), its view as a whole, and its plot settings: one to one, without margins."""
     across, up = size
     space = document.modelspace()
     space.reset_extents((0, 0, 0), (across, up, 0))
@@ -309,12 +313,12 @@ def _(hatching: Hatching, space: BaseLayout) -> None:
 
 @draw.register(Dimension)
 def _(dimension: Dimension, space: BaseLayout) -> None:
-    """With a block of its parts; only the parts, where other programs would make something else of it."""
+    """Add a dimension with a block of its parts; add only the parts if other programs would redraw it differently."""
     seen = add_dimension(dimension, space, _on(Pen.DIMENSION)) if is_drawn_alike(dimension) else space
     for part in dimension.parts:
         draw(part, seen)
 
 
 def _on(pen: Pen) -> dict[str, Any]:
-    """Attributes of what is drawn with a pen: its layer has the rest."""
+    """Return the attributes of entities drawn with a pen: the layer, which has all other properties."""
     return {"layer": pen.value}

@@ -21,11 +21,11 @@ from gearcad.rating.tolerances import Accuracy, covered, gear_tolerances
 
 @dataclass(frozen=True, kw_only=True)
 class Row:
-    """A quantity by its words, its symbol ("d_b" has an index) and its value as a text; lengths are in mm.
+    """A row of the table: a quantity by its words, its symbol ("d_b" has an index) and its value as a text. Lengths are in mm.
 
     `limits` are the greatest and the least value (or allowance), one above the other behind the text, which may be empty.
-    `numbers` are the values that stand in words, text and limits, exactly, under their keys: those of data.json, "pair."
-    before those of a pair and "tolerances." before those of the tolerances; of a ring they are negative as there.
+    `numbers` are the unrounded values of the numbers in words, text and limits, by their keys in data.json. Keys of a pair
+    begin with "pair.", those of the tolerances with "tolerances.". A ring's values are negative as there.
     """
 
     key: str
@@ -38,29 +38,31 @@ class Row:
 
 @dataclass(frozen=True)
 class RowWriter:
-    """Makes rows in the words of a language, lengths with so many `decimals`; the words of a row are those of its key."""
+    """A writer of rows in the words of a language; lengths have `decimals` decimals. The words of a row are those of its
+    key.
+    """
 
     words: Words
     decimals: int = 3
 
     def word(self, key: str) -> str:
-        """The words of a key."""
+        """Return the words of a key."""
         return self.words[f"data.{key}"]
 
     def text(self, key: str, text: str, symbol: str = "", numbers: Mapping[str, float] | None = None, **named: str) -> Row:
-        """One with a text, in whose words the `named` values stand."""
+        """Return a row with a text; the `named` values replace names in braces in its words."""
         return Row(key=key, words=self.word(key).format(**named), symbol=symbol, text=text, numbers=numbers or {})
 
     def length(self, key: str, value: float, symbol: str = "", name: str = "") -> Row:
-        """A length, a ring's without its sign, under its name in data.json (else the key)."""
+        """Return the row of a length (mm), a ring's without its sign, under its name in data.json (else the key)."""
         return self.text(key, self.words.number(abs(value), self.decimals), symbol, {name or key: value})
 
     def plain(self, key: str, value: float, symbol: str = "", unit: str = "", name: str = "") -> Row:
-        """A number with no more digits than it has, six after the point at the most."""
+        """Return the row of a number with no more digits than it has, at most six of them decimals."""
         return self.text(key, f"{self.words.shortest(value, 6)}{unit}", symbol, {name or key: value})
 
     def between(self, key: str, symbol: str, limits: Mapping[str, float], **named: str) -> Row:
-        """The greatest and the least length, each under its name."""
+        """Return the row of the greatest and the least length (mm), each under its name."""
         greatest, least = (self.words.number(value, self.decimals) for value in limits.values())
         words = self.word(key).format(**named)
         return Row(key=key, words=words, symbol=symbol, limits=(greatest, least), numbers=limits)
@@ -71,7 +73,9 @@ _SAME = 1e-9
 
 
 def teeth_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
-    """What gears and racks are alike in."""
+    """Yield the rows that gears and racks have in common: kind, module, teeth, basic rack, pressure angle, helix angle and
+    hand.
+    """
     part = drawn.gear
     helix = "double_helical" if _double(part) else "helical" if part.helix_angle else "spur"
     form = "rack" if isinstance(part, Rack) else "internal" if part.internal else "external"
@@ -95,7 +99,9 @@ def _double(part: Gear | Rack) -> bool:
 
 
 def _hand(drawn: DrawnGear, write: RowWriter) -> Row:
-    """Right where the helix angle is positive; of two halves, of which the one at z = 0 has it, in the order of the section."""
+    """Return the row of the hand: right if the helix angle is positive. A double helical gear has two, in the order of the
+    section; the half at z = 0 has the hand of the angle.
+    """
     part = drawn.gear
     hands = [write.word("right"), write.word("left")][:: 1 if part.helix_angle > 0 else -1]
     if _double(part):
@@ -104,7 +110,7 @@ def _hand(drawn: DrawnGear, write: RowWriter) -> Row:
 
 
 def rack_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
-    """The basic rack by its name in ISO 53, else by its coefficients."""
+    """Yield the rows of the basic rack: its name in ISO 53, else its coefficients."""
     dedendum = part.dedendum if isinstance(part, Gear) else part.rack.dedendum
     own = abs(dedendum - part.rack.dedendum) < _SAME
     name = next((name for name, rack in NAMED_RACKS.items() if own and part.rack == rack), None)
@@ -122,7 +128,7 @@ def rack_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
 
 
 def diameter_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
-    """Profile shift, reference, base and root circle, tip alteration, and where the involute begins."""
+    """Yield the rows of profile shift, reference, base and root circle, tip alteration, and start of the involute."""
     shift = write.words.number(gear.profile_shift, 4, signed=True)
     sign = "profile_shift_of_ring" if gear.internal else "profile_shift"
     yield write.text(sign, shift, "x", {"profile_shift": gear.profile_shift})
@@ -141,11 +147,11 @@ _UNFIT = {
     "between_balls": {"balls-off-involute": "off_involute"},
     "over_pins": {"balls-off-involute": "off_involute", "narrow-for-pins": "narrow"},
 }
-"""The notices of a gear that say that a gauge does not fit it, and the words for it."""
+"""Notices of a gear that a gauge does not fit, and the keys of the words for the reason."""
 
 
 def thickness_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
-    """The rows of a gear's thickness."""
+    """Yield the rows of a gear's tooth thickness: allowance, thickness, span, and size over or between balls and pins."""
     allowance = gear.thickness_allowance
     if allowance is not None and gear.tooth_allowance is not None:
         bounds = {"thickness_limits.allowance_upper": allowance.upper, "thickness_limits.allowance_lower": allowance.lower}
@@ -172,7 +178,7 @@ def thickness_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
 
 
 def _gauge(gear: Gear, write: RowWriter, name: str, symbol: str, *, words: str = "", **named: str) -> Row:
-    """What a gauge shall find: limits, else the one value, else why it finds nothing."""
+    """Return the row of a gauge's reading (mm): its limits, else the one value, else the reason why there is none."""
     key = words or name
     if (reason := _reason(gear, name)) is not None:
         return write.text(key, f"— ({write.word(reason)})", symbol, None, **named)
@@ -188,7 +194,7 @@ def _gauge(gear: Gear, write: RowWriter, name: str, symbol: str, *, words: str =
 
 
 def _reason(gear: Gear, name: str) -> str | None:
-    """Why a gauge does not fit."""
+    """Return the reason why a gauge does not fit a gear; None if it fits."""
     codes = {notice.code for notice in gear.notices}
     return next((reason for code, reason in _UNFIT.get(name, {}).items() if code in codes), None)
 
@@ -209,18 +215,20 @@ _TOLERANCES = {
         "runout": ("F_rT", "F_rT"),
     },
 }
-"""Those of the table: their keys in documents, and their symbols."""
+"""Tolerances of the table: their keys in documents, and their symbols."""
 
 
 def grade_row(drawn: DrawnGear, write: RowWriter) -> Row:
-    """Grade, standard and year; one that nobody gave is said to be assumed."""
+    """Return the row of accuracy grade, standard and year; a grade that was not given is marked as assumed."""
     grade = grade_of(drawn)
     assumed = f" ({write.word('assumed')})" if drawn.grade is None else ""
     return write.text("accuracy", f"{grade}{assumed}", "", {"tolerances.grade": grade}, standard=drawn.accuracy.value)
 
 
 def tolerance_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
-    """Of pitch, profile, helix and run-out; beyond the standard the limit that a size is past stands there."""
+    """Yield the rows of the tolerances (µm) of pitch, profile, helix and run-out. Where the standard does not cover the gear,
+    the row names the exceeded limit.
+    """
     if not isinstance(drawn.gear, Gear):
         yield write.text("tolerances", f"— ({write.word('not_of_racks')})", standard=drawn.accuracy.value)
         return
@@ -235,7 +243,7 @@ def tolerance_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
 
 
 def tolerance_notices(drawn: DrawnGear) -> Iterator[Notice]:
-    """What is assumed, and what has no tolerance."""
+    """Yield notices of an assumed grade and of missing tolerances."""
     if not isinstance(drawn.gear, Gear):
         said = f"{drawn.accuracy.value} is not for racks: the sheet has no tolerances of pitch, say them in notes"
         text = f"tolerances: {said}; roughness, flatness and parallelism are what goes with grade {grade_of(drawn)}"
@@ -249,7 +257,7 @@ def tolerance_notices(drawn: DrawnGear) -> Iterator[Notice]:
 
 
 def _why(error: ParameterError, accuracy: Accuracy, write: RowWriter) -> str:
-    """The limit that a size is past: "face width below 4 mm"."""
+    """Return the exceeded limit of a standard as a text: "face width below 4 mm"."""
     permitted, size = covered(accuracy)[error.parameter], abs(error.value)
     below = permitted.least is not None and size < permitted.least
     unit = permitted.unit if isinstance(permitted, Range) else ""
@@ -264,7 +272,7 @@ _SYMBOLS = symbols_of(FlankModification)
 
 
 def roughness_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
-    """Of flanks, and of roots where it is given."""
+    """Yield the rows of the roughness (µm) of flanks, and of roots if it is given."""
     flanks = flank_roughness(drawn)
     text = f"{flanks.text(write.words.shortest(flanks.value, 2))} µm"
     name = "flank_roughness" if flanks.given else "flank_roughness_of_grade"
@@ -274,7 +282,9 @@ def roughness_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
 
 
 def modification_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
-    """The amount of each, the length of a relief and its transition; where there are some, that they stand in a diagram."""
+    """Yield the rows of the modifications in use: amount (µm), length of a relief and its transition (mm). A last row refers
+    to the diagram.
+    """
     used, transitions = gear.modification.in_use, gear.flank_form.transitions
     for name in (name for name in used if not name.endswith(("_length", "_shape", "_transition"))):
         text, numbers = f"{write.words.shortest(used[name], 2)} µm", {f"modification.{name}": used[name]}
@@ -294,7 +304,9 @@ def modification_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
 
 
 def cutter_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
-    """The corner that makes the fillets of a shaped gear or a ring, and the shaper cutter where one does."""
+    """Yield the rows of the corner radius that makes the fillets of a shaped gear or a ring, and of the shaper cutter if there
+    is one.
+    """
     cutter = gear.cutter
     if shaped(gear):
         yield write.length("corner_radius", corner_radius(gear) * gear.normal_module, "ρ_a0")
@@ -307,17 +319,17 @@ def cutter_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
 
 
 def chamfer_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
-    """The chamfer along the tip edges of every tooth."""
+    """Yield the row of the chamfer along the tip edges of every tooth (mm), if there is one."""
     name, height = ("tip_chamfer", part.tip_chamfer) if isinstance(part, Rack) else ("body.tip_chamfer", part.body.tip_chamfer)
     if height:
         yield write.text("tip_chamfer", f"{write.words.shortest(height)} × 45°", "h_K", {name: height})
 
 
 def double_helix_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
-    """How the teeth of the left half in the section stand to those of the right one, counter-clockwise as seen from the left.
+    """Yield the row of the offset between the halves' teeth: of the left half in the section to the right one.
 
-    That is the upper half as seen from beyond it, or the lower one, which is as far behind, as seen from below: the same.
-    Half a pitch is alike in both directions.
+    It is positive counter-clockwise as seen from the left. This is the direction of the upper half as seen from beyond it, or
+    of the lower half as seen from below. Half a pitch is alike in both directions and has no sign.
     """
     if offset := gear.double_helix.offset:
         half = abs(offset) == HALF_PITCH
@@ -326,7 +338,7 @@ def double_helix_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
 
 
 def material_rows(drawn: DrawnGear, write: RowWriter, options: DrawingOptions) -> Iterator[Row]:
-    """What it is made of and how it is hardened, as far as anybody said."""
+    """Yield the rows of material and heat treatment, as far as they are known."""
     for key, text in (
         ("material", material_text(drawn, options, write.words)),
         ("heat_treatment", treatment_text(drawn, options, write.words)),
@@ -336,7 +348,8 @@ def material_rows(drawn: DrawnGear, write: RowWriter, options: DrawingOptions) -
 
 
 def mate_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
-    """The distance from each mate, and its teeth and number, or title; of several mates the keys begin with their names.
+    """Yield the rows of each mate: its distance (mm), and its teeth and number, or title. With several mates the keys begin
+    with their names.
 
     A distance that is that of another mate too stands once.
     """
@@ -351,7 +364,7 @@ def mate_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
 
 
 def _led(row: Row, lead: str) -> Row:
-    """With this before its keys."""
+    """Return a row with `lead` before its key and the keys of its numbers."""
     return replace(row, key=f"{lead}{row.key}", numbers={f"{lead}{key}": value for key, value in row.numbers.items()})
 
 
@@ -376,11 +389,11 @@ def _distance(mate: Mate, write: RowWriter) -> Row:
 
 
 _SMALL_MODULE = 0.3
-"""Below it (mm) lengths have a digit more."""
+"""Module (mm) below which lengths have one more decimal."""
 
 
 def gear_rows(drawn: DrawnGear, words: Words, options: DrawingOptions | None = None) -> tuple[Row, ...]:
-    """Those of an external gear, a ring, a rack or a double helical gear; every key stands once.
+    """Return the rows of an external gear, a ring, a rack or a double helical gear; every key stands once.
 
     `options` are those that hold for it (`DrawingOptions.of_part`), in whose words material and heat treatment stand.
     """
@@ -424,7 +437,7 @@ def _rack(drawn: DrawnGear, rack: Rack, write: RowWriter) -> Iterator[Row]:
 
 
 def gear_notices(drawn: DrawnGear, options: DrawingOptions | None = None) -> tuple[Notice, ...]:
-    """What the table assumes, and what it has no numbers for."""
+    """Return notices of assumed and missing values in the table."""
     return tuple(_notices(drawn, options or DrawingOptions()))
 
 

@@ -30,13 +30,13 @@ SCALES = {
 """Scales of ISO 5455, the largest first, and mm of paper for a mm of the part."""
 
 _LONGEST = 2000
-"""Most characters of a text: a longer one was not meant for a sheet."""
+"""Largest number of characters of a text on a sheet."""
 
 _HIDDEN = (
     "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069\u200e\u200f\u061c"  # turn others round
     "\u00ad\u034f\u115f\u1160\u180e\u200b\u2060\u2061\u2062\u2063\u2064\u3164\ufeff\uffa0"  # have no width, or no ink
 )
-"""Letters that nobody sees: what a sheet says must be what one reads. Joiners, which scripts need, are not among them."""
+"""Invisible letters, not permitted: a sheet must read as it is stored. Joiners, which some scripts need, are permitted."""
 
 _ANY_SIZE = 10.0
 """Size (mm) for which the classes of ISO 286 that are permitted have limits."""
@@ -70,7 +70,7 @@ _SIZES = {
 
 
 class Projection(StrEnum):
-    """How views stand beside each other (ISO 5456-2)."""
+    """Arrangement of the views beside each other (ISO 5456-2)."""
 
     FIRST = "first"
     THIRD = "third"
@@ -116,7 +116,7 @@ _FACE_RUNOUT = Words("axial run-out of the faces; else by the accuracy grade", "
 
 @dataclass(frozen=True, kw_only=True)
 class PartDrawing:
-    """What the sheet of one gear has of its own; None stands for what [drawing] has.
+    """The drawing options of one gear's own sheet; None takes the value of [drawing].
 
     Raises ParameterError.
     """
@@ -153,10 +153,10 @@ class PartDrawing:
 
 @dataclass(frozen=True, kw_only=True)
 class DrawingOptions:
-    """The title block of a design's sheets, how they are laid out, and what holds for all of its gears.
+    """The title block of a design's sheets, their layout, and the requirements common to all of its gears.
 
-    Of tolerance classes "" leaves a size to the general tolerances. Texts are one line, whatever space is in them; the fields
-    of a gear may stand in its PartDrawing. Raises ParameterError.
+    A tolerance class "" leaves a size to the general tolerances. Texts are made one line, whatever white space they contain.
+    The fields of one gear may be given in its PartDrawing. Raises ParameterError.
     """
 
     number: Annotated[str, _NUMBER] = ""
@@ -204,9 +204,10 @@ class DrawingOptions:
             _require_date(self.date)
 
     def of_part(self, part: PartDrawing | None, *, alone: bool) -> DrawingOptions:
-        """Those of the sheet of one gear: what it has of its own, and else these.
+        """Return the options of the sheet of one gear: the gear's own values, else those of the design.
 
-        Unless it is `alone`, the only one of its design, number, title and revisions are its own: these are the assembly's.
+        Unless the gear is `alone`, the only one of its design, it does not take number, title and revisions from the design:
+        these belong to the assembly.
         """
         own = {each.name: getattr(part, each.name) for each in fields(part)} if part is not None else {}
         given = {key: value for key, value in own.items() if value is not None}
@@ -222,7 +223,7 @@ class DrawingOptions:
 
     @property
     def index(self) -> str:
-        """That of the revision: as given, else of the last of `revisions`."""
+        """The index of the revision: as given, else that of the last of `revisions`."""
         return self.revision or next((each.index for each in reversed(self.changes)), "")
 
     @property
@@ -255,7 +256,9 @@ def _check(options: DrawingOptions | PartDrawing, kind: type[DataclassInstance])
 
 
 def one_line(parameter: str, value: Any) -> str:
-    """A text in one line. Raises ParameterError for what is no text, too long or has hidden or control characters."""
+    """Return a text in one line. Raises ParameterError if the value is no text, is too long or has hidden or control
+    characters.
+    """
     if isinstance(value, date):  # as TOML has dates
         value = value.isoformat()
     if not isinstance(value, str):
@@ -270,7 +273,7 @@ def one_line(parameter: str, value: Any) -> str:
 
 
 def _texts(parameter: str, value: Any) -> tuple[str, ...]:
-    """The texts of a list, or of one text with | or a new line between them. Raises ParameterError."""
+    """Return the texts of a list, or of one text with | or a new line between them. Raises ParameterError."""
     listed: Iterable[Any] = re.split(r"[|\n]", value) if isinstance(value, str) else value
     if not isinstance(listed, list | tuple):
         raise ParameterError(parameter, value, 'must be a list of texts, as in ["first", "second"]')
@@ -278,7 +281,7 @@ def _texts(parameter: str, value: Any) -> tuple[str, ...]:
 
 
 def _revisions(parameter: str, value: Any) -> tuple[tuple[str, ...], ...]:
-    """The lines of a list, or of one text with | between them and ; within. Raises ParameterError."""
+    """Return the revisions of a list, or of one text with | between them and ; between their fields. Raises ParameterError."""
     listed = [each.split(";") for each in re.split(r"[|\n]", value) if each.strip()] if isinstance(value, str) else value
     permitted = 'must be a list of lists of index, text, date and name, as in [["A", "first issue", "2026-01-31", "MB"]]'
     if not isinstance(listed, list | tuple):
@@ -299,7 +302,7 @@ _HOLES, _SHAFTS = ("bore_tolerance", "keyway_tolerance"), ("face_width_tolerance
 
 
 def _require_fit(parameter: str, value: str) -> None:
-    """Raise ParameterError unless a text is a class of ISO 286 that we have, of what the size is, or blank."""
+    """Raise ParameterError unless a text is blank or a supported class of ISO 286, and a hole or a shaft as its size needs."""
     if not value:
         return
     try:

@@ -15,7 +15,7 @@ from gearcad.geometry.fits import LARGEST_SIZE, limit_deviations
 
 
 class Language(StrEnum):
-    """By its code of ISO 639-1."""
+    """A language of the sheets; the value is its code of ISO 639-1."""
 
     ENGLISH = "en"
     GERMAN = "de"
@@ -23,7 +23,7 @@ class Language(StrEnum):
 
     @property
     def decimal_mark(self) -> str:
-        """What stands between a number's whole part and its fraction."""
+        """The mark between the whole part of a number and its fraction."""
         return "." if self is Language.ENGLISH else ","
 
 
@@ -32,14 +32,14 @@ _FILE = "drawing_words.toml"
 
 @dataclass(frozen=True)
 class Words:
-    """Those of a language. A key is the heading of a part of the template, and a name in it: "data.normal_module"."""
+    """The words of one language. A key is the heading of a part of the template and a name in it: "data.normal_module"."""
 
     language: Language
     labels: Mapping[str, str] = field(repr=False)
 
     @classmethod
     def of(cls, language: Language) -> Self:
-        """Those of the shipped template."""
+        """Return the words of a language from the shipped template."""
         content = tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
         labels = {
             f"{part}.{name}": in_each[language.value] for part, entries in content.items() for name, in_each in entries.items()
@@ -50,18 +50,22 @@ class Words:
         return self.labels[key]
 
     def within_text(self, label: str) -> str:
-        """A label in the middle of a sentence: without its capital, but in German, where nouns have one."""
+        """Return a label as written in the middle of a sentence: without its capital, except in German, where nouns have
+        one.
+        """
         return label if self.language is Language.GERMAN else label[:1].lower() + label[1:]
 
     def number(self, value: float, decimals: int, *, signed: bool = False) -> str:
-        """With so many decimals, a true minus sign, and the mark of the language; zero has no sign."""
+        """Return a number as a text with this many decimals, a true minus sign and the decimal mark of the language. Zero has
+        no sign.
+        """
         text = f"{value:{'+' if signed else ''}.{decimals}f}"
         if not text.strip("+-0."):
             text = text.lstrip("+-")
         return text.replace("-", "−").replace(".", self.language.decimal_mark)
 
     def shortest(self, value: float, decimals: int = 3) -> str:
-        """With at most so many decimals, and none that are zero at its end."""
+        """Return a number as a text with at most this many decimals, without zeros at the end."""
         text = self.number(value, decimals)
         mark = self.language.decimal_mark
         return text.rstrip("0").rstrip(mark) if mark in text else text
@@ -69,13 +73,13 @@ class Words:
 
 @dataclass(frozen=True)
 class Draughting:
-    """`scale` is mm of paper for a mm of the part: 0.5 for 1:2."""
+    """The words and the scale of a drawing. `scale` is mm of paper for a mm of the part: 0.5 for 1:2."""
 
     words: Words
     scale: float = 1.0
 
     def paper(self, length: float) -> float:
-        """Length on paper (mm) of a length of the part (mm)."""
+        """Return the length on paper (mm) of a length of the part (mm)."""
         return length * self.scale
 
 
@@ -101,10 +105,10 @@ class Size:
 
 
 def toleranced(value: float, fit: str, **of_size: Any) -> Size:
-    """A size with the limits of a fit by ISO 286; without one general tolerances hold.
+    """Return a size (mm) with the limits of its fit by ISO 286. Without a fit, general tolerances hold.
 
-    They hold beyond 3150 mm too, where ISO 286 ends. Where a class has no limits here, beyond 500 mm but for h, H, js and JS,
-    it stands by itself.
+    General tolerances also hold beyond 3150 mm, where ISO 286 ends. Where a class has no limits here (beyond 500 mm, except h,
+    H, js and JS), the size has the class without limits.
     """
     if not fit or value > LARGEST_SIZE:
         return Size(value=value, **of_size)
@@ -116,19 +120,19 @@ def toleranced(value: float, fit: str, **of_size: Any) -> Size:
 
 
 def diameter(value: float, fit: str = "", **of_size: Any) -> Size:
-    """The same of a circle."""
+    """Return the diameter of a circle (mm) as a size with the limits of its fit, as `toleranced` does."""
     return toleranced(value, fit, prefix="⌀", **of_size)
 
 
 def half_tolerance(size: Size) -> float | None:
-    """Half of what a size may vary, in whole µm; None without limits."""
+    """Return half of the tolerance of a size, in whole µm and at least 1 µm; None without limits."""
     if size.upper is None or size.lower is None:
         return None
     return max(float(round((size.upper - size.lower) * 1000) // 2), 1.0)
 
 
 def as_hole(fit: str) -> str:
-    """The class of a hole with the letter of a shaft."""
+    """Return the tolerance class of a hole that has the letter of a shaft's class."""
     return fit.upper()
 
 
@@ -140,7 +144,7 @@ _UNNAMED = (*_NAMED_KINDS, "gear", "wheel", "rack", "ring", "carrier")
 
 
 def kind_of(role: str, gear: Gear | Rack) -> str:
-    """The word for a gear among those of assemblies: of its role, else of its form."""
+    """Return the kind of a gear, as assemblies name it: its role if that is a kind too, else its form."""
     if isinstance(gear, Rack):
         return "rack"
     if role in _NAMED_KINDS:
@@ -149,6 +153,6 @@ def kind_of(role: str, gear: Gear | Rack) -> str:
 
 
 def titled(words: Words, kind: str, *names: str) -> str:
-    """The word for a kind, and the first of its names that says more."""
+    """Return the word for a kind, followed by the first of the names that is not itself only such a word."""
     word, name = words[f"assembly.{kind}"], next((name for name in names if name not in _UNNAMED), "")
     return f"{word} {name}" if name else word
