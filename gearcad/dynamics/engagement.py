@@ -1,4 +1,4 @@
-"""The pairs of a train under what the train gives them: static forces, the flanks that carry, and the course of each mesh."""
+"""Pairs of a train under its loads: static forces, the flanks that carry, and the course of the stiffness of each mesh."""
 
 from __future__ import annotations
 
@@ -45,12 +45,15 @@ _OTHER = 1e-3
 
 
 def engaged(train: Train, options: DynamicsOptions | None = None) -> Train:
-    """The train with its pairs under their static loads: each such mesh an EngagedMesh, with the course of its stiffness.
+    """Return the train with its pairs under their static loads: each mesh of a pair becomes an EngagedMesh with its stiffness
+    course.
 
-    By the method of the options, which have the damping ratio and the accuracy grade of meshes and pairs that have none. Where
-    static forces depend on the stiffness - in a train that is held at several places - both are found in turns until the forces
-    stand. Without a speed the first pinion turns the way in which it drives. Raises ParameterError where a mesh of a pair
-    carries nothing, SolverError where the forces do not settle, and what the methods raise.
+    The options give the stiffness method, the damping ratio of meshes that have none and, if set, the accuracy grade. If static
+    forces depend on the stiffness, as in a train held at several places, both are found in turns until the forces settle.
+    Without a speed the first pinion turns the way in which it drives.
+
+    Raises ParameterError if a mesh of a pair carries no force, SolverError if the forces do not settle, and the errors of the
+    methods.
     """
     places = [j for j, mesh in enumerate(train.meshes) if mesh.pair is not None and not isinstance(mesh, EngagedMesh)]
     if not places:
@@ -72,7 +75,7 @@ def engaged(train: Train, options: DynamicsOptions | None = None) -> Train:
 
 
 def _settled(train: Train, options: DynamicsOptions, places: Sequence[int]) -> tuple[Floats, dict[int, MeshCycle], int]:
-    """Signed forces (m,) in N, cycles of the pairs under them, and how often these were found."""
+    """Return the signed mesh forces (m,) in N, the mesh cycles of the pairs under them, and the number of rounds."""
     first = {j: _FIRST_GUESS * _pair(train.meshes[j]).mounted.common_width.width for j in places}
     forces = pressing_forces(_lumped(train, first))
     for rounds in range(1, _MOST_ROUNDS + 1):
@@ -84,7 +87,7 @@ def _settled(train: Train, options: DynamicsOptions, places: Sequence[int]) -> t
 
 
 def _lumped(train: Train, stiffness: Mapping[int, float]) -> Train:
-    """The train with springs of a stiffness (N/µm) in place of its pairs."""
+    """Return the train with springs of given stiffness (N/µm) in place of its pairs."""
     meshes = list(train.meshes)
     for j, each in stiffness.items():
         mesh = meshes[j]
@@ -107,12 +110,15 @@ def _pair(mesh: Mesh) -> MeshPair:
 
 
 def _torque(mesh: Mesh, force: float) -> float:
-    """On the pinion (N·m), of a force along the line of action (N)."""
+    """Return the torque on the pinion (N·m) of a force along the line of action (N)."""
     return float(force) * mesh.base_radii.pinion / 1000
 
 
 def _cycle_of(mesh: Mesh, force: float, greatest: float, options: DynamicsOptions) -> MeshCycle:
-    """Of a mesh under a force (N), of the `greatest` of all. Raises ParameterError without one."""
+    """Return the mesh cycle of a mesh under a force (N); `greatest` is the greatest of all mesh forces (N).
+
+    Raises ParameterError if the mesh carries no force.
+    """
     if abs(force) <= _NO_FORCE * greatest or not force:
         permitted = "carries nothing at rest, and its stiffness depends on the load: give torques that reach it, or a preload"
         raise ParameterError(f"{mesh.name}.pair", _pair(mesh).pair.name, permitted)
@@ -124,9 +130,9 @@ def _cycle_of(mesh: Mesh, force: float, greatest: float, options: DynamicsOption
 
 
 def _in_range(mesh: Mesh, torque: float) -> float:
-    """A torque (N·m) on the pinion of a mesh, or the end of the range of torques that it is beyond by rounding only.
+    """Return a torque (N·m) on the pinion of a mesh, or the end of the permitted range if it is outside by rounding only.
 
-    Raises ParameterError for one that no pair can have.
+    Raises ParameterError for a torque outside the range that a pair can have.
     """
     least, most = TORQUE.least or 0.0, TORQUE.most or math.inf
     nearest = min(max(abs(torque), least), most)
@@ -143,7 +149,10 @@ def _in_range(mesh: Mesh, torque: float) -> float:
 
 @lru_cache(128)
 def _cycle(name: str, pair: GearPair, material: Materials, body: BodyModel, mounting: Mounting, torque: float) -> MeshCycle:
-    """Under a torque on the pinion (N·m); known for the last ones, for trains are looked at again and again."""
+    """Return the mesh cycle under a torque on the pinion (N·m).
+
+    The last results are cached, because the same trains are studied repeatedly.
+    """
     return _method(name, pair, material, body, mounting)(Load(torque=torque))
 
 
@@ -171,13 +180,15 @@ def _engaged(mesh: Mesh, cycle: MeshCycle, torque: float, driver: Role, rounds: 
 
 
 def pair_notices(train: Train) -> tuple[Notice, ...]:
-    """What to know of a train's pairs before trusting it."""
+    """Return the notices about the pairs of a train, each with the name of its mesh."""
     engaged_meshes = [mesh for mesh in train.meshes if isinstance(mesh, EngagedMesh)]
     return tuple(notice.within(mesh.name) for mesh in engaged_meshes for notice in _notices(train, mesh))
 
 
 def _notices(train: Train, mesh: EngagedMesh) -> Iterator[Notice]:
-    """Those of the method; that the pair's own load is not that of the train."""
+    """Yield the notices of the stiffness method, and of a pair's own load that differs from the train's or has an application
+    factor.
+    """
     yield from mesh.course.cycle.notices
     own, torque = mesh.teeth_of.load, abs(mesh.course.torque)
     if own is None:

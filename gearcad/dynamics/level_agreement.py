@@ -1,10 +1,7 @@
 """Agreement of a model of a train with a finer one over the operating speeds.
 
-Loads are the greatest of a period, running up or down whichever is greater, in parts of the reference's load at rest: of
-meshes K_v, of shafts their overload.
-
-Loads are the greatest of a period, running up or down whichever is greater, in parts of the load at rest of the reference: of
-meshes K_v, of shafts their overload.
+Loads are the greatest of a period, running up or down whichever is greater, in parts of the reference's load at rest: of meshes
+K_v, of shafts their overload.
 """
 
 from __future__ import annotations
@@ -31,14 +28,14 @@ _SAME = 1e-9
 
 
 class CurveName(NamedTuple):
-    """Of what a load is: the mesh, or the shaft, of a name."""
+    """Name of a load curve: its `kind` ("mesh" or "shaft") and the `name` of the mesh or shaft."""
 
     kind: str
     name: str
 
 
 class Reason(Enum):
-    """Why loads at some speeds are not held against each other."""
+    """Reason for not comparing loads at some speeds."""
 
     BELOW = "below the first speed of the chart"
     BEYOND = "beyond the last speed of the chart"
@@ -60,18 +57,20 @@ _DOUBTS = {
 
 
 class Doubt(NamedTuple):
-    """What may be missing in the `charts` of one of both, or of both."""
+    """A doubt, in words, about what the `charts` of one or both models may not show."""
 
     words: str
     charts: tuple[str, ...]
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the doubt in `dynamics.json`."""
         return {"words": self.words, "charts": list(self.charts)}
 
 
 class NotJudged(NamedTuple):
-    """From `first` to `last` (rpm), why, and in the charts of which of the two."""
+    """A range of speeds from `first` to `last` (rpm) that is not judged, with the reason and the labels of the charts
+    concerned.
+    """
 
     first: float
     last: float
@@ -79,12 +78,14 @@ class NotJudged(NamedTuple):
     charts: tuple[str, ...]
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the range in `dynamics.json`."""
         return {**self._asdict(), "reason": self.reason.value, "charts": list(self.charts)}
 
 
 class Difference(NamedTuple):
-    """At a `speed` (rpm) one of two models has a greater load, by `excess`, than the `other` has anywhere near."""
+    """A load of one of two models at a `speed` (rpm), `greater` by `excess` than the greatest load `other` of the other model
+    nearby.
+    """
 
     curve: CurveName
     speed: float
@@ -93,11 +94,11 @@ class Difference(NamedTuple):
 
     @property
     def excess(self) -> float:
-        """In parts of the load at rest."""
+        """Difference of both loads, in parts of the load at rest."""
         return self.greater - self.other
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the difference in `dynamics.json`."""
         return {
             **self.curve._asdict(),
             "speed": self.speed,
@@ -149,7 +150,7 @@ class Agreement:
         )
 
     def under_at(self, mesh: str, speed: float) -> Difference | None:
-        """The reference and what the level has near one of the speeds in the range; None where that is not judged."""
+        """Return the loads of the reference at one of the speeds and of the level near it; None where that speed is not judged."""
         row, column = int(np.abs(self.speeds - speed).argmin()), self.curves.index(CurveName("mesh", mesh))
         if not self.judged[row]:
             return None
@@ -157,25 +158,25 @@ class Agreement:
 
     @property
     def underestimate(self) -> Difference | None:
-        """The greatest of all curves."""
+        """Greatest difference of all curves by which the reference is above the level; None where nothing is judged."""
         return max(self.under, key=lambda each: each.excess, default=None)
 
     @property
     def overestimate(self) -> Difference | None:
-        """The greatest of all curves."""
+        """Greatest difference of all curves by which the level is above the reference; None where nothing is judged."""
         return max(self.over, key=lambda each: each.excess, default=None)
 
 
 @dataclass(frozen=True, eq=False)
 class _Curves:
-    """Loads (s, c) at speeds (s,), and for what reasons (s,) some are none to be held against others."""
+    """Loads (s, c) at speeds (s,), and for each reason the speeds (s,) at which loads are not to be compared."""
 
     speeds: Floats
     loads: Floats
     faults: dict[Reason, Bools]
 
     def at(self, speeds: Floats) -> _Curves:
-        """The same at other speeds (x,) within."""
+        """Return the curves interpolated at other speeds (x,) within the same range."""
         loads = np.stack([np.interp(speeds, self.speeds, column) for column in self.loads.T], axis=1)
         faults = {
             reason: np.asarray(np.interp(speeds, self.speeds, marked.astype(float)) > 0, bool)
@@ -185,10 +186,10 @@ class _Curves:
 
 
 def agreement(reference: TrainStudy, level: TrainStudy, labels: tuple[str, str], over: OperatingRange) -> Agreement:
-    """Of the level with the reference, whose `labels` are given in this order, over a range of speeds.
+    """Return the agreement of the level with the reference over a range of speeds; `labels` name reference and level.
 
-    The level says too little where the reference has a load that the level has at no speed within `SHIFT` of that, and too
-    much the other way round. Speeds are judged where both are known throughout that distance.
+    The level says too little where the reference has a load that the level has at no speed within `SHIFT` of that speed, and
+    too much in the opposite case. A speed is judged if both models are known throughout that distance.
     """
     names, unheld = _common(reference, level)
     first, last = max(reference.speeds[0], level.speeds[0]), min(reference.speeds[-1], level.speeds[-1])
@@ -218,7 +219,7 @@ def agreement(reference: TrainStudy, level: TrainStudy, labels: tuple[str, str],
 
 
 def _common(reference: TrainStudy, level: TrainStudy) -> tuple[list[CurveName], tuple[str, ...]]:
-    """What both have, and the shafts that both know, but of which one has no overload."""
+    """Return the curves of both studies, and the shafts known to both of which only one study has an overload."""
     known = set(reference.up.shaft_names) & set(level.up.shaft_names)
     shafts = [name for name in reference.up.shaft_names if name in known]
     both = [name in reference.shaft_overloads and name in level.shaft_overloads for name in shafts]
@@ -230,7 +231,9 @@ def _common(reference: TrainStudy, level: TrainStudy) -> tuple[list[CurveName], 
 
 
 def _curves(study: TrainStudy, reference: TrainStudy, names: list[CurveName]) -> _Curves:
-    """Loads in parts of those at rest of the reference."""
+    """Return the loads of a study in parts of the reference's loads at rest, with the speeds at which they are not to be
+    compared.
+    """
     charts = [chart for _, chart in study.charts.directions()]
     loads = [np.max([_load(chart, name) for chart in charts], axis=0) / _rest(reference.up, name) for name in names]
     stuck = np.array([mesh.backlash is None for mesh in study.excitation.meshes]) | (study.down is None)
@@ -243,7 +246,7 @@ def _curves(study: TrainStudy, reference: TrainStudy, names: list[CurveName]) ->
 
 
 def _load(chart: KvChart, name: CurveName) -> Floats:
-    """In N or N·m (s,)."""
+    """Return the load of a curve over speed (s,), in N for a mesh or N·m for a shaft."""
     if name.kind == "mesh":
         column = chart.mesh_names.index(name.name)
         return np.asarray(chart.factors[:, column] * chart.static_forces[column], float)
@@ -261,7 +264,7 @@ def _rest(chart: KvChart, name: CurveName) -> float:
 
 
 def _highest(loads: Floats, window: tuple[Indices, Indices]) -> Floats:
-    """(s, c): the greatest load about each speed."""
+    """Return the greatest load (s, c) in the window about each speed."""
     if not len(loads):
         return loads
     bounds = np.stack(window, axis=1).ravel()
@@ -270,7 +273,7 @@ def _highest(loads: Floats, window: tuple[Indices, Indices]) -> Floats:
 
 
 def _any(marked: Bools, window: tuple[Indices, Indices]) -> Bools:
-    """(s,): whether any speed about each is marked."""
+    """Return whether (s,) any speed in the window about each speed is marked."""
     count = np.concatenate([[0], np.cumsum(marked)])
     return np.asarray(count[window[1]] > count[window[0]], bool)
 
@@ -279,7 +282,7 @@ def _any(marked: Bools, window: tuple[Indices, Indices]) -> Bools:
 
 
 def _outside(over: OperatingRange, first: float, last: float, labels: tuple[str, str]) -> tuple[NotJudged, ...]:
-    """What of the range the charts do not show."""
+    """Return the parts of the operating range that the charts do not show."""
     below = [NotJudged(over.first, min(first, over.last), Reason.BELOW, labels)] if over.first < first * (1 - _SAME) else []
     beyond = [NotJudged(max(last, over.first), over.last, Reason.BEYOND, labels)] if over.last > last * (1 + _SAME) else []
     return (*below, *beyond)
@@ -288,7 +291,7 @@ def _outside(over: OperatingRange, first: float, last: float, labels: tuple[str,
 def _not_judged(
     speeds: Floats, inside: Bools, faults: list[dict[Reason, Bools]], labels: tuple[str, str]
 ) -> tuple[NotJudged, ...]:
-    """Runs of speeds in the range, each reason by itself."""
+    """Return the ranges of speeds within the operating range that are not judged, each reason by itself."""
     found = []
     for reason in faults[0]:
         marked = inside & (faults[0][reason] | faults[1][reason])
@@ -300,7 +303,7 @@ def _not_judged(
 
 
 def _doubts(studies: tuple[TrainStudy, TrainStudy], labels: tuple[str, str]) -> tuple[Doubt, ...]:
-    """What the notices of both charts say of them."""
+    """Return the doubts that the notices of both charts raise, each with the labels of its charts."""
     found: dict[str, list[str]] = {}
     for label, study in zip(labels, studies, strict=True):
         for code in dict.fromkeys(notice.code for notice in study.notices):
@@ -310,5 +313,5 @@ def _doubts(studies: tuple[TrainStudy, TrainStudy], labels: tuple[str, str]) -> 
 
 
 def percent(share: float) -> str:
-    """A share as a sentence has it."""
+    """Return a share as a percentage, for use in a sentence."""
     return f"{100 * share:.1f} %" if share < 0.0995 else f"{100 * share:.0f} %"

@@ -36,10 +36,10 @@ def study_levels(
     *,
     tell: Callable[[str, float], None] = lambda _step, _share: None,
 ) -> LevelStudy:
-    """The train by each of different models, in their order; the finest is the reference.
+    """Return the studies of a train by several models, in their order, with verdicts; the finest model is the reference.
 
-    `tell` hears what is being done, the finest model first, and what share of it is: "exact: chart", 0.5.
-    Raises ParameterError, GeometryError and SolverError.
+    `tell` receives the current step, the finest model first, and the share of it that is done: "exact: chart", 0.5. Raises
+    ParameterError, GeometryError and SolverError.
     """
     options = options or DynamicsOptions()
     finest, *coarser = finest_first(models)
@@ -70,7 +70,7 @@ def _begun(tell: Callable[[str, float], None], model: str, step: str, share: flo
 
 
 def _speeds(train: Train, options: DynamicsOptions) -> tuple[Floats, OperatingRange]:
-    """Of the charts (rpm), with enough of them in the operating range, and that range."""
+    """Return the speeds of the charts (rpm), with enough of them in the operating range, and that range."""
     first, last = options.operating_from, options.operating_to
     modes = natural_modes(train, count=options.frequencies)
     speeds = chart_speeds(train, options, modes)
@@ -86,13 +86,13 @@ def _speeds(train: Train, options: DynamicsOptions) -> tuple[Floats, OperatingRa
 
 
 def _with(speeds: Floats, more: Floats) -> Floats:
-    """Both, rising, but of those that rounding alone holds apart only the first."""
+    """Return both arrays of speeds merged in rising order; of speeds that differ by rounding alone only the first is kept."""
     both = np.union1d(speeds, more)
     return both[np.diff(both, prepend=0.0) > _SAME * both]
 
 
 def _verdict(reference: TrainStudy, level: TrainStudy, tolerance: float, over: OperatingRange) -> LevelVerdict:
-    """Of one model held against the reference."""
+    """Return the verdict on one model compared with the reference."""
     labels = reference.train.model.value, level.train.model.value
     found = agreement(reference, level, labels, over)
     verdict = LevelVerdict(
@@ -107,7 +107,7 @@ def _verdict(reference: TrainStudy, level: TrainStudy, tolerance: float, over: O
 
 
 def _resonances(reference: TrainStudy, level: TrainStudy, found: Agreement, tolerance: float) -> Iterator[LevelResonance]:
-    """Of the reference, where they are judged and rise by more than the tolerance; with those of the level."""
+    """Yield the judged resonances of the reference that rise by more than the tolerance, each with that of the level."""
     for column, mesh in enumerate(reference.up.mesh_names):
         groups = joined_peaks([peaks_of(reference, column, tolerance), peaks_of(level, column)], 0)
         for peak, own in groups:
@@ -121,7 +121,7 @@ def _resonances(reference: TrainStudy, level: TrainStudy, found: Agreement, tole
 
 
 def _decisions(reference: TrainStudy, verdict: LevelVerdict) -> tuple[Decision, ...]:
-    """What decides where the model is farthest off, and at the resonances that it misses, too little first; each mode once."""
+    """Return what decides where the model is farthest off and at the resonances it misses, too little first, each mode once."""
     little, much = verdict.too_little, verdict.too_much
     unsafe = [(each.factor - each.near, CurveName("mesh", each.mesh), each.speed) for each in verdict.missed[:_EXPLAINED]]
     if little is not None:

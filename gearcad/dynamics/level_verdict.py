@@ -1,12 +1,8 @@
 """Verdict on the models of a train: which model is enough, and what a coarse model lacks.
 
-At a speed the forces of the teeth load a mesh or a shaft by several natural modes of the reference. The mode with the most
-load in a part that the coarse model does not have decides, by the share in its energy: of the mass of shafts where they have
-none, and without shafts also of their springs, and of the inertia of neighbouring stages.
-
-At a speed the forces of the teeth load a mesh or a shaft by several modes. What decides is the mode with the most load in a
-part that the coarse model does not have, by its share in the energy of that mode: the mass of shafts where they have none, and
-without shafts also their springs, and the inertias and meshes behind them.
+At a speed the forces of the teeth load a mesh or a shaft by several natural modes of the reference. The mode with the most load
+in a part that the coarse model lacks decides, by the share of that part in its energy. Such parts are the mass of shafts if the
+model has none, and for a model without shafts also their springs and the inertias and meshes behind them.
 """
 
 from __future__ import annotations
@@ -44,9 +40,10 @@ _RIGID = 1e-9
 
 
 class Share(NamedTuple):
-    """Of a mode's energy: what part of the train, as what ("mass" or "spring" of a shaft, "inertia" or "mesh"), and how much.
+    """Share of a part of the train in the energy of a natural mode.
 
-    `through` are the shafts by which that is joined to the mesh in question.
+    `kind` is "mass" or "spring" of a shaft, "inertia" or "mesh"; `name` is the name of that part. `through` are the shafts that
+    join the part to the mesh in question.
     """
 
     kind: str
@@ -56,7 +53,7 @@ class Share(NamedTuple):
 
     @property
     def part(self) -> str:
-        """In words."""
+        """Description of the part in words."""
         part = {
             "mass": f'the mass of shaft "{self.name}"',
             "spring": f'the twist of shaft "{self.name}"',
@@ -68,22 +65,26 @@ class Share(NamedTuple):
 
     @property
     def energy(self) -> str:
-        """That of which it has a share."""
+        """Kind of energy of which the part has a share: "kinetic" or "potential"."""
         return "kinetic" if self.kind in ("mass", "inertia") else "potential"
 
     @property
     def words(self) -> str:
-        """As a sentence has it."""
+        """Share, energy and part in words, for use in a sentence."""
         return f"{percent(self.share)} of its {self.energy} energy in {self.part}"
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the share in `dynamics.json`."""
         return {**self._asdict(), "through": list(self.through), "energy": self.energy}
 
 
 class Decision(NamedTuple):
-    """At a `speed` (rpm) a `harmonic` of the tooth frequency of mesh `teeth` shakes natural mode `mode` of the reference (1 is
-    the lowest), of so many Hz; `shares`, the greatest first, are what the level lacks of it."""
+    """The natural mode of the reference that decides at a `speed` (rpm): number `mode` (1 is the lowest) with its `frequency`
+    (Hz).
+
+    A `harmonic` of the tooth frequency of mesh `teeth` excites the mode. `shares`, the greatest first, are its parts that the
+    level lacks.
+    """
 
     curve: CurveName
     speed: float
@@ -94,14 +95,14 @@ class Decision(NamedTuple):
     shares: tuple[Share, ...]
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the decision in `dynamics.json`."""
         return {**self._asdict(), "curve": self.curve._asdict(), "shares": [each.to_dict() for each in self.shares]}
 
 
 def decision(reference: TrainStudy, level: TrainModel, curve: CurveName, speed: float) -> Decision:
-    """What the level lacks at a speed (rpm) where its curve is off that of the reference.
+    """Return what the level lacks at a speed (rpm) where its curve differs from that of the reference.
 
-    Of the modes that load the curve it is the one with the most load in a part that the level does not have.
+    Of the modes that load the curve, the mode with the most load in a part that the level lacks decides.
     """
     shaken = _shaken(reference, curve, speed)
     highest = max(each.omega for each in shaken)
@@ -124,7 +125,7 @@ def decision(reference: TrainStudy, level: TrainModel, curve: CurveName, speed: 
 
 
 def _named(shares: list[Share]) -> tuple[Share, ...]:
-    """The greatest, and those that are not far below."""
+    """Return the greatest share and those not far below it."""
     least = max(_NAMED, _OF_GREATEST * shares[0].share) if shares else 0.0
     return tuple(each for place, each in enumerate(shares) if place == 0 or each.share >= least)
 
@@ -133,8 +134,10 @@ def _named(shares: list[Share]) -> tuple[Share, ...]:
 
 
 class _Shaken(NamedTuple):
-    """A mode of natural frequency `omega` (1/s): how far it loads a curve, at which order of the common period, and the mesh
-    that shakes it so."""
+    """A mode of natural frequency `omega` (1/s) and the `load` by which it loads a curve.
+
+    `order` is the order of the common period at which that load is greatest, `teeth` the mesh that excites the mode most.
+    """
 
     omega: float
     load: float
@@ -143,10 +146,10 @@ class _Shaken(NamedTuple):
 
 
 def _shaken(study: TrainStudy, curve: CurveName, speed: float) -> list[_Shaken]:
-    """The modes that load a curve, but those that hardly do.
+    """Return the modes that load a curve, without those that hardly do.
 
-    Forces are those with which the changing stiffness and the errors of the teeth act on a train that does not vibrate; what
-    they would load at rest is left out.
+    The forces are those of the changing stiffness and the tooth errors on a train that does not vibrate. Their load at rest is
+    left out.
     """
     system, excitation = study.system, study.excitation.bonded
     squares, shapes = np.linalg.eigh(system.stiffness_matrix())
@@ -168,7 +171,7 @@ def _shaken(study: TrainStudy, curve: CurveName, speed: float) -> list[_Shaken]:
 
 
 def _loaded(study: TrainStudy, curve: CurveName) -> Floats:
-    """(n,): the load of a curve (N or N·m) when each coordinate is 1."""
+    """Return the load of a curve (N or N·m) for a value of 1 of each coordinate (n,)."""
     system = study.system
     if curve.kind == "mesh":
         column = system.names[0].index(curve.name)
@@ -180,7 +183,10 @@ def _loaded(study: TrainStudy, curve: CurveName) -> Floats:
 
 
 def _lacking(train: Train, modes: NaturalModes, mode: int, level: TrainModel, curve: CurveName) -> Iterator[Share]:
-    """Shares of a mode of the reference in what the level does not have, of each shaft the greater of mass and spring."""
+    """Yield the shares of a mode of the reference in parts that the level lacks.
+
+    Of each shaft the level without shafts lacks mass and spring; only the greater share is given.
+    """
     isolated = level is TrainModel.ISOLATED
     for name, moving, bent in zip(modes.shafts, modes.kinetic_shafts[mode], modes.potential_shafts[mode], strict=True):
         if isolated and bent > moving:
@@ -200,7 +206,7 @@ def _lacking(train: Train, modes: NaturalModes, mode: int, level: TrainModel, cu
 
 
 def _own_gears(train: Train, mesh: str) -> set[str]:
-    """The gears of a mesh, and those that mesh with them: what vibrates together without shafts."""
+    """Return the names of the gears of a mesh and of those that mesh with them; they vibrate together without shafts."""
     own = set[str]()
     for each in train.meshes:
         if each.name == mesh:
@@ -211,7 +217,7 @@ def _own_gears(train: Train, mesh: str) -> set[str]:
 
 
 def _shafts_between(train: Train, own: Set[str]) -> dict[str, tuple[str, ...]]:
-    """Of every inertia the shafts by which it is joined to the `own` gears, on the way with the fewest parts."""
+    """Return for every inertia the shafts that join it to the `own` gears, on the way with the fewest parts."""
     ways: dict[str, tuple[str, ...]] = dict.fromkeys(sorted(own), ())
     waiting = deque(ways)
     while waiting:
@@ -231,7 +237,7 @@ _SAID = 2
 
 
 class LevelStatus(Enum):
-    """What is said of a model."""
+    """Result of the verdict on a model."""
 
     ENOUGH = "enough"
     """All loads agree at all speeds."""
@@ -242,9 +248,11 @@ class LevelStatus(Enum):
 
 
 class LevelResonance(NamedTuple):
-    """A resonance of the reference, higher than the tolerance, at a `speed` (rpm), and the greatest K_v of the level `near`
-    that; `own_speed` and `own_factor` are those of the level's resonance, None where it has none there. It is `missed` if the
-    level has none there and says too little."""
+    """A resonance of the reference, higher than the tolerance, at a `speed` (rpm), and the greatest K_v of the level `near` it.
+
+    `own_speed` and `own_factor` are those of the level's resonance, None if it has none there. The resonance is `missed` if the
+    level has none there and says too little.
+    """
 
     mesh: str
     speed: float
@@ -256,17 +264,17 @@ class LevelResonance(NamedTuple):
 
     @property
     def moved(self) -> float | None:
-        """How far (relative) the level has it off."""
+        """Relative difference in speed of the level's resonance from that of the reference; None if the level has none."""
         return None if self.own_speed is None else self.own_speed / self.speed - 1
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the resonance in `dynamics.json`."""
         return {**self._asdict(), "moved": self.moved}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LevelVerdict:
-    """Of a `model` held against the `reference`: loads may differ by `tolerance`, in parts of the load at rest.
+    """Verdict on a `model` compared with the `reference`: loads may differ by `tolerance`, in parts of the load at rest.
 
     `resonances` are those of the reference in the range; `decisions` say what the model lacks where it fails.
     """
@@ -280,7 +288,7 @@ class LevelVerdict:
 
     @property
     def status(self) -> LevelStatus:
-        """Open where nothing is wrong, but not all can be judged."""
+        """Result of the verdict; `OPEN` if no load differs too much but not all can be judged."""
         if self.too_little is not None or self.too_much is not None:
             return LevelStatus.NOT_ENOUGH
         found = self.agreement
@@ -289,12 +297,12 @@ class LevelVerdict:
 
     @property
     def too_little(self) -> Difference | None:
-        """Where the model is most on the unsafe side, if by more than the tolerance."""
+        """Greatest underestimate of a load, on the unsafe side; None if it is within the tolerance."""
         return self._beyond(self.agreement.underestimate)
 
     @property
     def too_much(self) -> Difference | None:
-        """Where it is most on the safe side, if by more than the tolerance."""
+        """Greatest overestimate of a load, on the safe side; None if it is within the tolerance."""
         return self._beyond(self.agreement.overestimate)
 
     def _beyond(self, found: Difference | None) -> Difference | None:
@@ -302,19 +310,19 @@ class LevelVerdict:
 
     @property
     def missed(self) -> tuple[LevelResonance, ...]:
-        """Those of which the model says least first."""
+        """Missed resonances, those that the model underestimates most first."""
         return tuple(sorted((each for each in self.resonances if each.missed), key=lambda each: each.near - each.factor))
 
     # ------------------------------------------------------------------ in words
 
     @property
     def sentence(self) -> str:
-        """With its numbers."""
+        """The verdict in one sentence, with its numbers."""
         return f'"{self.model.value}" {"; ".join(self._clauses())}'
 
     @property
     def headline(self) -> str:
-        """Its first clause, with the first of its failures only."""
+        """First clause of the sentence, with the first failure only."""
         first = next(self._clauses())
         if self.status is LevelStatus.NOT_ENOUGH:
             first = f"is not enough: {next(self._failures())}"
@@ -338,7 +346,7 @@ class LevelVerdict:
         yield from self._gaps()
 
     def _failures(self) -> Iterator[str]:
-        """Too little before too much."""
+        """Yield the failures in words, loads that are too small before those too great."""
         little, much, missed = self.too_little, self.too_much, self.missed
         if missed:
             yield self._missed_words()
@@ -356,14 +364,14 @@ class LevelVerdict:
         return words + (f" and {len(others)} other{'s' if len(others) > 1 else ''}" if others else "")
 
     def _reasons(self) -> Iterator[str]:
-        """What it lacks, for the modes that decide most, each once."""
+        """Yield in words what the model lacks, for the modes that decide most, each mode once."""
         first = {each.mode: each for each in reversed(self.decisions) if each.shares}
         for each in [each for each in self.decisions if first.get(each.mode) is each][:_SAID]:
             mode = f"at {_rpm(each.speed)} natural mode {each.mode} ({each.frequency:.5g} Hz) decides"
             yield f"{mode}, with {' and '.join(share.words for share in each.shares)}"
 
     def _gaps(self) -> Iterator[str]:
-        """What is not judged."""
+        """Yield in words what is not judged or not sure."""
         for each in self.agreement.not_judged:
             charts = f" in {' and '.join(each.charts)}" if len(each.charts) == 1 else ""
             yield f"not judged from {each.first:.5g} to {each.last:.5g} rpm: {each.reason.value}{charts}"
@@ -373,7 +381,7 @@ class LevelVerdict:
             yield f"not sure: {doubt.words}, in {' and '.join(doubt.charts)}"
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the verdict in `dynamics.json`."""
         return {
             "model": self.model.value,
             "status": self.status.value,
@@ -390,7 +398,7 @@ class LevelVerdict:
 
 
 def _names(resonance: LevelResonance, difference: Difference) -> bool:
-    """Whether both are of the same maximum."""
+    """Return whether both belong to the same maximum."""
     near = abs(difference.speed / resonance.speed - 1) < 0.05
     return near and difference.curve == CurveName("mesh", resonance.mesh)
 
@@ -413,7 +421,7 @@ _COARSEST_FIRST = (
 
 
 def finest_first(models: Iterable[TrainModel]) -> list[TrainModel]:
-    """The models by how much they know of the shafts."""
+    """Return the models sorted by how much they represent of the shafts, the finest first."""
     return sorted(models, key=_COARSEST_FIRST.index, reverse=True)
 
 
@@ -436,22 +444,22 @@ class LevelStudy(SideBySide):
 
     @property
     def models(self) -> tuple[TrainModel, ...]:
-        """In the order of the studies."""
+        """Models in the order of the studies."""
         return tuple(study.train.model for study in self.studies)
 
     @property
     def reference(self) -> int:
-        """The finest model."""
+        """Index of the finest model."""
         return self.models.index(finest_first(self.models)[0])
 
     @property
     def speed_tolerance(self) -> float:
-        """How far (relative) a resonance may be off in speed."""
+        """Relative difference in speed that a resonance may have."""
         return SHIFT
 
     @property
     def enough(self) -> LevelVerdict | None:
-        """The coarsest model that is, if any but the reference."""
+        """Verdict on the coarsest model that is enough; None if only the reference is."""
         return next((each for each in self.verdicts if each.status is LevelStatus.ENOUGH), None)
 
     @property
@@ -462,27 +470,29 @@ class LevelStudy(SideBySide):
 
     @property
     def sentence(self) -> str:
-        """Which model is enough, with its numbers, and what decides: all in one."""
+        """Which model is enough, with its numbers, and what decides, in one text."""
         return " ".join(self.sentences)
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """The same, one of all and then one of each model."""
+        """Sentences on the whole study, on each model, and on shafts that are not judged."""
         return self._said(f"{each.sentence}." for each in self.verdicts)
 
     @property
     def headlines(self) -> tuple[str, ...]:
-        """Of the sentences what comes first, for the screen."""
+        """The sentences with only the first clause on each model, for the screen."""
         return self._said(f"{each.headline}." for each in self.verdicts)
 
     @property
     def beyond_charts(self) -> tuple[NotJudged, ...]:
-        """What of the operating range no chart shows."""
+        """Parts of the operating range that the charts do not show."""
         found = (each for verdict in self.verdicts for each in verdict.agreement.not_judged if each.reason in OUTSIDE)
         return tuple({(each.first, each.last): each for each in found}.values())
 
     def _said(self, verdicts: Iterable[str]) -> tuple[str, ...]:
-        """What is found of all, with what is left out of it; of each model; and of shafts that are not judged."""
+        """Return a sentence on the whole study with what is not judged, the given ones on each model, and one on shafts not
+        judged.
+        """
         finest = f'"{self.models[self.reference].value}"'
         found = f"no model coarser than {finest} is shown to be enough"
         if self.enough is not None:
@@ -497,7 +507,7 @@ class LevelStudy(SideBySide):
         return tuple(parts)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the document of the study for `dynamics.json`."""
         return {
             **super().to_dict(),
             "operating_range": self.over.to_dict(),

@@ -62,7 +62,7 @@ def _require_method(name: str) -> None:
 
 
 class PairModel(Enum):
-    """What a pair's teeth are to its dynamics."""
+    """Model of a pair's teeth in its dynamics."""
 
     MESH = "mesh"
     """One spring whose stiffness varies over the mesh, with backlash."""
@@ -168,27 +168,29 @@ class DynamicsOptions:
 
     @property
     def inertias(self) -> PerGear[float | None]:
-        """Of both gears (kg·m²), None for those of their own solids."""
+        """Moments of inertia of both gears (kg·m²); None for that of the gear's own solid."""
         return PerGear(self.pinion_inertia, self.wheel_inertia)
 
     @property
     def bearing_stiffness(self) -> PerGear[float | None]:
-        """Of both gears (N/µm), None where they turn on rigid axes."""
+        """Bearing stiffness of both gears (N/µm); None for gears on rigid axes."""
         return PerGear(self.pinion_bearing_stiffness, self.wheel_bearing_stiffness)
 
     @property
     def chart_speeds(self) -> int:
-        """How many speeds a chart of K_v begins with."""
+        """Number of speeds with which a chart of K_v begins."""
         return self.speeds or _CHART
 
     @property
     def slowest(self) -> float:
-        """Part of its highest speed at which a chart begins, if nothing is said of it: few speeds asked for hide none."""
+        """Part of its highest speed at which a chart begins if `speed_from` is not given; a small number of speeds does not
+        raise it.
+        """
         return 1 / max(self.chart_speeds, _CHART)
 
     @property
     def campbell_speeds(self) -> int:
-        """How many speeds a Campbell study has."""
+        """Number of speeds of a Campbell study."""
         return self.speeds or _CAMPBELL
 
     @property
@@ -198,11 +200,11 @@ class DynamicsOptions:
 
     @property
     def mesh_campbell_speeds(self) -> int:
-        """How many speeds that has: a chart may have thousands."""
+        """Number of speeds at which the motion of a mesh is integrated; it is limited, because a chart may have thousands."""
         return min(self.campbell_speeds, _MOST_CAMPBELL)
 
     def graded(self, rating: RatingOptions) -> DynamicsOptions:
-        """With the accuracy grade of a rating, where there is none."""
+        """Return the options with the accuracy grade of a rating if they have none."""
         return self if self.accuracy_grade is not None else replace(self, accuracy_grade=rating.accuracy_grade)
 
     @property
@@ -222,16 +224,16 @@ class DynamicsOptions:
 
     @property
     def distribution(self) -> ErrorDistribution:
-        """Of deviations, as an enum."""
+        """Distribution of the deviations as an enum."""
         return ErrorDistribution(self.error_distribution)
 
     @property
     def error_speeds(self) -> int:
-        """How many speeds tooth errors are drawn for."""
+        """Number of speeds for which tooth errors are drawn."""
         return self.speeds or _DRAWN
 
     def method_for(self, pair: GearPair) -> str:
-        """Name of the method for a pair's mesh stiffness."""
+        """Return the name of the method for a pair's mesh stiffness."""
         if self.stiffness != AUTO:
             return self.stiffness
         if not pair.pinion.helix_angle:
@@ -264,18 +266,20 @@ _OF_BEARINGS = ("pinion_bearing_stiffness", "wheel_bearing_stiffness", "bearing_
 
 
 def idle_without_levels(options: DynamicsOptions) -> tuple[Notice, ...]:
-    """What is for several models of a train, in a study of one model, or of a pair."""
+    """Return a notice of options for several models of a train, which have no effect on one model or a pair."""
     return _idle(options, _OF_LEVELS, "a train with a list of models, held against each other")
 
 
 def idle_in_contact(options: DynamicsOptions) -> tuple[Notice, ...]:
-    """What is for the model "mesh", in a study of the contact model; what is for several models of a train, too."""
+    """Return notices of options without effect in the contact model: those of the model "mesh" and of several models of a
+    train.
+    """
     found = _idle(options, (*_OF_CONTACT, *_OF_CHARTS, *_OF_BEARINGS), f'the model "{PairModel.MESH.value}" of a pair')
     return (*found, *idle_without_levels(options))
 
 
 def _idle(options: DynamicsOptions, keys: tuple[str, ...], subject: str) -> tuple[Notice, ...]:
-    """Those of the keys that are not as they are by default, and what they are for."""
+    """Return a notice of those `keys` that are not at their default but have no effect; `subject` says what they are for."""
     default = DynamicsOptions()
     given = [key for key in keys if getattr(options, key) != getattr(default, key)]
     if not given:
@@ -285,7 +289,7 @@ def _idle(options: DynamicsOptions, keys: tuple[str, ...], subject: str) -> tupl
 
 
 def undamped_bearings(options: DynamicsOptions) -> tuple[Notice, ...]:
-    """That only the teeth damp gears on bearings."""
+    """Return a notice if gears are on bearings and only the teeth damp them."""
     if options.pinion_bearing_stiffness is None or options.bearing_damping:
         return ()
     text = (
@@ -300,7 +304,7 @@ _ROUNDING = 1e-9
 
 
 class RangeSource(Enum):
-    """What says where a train runs under load."""
+    """Source of the operating range."""
 
     GIVEN = "operating range"
     SPEED = "speed of the train"
@@ -308,7 +312,7 @@ class RangeSource(Enum):
 
 
 class OperatingRange(NamedTuple):
-    """From `first` to `last` (rpm of the first pinion, or of a planetary train's input), and what says so."""
+    """Operating range from `first` to `last` (rpm of the first pinion, or of a planetary train's input), and its `source`."""
 
     first: float
     last: float
@@ -316,7 +320,7 @@ class OperatingRange(NamedTuple):
 
     @property
     def words(self) -> str:
-        """As a sentence has it."""
+        """The range and its source in words, for use in a sentence."""
         given = {
             RangeSource.GIVEN: "the operating range",
             RangeSource.SPEED: "up to the speed of the train",
@@ -326,11 +330,11 @@ class OperatingRange(NamedTuple):
 
     @property
     def heading(self) -> str:
-        """As a line of the screen has it, "" of the whole chart."""
+        """The range as part of a line on the screen; "" for the whole chart."""
         return "" if self.source is RangeSource.CHART else f"from {self.first:.5g} to {self.last:.5g} rpm "
 
     def rows(self, speeds: Floats) -> Bools:
-        """Return which of the speeds (s,) lie in it."""
+        """Return whether (s,) each of the speeds (s,) lies in the range."""
         return np.asarray((speeds >= self.first * (1 - _ROUNDING)) & (speeds <= self.last * (1 + _ROUNDING)), bool)
 
     def within(self, speeds: Floats) -> OperatingRange:
@@ -340,16 +344,14 @@ class OperatingRange(NamedTuple):
         return OperatingRange(float(speeds[0]), float(speeds[-1]), RangeSource.CHART)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the range in `dynamics.json`."""
         return {**self._asdict(), "source": self.source.value}
 
 
 def operating_range(speed: float, options: DynamicsOptions, chart: tuple[float, float]) -> OperatingRange:
-    """Return it as the options give it; else from the first speed of the chart up to `speed`, or to the last of the chart.
+    """Return the operating range of the options; else from the first speed of the chart up to `speed`, or to the chart's last.
 
-    `speed` (rpm) is that of the load, 0 if it is not known.
-
-    Raises GeometryError where it would end before it begins.
+    `speed` (rpm) is that of the load, 0 if it is not known. Raises GeometryError if the range would end before it begins.
     """
     first, last, own = options.operating_from, options.operating_to, abs(speed)
     given = first is not None or last is not None

@@ -1,4 +1,4 @@
-"""What was found out about a pair of gears by itself: as a mesh of varying stiffness, or as springs between its teeth."""
+"""Results for a pair of gears by itself: as a mesh of varying stiffness, or as springs between its teeth."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ class PairStudy(Pictured):
 
     @property
     def name(self) -> str:
-        """Of the pair."""
+        """Name of the pair."""
         return self.pair.name
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it."""
+        """Notices to read before using the results."""
         factor = self.study.method_b
         unrated = Notice("no-standard-factor", f"no K_v of ISO 6336-1: {self.unrated}")
         standard = factor.notices if factor is not None else (unrated,)
@@ -65,7 +65,7 @@ class PairStudy(Pictured):
         return texts(self.notices)
 
     def _driven_pinion(self) -> Iterator[Notice]:
-        """Of a load whose torque is against its speed."""
+        """Yield a notice if the torque of the load is against its speed."""
         if self.wheel_drives:
             text = (
                 "the torque is against the speed: the wheel drives; here flanks are met as if the pinion drove, from its root"
@@ -74,7 +74,7 @@ class PairStudy(Pictured):
             yield Notice("taken-as-driver", text)
 
     def _full_discs(self) -> Iterator[Notice]:
-        """Of gears with a web whose inertia nobody gave."""
+        """Yield a notice for each gear with a web whose moment of inertia is not given."""
         for role, gear in self.pair.gears.items():
             if gear.body.web_thickness and self.study.options.inertias.pick(role) is None:
                 own = role.value
@@ -82,7 +82,7 @@ class PairStudy(Pictured):
                 yield Notice("full-disc", text)
 
     def _free_ring(self) -> Iterator[Notice]:
-        """Of a ring whose inertia nobody gave: most stand still."""
+        """Yield a notice if the moment of inertia of a ring is not given, because most rings stand still."""
         if self.pair.internal and self.study.options.inertias.wheel is None:
             text = (
                 "the ring turns with its pinion, with the inertia of its solid, in m_red of ISO 6336-1 too; for one that"
@@ -91,7 +91,7 @@ class PairStudy(Pictured):
             yield Notice("free-ring", text)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the document of the study for `dynamics.json`."""
         return {
             "model": "mesh",
             "stiffness_method": self.cycle.method,
@@ -106,19 +106,19 @@ class PairStudy(Pictured):
         }
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by name."""
         return self.study.arrays()
 
     def tables(self) -> Tables:
-        """As the CSV files have them."""
+        """Return the tables of the CSV files by name."""
         return {**self.study.tables(), "mesh stiffness": cycle_columns(self.cycle)}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ContactStudy(Pictured):
-    """A pair as mounted, its contact model, the Campbell study of it and the time history at one speed.
+    """Results for a pair as mounted: its contact model, the Campbell study of it and the time history at one speed.
 
-    `idle` says what of the options is without effect.
+    `idle` are notices of options without effect.
     """
 
     pair: GearPair
@@ -132,12 +132,12 @@ class ContactStudy(Pictured):
 
     @property
     def name(self) -> str:
-        """Of the pair."""
+        """Name of the pair."""
         return self.pair.name
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it."""
+        """Notices to read before using the results."""
         return (*self.idle, *self.study.notices)
 
     @property
@@ -146,7 +146,7 @@ class ContactStudy(Pictured):
         return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the document of the study for `dynamics.json`."""
         model = self.model
         return {
             "model": "contact",
@@ -166,7 +166,7 @@ class ContactStudy(Pictured):
         }
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by name."""
         return {
             "speed": self.study.speeds,
             "frequency": self.study.frequency,
@@ -181,7 +181,7 @@ class ContactStudy(Pictured):
         }
 
     def tables(self) -> Tables:
-        """As the CSV files have them."""
+        """Return the tables of the CSV files by name."""
         return {
             "campbell": campbell_columns(self.study),
             "history": history_columns(self.history),

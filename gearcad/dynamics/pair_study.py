@@ -51,7 +51,7 @@ def study_pair(
     share: Share = unheard,
     drawn: Share = unheard,
 ) -> PairStudy:
-    """K_v over speed of a pair by itself, beside ISO 6336-1 Method B, and the course at the load's speed.
+    """Return the study of a pair by itself: K_v over speed, beside ISO 6336-1 Method B, and the course at the load's speed.
 
     `cycle` is the pair's mesh cycle under the load, `inertias` (kg·m²) those of pinion and wheel; their `masses` (kg) are
     needed where the options give bearings. The accuracy grade of the options wins over that of the `rating`.
@@ -90,20 +90,20 @@ def study_pair(
 
 
 def _smooth_errors(pair: GearPair, rating: RatingOptions, options: DynamicsOptions) -> TransmissionError | None:
-    """Those of one chart, None where there are none or they are drawn in a study of their own."""
+    """Return the tooth errors of one chart; None if there are none or they are drawn in a study of their own."""
     if not options.errors or options.drawn:
         return None
     return pair_errors(pair, rating, options.seed, options.distribution)
 
 
 def _single_teeth(pair: GearPair, cycle: MeshCycle, rating: RatingOptions, options: DynamicsOptions) -> tuple[MeshTeeth, ...]:
-    """Of the one mesh, for errors that are drawn."""
+    """Return the teeth of the only mesh, for errors that are drawn."""
     errors = rating if options.errors else None
     return (pair_teeth(pair, cycle, errors, single=options.premature, source=_title(cycle)),)
 
 
 def _title(cycle: MeshCycle) -> str:
-    """Of the method that has found it."""
+    """Return the title of the stiffness method that found the mesh cycle."""
     from gearcad.stiffness.methods import METHODS  # only here: trains without pairs do not need them
 
     return METHODS[cycle.method].title
@@ -112,7 +112,7 @@ def _title(cycle: MeshCycle) -> str:
 def _method_b(
     pair: GearPair, material: Materials, load: Load, inertias: PerGear[float], rating: RatingOptions
 ) -> tuple[DynamicFactor | None, str]:
-    """K_v of ISO 6336-1, or None and why the standard has none for this pair."""
+    """Return K_v of ISO 6336-1, or None and why the standard has none for this pair."""
     try:
         return DynamicFactor.of(pair, material, load, inertias, rating), ""
     except InputError as error:
@@ -122,7 +122,7 @@ def _method_b(
 def _on_bearings(
     train: Train, pair: GearPair, options: DynamicsOptions, masses: PerGear[float] | None
 ) -> PairOnBearings | None:
-    """The pair's turning gears on the bearings of the options, if these have any."""
+    """Return the pair's turning gears on the bearings of the options; None if the options have no bearings."""
     first, second = options.bearing_stiffness
     if first is None or second is None:
         return None
@@ -152,7 +152,7 @@ def study_contact(
     tell: Callable[[str], None] = lambda _step: None,
     counted: Callable[[int, int], None] = lambda _done, _count: None,
 ) -> ContactStudy:
-    """The Campbell study of a spur pair's contact model, and the time history at the load's speed (or at a middle one).
+    """Return the Campbell study of a spur pair's contact model, and the time history at the load's speed, or at a middle speed.
 
     `cycle` gives the stiffness of a pair of teeth where the options do not.
     """

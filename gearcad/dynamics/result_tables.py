@@ -29,13 +29,13 @@ _MOST_ROWS = 20_000
 
 
 def named_columns(quantity: str, names: Sequence[str], values: Floats, unit: str = "") -> Columns:
-    """A column for each of the names, of values (rows, names)."""
+    """Return a column for each of the names, of values (rows, names)."""
     ending = f" ({unit})" if unit else ""
     return {f"{quantity}.{name}{ending}": column for name, column in zip(names, values.T, strict=True)}
 
 
 def chart_columns(charts: Charts) -> Columns:
-    """K_v of meshes and overload of shafts over speed, running up and, where that differs, down."""
+    """Return K_v of meshes and overload of shafts over speed, running up and, where that differs, down."""
     up = charts.up
     found: dict[str, Any] = {
         "speed (rpm)": charts.speeds,
@@ -55,7 +55,7 @@ def chart_columns(charts: Charts) -> Columns:
 
 
 def chart_tables(charts: Charts) -> Tables:
-    """All that is known over speed: overload, displacements, lines of the transmission error, and what bearings carry."""
+    """Return all tables over speed: overload, displacements, lines of the transmission error, and bearing forces."""
     found: Tables = {"chart": chart_columns(charts)}
     speeds = {"speed (rpm)": charts.speeds}
     for direction, chart in charts.directions():
@@ -89,7 +89,7 @@ def chart_tables(charts: Charts) -> Tables:
 
 
 def mode_columns(modes: NaturalModes) -> Columns:
-    """Natural frequencies, the speeds that meet them, shapes, and where the energy is."""
+    """Return natural frequencies, the speeds that meet them, mode shapes, and the distribution of the energy."""
     return {
         "mode": np.arange(1, len(modes) + 1),
         "frequency (Hz)": modes.frequency,
@@ -107,7 +107,7 @@ def mode_columns(modes: NaturalModes) -> Columns:
 
 
 def component_columns(modes: ComponentModes) -> Columns:
-    """Modes of the lines of which the model "modes" is made."""
+    """Return the modes of the lines of which the model "modes" is made."""
     return {
         "component_mode": np.arange(1, len(modes.circular) + 1),
         "frequency (Hz)": modes.circular / (2 * np.pi),
@@ -118,7 +118,7 @@ def component_columns(modes: ComponentModes) -> Columns:
 
 
 def modal_tables(modes: NaturalModes) -> Tables:
-    """Natural modes, and those of the components where the model has some."""
+    """Return the natural modes, and those of the components where the model has some."""
     found: Tables = {"modes": mode_columns(modes)}
     if modes.component_modes is not None:
         found["component modes"] = component_columns(modes.component_modes)
@@ -126,7 +126,7 @@ def modal_tables(modes: NaturalModes) -> Tables:
 
 
 def cycle_columns(cycle: MeshCycle) -> Columns:
-    """Stiffness of a mesh over one base pitch."""
+    """Return the stiffness of a mesh over one base pitch."""
     return {
         "roll_angle (deg)": cycle.roll_angle,
         "mesh_stiffness (N/µm)": cycle.mesh_stiffness,
@@ -136,7 +136,7 @@ def cycle_columns(cycle: MeshCycle) -> Columns:
 
 
 def campbell_columns(study: SpeedSpectra) -> Columns:
-    """What the motion at each speed comes to, and the highest peaks of its spectrum; whole spectra are in the .npz file."""
+    """Return the results at each speed and the highest peaks of its spectrum; whole spectra are in the .npz file."""
     found: dict[str, Any] = {
         "speed (rpm)": study.speeds,
         "tooth_frequency (Hz)": study.tooth_frequencies(),
@@ -157,7 +157,7 @@ def campbell_columns(study: SpeedSpectra) -> Columns:
 
 
 def history_columns(history: TimeHistory) -> Columns:
-    """A motion over time, so many of its samples that there are at most 20,000."""
+    """Return a motion over time, thinned to at most 20,000 samples."""
     step = slice(None, None, -(-len(history.approach) // _MOST_ROWS))
     return {
         "time (s)": history.time[step],
@@ -170,7 +170,7 @@ def history_columns(history: TimeHistory) -> Columns:
 
 
 def spectrum_columns(history: TimeHistory, highest: float) -> Columns:
-    """Spectra of a motion up to a frequency (Hz)."""
+    """Return the spectra of a motion up to a frequency (Hz)."""
     speed, approach = history.spectrum(highest), history.approach_spectrum(highest)
     return {
         "frequency (Hz)": speed.frequency,
@@ -180,7 +180,7 @@ def spectrum_columns(history: TimeHistory, highest: float) -> Columns:
 
 
 def transient_columns(run: Transient) -> Columns:
-    """The greatest loads of every tooth period of a run with changing speed or torque."""
+    """Return the greatest loads of every tooth period of a run with changing speed or torque."""
     meshes, _, shafts = run.names
     return {
         "time (s)": run.middles,
@@ -192,7 +192,7 @@ def transient_columns(run: Transient) -> Columns:
 
 
 def stacked(what: str, labels: Sequence[str], each: Sequence[Tables]) -> Tables:
-    """Tables of several results, those of one name under each other: a first column `what` holds their labels."""
+    """Return the tables of several results, those of one name under each other; a first column `what` holds their labels."""
     found: dict[str, dict[str, list[Any]]] = {}
     for label, tables in zip(labels, each, strict=True):
         for name, columns in tables.items():

@@ -1,4 +1,4 @@
-"""What was found out about a train: modes, charts over speed, the course at one speed."""
+"""Results for a train: modes, charts over speed, and the course at one speed."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ _CYCLES = "mesh stiffness"
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Course:
-    """One speed (rpm of the first pinion) over the common period: `turn` (t,) in tooth periods of the first mesh.
+    """The course at one speed (rpm of the first pinion) over the common period: `turn` (t,) in tooth periods of the first mesh.
 
     `approach` (t, m) of the flanks in µm, `force` (t, m) in N with that of the dampers, `spring_force` (t, m) without it,
     `shaft_torque` (t, n) in N·m; `kv` (m,) is K_v of each mesh there. The approach is the dynamic transmission error: `line`
@@ -78,11 +78,11 @@ class Course:
     line: Floats
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the course in `dynamics.json`."""
         return {name: value if isinstance(value, float) else value.tolist() for name, value in vars(self).items()}
 
     def columns(self, meshes: Sequence[str], shafts: Sequence[str], teeth: int) -> Columns:
-        """As a table; `teeth` are those of the first mesh's pinion."""
+        """Return the course as a table; `teeth` is the tooth number of the first mesh's pinion."""
         return {
             "turn (tooth periods)": self.turn,
             "time (s)": self.turn * 60 / (self.speed * teeth),
@@ -93,7 +93,7 @@ class Course:
         }
 
     def line_columns(self, meshes: Sequence[str], teeth: int) -> Columns:
-        """The dynamic transmission error order by order; `teeth` are those of the first mesh's pinion."""
+        """Return the dynamic transmission error order by order; `teeth` is the tooth number of the first mesh's pinion."""
         return {
             "order (of the teeth)": self.order,
             "order (of the pinion)": self.order * teeth,
@@ -112,12 +112,12 @@ class ModalStudy:
 
     @property
     def name(self) -> str:
-        """Of the train."""
+        """Name of the train."""
         return self.train.name
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it."""
+        """Notices to read before using the results."""
         return _missed(self.train, self.modes)
 
     @property
@@ -126,7 +126,7 @@ class ModalStudy:
         return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it: no chart, no course."""
+        """Return the document of the study for `dynamics.json`, without chart and course."""
         return {
             "model": self.train.model.value,
             "modes": self.modes.to_dict(),
@@ -135,16 +135,16 @@ class ModalStudy:
         }
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by name."""
         return _mode_arrays(self.modes)
 
     def tables(self) -> Tables:
-        """As the CSV files have them."""
+        """Return the tables of the CSV files by name."""
         return modal_tables(self.modes)
 
 
 def _missed(train: Train, modes: NaturalModes) -> tuple[Notice, ...]:
-    """That the model has fewer natural frequencies than the train."""
+    """Return a notice if the model has fewer natural frequencies than the train."""
     if not modes.missed or train.model is TrainModel.MODES:
         return ()
     text = (
@@ -165,12 +165,12 @@ def _mode_arrays(modes: NaturalModes) -> dict[str, Floats]:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TrainStudy(Pictured):
-    """What was found out about a train: `up` and, where flanks may part, `down` are charts over the same rising speeds.
+    """Results for a train: `up` and, where flanks may part, `down` are charts over the same rising speeds.
 
-    `on_bearings` are the modes of the system of the charts, where its gears travel as well; `method_b` is K_v by
-    ISO 6336-1. `found` is what the calculation itself has to say: `notices` are also those of the charts and modes. `errors` is
-    K_v with tooth errors that were drawn: the charts are then those of teeth without. `transient` and `campbell` are a run
-    with changing speed or torque, and spectra over speed, where they were asked for.
+    `on_bearings` are the modes of the system of the charts, where its gears travel as well; `method_b` is K_v by ISO 6336-1.
+    `found` are notices of the calculation itself; `notices` are also those of the charts and modes. `errors` is K_v with tooth
+    errors that were drawn: the charts are then those of teeth without errors. `transient` and `campbell` are a run with
+    changing speed or torque, and spectra over speed, where they were asked for.
     """
 
     train: Train
@@ -194,16 +194,16 @@ class TrainStudy(Pictured):
 
     @property
     def name(self) -> str:
-        """Of the train."""
+        """Name of the train."""
         return self.train.name
 
     @property
     def speeds(self) -> Floats:
-        """Of the charts (s,): rpm of the first mesh's pinion."""
+        """Speeds (s,) of the charts in rpm of the first mesh's pinion."""
         return self.rpm(self.up.frequencies)
 
     def rpm(self, frequencies: ArrayLike) -> Floats:
-        """Speeds (...) of the first mesh's pinion (rpm) at circular tooth frequencies (...) of that mesh (1/s)."""
+        """Return speeds (...) of the first mesh's pinion (rpm) at circular tooth frequencies (...) of that mesh (1/s)."""
         result: Floats = np.asarray(frequencies, float) * 30 / (math.pi * self.train.meshes[0].teeth)
         return result
 
@@ -221,7 +221,7 @@ class TrainStudy(Pictured):
 
     @property
     def charts(self) -> Charts:
-        """Both charts, as findings are made of them."""
+        """Both charts in the form from which findings are made."""
         ratios = tuple(float(mesh.frequency_ratio) for mesh in self.excitation.meshes)
         return Charts(self.speeds, self.up, self.down, ratios)
 
@@ -232,7 +232,7 @@ class TrainStudy(Pictured):
 
     @cached_property
     def operating(self) -> OperatingRange:
-        """Where the train runs under load."""
+        """Operating range of the train: the speeds at which it runs under load."""
         ends = float(self.speeds[0]), float(self.speeds[-1])
         return operating_range(self.train.speed, self.options, ends).within(self.speeds)
 
@@ -248,13 +248,14 @@ class TrainStudy(Pictured):
 
     @cached_property
     def shaft_overloads(self) -> dict[str, ShaftOverload]:
-        """Of the shafts that carry something at rest, by name."""
+        """Overloads by name of the shafts that carry a torque at rest."""
         return {each.shaft: each for each in shaft_overloads(self.charts)}
 
     def lasting(self, mesh: int) -> float | None:
-        """The greatest force over the static one that lasts at the speeds and torques of the run in time, running as it runs.
+        """Return the greatest lasting force over the static one at the speeds and torques of the run in time, in its direction.
 
-        None beyond the chart, and where the torques change and forces do not follow them in proportion.
+        Returns None beyond the chart, where the torques change and forces do not follow them in proportion, and without a run
+        whose speed changes.
         """
         if self.transient is None or not self.transient.speed_changes:
             return None
@@ -271,9 +272,10 @@ class TrainStudy(Pictured):
         return float(lasting.max()) if np.isfinite(lasting).all() else None
 
     def lasting_course(self, chart: KvChart, mesh: int) -> Floats:
-        """What lasts at the speed and torque of every window of the run in time (w,); nan where that is not known.
+        """Return the lasting force over the static one at the speed and torque of every window (w,) of the run in time.
 
-        Where flanks stay together and teeth have no errors, forces are the torques' times those under the whole load.
+        Values that are not known are nan. Where flanks stay together and teeth have no errors, forces are proportional to the
+        torques.
         """
         run = self.transient
         assert run is not None  # whoever asks has it
@@ -286,12 +288,12 @@ class TrainStudy(Pictured):
 
     @cached_property
     def greatest_amplitudes(self) -> tuple[GreatestAmplitude, ...]:
-        """Of inertias, meshes, and axes on bearings, where they swing farthest."""
+        """Greatest amplitudes of inertias, meshes, and axes on bearings."""
         return greatest_amplitudes(self.charts)
 
     @cached_property
     def greatest_bearing_forces(self) -> tuple[GreatestBearingForce, ...]:
-        """Of gears on bearings."""
+        """Greatest bearing forces of gears on bearings."""
         return greatest_bearing_forces(self.charts)
 
     @property
@@ -309,7 +311,7 @@ class TrainStudy(Pictured):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it."""
+        """Notices to read before using the results."""
         down = self.down.notices if self.down is not None else ()
         drawn = self.errors.notices if self.errors is not None else ()
         return tuple(dict.fromkeys((*self.found, *self.up.notices, *down, *drawn, *_missed(self.train, self.modes))))
@@ -320,7 +322,7 @@ class TrainStudy(Pictured):
         return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it; frequencies in Hz and 1/s, speeds in rpm."""
+        """Return the document of the study for `dynamics.json`; frequencies in Hz and 1/s, speeds in rpm."""
         return {
             "model": self.train.model.value,
             "modes": self.modes.to_dict(),
@@ -346,7 +348,7 @@ class TrainStudy(Pictured):
         }
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by name."""
         found = {
             "speed": self.speeds,
             **self.up.arrays(),
@@ -362,7 +364,7 @@ class TrainStudy(Pictured):
         return found | ({} if self.campbell is None else self.campbell.arrays())
 
     def tables(self) -> Tables:
-        """As the CSV files have them."""
+        """Return the tables of the CSV files by name."""
         up = self.up
         found: Tables = {
             **chart_tables(self.charts),

@@ -55,7 +55,7 @@ _LOWER, _RUN_UP = 3.0, 60
 
 
 def study_modes(train: Train, options: DynamicsOptions | None = None) -> ModalStudy:
-    """The natural modes alone, of any train. Raises ParameterError."""
+    """Return the natural modes alone, of any train. Raises ParameterError."""
     options = options or DynamicsOptions()
     train = engaged(train, options)
     return ModalStudy(train=train, options=options, modes=natural_modes(train, count=options.frequencies))
@@ -74,14 +74,13 @@ def study_train(
     share: Share = unheard,
     drawn: Share = unheard,
 ) -> TrainStudy:
-    """Modes, charts and the course at the train's speed (or at its highest resonance).
+    """Return modes, charts and the course at the train's speed (or at its highest resonance).
 
     `speeds` (rpm, rising) are those of the chart, at least, in place of the options'. `excitation` is that of the train's own
     meshes unless given; `method_b` is K_v by ISO 6336-1 of the first mesh. With `bearings` the charts are those of the same
     mesh between gears that travel as well. `teeth` are those of the meshes, for errors that are drawn, unless the train's own.
-    `tell` hears what is being done, and how much of a run in time, `share` how much of the chart is, `drawn` how much of the
-    errors.
-    Raises ParameterError, GeometryError and SolverError.
+    `tell` receives the current step and how much of a run in time is done, `share` how much of the chart, `drawn` how much of
+    the errors. Raises ParameterError, GeometryError and SolverError.
     """
     if not train.meshes:
         raise GeometryError(
@@ -159,7 +158,7 @@ def expected_train(train: Train, options: DynamicsOptions) -> Expected:
 
 
 def _spectrum_speeds(options: DynamicsOptions, speeds: Floats) -> Floats:
-    """Of a Campbell diagram (rpm), over the speeds of a chart."""
+    """Return the speeds of a Campbell diagram (rpm), evenly spaced up to the last speed of a chart."""
     count = options.mesh_campbell_speeds
     return np.linspace(options.speed_from or speeds[-1] / count, speeds[-1], count)
 
@@ -177,7 +176,7 @@ def _spectra(
     modes: NaturalModes,
     tell: Tell,
 ) -> MeshCampbell:
-    """Over the speeds of the chart; lines are the natural frequencies whose modes bend teeth most."""
+    """Return the spectra over the speeds of the chart; their lines are the natural frequencies whose modes bend teeth most."""
     tell("campbell")
     bent = modes.potential_meshes.max(axis=1, initial=0.0)
     most = [number for number in np.argsort(-bent)[:_LINES].tolist() if bent[number] > _SHARE]
@@ -194,13 +193,16 @@ def _spectra(
 
 
 def _own_excitation(train: Train, options: DynamicsOptions) -> Excitation:
-    """Of the train's own meshes, with random errors of the teeth if the options ask for them, but for a study of their own."""
+    """Return the excitation by the train's own meshes, with random tooth errors if the options ask for them.
+
+    Errors that have a study of their own are left out.
+    """
     grade = options.accuracy_grade if options.errors and not options.drawn else None
     return train_excitation(train, grade=grade, seed=options.seed, distribution=options.distribution)
 
 
 def _own_teeth(train: Train, options: DynamicsOptions) -> list[MeshTeeth]:
-    """Of the train's own meshes: those of pairs have the teeth of these."""
+    """Return the teeth of the train's own meshes; meshes of pairs have the teeth of their pairs."""
     grade, single = options.accuracy_grade if options.errors else None, options.premature
     forces = static_forces(train).tolist()
     return [
@@ -222,7 +224,7 @@ def _plan(options: DynamicsOptions) -> ErrorPlan:
 
 
 def _error_speeds(train: Train, options: DynamicsOptions, charted: Floats) -> Floats:
-    """Speeds (rpm) at which errors are drawn: evenly over the chart, and that asked for."""
+    """Return speeds (rpm) at which errors are drawn: evenly over the chart, and the speed asked for."""
     asked = abs(train.speed)
     first = options.speed_from or charted[-1] / options.error_speeds
     even = np.linspace(first, charted[-1], options.error_speeds)
@@ -230,7 +232,10 @@ def _error_speeds(train: Train, options: DynamicsOptions, charted: Floats) -> Fl
 
 
 def _frequencies(train: Train, speeds: Floats) -> tuple[Floats, float]:
-    """Tooth frequencies of the first mesh (1/s) for the chart, and at the speed asked for, which is among them if it can be."""
+    """Return tooth frequencies of the first mesh (1/s) for the chart, and the one at the speed asked for.
+
+    The chart includes the latter if it lies within.
+    """
     frequency = math.pi * train.meshes[0].teeth / 30
     charted, asked = speeds * frequency, abs(train.speed) * frequency
     return np.union1d(charted, asked) if charted[0] <= asked <= charted[-1] else charted, asked
@@ -239,7 +244,7 @@ def _frequencies(train: Train, speeds: Floats) -> tuple[Floats, float]:
 def chart_speeds(
     train: Train, options: DynamicsOptions, modes: NaturalModes, on_bearings: BearingModes | None = None
 ) -> Floats:
-    """Of the chart (rpm of the first pinion)."""
+    """Return the speeds of the chart (rpm of the first pinion)."""
     last = options.speed_to
     if last is None:
         felt = (modes.potential_meshes > _SHARE).any(axis=1)
@@ -253,7 +258,7 @@ def chart_speeds(
 
 
 def _course(train: Train, over: OverSpeed, asked: float, options: DynamicsOptions) -> tuple[Course, tuple[Notice, ...]]:
-    """At the train's speed, or where the first mesh's K_v is greatest in operation; and what to know about it."""
+    """Return the course at the train's speed, or where the first mesh's K_v is greatest in operation, and notices about it."""
     frequency = asked or _greatest_in_operation(train, over, options)
     response, notices = over.response(frequency), tuple[Notice, ...]()
     within = over.up.frequencies[0] <= frequency <= over.up.frequencies[-1]
@@ -292,7 +297,7 @@ def _pull(response: PeriodicResponse) -> bool:
 
 
 def _drawn(train: Train, response: PeriodicResponse, samples: int) -> Course:
-    """With about so many samples; K_v is that of more."""
+    """Return the course of a response with about so many samples; K_v is taken from more samples."""
     step = max(1, 8 * int(response.harmonics[-1]) // samples)
     count = max(samples, 8 * int(response.harmonics[-1]) // step * step)
     spring = response.spring_forces(count=count)

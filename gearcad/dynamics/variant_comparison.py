@@ -38,18 +38,18 @@ class Peak(NamedTuple):
 
 
 def envelope(study: TrainStudy) -> Floats:
-    """(s, m): the greater K_v of running up and down, at the speeds of the charts."""
+    """Return the greater K_v (s, m) of running up and down, at the speeds of the charts."""
     return np.asarray(np.max([chart.factors for _, chart in study.charts.directions()], axis=0), float)
 
 
 def peaks_of(study: TrainStudy, mesh: int, prominence: float = _PROMINENCE) -> list[Peak]:
-    """Maxima of K_v of a mesh, running up or down, by speed, that stand out from both sides by so much."""
+    """Return maxima of K_v of a mesh, running up or down, by speed, that stand out from both sides by the `prominence`."""
     factors, speeds = envelope(study)[:, mesh], study.speeds
     return [Peak(float(speeds[row]), float(factors[row])) for row in outstanding(factors, prominence)]
 
 
 def joined_peaks(listed: Sequence[Sequence[Peak]], first: int) -> list[tuple[Peak | None, ...]]:
-    """The same maxima of several charts side by side; those of the chart `first` are held against before all others."""
+    """Return the same maxima of several charts side by side; the chart `first` is matched before all others."""
     groups: list[list[Peak | None]] = []
     for chart in sorted(range(len(listed)), key=lambda each: each != first):
         pairs = sorted(
@@ -70,16 +70,17 @@ def joined_peaks(listed: Sequence[Sequence[Peak]], first: int) -> list[tuple[Pea
 
 
 def _apart(group: Sequence[Peak | None], peak: Peak) -> float | None:
-    """How little a maximum is like the first of a group; None where it is out of reach."""
+    """Return how far a maximum differs from the first of a group in speed and height; None if it is out of reach."""
     known = next(each for each in group if each is not None)
     off = abs(math.log(peak.speed / known.speed)) / math.log(1 + _REACH)
     return off + abs(math.log(peak.factor / known.factor)) if off <= 1 else None
 
 
 def joined_modes(studies: Sequence[TrainStudy], first: int) -> list[tuple[int | None, ...]]:
-    """Elastic modes (from 0) of several trains side by side, those that move alike; the train `first` comes before the others.
+    """Return elastic modes (from 0) of several trains side by side, those that move alike; others are matched to the train
+    `first`.
 
-    In order of frequency, those of the first train by its own.
+    The order is that of frequency, by the frequency of the first train for modes that it has.
     """
     of = studies[first].modes
     groups: list[list[int | None]] = []
@@ -101,13 +102,13 @@ def joined_modes(studies: Sequence[TrainStudy], first: int) -> list[tuple[int | 
 
 
 def _given(group: Sequence[int | None], first: int) -> list[tuple[int, int]]:
-    """Which trains have the mode, and theirs: the first one before others."""
+    """Return which trains have the mode, and its number in each: the train `first` before others."""
     given = [(place, mode) for place, mode in enumerate(group) if mode is not None]
     return sorted(given, key=lambda each: each[0] != first)
 
 
 def _matched(of: TrainStudy, other: TrainStudy) -> dict[int, int]:
-    """Modes of a train and those of another one that move alike, one each."""
+    """Return the modes of a train with the modes of another one that move alike, one to one."""
     from scipy.optimize import linear_sum_assignment
 
     alike = _alikeness(of, other)
@@ -117,7 +118,8 @@ def _matched(of: TrainStudy, other: TrainStudy) -> dict[int, int]:
 
 
 def _alikeness(of: TrainStudy, other: TrainStudy) -> Floats:
-    """(n, k): square of the cosine between modes, in the energy of the motion; what one train does not have stands still."""
+    """Return the squares (n, k) of the cosine between modes, by kinetic energy; a part that one train lacks stands still there.
+    """
     products = [
         _product(a, b, of.train) for a, b in ((of.modes, other.modes), (of.modes, of.modes), (other.modes, other.modes))
     ]
@@ -127,7 +129,7 @@ def _alikeness(of: TrainStudy, other: TrainStudy) -> Floats:
 
 
 def _product(one: NaturalModes, two: NaturalModes, train: Train) -> Floats:
-    """(n, k): sum of inertia times turn times turn over what both have."""
+    """Return the sums (n, k) of inertia times turn times turn over the parts that both have."""
     found = np.zeros((len(one), len(two)))
     for inertia in train.inertias:
         if inertia.name in one.inertias and inertia.name in two.inertias:
@@ -170,7 +172,7 @@ class SameResonance(NamedTuple):
     shown: tuple[Peak | None, ...]
 
     def moved(self, study: int, reference: int) -> float | None:
-        """How far (relative) its speed is off that of the reference."""
+        """Return the relative difference of its speed in a study from that of the reference; None if either has no maximum."""
         own, other = self.shown[study], self.shown[reference]
         return None if own is None or other is None else own.speed / other.speed - 1
 
@@ -200,22 +202,22 @@ class SideBySide(Pictured):
         return f"<{type(self).__name__} of {self.name!r}: {self.what} {', '.join(self.labels)}>"
 
     def title(self, label: str) -> str:
-        """What a label stands for, as charts and headings have it."""
+        """Return the title of a label for charts and headings."""
         return f"{self.key} = {label}" if self.key else label
 
     @property
     def titles(self) -> tuple[str, ...]:
-        """Of all studies."""
+        """Titles of all studies."""
         return tuple(map(self.title, self.labels))
 
     @property
     def reference(self) -> int:
-        """The study that the others are held against: the first."""
+        """Index of the study with which the others are compared: the first."""
         return 0
 
     @property
     def mesh_names(self) -> tuple[str, ...]:
-        """Of all studies."""
+        """Names of the meshes, the same in all studies."""
         return self.studies[0].up.mesh_names
 
     @property
@@ -233,7 +235,7 @@ class SideBySide(Pictured):
 
     @cached_property
     def greatest(self) -> tuple[GreatestOfMesh, ...]:
-        """Mesh by mesh, study by study."""
+        """Greatest K_v, mesh by mesh and study by study."""
         found = []
         for mesh, name in enumerate(self.mesh_names):
             for label, study in zip(self.labels, self.studies, strict=True):
@@ -245,7 +247,7 @@ class SideBySide(Pictured):
 
     @cached_property
     def shaft_overloads(self) -> tuple[GreatestOfShaft, ...]:
-        """Shaft by shaft, of the studies that have it."""
+        """Greatest overloads, shaft by shaft, of the studies that have the shaft's overload."""
         found = []
         for name in self.shaft_names:
             for label, study in zip(self.labels, self.studies, strict=True):
@@ -259,7 +261,7 @@ class SideBySide(Pictured):
 
     @cached_property
     def resonances(self) -> tuple[SameResonance, ...]:
-        """Of each mesh the highest, by speed."""
+        """Highest resonances of each mesh, in order of speed."""
         found = []
         for mesh, name in enumerate(self.mesh_names):
             groups = joined_peaks([peaks_of(study, mesh) for study in self.studies], self.reference)
@@ -270,7 +272,7 @@ class SideBySide(Pictured):
 
     @cached_property
     def natural_frequencies(self) -> tuple[tuple[float | None, ...], ...]:
-        """Of elastic modes in 1/s, one that moves alike of each study; None where a study has none."""
+        """Natural frequencies (1/s) of elastic modes that move alike, one of each study; None where a study has none."""
         return tuple(
             tuple(
                 None if mode is None else float(study.modes.circular[mode])
@@ -283,7 +285,7 @@ class SideBySide(Pictured):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it: what is true of all studies, then what of some, and of which."""
+        """Notices to read before using the results: those of all studies first, then those of some studies with their labels."""
         every = [notice for notice in self.studies[0].notices if all(notice in study.notices for study in self.studies)]
         some = [
             notice.within(label)
@@ -299,7 +301,7 @@ class SideBySide(Pictured):
         return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it: `studies` are documents of their own, in the order of the labels."""
+        """Return the document for `dynamics.json`: `studies` are documents of their own, in the order of the labels."""
         return {
             "what": self.what,
             "labels": list(self.labels),
@@ -321,7 +323,7 @@ class SideBySide(Pictured):
         return {"mesh": resonance.mesh, "shown": dict(zip(self.labels, shown, strict=True))}
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them: those of each study, its label and a slash before their names."""
+        """Return the arrays of the .npz file: those of each study, with its label and a slash before their names."""
         return {
             f"{label}/{key}": array
             for label, study in zip(self.labels, self.studies, strict=True)
@@ -329,5 +331,5 @@ class SideBySide(Pictured):
         }
 
     def tables(self) -> Tables:
-        """As the CSV files have them: those of the studies under each other."""
+        """Return the tables of the CSV files: those of the studies under each other."""
         return stacked(self.what, self.labels, [study.tables() for study in self.studies])
