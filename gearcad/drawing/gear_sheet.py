@@ -32,10 +32,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
-    """One page: `name` is that of its files ("pinion", "assembly"), `number` what identifies it, `size` that of the paper.
+    """One sheet of a drawing: `name` is the name of its files ("pinion", "assembly"), `number` its identification number.
 
-    `scale` is mm of paper for a mm of the part. `shown` are the exact values of the numbers on it by their keys in documents
-    ("reference_diameter"), as they are before they are rounded. `notices` say what was shortened, assumed or left out.
+    `size` is width and height of the paper (mm); `scale` is mm of paper for a mm of the part. `shown` are the numbers on the
+    sheet before rounding, by their keys in documents ("reference_diameter"). `notices` name what was shortened, assumed or
+    left out.
     """
 
     name: str
@@ -49,12 +50,12 @@ class Sheet:
     notices: tuple[Notice, ...] = ()
 
     def document(self) -> Document:
-        """As one document of DXF, of which all its files are written."""
+        """Return the sheet as a DXF document, from which all its files are written."""
         return sheet_document(self.figure, self.size, self.scale, title=self.title, language=self.language)
 
     @property
     def paper(self) -> Box:
-        """The page, its lower left corner at the origin."""
+        """Box of the paper (mm), its lower left corner at the origin."""
         return Box(0.0, 0.0, *self.size)
 
 
@@ -67,28 +68,28 @@ class Drawing:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Those of all sheets, each with the sheet it is about."""
+        """Notices of all sheets, each with the name of its sheet."""
         return tuple(notice.within(sheet.name) for sheet in self.sheets for notice in sheet.notices)
 
 
 _CHORD_ERROR = 0.001
-"""Of the solid, in normal modules: volumes are then right within 0.02 %, and three digits of them are shown."""
+"""Chord error of the solid in normal modules: volumes are then right within 0.02 %, and three digits of them are shown."""
 
 _FINEST = 1e-6
 """Least chord error as a share of the largest size: finer triangles than mesh files can hold are refused."""
 
 _PER_CUBIC_MILLIMETRE = 1e-9
-"""From a density in kg/m³."""
+"""Factor from kg/m³ to kg/mm³."""
 
 
 def mass_of(drawn: DrawnGear) -> float | None:
-    """That of a gear or a rack; None where no material is given, and of a ring that has no rim."""
+    """Return the mass (kg) of a gear or a rack; None without a material, and for a ring without a rim diameter."""
     volume = _volume(drawn.gear)
     return None if drawn.material is None or volume is None else volume * drawn.material.density * _PER_CUBIC_MILLIMETRE
 
 
 def _volume(part: Gear | Rack) -> float | None:
-    """In mm³."""
+    """Return the volume (mm³) of a gear or a rack; None for a ring without a rim diameter."""
     error = _CHORD_ERROR * part.normal_module
     if isinstance(part, Rack):
         size = max(part.length, part.face_width, part.total_height)
@@ -98,7 +99,7 @@ def _volume(part: Gear | Rack) -> float | None:
 
 
 def mass_of_pair(drawn: DrawnPair) -> float | None:
-    """The sum of both; None where one of them is not known."""
+    """Return the mass (kg) of both parts of a pair; None where one of them is not known."""
     first, second = (mass_of(part) for part in drawn.parts)
     return None if first is None or second is None else first + second
 
@@ -106,8 +107,9 @@ def mass_of_pair(drawn: DrawnPair) -> float | None:
 def part_rows(
     drawn: DrawnGear, requirements: Requirements, draughting: Draughting, *, detailed: bool = True
 ) -> tuple[tuple[View, ...], ...]:
-    """The views at a scale, in the rows in which they stand in first angle projection; `detailed` where a tooth of them is
-    drawn in detail."""
+    """Return the views at a scale, in their rows in first angle projection. With `detailed` one of them marks the tooth that
+    is drawn in detail.
+    """
     given = drawn, requirements, draughting
     if isinstance(drawn.gear, Rack):
         plan = rack_views.plan_view(*given)
@@ -120,31 +122,31 @@ def part_rows(
 
 
 def _with_detail(view: View, drawn: DrawnGear, draughting: Draughting) -> View:
-    """A view that says where the detail is taken from."""
+    """Return a view with the mark of the detail's place."""
     return replace(view, annotations=(*view.annotations, lambda: detail_mark(drawn, view.figure, draughting.scale)))
 
 
 def detail_blocks(drawn: DrawnGear, words: Words) -> tuple[View, ...]:
-    """A tooth in detail, which comes first, and the diagrams of its modifications; they have scales of their own."""
+    """Return the detail of a tooth, then the diagrams of its modifications; these views have scales of their own."""
     detail = tooth_figure(drawn, Draughting(words, detail_scale(drawn)))
     diagrams = modification_figures(drawn, Draughting(words))
     return View("detail", detail), *(View(f"diagram {number}", each) for number, each in enumerate(diagrams, 1))
 
 
 _AIR = 4.0
-"""From the frame, or what stands beside it, to the roughness of the rest."""
+"""Distance of the general roughness from the frame and the tables beside it (mm of paper)."""
 
 _LEGIBLE = 40.0
 """Least size (mm of paper) of views with their centre lines, where leaving something out makes them larger."""
 
 _USUAL_CHAMFER = 45.0
-"""An angle of chamfers that may be taken from either side."""
+"""Angle (degrees) of chamfers that is the same from either side."""
 
 
 def draw_gear(drawn: DrawnGear, options: DrawingOptions, part: PartDrawing | None = None, *, alone: bool = True) -> Sheet:
-    """The sheet of an external gear, a ring or a rack, as [drawing] and the gear's own table have it.
+    """Return the sheet of an external gear, a ring or a rack, with the options of [drawing] and of the gear's own table.
 
-    `alone` where it is the only gear of its design: number, title and revisions of [drawing] are then its own. Raises
+    `alone` means that it is the only gear of its design: it then takes number, title and revisions from [drawing]. Raises
     ParameterError for a sheet or a scale that has no room, and for a template that cannot be used.
     """
     content = _Content.of(drawn, options.of_part(part, alone=alone))
@@ -165,7 +167,7 @@ def draw_gear(drawn: DrawnGear, options: DrawingOptions, part: PartDrawing | Non
 
 @dataclass(frozen=True, kw_only=True)
 class _Content:
-    """What the sheet of a part says, whatever its size and scale."""
+    """The content of a part's sheet, independent of its size and scale."""
 
     drawn: DrawnGear
     options: DrawingOptions
@@ -189,13 +191,13 @@ class _Content:
 
     @property
     def title(self) -> str:
-        """As it was given, else the word for such a part, with its name if it has one."""
+        """Title as given, else the word for such a part, with the name of the gear if it has one."""
         role, gear = self.drawn.role, self.drawn.gear
         return self.options.title or titled(self.words, kind_of(role, gear), "gear" if gear.name == role else gear.name)
 
     @property
     def shown(self) -> Mapping[str, float]:
-        """Numbers of the table by their keys, sizes of the views by their names among the requirements, and the mass (kg)."""
+        """Numbers of the table by their keys, sizes of the views by their names in the requirements, and the mass (kg)."""
         numbers = {key: value for row in self.rows for key, value in row.numbers.items()}
         sizes = {each.name: getattr(self.requirements, each.name) for each in fields(self.requirements)}
         numbers |= {f"sizes.{name}": size.value for name, size in sizes.items() if isinstance(size, Size)}
@@ -203,15 +205,18 @@ class _Content:
 
     @property
     def _sizes(self) -> str:
-        """Teeth, module and helix angle, for where nobody gave a supplementary title."""
+        """Teeth, module and helix angle as a text, for a sheet without a supplementary title."""
         gear, words = self.drawn.gear, self.words
         assert gear.teeth is not None  # derived by now
         texts = [f"z = {words.number(gear.teeth, 0)}", f"mₙ = {words.shortest(gear.normal_module, 6)}"]
         return ", ".join([*texts, *([f"β = {words.shortest(abs(gear.helix_angle), 4)}°"] if gear.helix_angle else [])])
 
     def arranged(self) -> tuple[Arrangement, tuple[Notice, ...]]:
-        """All that stands on the sheet; on one that was asked for without the tooth in detail, if all of it has no room or
-        would be too small to be read. Raises ParameterError."""
+        """Return the arrangement of all views, and notices of what is left out or too small.
+
+        On a sheet size that was asked for, the detail of a tooth is left out if there is no room for all, or all would be too
+        small to read. Raises ParameterError.
+        """
         found = self._tried()
         if self.options.sheet is not SheetSize.AUTO and not self._is_legible(found):
             bare = self._tried(detailed=False)
@@ -223,7 +228,7 @@ class _Content:
         return found, () if self.options.sheet is SheetSize.AUTO else self._small(found)
 
     def _tried(self, *, detailed: bool = True) -> Arrangement | ParameterError:
-        """What was found, or what says that there is no room."""
+        """Return the arrangement, or the error that says that there is no room."""
         own, views = self.options, partial(self.views, detailed=detailed)
         try:
             return arranged(views, self.fixed, sheet=own.sheet, scale=own.scale, projection=own.projection)
@@ -231,7 +236,7 @@ class _Content:
             return error
 
     def _small(self, found: Arrangement) -> tuple[Notice, ...]:
-        """That they are."""
+        """Return a notice if the views are too small to be read well, else nothing."""
         text = f"at {found.scale} on {found.sheet.value} they are too small to be read well"
         return () if self._is_legible(found) else (Notice("drawing-small", text, where="views"),)
 
@@ -239,14 +244,14 @@ class _Content:
         return bare.factor > found.factor if isinstance(found, Arrangement) else self._is_legible(bare)
 
     def _is_legible(self, found: Arrangement | ParameterError) -> bool:
-        """Whether there are views, and large enough; at a scale that was asked for they are."""
+        """Return whether there are views that are large enough; at a scale that was asked for they always are."""
         if isinstance(found, ParameterError):
             return False
         boxes = [view.figure.box for row in self.views(found.factor).rows for view in row]
         return self.options.scale != "auto" or max(max(box.width, box.height) for box in boxes) >= _LEGIBLE
 
     def views(self, scale: float, *, detailed: bool = True) -> Views:
-        """The views at a scale, and the details, which have scales of their own."""
+        """Return the views at a scale, and the details, which have scales of their own."""
         rows = part_rows(self.drawn, self.requirements, Draughting(self.words, scale), detailed=detailed)
         return Views(rows, self._blocks if detailed else self._blocks[1:])
 
@@ -259,13 +264,13 @@ class _Content:
         return detail_blocks(self.drawn, self.words)
 
     def fixed(self, sheet: SheetSize, scale: str) -> Fixed:
-        """All else, as the layout takes it."""
+        """Return all parts of the sheet other than the views, for the layout."""
         furnished = self.furnished(sheet, scale)
         rest = self._roughness(furnished)
         return Fixed(furnished.figure + rest, furnished.free, (*furnished.taken, rest.box))
 
     def furnished(self, sheet: SheetSize, scale: str) -> Furnished:
-        """Border, title block, revisions, gear data, notes."""
+        """Return the sheet's border, title block, revisions, gear data and notes."""
         furniture = Furniture(
             options=self.options,
             template=self.template,
@@ -289,15 +294,16 @@ class _Content:
         return furniture.on(sheet, values)
 
     def _notes(self) -> Iterator[str]:
-        """What has to be said of the part beside its views."""
+        """Yield the notes on the part beside its views."""
         yield from self.requirements.tooth_notes(self.words)
         gear = self.drawn.gear
         if isinstance(gear, Gear) and gear.body.end_chamfer and gear.body.end_chamfer_angle != _USUAL_CHAMFER:
             yield self.words["views.note_chamfer_angle"]
 
     def _roughness(self, furnished: Furnished) -> Figure:
-        """That of all other surfaces, above the title block: at its left or, where the notes are there, its right; else above
-        the notes."""
+        """Return the general roughness above the title block: at its left or, if the notes are there, its right; else above
+        the notes.
+        """
         figure = general_roughness(f"Ra {self.words.shortest(self.requirements.rest_roughness)}")
         figure = figure.moved(-figure.box.left, -figure.box.bottom)
         stack, notes = furnished.taken[0], furnished.taken[-1]

@@ -18,7 +18,7 @@ Candidates = Callable[[], Iterable[Figure]]
 
 @dataclass(frozen=True)
 class View:
-    """`figure` is its outline at the scale of the paper, the origin on the axis that it shares with views beside it.
+    """A view: `figure` is its outline at the scale of the paper, its origin on the axis shared with the views beside it.
 
     `annotations` are its marks in order of importance, each by its possible places.
     """
@@ -29,14 +29,14 @@ class View:
 
 
 _ANEW = 4
-"""So often marks are placed anew, another one first."""
+"""Number of attempts to place all marks, each with another mark first."""
 
 _CHOICE = 24
-"""So many places that would do are compared where marks cross each other's lines, or are in each other's way."""
+"""Number of free places compared where marks cross or block each other."""
 
 
 def dressed(view: View, *, within: Box | None = None, obstacles: Iterable[Figure] = ()) -> Figure | None:
-    """The view with all its marks; None where one of them has no place.
+    """Return the view with all its marks; None where one of them has no place.
 
     Of dimensions on the same side the shorter come first, so that they are inside the longer; else the order is that of the
     view. Where lines of marks would cross, a later place without crossings is taken, if there is one. For a mark that has no
@@ -53,7 +53,7 @@ def dressed(view: View, *, within: Box | None = None, obstacles: Iterable[Figure
 
 
 class _Standing(NamedTuple):
-    """What is there before any mark."""
+    """Figures that are present before any mark."""
 
     figures: tuple[Figure, ...]
     within: Box | None
@@ -63,7 +63,9 @@ class _Standing(NamedTuple):
 
 
 def _placed(marks: list[_Places], chosen: list[Figure], standing: _Standing) -> bool:
-    """Place the last of some marks beside those that are `chosen`, of which one may be placed elsewhere for it."""
+    """Place the last of some marks beside the `chosen` ones, one of which may be moved for it. Return whether it has a
+    place.
+    """
     occupied = standing.and_of(chosen)
     figure = _best(_free(marks[-1], occupied), occupied)
     if figure is not None:
@@ -80,7 +82,9 @@ def _placed(marks: list[_Places], chosen: list[Figure], standing: _Standing) -> 
 
 
 def _pair(mine: list[Figure], others: Iterable[Figure]) -> tuple[Figure, Figure] | None:
-    """One of the others and one of mine that do not clash; the first whose lines cross least."""
+    """Return one of the others and one of mine that do not clash: the first such pair with the fewest crossings; None without
+    one.
+    """
     best: tuple[int, Figure, Figure] | None = None
     for other in others if mine else ():
         alone = Occupied(other)
@@ -98,7 +102,7 @@ def _free(places: Iterable[Figure], occupied: Occupied) -> Iterator[Figure]:
 
 
 def _best(free: Iterable[Figure], occupied: Occupied) -> Figure | None:
-    """The first without crossings, or else that with the fewest."""
+    """Return the first figure without crossings, else the one with the fewest; None without any."""
     best: tuple[int, Figure] | None = None
     for figure in free:
         crossings = occupied.crossings(figure)
@@ -110,7 +114,7 @@ def _best(free: Iterable[Figure], occupied: Occupied) -> Figure | None:
 
 
 class _Places:
-    """The places of a mark, each made once, when it is asked for."""
+    """Possible places of a mark, each made once, on demand."""
 
     def __init__(self, candidates: Candidates) -> None:
         self._coming, self._made = iter(candidates()), list[Figure]()
@@ -123,7 +127,7 @@ class _Places:
 
 
 class _Beside(NamedTuple):
-    """Of a linear dimension: its direction, whether its line is above (right of) what it measures, and its length."""
+    """Order of a linear dimension: its direction, whether its line is above (right of) the measured points, and its length."""
 
     measured: Measured
     above: bool
@@ -131,7 +135,9 @@ class _Beside(NamedTuple):
 
 
 def _in_order(view: View) -> list[_Places]:
-    """Dimensions of a side change places among themselves, by their lengths; what has no place at all is nothing to say."""
+    """Return the marks of a view in the order of placement. Dimensions of one side are sorted by length; a mark without any
+    place is left out.
+    """
     marks = [(places, first) for each in view.annotations if (first := next(iter(places := _Places(each)), None)) is not None]
     sides = [_beside(first) for _, first in marks]
     order = list(range(len(marks)))
@@ -153,10 +159,10 @@ def _beside(first: Figure) -> _Beside | None:
 
 _LARGEST = 50.0
 _CHOSEN = tuple(name for name, factor in SCALES.items() if factor <= _LARGEST)
-"""Scales that are chosen, the largest first."""
+"""Scales that the layout may choose, the largest first."""
 
 _SHEETS = (SheetSize.A3, SheetSize.A2, SheetSize.A1, SheetSize.A0)
-"""Sheets that are chosen, the smallest first."""
+"""Sheets that the layout may choose, the smallest first."""
 
 _ENOUGH = (*((sheet, 1 / 2) for sheet in _SHEETS[:2]), *((sheet, 1 / 5) for sheet in _SHEETS))
 """The first of these sheets is taken that has room at its scale or a larger one.
@@ -168,7 +174,7 @@ they do not. Still larger sheets are unhandy; they are taken where A2 has no roo
 
 @dataclass(frozen=True)
 class Fixed:
-    """What stands on a sheet before its views: border, title block, tables, notes.
+    """Content of a sheet apart from its views: border, title block, tables, notes.
 
     `free` is the area within the frame, `taken` those within it where something stands.
     """
@@ -180,10 +186,10 @@ class Fixed:
 
 @dataclass(frozen=True)
 class Views:
-    """Views in rows, as they stand in first angle projection, and blocks that stand anywhere (details, diagrams).
+    """Views in rows, as arranged in first angle projection, and blocks that may stand anywhere (details, diagrams).
 
-    Views of a row have their origins on one axis, the first views of all rows theirs one below the other. At the right is what
-    one sees from the left, below what one sees from above; in third angle projection they are at the other side.
+    Views of a row have their origins on one axis; the first views of all rows have theirs one below the other. The view from
+    the left is at the right, the view from above is below. In third angle projection they are at the other side.
     """
 
     rows: tuple[tuple[View, ...], ...]
@@ -192,7 +198,9 @@ class Views:
 
 @dataclass(frozen=True)
 class Arrangement:
-    """`scale` is one of ISO 5455, `origins` where that of each view stands, `figure` all there is on the sheet."""
+    """A laid-out sheet: `scale` is one of ISO 5455, `origins` are the places of the views' origins, `figure` is the whole
+    content.
+    """
 
     sheet: SheetSize
     scale: str
@@ -201,7 +209,7 @@ class Arrangement:
 
     @property
     def size(self) -> tuple[float, float]:
-        """Width and height of the paper."""
+        """Width and height of the paper (mm)."""
         return self.sheet.size
 
     @property
@@ -218,12 +226,12 @@ def arranged(
     scale: str = "auto",
     projection: Projection = Projection.FIRST,
 ) -> Arrangement:
-    """All views with all their marks on a sheet, none over another.
+    """Return the arrangement of all views with all their marks on a sheet, none over another.
 
-    `views` makes them at a scale (mm of paper for a mm of the part), `fixed` what else stands on a sheet, which may name the
-    scale ("1:2") but has the same size whatever it is. "auto" is the largest scale that has room on A3; on A2 where it would be
-    smaller than 1:2, and on the smallest sheet with 1:5 where A2 has no room at 1:2 either. Raises ParameterError of `scale` or
-    `sheet`, which says what would do.
+    `views` makes them at a scale (mm of paper for a mm of the part). `fixed` makes the rest of a sheet, which may name the
+    scale ("1:2") but has the same size at any scale. "auto" is the largest scale that has room on A3; on A2 where it would be
+    smaller than 1:2, and on the smallest sheet with 1:5 where A2 has no room at 1:2 either. Raises ParameterError of `scale`
+    or `sheet`, which names a choice with room.
     """
     trial = _Trial(views, fixed, projection)
     scales = _CHOSEN if scale == "auto" else (scale,)
@@ -242,7 +250,7 @@ def arranged(
 
 @dataclass
 class _Trial:
-    """Views at several scales and what is fixed on several sheets, each made once."""
+    """Views at several scales and the fixed content of several sheets, each made once."""
 
     views: Callable[[float], Views]
     fixed: Callable[[SheetSize, str], Fixed]
@@ -255,12 +263,14 @@ class _Trial:
     _dressed: dict[str, _Shown | None] = field(default_factory=dict)
 
     def largest(self, sheet: SheetSize, scales: Sequence[str], least: float = 0.0) -> Arrangement | None:
-        """At the first scale of those given that has room, and is no smaller than the least."""
+        """Return the arrangement at the first of the scales that has room and is no smaller than `least`; None if there is
+        none.
+        """
         good = (scale for scale in scales if SCALES[scale] >= least)
         return next((found for scale in good if (found := self.at(sheet, scale)) is not None), None)
 
     def at(self, sheet: SheetSize, scale: str) -> Arrangement | None:
-        """None where there is no room."""
+        """Return the arrangement on a sheet at a scale; None where there is no room."""
         room = self._room(sheet, scale)
         if not self._outlines(scale).may_fit(room.free):
             return None
@@ -309,7 +319,7 @@ class _Trial:
 
 
 class _Crowded(Exception):
-    """A mark of the view that is named has no place."""
+    """A mark of the named view has no place."""
 
 
 def _with_all(view: View) -> Figure:
@@ -339,14 +349,14 @@ class _Shown(NamedTuple):
         return [figure.box for _, figure in self.blocks]
 
     def may_fit(self, free: Box) -> bool:
-        """Whether the views of each row are no wider together than an area, and the rows no higher."""
+        """Return whether the views of each row together are no wider than an area, and the rows together no higher."""
         rows = [row for row in self.boxes if row]
         heights = (max(box.top for box in row) - min(box.bottom for box in row) for row in rows)
         return sum(heights) <= free.height and all(sum(box.width for box in row) <= free.width for row in rows)
 
 
 def _refusal(trial: _Trial, sheet: SheetSize, scale: str) -> ParameterError:
-    """What was asked for cannot be, and what could."""
+    """Return the error for a sheet or scale without room; it names the choices that have room."""
     larger = [each for each in _SHEETS if each is not sheet] if sheet is not SheetSize.AUTO else []
     asked = _CHOSEN if scale == "auto" else (scale,)
     elsewhere = next((found for each in larger if (found := trial.largest(each, asked)) is not None), None)

@@ -64,7 +64,9 @@ class Stroked:
 
     @property
     def dashes(self) -> tuple[float, ...]:
-        """Those of its pen, so stretched that it begins and ends with a whole dash; none where it is too short for two."""
+        """Lengths of dashes and gaps (mm), stretched so that the line begins and ends with a whole dash; empty if too short
+        for two.
+        """
         pattern = self.pen.stroke.dashes
         if not pattern:
             return ()
@@ -87,17 +89,17 @@ Item = Stroked | Area | Text
 
 
 def items(document: Drawing) -> Iterator[Item]:
-    """All that a document shows, in its order."""
+    """Return all items that a document shows, in its order."""
     return _of_all(document.modelspace(), document)
 
 
 def line_widths(document: Drawing) -> dict[Pen, float]:
-    """Of the lines of each pen on this sheet."""
+    """Return the width (mm) of each pen's lines on this sheet."""
     return {pen: document.layers.get(pen.value).dxf.lineweight / 100 for pen in Pen}
 
 
 def paper_size(document: Drawing) -> tuple[float, float]:
-    """Width and height of the sheet."""
+    """Return width and height of the sheet (mm)."""
     across, up = document.header["$LIMMAX"]
     return across, up
 
@@ -257,12 +259,12 @@ def set_letters(words: str) -> str:
 
 
 def unshowable(words: Iterable[str]) -> str:
-    """The letters of texts that the font of the sheets lacks, each once."""
+    """Return the letters of texts that the font of the sheets lacks, each once."""
     return "".join(sorted({letter for text in words for letter in text if not has_glyph(letter)}))
 
 
 def _as_seen(words: str) -> str:
-    """From left to right, what is written from right to left turned round, but not its numbers; Arabic letters joined.
+    """Return a text as seen from left to right: right-to-left parts reversed, except their numbers, and Arabic letters joined.
 
     A simple case of the Unicode bidirectional algorithm (UAX 9): one level, in a line that runs from left to right.
     """
@@ -287,7 +289,9 @@ def _as_seen(words: str) -> str:
 
 
 def _right_to_left(words: str) -> str:
-    """Last first; marks stay behind the letters on which they stand, digits in their order, brackets open to the other side."""
+    """Return a right-to-left text reversed: marks stay behind their letters, numbers keep their order, and brackets are
+    mirrored.
+    """
     parts: list[str] = []
     for letter in words:
         kind = unicodedata.bidirectional(letter)

@@ -23,20 +23,21 @@ _LEVEL = 0.15
 """Slope up to which a line runs beside a dimension line: the top of a circle too."""
 
 _ALONG = 1.0
-"""So much may lines run beside each other, for they end in rounded numbers."""
+"""Length (mm) up to which lines may run beside each other, because their ends are rounded."""
 
 _DOUBLE, _SAME = 1.0, 1e-6
-"""Lines of marks that are nearer look like one that is drawn twice, but for those that lie upon each other."""
+"""Distances (mm): nearer lines of marks look like one line drawn twice; lines nearer than the second lie upon each other."""
 
 
 class Occupied:
-    """What stands: no text may meet another, a line or hatching; lines may cross lines, but not symbols.
+    """The occupied parts of a sheet. No text may meet another text, a line or hatching; lines may cross lines, but not
+    symbols.
 
     Dimension lines keep away from each other and from lines that run beside them.
     """
 
     def __init__(self, *figures: Figure, taken: Iterable[Box] = (), within: Box | None = None) -> None:
-        """`taken` are areas where nothing may be, `within` the one that nothing may leave."""
+        """Occupy the places of figures. Nothing may enter the `taken` areas or leave the area `within`."""
         self._texts, self._symbols = _no_rows(), _no_rows()
         self._segments, self._marks = _no_rows(), _no_rows()
         self._spans: dict[Measured, Floats] = {each: _no_rows(3) for each in (Measured.HORIZONTAL, Measured.VERTICAL)}
@@ -46,7 +47,7 @@ class Occupied:
             self.add(figure)
 
     def add(self, figure: Figure) -> None:
-        """What stands from now on."""
+        """Add a figure to the occupied places."""
         self._texts = np.concatenate([self._texts, _text_boxes(figure)])
         self._symbols = np.concatenate([self._symbols, _symbol_boxes(figure)])
         self._segments = np.concatenate([self._segments, _as_rows(figure.segments)])
@@ -56,7 +57,7 @@ class Occupied:
         self._hatched += [_edges(shape) for shape in figure.shapes if isinstance(shape, Hatching)]
 
     def clashes(self, figure: Figure) -> bool:
-        """Whether a figure would meet what stands, or leave what it must stay within."""
+        """Return whether a figure would meet an occupied place, or leave the area it must stay within."""
         box = figure.box
         if self._within is not None and not self._within.holds(box):
             return True
@@ -78,7 +79,7 @@ class Occupied:
         )
 
     def crossings(self, figure: Figure) -> int:
-        """How many lines of dimensions, leaders and symbols it would cross with its own, or double.
+        """Return the number of dimension, leader and symbol lines that a figure would cross or double with its own.
 
         That is permitted, but better avoided.
         """
@@ -86,7 +87,7 @@ class Occupied:
         return int(_intersecting(lines, self._marks).sum() + _doubled(lines, self._marks).sum())
 
     def _too_near(self, figure: Figure, measured: Measured) -> bool:
-        """Whether a dimension line would run beside another, or beside any other line."""
+        """Return whether a dimension line would run beside another, or beside any other line."""
         spans = _spans(figure, measured)
         lines = self._segments if measured is Measured.HORIZONTAL else self._segments[:, [1, 0, 3, 2]]
         level = lines[np.abs(lines[:, 1] - lines[:, 3]) <= _LEVEL * np.abs(lines[:, 0] - lines[:, 2])]
@@ -104,7 +105,7 @@ def _text_boxes(figure: Figure) -> Floats:
 
 
 def _symbol_boxes(figure: Figure) -> Floats:
-    """Frames and roughness symbols: nothing shall cross them either."""
+    """Return the boxes of frames and roughness symbols, shape (n, 4); nothing may cross them."""
     boxes = [shape.box for shape in figure.shapes if isinstance(shape, Polyline) and shape.pen is Pen.SYMBOL]
     return np.array(boxes, dtype=float).reshape(-1, 4)
 
@@ -123,13 +124,15 @@ def _parts(figure: Figure) -> Iterator[Shape]:
 
 
 def _mark_lines(figure: Figure) -> Floats:
-    """Dimension, extension and leader lines."""
+    """Return the dimension, extension and leader lines of a figure as rows (x, y, x, y), shape (n, 4)."""
     lines = (part for part in _parts(figure) if isinstance(part, Line) and part.pen in (Pen.DIMENSION, Pen.SYMBOL))
     return _as_rows([(line.start, line.end) for line in lines])
 
 
 def _spans(figure: Figure, measured: Measured) -> Floats:
-    """Dimension lines of one direction, as (from, to, height); of vertical ones y is along, x the height."""
+    """Return the dimension lines of one direction as (from, to, height), shape (n, 3). For vertical lines y is along, x the
+    height.
+    """
     found = []
     for shape in figure.shapes:
         if isinstance(shape, Dimension) and shape.measured is measured:
@@ -148,21 +151,23 @@ def _grown(boxes: Floats, by: float) -> Floats:
 
 
 def _meet(ones: Floats, others: Floats) -> Bools:
-    """Which boxes have an area in common with which, shape (ones, others)."""
+    """Return which boxes have an area in common, shape (ones, others)."""
     one, other = ones[:, None, :], others[None, :, :]
     met: Bools = np.all((one[..., :2] < other[..., 2:]) & (other[..., :2] < one[..., 2:]), axis=-1)
     return met
 
 
 def _beside(spans: Floats, others: Floats, distance: float) -> Bools:
-    """Which spans run beside which others, nearer than a distance."""
+    """Return which spans run beside which others, nearer than a distance, shape (spans, others)."""
     one, other = spans[:, None, :], others[None, :, :]
     shared = np.minimum(one[..., 1], other[..., 1]) - np.maximum(one[..., 0], other[..., 0])
     return (shared > _ALONG) & (np.abs(one[..., 2] - other[..., 2]) < distance)
 
 
 def _doubled(ones: Floats, others: Floats) -> Bools:
-    """Which level or upright segments run so near beside which others that they look like one line drawn twice."""
+    """Return which level or upright segments look like one line drawn twice, because they run so near each other, shape (ones,
+    others).
+    """
     found = np.zeros((len(ones), len(others)), dtype=bool)
     for turn in ([0, 1, 2, 3], [1, 0, 3, 2]):
         one, other = _level_spans(ones[:, turn]), _level_spans(others[:, turn])
@@ -172,13 +177,13 @@ def _doubled(ones: Floats, others: Floats) -> Bools:
 
 
 def _level_spans(segments: Floats) -> Floats:
-    """Segments as (from, to, height); those that are not level have no height."""
+    """Return segments as (from, to, height), shape (n, 3); the height is NaN for segments that are not level."""
     height = np.where(np.abs(segments[:, 1] - segments[:, 3]) < _SAME, segments[:, 1], np.nan)
     return np.stack([np.minimum(segments[:, 0], segments[:, 2]), np.maximum(segments[:, 0], segments[:, 2]), height], axis=1)
 
 
 def _crossed(boxes: Floats, segments: Floats) -> Bools:
-    """Which segments have points within which boxes, shape (boxes, segments) (Liang and Barsky)."""
+    """Return which segments have points within which boxes, shape (boxes, segments) (Liang and Barsky)."""
     low, high = boxes[:, None, :2], boxes[:, None, 2:]
     start, way = segments[None, :, :2], segments[None, :, 2:] - segments[None, :, :2]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -192,7 +197,7 @@ def _crossed(boxes: Floats, segments: Floats) -> Bools:
 
 
 def _hatched(boxes: Floats, edges: Floats) -> Bools:
-    """Which boxes have their middle within hatching, or its edge across them."""
+    """Return which boxes have their middle within hatching, or its edge across them, shape (boxes,)."""
     x, y = ((boxes[:, None, side] + boxes[:, None, side + 2]) / 2 for side in (0, 1))
     (x1, y1, x2, y2) = edges.T[:, None, :]
     spanned = (y1 <= y) != (y2 <= y)
@@ -203,7 +208,7 @@ def _hatched(boxes: Floats, edges: Floats) -> Bools:
 
 
 def _intersecting(ones: Floats, others: Floats) -> Bools:
-    """Which segments cross which, ends that only touch aside."""
+    """Return which segments cross which others, shape (ones, others); ends that only touch do not count."""
     p, r = ones[:, None, :2], ones[:, None, 2:] - ones[:, None, :2]
     q, s = others[None, :, :2], others[None, :, 2:] - others[None, :, :2]
     cross = r[..., 0] * s[..., 1] - r[..., 1] * s[..., 0]
@@ -216,14 +221,16 @@ def _intersecting(ones: Floats, others: Floats) -> Bools:
 
 
 _ROUNDS = 3
-"""Each group moves once a round, as the others then stand."""
+"""Number of rounds; each group moves once a round, with the others at their current places."""
 
 _ASIDE = 5.0
-"""What is not further aside than this is in the way."""
+"""Distance (mm) aside within which boxes limit the move of a group."""
 
 
 def balanced(groups: Sequence[Sequence[Box]], across: Sequence[bool], taken: Sequence[Box], free: Box) -> list[Point]:
-    """How far each group of boxes moves as one: upwards, and where `across` says so to the side too."""
+    """Return the move (mm) of each group of boxes as one, to the middle of its free room: upwards, and sideways only where
+    `across` is true.
+    """
     stood = [list(group) for group in groups]
     for _ in range(_ROUNDS):
         for number, sideways in enumerate(across):
@@ -239,7 +246,7 @@ def balanced(groups: Sequence[Sequence[Box]], across: Sequence[bool], taken: Seq
 
 
 def _to_middle(group: Iterable[Box], others: Sequence[Box], free: Box) -> float:
-    """How far up boxes go for as much room above as below them."""
+    """Return the distance up (mm) that gives boxes as much room above as below them."""
     above, below = [], []
     for box in group:
         beside = [each for each in others if each.left < box.right + _ASIDE and box.left - _ASIDE < each.right]
@@ -249,18 +256,18 @@ def _to_middle(group: Iterable[Box], others: Sequence[Box], free: Box) -> float:
 
 
 def _turned(box: Box) -> Box:
-    """What is across goes up."""
+    """Return a box with its x and y exchanged."""
     return Box(box.bottom, box.left, box.top, box.right)
 
 
 _STEP = 4.0
-"""Between the heights that are tried for an axis, and between places for a block."""
+"""Step between the heights that are tried for an axis, and between places for a block."""
 
 _ENOUGH_AIR = 12.0
-"""Around a row; more makes a height no better."""
+"""Air (mm) around a row beyond which a height is no better."""
 
 _TRIED = 8
-"""So many heights of a row's axis are gone on with."""
+"""Number of heights of a row's axis that are tried further."""
 
 _LOOSE = (20.0, 12.0, 7.0)
 """Distances that are tried around blocks."""
@@ -280,18 +287,18 @@ class Room:
 
     @property
     def tight(self) -> Room:
-        """The same with less air, for what would else have no room."""
+        """The same area with less air, for views that have no room otherwise."""
         return replace(self, between=6.0, around=2.0)
 
     @property
     def tightest(self) -> Room:
-        """The same with as little air as can be read."""
+        """The same area with the least air that is still legible."""
         return replace(self, between=3.0, around=0.5)
 
     def places(
         self, rows: Sequence[Sequence[Box]], blocks: Sequence[Box] = (), *, aligned: int = 0
     ) -> list[list[Point]] | None:
-        """Where the origins of views and blocks would stand, the blocks as a last row; None where there is no room.
+        """Return the places of the origins of views and blocks, the blocks as a last row; None where there is no room.
 
         Boxes are relative to the origins of what they hold. Views of a row have their origins at one height; rows follow each
         other downwards, and their views of number `aligned` (-1 the last) have their origins one below the other.
@@ -302,7 +309,7 @@ class Room:
     def _balanced(
         self, rows: Sequence[Sequence[Box]], blocks: Sequence[Box], places: Sequence[Sequence[Point]]
     ) -> list[list[Point]]:
-        """Rows in the middle of the room above and below them, blocks also across."""
+        """Return the places with rows moved to the middle of the room above and below them, and blocks also sideways."""
         stood = [
             [box.moved(*place) for box, place in zip(row, ats, strict=True)]
             for row, ats in zip((*rows, blocks), places, strict=True)
@@ -315,7 +322,7 @@ class Room:
     def _rows(
         self, rows: Sequence[Sequence[Box]], blocks: Sequence[Box], aligned: int, column: float | None, below: float
     ) -> Iterator[list[list[Point]]]:
-        """All ways that are tried, best first."""
+        """Yield the places of all rows in each way tried, best first."""
         if not rows:
             found = self._blocks(blocks)
             if found is not None:
@@ -329,7 +336,9 @@ class Room:
                 yield [places, *rest]
 
     def _row(self, boxes: Sequence[Box], aligned: int, column: float | None, below: float) -> list[list[Point]]:
-        """A row at several heights: those with enough air around it from the top, then those with less."""
+        """Return the places of a row at several heights: first those with enough air around it, from the top, then those with
+        less.
+        """
         if not boxes:
             return [[]]
         top, bottom = max(box.top for box in boxes), min(box.bottom for box in boxes)
@@ -344,7 +353,9 @@ class Room:
         return [places for _, places in chosen]
 
     def _along(self, boxes: Sequence[Box], axis: float, aligned: int, column: float | None) -> list[Point] | None:
-        """Views from left to right on an axis, as much air between them as there is."""
+        """Return the places of views from left to right on an axis, with as much air between them as there is; None without
+        room.
+        """
         if column is not None:
             return self._in_column(boxes, axis, aligned, column)
         lefts, cursor = [], self.free.left + self.around
@@ -368,7 +379,9 @@ class Room:
         return [(left - box.left, axis) for box, left in zip(boxes, lefts, strict=True)]
 
     def _in_column(self, boxes: Sequence[Box], axis: float, aligned: int, column: float) -> list[Point] | None:
-        """The aligned view at its x, the others beside it: at its right, or (aligned -1) at its left."""
+        """Return the places of a row whose aligned view is at x = `column`; None without room. The others are at its right, or
+        (aligned -1) at its left.
+        """
         others = [number for number in range(len(boxes)) if number != aligned % len(boxes)]
         pinned = boxes[aligned].moved(column, axis)
         if not self._is_clear(pinned):
@@ -385,7 +398,9 @@ class Room:
         return places
 
     def _clear(self, box: Box, left: float) -> float | None:
-        """The least left side from `left` on where a box, its own left side at 0, is clear; None where it never is."""
+        """Return the least left side (mm), from `left` on, at which a box with its left side at 0 is clear; None if there is
+        none.
+        """
         while True:
             stood = box.moved(left, 0.0)
             if stood.right > self.free.right - self.around + 1e-9:
@@ -400,7 +415,7 @@ class Room:
         return self.free.holds(wide) and not any(each.meets(wide) for each in self.taken)
 
     def _air(self, boxes: Sequence[Box]) -> float:
-        """The least distance of any from what is around it."""
+        """Return the least distance (mm) of any box from the edge of the area and from taken boxes."""
         air = min(
             min(box.left - self.free.left, self.free.right - box.right, box.bottom - self.free.bottom, self.free.top - box.top)
             for box in boxes
@@ -408,7 +423,9 @@ class Room:
         return min([air, *(_apart(box, each) for box in boxes for each in self.taken)])
 
     def _blocks(self, blocks: Sequence[Box]) -> list[Point] | None:
-        """The larger first, each as far to the lower left as it can; as loosely as all have room."""
+        """Return the places of blocks as loosely as all have room: the larger first, each as low and then as far left as it
+        can be. None without room.
+        """
         for air in _LOOSE:
             found = self._packed(blocks, air)
             if found is not None:
@@ -428,7 +445,7 @@ class Room:
         return [places[number] for number in range(len(blocks))]
 
     def _corner(self, width: float, height: float, taken: Sequence[Box], air: float) -> Point | None:
-        """The lower left corner of a place, the lowest and of those the leftmost."""
+        """Return the lower left corner of the lowest free place, of these the leftmost; None without one."""
         margin = min(air, 8.0)
         across = np.arange(self.free.left + margin, self.free.right - margin - width + 1e-9, _STEP)
         up = np.arange(self.free.bottom + margin, self.free.top - margin - height + 1e-9, _STEP)
@@ -444,7 +461,7 @@ class Room:
 
 
 def _apart(one: Box, other: Box) -> float:
-    """How far boxes are from each other, across or upwards, whichever is more."""
+    """Return the distance (mm) between boxes, across or upwards, whichever is more."""
     across = max(one.left - other.right, other.left - one.right)
     up = max(one.bottom - other.top, other.bottom - one.top)
     return max(across, up)

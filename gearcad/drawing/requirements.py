@@ -26,14 +26,14 @@ from gearcad.rating.tolerances import gear_tolerances
 
 
 class Roughness(NamedTuple):
-    """What a roughness is called ("Ra", "Rz") and how large it may be (µm), and whether somebody gave it."""
+    """A roughness: its parameter ("Ra", "Rz"), its largest value (µm), and whether it was given."""
 
     parameter: str
     value: float
     given: bool = True
 
     def text(self, number: str) -> str:
-        """With its value as a language writes it."""
+        """Return the parameter with its value, which is given as a text in the language of the sheet."""
         return f"{self.parameter} {number}"
 
 
@@ -46,19 +46,19 @@ _GROUND = 5
 """Last accuracy grade that is not reached without grinding."""
 
 _POSITION, _STEP, _ROUNDING = 0.035, 0.05, 1e-9
-"""Position tolerance of bolt holes over their diameter, its step (mm), and what is nothing of that."""
+"""Position tolerance of bolt holes over their diameter, its step (mm), and the rounding error of the quotient."""
 
 _GROUND_FIT = 6
 """Last grade of ISO 286 to which bores and rims are ground."""
 
 
 def grade_of(drawn: DrawnGear) -> int:
-    """Its accuracy grade, and where nobody gave one that of which ratings go out."""
+    """Return the accuracy grade of a gear; if none was given, the default grade of ratings."""
     return RatingOptions().accuracy_grade if drawn.grade is None else drawn.grade
 
 
 def flank_roughness(drawn: DrawnGear) -> Roughness:
-    """Rz as it was given, else Ra by the grade."""
+    """Return the roughness of the flanks (µm): Rz as given, else Ra by the accuracy grade."""
     given = drawn.gear.flank_roughness if isinstance(drawn.gear, Gear) else None
     if given is not None:
         return Roughness("Rz", given)
@@ -67,13 +67,14 @@ def flank_roughness(drawn: DrawnGear) -> Roughness:
 
 
 def seat_roughness(drawn: DrawnGear, fit: str = "") -> float:
-    """Ra of bore, rim and end faces: 0.8 of the grades that are ground, and with a fit that asks for it, else 1.6."""
+    """Return Ra (µm) of bore, rim and end faces: 0.8 for ground grades and for fits that need grinding, else 1.6."""
     ground = grade_of(drawn) <= _GROUND or (bool(fit) and grade_of_class(fit) <= _GROUND_FIT)
     return 0.8 if ground else 1.6
 
 
 def blank_runout(drawn: DrawnGear) -> float | None:
-    """Run-out of tip cylinder and end faces: half of F_r, the run-out of the teeth by ISO 1328, in whole µm (ours).
+    """Return the run-out (µm) of tip cylinder and end faces: half of F_r, the run-out of the teeth by ISO 1328, in whole µm
+    (ours).
 
     None for a rack, and where the standard does not cover the teeth.
     """
@@ -87,18 +88,24 @@ def blank_runout(drawn: DrawnGear) -> float | None:
 
 
 def back_parallelism(drawn: DrawnGear, rack: Rack) -> float:
-    """Of tips to the back of a rack: the standard tolerance IT of its grade, 5 to 11, for its length."""
+    """Return the parallelism (µm) of a rack's tips to its back: the standard tolerance IT of its grade, 5 to 11, for its
+    length.
+    """
     grade = min(max(grade_of(drawn), 5), 11)
     return standard_tolerance(grade, round(min(rack.length, LARGEST_SIZE), 3))
 
 
 def hole_position(diameter: float) -> float:
-    """Of bolt holes: 3.5 % of their diameter in whole 0.05 mm, no more than half the clearance of medium holes (ISO 273)."""
+    """Return the position tolerance (µm) of bolt holes: 3.5 % of their diameter (mm) in whole 0.05 mm. It is no more than half
+    the clearance of medium holes (ISO 273).
+    """
     return max(math.floor(_POSITION * diameter / _STEP + _ROUNDING) * _STEP, _STEP / 2) * 1000
 
 
 def cylindricity(diameter: float, fit: str) -> float | None:
-    """Of a bore or a rim: a quarter of the tolerance of its fit, in whole µm; None without a fit, and beyond ISO 286."""
+    """Return the cylindricity (µm) of a bore or a rim: a quarter of the tolerance of its fit, in whole µm. None without a fit,
+    and beyond ISO 286.
+    """
     if not fit:
         return None
     try:
@@ -108,18 +115,19 @@ def cylindricity(diameter: float, fit: str) -> float | None:
 
 
 _PROPOSED = ("tip_runout", "face_runout", "bore_roughness", "keyway_symmetry", "bolt_position", "back_parallelism")
-"""What is ours where nobody gave it, by the names of the options."""
+"""Options whose values are ours where they are not given."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Requirements:
-    """Sizes with their limits, None for what the part does not have; roughness Ra or Rz, and geometrical tolerances.
+    """The requirements of a part: sizes with their limits (mm; None if the part lacks them), roughness Ra or Rz, and
+    geometrical tolerances (µm).
 
-    `tip` is the tip diameter, `hub_width` that of the gear with its hubs; `keyway_depth` is measured across the bore, d + t2.
-    `length`, `height` (back to tips) and `reference_height` (back to reference line) are a rack's. `bolts` are the holes.
-    `tip_runout` and `face_runout` are those to the datum axis, `cylindricity` that of the surface which is the datum: the bore,
-    of a ring the rim. `keyway_symmetry` and `bolt_position` are to that axis too; `back_parallelism` is that of a rack's tips
-    to its back, whose own is `back_flatness`.
+    `tip` is the tip diameter, `hub_width` the width of the gear with its hubs. `keyway_depth` is measured across the bore, d +
+    t2. `length`, `height` (back to tips) and `reference_height` (back to reference line) are sizes of a rack. `bolts` are the
+    bolt holes. `tip_runout`, `face_runout`, `keyway_symmetry` and `bolt_position` are to the datum axis. `cylindricity`
+    applies to the datum surface itself: the bore, or the rim of a ring. `back_parallelism` is the parallelism of a rack's tips
+    to its back, `back_flatness` the flatness of the back.
     """
 
     drawn: DrawnGear
@@ -155,7 +163,7 @@ class Requirements:
 
     @classmethod
     def of(cls, drawn: DrawnGear, options: DrawingOptions) -> Self:
-        """Those of a part, whose `options` are what holds for it (`DrawingOptions.of_part`).
+        """Return the requirements of a part, with the `options` that hold for it (`DrawingOptions.of_part`).
 
         Raises ParameterError for the class of a hole at the tips of an external gear.
         """
@@ -176,16 +184,19 @@ class Requirements:
         )
 
     def material(self, words: Words) -> str:
-        """As the sheet names it; "" where nothing is known."""
+        """Return the material as the sheet names it; "" if unknown."""
         return material_text(self.drawn, self.options, words)
 
     def heat_treatment(self, words: Words) -> str:
-        """In the words of a language; "" where nothing is known."""
+        """Return the heat treatment in the words of a language; "" if unknown."""
         return treatment_text(self.drawn, self.options, words)
 
     def tooth_notes(self, words: Words) -> tuple[str, ...]:
-        """What has no place in the table: that fillets may be undercut, which way the halves of a double helical gear are
-        offset, and what goes by the accuracy grade alone."""
+        """Return the notes on facts that have no place in the table.
+
+        These are: fillets may be undercut; the direction in which the halves of a double helical gear are offset; values that
+        follow from the accuracy grade alone.
+        """
         part, options = self.drawn.gear, self.options
         by_grade = not self.flanks.given or any(
             getattr(self, name) is not None and getattr(options, name, None) is None for name in _PROPOSED
@@ -197,7 +208,7 @@ class Requirements:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Sizes whose fits have no limits here, and what is not demanded for want of a datum."""
+        """Notices of sizes whose fits have no limits here, and of run-outs not demanded for want of a datum or a standard."""
         return tuple(self._notices())
 
     def _notices(self) -> Iterator[Notice]:
@@ -245,13 +256,15 @@ def _chamfer(length: float, angle: str, count: int = 1) -> Size:
 
 
 def _floor(gear: Gear) -> Size:
-    """Of the groove between two halves: as it was given, else in as few decimals as tell it from the root circle."""
+    """Return the diameter (mm) of the groove between two halves: as given, else with as few decimals as distinguish it from
+    the root circle.
+    """
     given, module = is_given(gear.double_helix.gap_diameter), gear.normal_module
     return diameter(gear.gap_diameter, decimals=3 if given or module < 0.1 else 2 if module < 1.0 else 1)
 
 
 def _disc(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
-    """What an external gear has. Raises ParameterError for a tip diameter with the class of a hole."""
+    """Return the sizes of an external gear by name. Raises ParameterError for a tip diameter with the class of a hole."""
     body = gear.body
     if options.tip_tolerance:
         require_shaft("drawing.tip_tolerance", options.tip_tolerance)
@@ -268,13 +281,13 @@ def _disc(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
 
 
 def _keyway_depth(body: Body) -> Size:
-    """d + t2, which may be larger by the allowance of DIN 6885."""
+    """Return the size d + t2 (mm), which may be larger by the allowance of DIN 6885."""
     across, more = body.bore + body.keyway_depth, depth_allowance(body.keyway_width)
     return Size(value=across) if more is None else Size(value=across, upper=more / 1000, lower=0.0)
 
 
 def _ring(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
-    """What a ring has."""
+    """Return the sizes of a ring by name."""
     body = gear.body
     found = {"tip": diameter(abs(gear.tip_diameter), as_hole(options.tip_tolerance))}
     if body.rim_diameter is not None:
@@ -286,17 +299,19 @@ def _ring(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
 
 
 def _datum(gear: Gear) -> float | None:
-    """Diameter of the surface that is the datum: the bore, of a ring the rim; None without one."""
+    """Return the diameter (mm) of the datum surface: the bore, or the rim of a ring; None without one."""
     return gear.body.rim_diameter if gear.internal else gear.body.bore or None
 
 
 def _seat_fit(part: Gear | Rack, options: DrawingOptions) -> str:
-    """The class of the surface that is the datum."""
+    """Return the tolerance class of the datum surface."""
     return options.rim_tolerance if isinstance(part, Gear) and part.internal else options.bore_tolerance
 
 
 def _deviations(drawn: DrawnGear, gear: Gear, options: DrawingOptions) -> dict[str, float | None]:
-    """Run-out as it was given, else by the grade, and the cylindricity of the datum; without one none of them."""
+    """Return the geometrical tolerances (µm) of a gear by name; empty without a datum. Run-outs are as given, else by the
+    grade.
+    """
     datum = _datum(gear)
     if datum is None:
         return {}
@@ -311,6 +326,8 @@ def _deviations(drawn: DrawnGear, gear: Gear, options: DrawingOptions) -> dict[s
 
 
 def _of_back(drawn: DrawnGear, rack: Rack, options: DrawingOptions) -> dict[str, float | None]:
-    """How parallel a rack's tips are to its back, as it was given, else by the grade; and how flat that is, half of it."""
+    """Return the parallelism (µm) of a rack's tips to its back, as given, else by the grade; and the flatness of the back,
+    half of it.
+    """
     parallelism = options.back_parallelism or back_parallelism(drawn, rack)
     return {"back_parallelism": parallelism, "back_flatness": max(float(parallelism // 2), 1.0)}

@@ -30,13 +30,13 @@ class Box(NamedTuple):
 
     @classmethod
     def around(cls, points: Iterable[tuple[float, float]]) -> Box:
-        """The least one that holds all points."""
+        """Return the smallest box that holds all points."""
         across, up = zip(*points, strict=True)
         return cls(min(across), min(up), max(across), max(up))
 
     @classmethod
     def of_all(cls, boxes: Iterable[Box]) -> Box:
-        """The least one that holds all boxes."""
+        """Return the smallest box that holds all boxes."""
         lefts, bottoms, rights, tops = zip(*boxes, strict=True)
         return cls(min(lefts), min(bottoms), max(rights), max(tops))
 
@@ -56,20 +56,20 @@ class Box(NamedTuple):
         return Box(self.left + across, self.bottom + up, self.right + across, self.top + up)
 
     def grown(self, by: float) -> Box:
-        """With so much more on every side."""
+        """Return the box enlarged by `by` (mm) on every side."""
         return Box(self.left - by, self.bottom - by, self.right + by, self.top + by)
 
     def meets(self, other: Box) -> bool:
-        """Whether they have an area in common."""
+        """Return whether two boxes have an area in common."""
         return self.left < other.right and other.left < self.right and self.bottom < other.top and other.bottom < self.top
 
     def holds(self, other: Box) -> bool:
-        """Whether no part of the other is outside."""
+        """Return whether no part of another box is outside."""
         return self.left <= other.left and self.bottom <= other.bottom and other.right <= self.right and other.top <= self.top
 
 
 class Stroke(NamedTuple):
-    """Width of a line of group 0.5, and the lengths of its dashes and gaps in turn; none for a continuous line."""
+    """A line of group 0.5: its width (mm), and the lengths of its dashes and gaps in turn (mm); none for a continuous line."""
 
     width: float
     dashes: tuple[float, ...] = ()
@@ -80,7 +80,7 @@ _DASHED = (3.0, 0.75)
 
 
 class Pen(Enum):
-    """With what a shape is drawn; its value is the name of a layer."""
+    """A pen for shapes; its value is the name of a layer."""
 
     OUTLINE = "OUTLINE"
     """Visible edges."""
@@ -145,31 +145,33 @@ _ELLIPSIS = "…"
 
 
 class Reach(NamedTuple):
-    """How far letters reach below and above the line on which they stand, over their height."""
+    """Reach of letters below and above their line, over their height."""
 
     below: float
     above: float
 
 
 def font_file() -> Path:
-    """The file of the font. Nothing of matplotlib is imported."""
+    """Return the path of the font file, without an import of matplotlib."""
     package = find_spec("matplotlib")
     assert package is not None and package.submodule_search_locations is not None  # a dependency
     return Path(package.submodule_search_locations[0], "mpl-data", "fonts", "ttf", "DejaVuSans.ttf")
 
 
 def has_glyph(letter: str) -> bool:
-    """Whether the font has this letter."""
+    """Return whether the font has this letter."""
     return ord(letter) in _glyph_names()
 
 
 def text_width(text: str, height: float, stretch: float = STRETCH) -> float:
-    """Length of a text of this height of its capitals. A letter that the font lacks is taken to be as wide as it is high."""
+    """Return the length (mm) of a text whose capitals have this height (mm). A letter missing in the font counts as wide as it
+    is high.
+    """
     return sum(map(_advance, text)) * height / CAPITAL_HEIGHT * stretch
 
 
 def reach(text: str) -> Reach:
-    """How far a text reaches below and above its line."""
+    """Return the reach of a text below and above its line, over the height of its capitals."""
     extents = [_extent(letter) for letter in text if not letter.isspace()] or [(0.0, CAPITAL_HEIGHT)]
     return Reach(
         max(0.0, *(-low for low, _ in extents), 0.0) / CAPITAL_HEIGHT, max(high for _, high in extents) / CAPITAL_HEIGHT
@@ -177,7 +179,7 @@ def reach(text: str) -> Reach:
 
 
 def fitted(text: str, height: float, room: float, stretch: float = STRETCH) -> tuple[str, bool]:
-    """A text that is no longer than `room`, shortened with an ellipsis if it must be, and whether it was."""
+    """Return a text no longer than `room` (mm), shortened with an ellipsis if necessary, and whether it was shortened."""
     if text_width(text, height, stretch) <= room:
         return text, False
     for length in range(len(text) - 1, -1, -1):
@@ -202,14 +204,14 @@ def _glyph_names() -> dict[int, str]:
 
 @cache
 def _advance(letter: str) -> float:
-    """Over the size of the font."""
+    """Return the width of a letter over the size of the font."""
     name = _glyph_names().get(ord(letter))
     return 1.0 if name is None else float(_font()["hmtx"][name][0] / _EM)
 
 
 @cache
 def _extent(letter: str) -> tuple[float, float]:
-    """The least and the greatest height of a letter over the size of the font."""
+    """Return the least and the greatest height of a letter over the size of the font."""
     name = _glyph_names().get(ord(letter))
     if name is None:
         return -0.2, 0.85
@@ -221,27 +223,27 @@ Point = tuple[float, float]
 Segment = tuple[Point, Point]
 
 Vertex = tuple[float, float, float]
-"""x, y and the bulge of what follows: tan of a quarter of the arc's angle, positive counter-clockwise, 0 for a line."""
+"""x, y and bulge of the next piece: tan of a quarter of the arc's angle, positive counter-clockwise, 0 for a line."""
 
 _CHORDS = 7.5
-"""Degrees of an arc between the points by which its box and its segments are found."""
+"""Degrees between the points of an arc from which its box and its segments are calculated."""
 
 
 class Shape(ABC):
-    """One thing that is drawn."""
+    """One drawn shape."""
 
     @abstractmethod
     def moved(self, across: float, up: float) -> Self:
-        """The same elsewhere."""
+        """Return the shape moved to the right and up (mm)."""
 
     @property
     @abstractmethod
     def box(self) -> Box:
-        """What holds it."""
+        """The smallest box that holds the shape."""
 
     @property
     def segments(self) -> list[Segment]:
-        """The lines that no text may cross; of an arc its chords."""
+        """The lines that no text may cross; chords for an arc."""
         return []
 
 
@@ -279,7 +281,7 @@ class Polyline(Shape):
 
     @classmethod
     def straight(cls, points: list[Point] | tuple[Point, ...], pen: Pen = Pen.OUTLINE, *, closed: bool = False) -> Self:
-        """One without arcs."""
+        """Return a polyline without arcs."""
         return cls(tuple((x, y, 0.0) for x, y in points), pen, closed)
 
     def moved(self, across: float, up: float) -> Self:
@@ -287,7 +289,7 @@ class Polyline(Shape):
 
     @property
     def points(self) -> list[Point]:
-        """Points along it, of arcs so many that chords stand for them."""
+        """The points along the polyline, so many on arcs that chords can replace them."""
         row = [*self.vertices, self.vertices[0]] if self.closed else list(self.vertices)
         found = [row[0][:2]]
         for start, end in pairwise(row):
@@ -325,7 +327,7 @@ class Circle(Shape):
 
 @dataclass(frozen=True)
 class Arc(Shape):
-    """From `start` counter-clockwise to `end`."""
+    """An arc from `start` counter-clockwise to `end` (degrees)."""
 
     centre: Point
     radius: float
@@ -338,7 +340,7 @@ class Arc(Shape):
 
     @property
     def points(self) -> list[Point]:
-        """Points along it."""
+        """The points along the arc."""
         return _round(self.centre, self.radius, self.start, self.start + (self.end - self.start) % 360.0)
 
     @property
@@ -387,7 +389,7 @@ class Hatching(Shape):
 
 
 class Anchor(Enum):
-    """Which point of a text stands at its place: its left, centre or right; the line, or the middle of its capitals."""
+    """The point of a text that is at its place: left, centre or right; on its line, or at half the height of its capitals."""
 
     LEFT = "LEFT"
     CENTRE = "CENTER"
@@ -398,18 +400,18 @@ class Anchor(Enum):
 
     @property
     def along(self) -> float:
-        """How much of the text is before its place."""
+        """Share of the text's length that is before its place."""
         return {"LEFT": 0.0, "RIGHT": 1.0}.get(self.value.removeprefix("MIDDLE_"), 0.5)
 
     @property
     def up(self) -> float:
-        """How much of the height of capitals is below its place."""
+        """Share of the height of capitals that is below its place."""
         return 0.5 if self.value.startswith("MIDDLE") else 0.0
 
 
 @dataclass(frozen=True)
 class Text(Shape):
-    """A line of text; `height` that of its capitals, `rotation` 0, or 90 to be read from the right."""
+    """A line of text; `height` is the height of its capitals, `rotation` 0, or 90 to be read from the right."""
 
     words: str
     at: Point
@@ -424,12 +426,12 @@ class Text(Shape):
 
     @property
     def width(self) -> float:
-        """Its length."""
+        """Length of the text (mm)."""
         return text_width(self.words, self.height, self.stretch)
 
     @property
     def start(self) -> Point:
-        """Where its line begins."""
+        """Starting point of the text's line."""
         along, up = -self.anchor.along * self.width, -self.anchor.up * self.height
         return self._turned(along, up)
 
@@ -446,7 +448,7 @@ class Text(Shape):
 
 
 def _round(centre: Point, radius: float, start: float, end: float) -> list[Point]:
-    """Points on an arc of degrees, among them those furthest up, down, left and right."""
+    """Return points on an arc from `start` to `end` (degrees), among them those furthest up, down, left and right."""
     low, high = sorted((start, end))
     between = (_CHORDS * step for step in range(math.floor(low / _CHORDS) + 1, math.ceil(high / _CHORDS)))
     angles = sorted((low, *between, high), reverse=end < start)
@@ -455,7 +457,7 @@ def _round(centre: Point, radius: float, start: float, end: float) -> list[Point
 
 
 def _along(start: Vertex, end: Vertex) -> list[Point]:
-    """Points from one vertex to the next, without the first."""
+    """Return the points from one vertex to the next, without the first."""
     (x, y, bulge), finish = start, end[:2]
     if not bulge:
         return [finish]
@@ -469,47 +471,47 @@ def _along(start: Vertex, end: Vertex) -> list[Point]:
 
 @dataclass(frozen=True)
 class Figure:
-    """Some shapes."""
+    """A group of shapes."""
 
     shapes: tuple[Shape, ...] = ()
 
     @classmethod
     def of(cls, *parts: Shape | Figure) -> Figure:
-        """Shapes and figures as one."""
+        """Return shapes and figures as one figure."""
         return cls(tuple(shape for part in parts for shape in (part.shapes if isinstance(part, Figure) else (part,))))
 
     def __add__(self, other: Figure) -> Figure:
         return Figure(self.shapes + other.shapes)
 
     def moved(self, across: float, up: float) -> Figure:
-        """The same elsewhere."""
+        """Return the figure moved to the right and up (mm)."""
         return Figure(tuple(shape.moved(across, up) for shape in self.shapes))
 
     @property
     def box(self) -> Box:
-        """What holds all of it. Raises ValueError of an empty one."""
+        """The smallest box that holds the figure. Raises ValueError for an empty one."""
         return Box.of_all(shape.box for shape in self.shapes)
 
     @property
     def segments(self) -> list[Segment]:
-        """Its lines that no text may cross."""
+        """The lines of the figure that no text may cross."""
         return [segment for shape in self.shapes for segment in shape.segments]
 
     @property
     def texts(self) -> list[Text]:
-        """Its texts, those of its dimensions too."""
+        """The texts of the figure, including those of its dimensions."""
         return [text for shape in self.shapes for text in _texts_of(shape)]
 
 
 def _texts_of(shape: Shape) -> Iterable[Text]:
-    """A compound shape has parts."""
+    """Return a text, or the texts among the parts of a compound shape."""
     if isinstance(shape, Text):
         return (shape,)
     return (each for each in getattr(shape, "parts", ()) if isinstance(each, Text))
 
 
 class Measured(Enum):
-    """What a dimension says of two points."""
+    """The distance of two points that a dimension gives."""
 
     HORIZONTAL = "horizontal"
     VERTICAL = "vertical"
@@ -517,11 +519,11 @@ class Measured(Enum):
 
 @dataclass(frozen=True)
 class Dimension(Shape):
-    """What one sees of a dimension are its `parts`: lines, arrows and texts.
+    """A dimension; its `parts` are its visible lines, arrows and texts.
 
-    A CAD program that draws it anew has the points `first` and `second` that are measured, a point `line` of the dimension
-    line, and `words` as its dimensions hold them ("%%c40 H7 {\\S+0.025^0;}"; "<>" stands for what it measures).
-    `scale` is mm of paper for a mm of the part, None for that of the sheet: details have their own.
+    A CAD program that redraws it uses the measured points `first` and `second`, a point `line` of the dimension line, and
+    `words` as the text of a CAD dimension ("%%c40 H7 {\\S+0.025^0;}"; "<>" stands for the measured value). `scale` is mm of
+    paper for a mm of the part, None for the scale of the sheet: details have their own.
     """
 
     measured: Measured

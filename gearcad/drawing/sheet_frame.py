@@ -29,25 +29,28 @@ _AIR = 6.0
 """Least distance of views from the frame, where centring marks reach."""
 
 _LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"
-"""I and O are no fields: they look like numbers."""
+"""Letters of fields, without I and O, which look like numbers."""
 
 _LEAST_FIELD = 15.0
 """A shorter rest at the corners is added to the field beside it."""
 
 
 def inside_frame(size: SheetSize, sizes: FrameSizes) -> Box:
-    """What the frame encloses; the paper's lower left corner is (0, 0)."""
+    """Return the box that the frame encloses (mm); the paper's lower left corner is (0, 0)."""
     width, height = size.size
     return Box(sizes.binding_margin, sizes.margin, width - sizes.margin, height - sizes.margin)
 
 
 def free_area(size: SheetSize, sizes: FrameSizes) -> Box:
-    """Where views may stand: inside the frame, and off its centring marks; on A4 as close to these as can be."""
+    """Return the box where views may stand (mm): inside the frame and clear of its centring marks. On A4 it reaches as far as
+    these.
+    """
     return inside_frame(size, sizes).grown(-sizes.centring if size is SheetSize.A4 else -_AIR)
 
 
 def border(size: SheetSize, sizes: FrameSizes, taken: Iterable[Box] = ()) -> Figure:
-    """Edge of the paper, frame, centring marks, and fields: letters down the sides, numbers along top and bottom.
+    """Return the border: edge of the paper, frame, centring marks, and fields with letters down the sides and numbers along
+    top and bottom.
 
     Marks do not reach into areas that are `taken`. A4 has its fields at the top and at the right only.
     """
@@ -67,7 +70,7 @@ def _rectangle(box: Box, pen: Pen) -> Polyline:
 
 
 def _centring(paper: Box, frame: Box, strip: Box, into: float, taken: tuple[Box, ...]) -> Iterator[Line]:
-    """From the outer edge of the strip over the frame, and into it where nothing stands."""
+    """Yield the centring marks, from the outer edge of the strip over the frame, and into it where nothing stands."""
     across, up = paper.middle
     ends: tuple[tuple[Point, Point, Point], ...] = (
         ((across, strip.bottom), (across, frame.bottom), (across, frame.bottom + into)),
@@ -81,7 +84,9 @@ def _centring(paper: Box, frame: Box, strip: Box, into: float, taken: tuple[Box,
 
 
 def _fields(paper: Box, frame: Box, strip: Box, sizes: FrameSizes, *, every_side: bool) -> Iterator[Shape]:
-    """Lines between fields, and their names, on two opposite sides each; the middle of the sheet is between fields."""
+    """Yield the lines between fields and the names of fields, on two opposite sides each. The middle of the sheet is between
+    fields.
+    """
     middle = paper.middle
     for along in (0, 1):
         places = _divisions(frame[along], frame[along + 2], middle[along], sizes.grid_pitch)
@@ -103,7 +108,7 @@ def _point(along: int, place: float, across: float) -> Point:
 
 
 def _divisions(low: float, high: float, middle: float, pitch: float) -> list[float]:
-    """The ends of fields of one pitch from the middle on; those at the corners have what is left."""
+    """Return the ends of fields (mm) of one pitch from the middle on; those at the corners have the rest."""
     below, above = int((middle - low) / pitch), int((high - middle) / pitch)
     inner = [middle + step * pitch for step in range(-below, above + 1)]
     if inner[0] - low < _LEAST_FIELD and len(inner) > 1:
@@ -114,7 +119,7 @@ def _divisions(low: float, high: float, middle: float, pitch: float) -> list[flo
 
 
 def _names(count: int, *, letters: bool) -> list[str]:
-    """Of fields from left to right, or from the bottom up; letters begin at the top, with AA behind Z."""
+    """Return the names of fields from left to right, or from the bottom up. Letters begin at the top, with AA behind Z."""
     if not letters:
         return [str(number + 1) for number in range(count)]
     full = len(_LETTERS)
@@ -122,10 +127,10 @@ def _names(count: int, *, letters: bool) -> list[str]:
 
 
 _CLEAR = 0.3
-"""Between the ink of a value and the lines and the caption of its cell."""
+"""Distance between the ink of a value and the lines and the caption of its cell."""
 
 _MARGIN = 1.2
-"""From the side of a cell to its text."""
+"""Distance from the side of a cell to its text."""
 
 _CAPTION_LEAST = 1.8
 
@@ -146,7 +151,9 @@ def title_values(
     heat_treatment: str = "",
     mass: float | None = None,
 ) -> dict[str, str]:
-    """What stands in the cells, by the names of `VALUES`: `title`, `material` ... where `options` have none; mass in kg."""
+    """Return the texts of the title block's cells by the names of `VALUES`. `title`, `material` ... apply where `options` have
+    none; mass in kg.
+    """
     return {
         "number": options.number,
         "title": options.title or title,
@@ -174,7 +181,7 @@ def title_values(
 
 
 def _mass(mass: float, words: Words) -> str:
-    """With three digits, in kg, or in g below 0.1 kg."""
+    """Return a mass (kg) as a text with three digits, in kg, or in g below 0.1 kg."""
     value, unit = (mass, "kg") if mass >= 0.1 else (mass * 1e3, "g")
     digits = f"{value:.3g}"
     decimals = len(digits.partition(".")[2]) if "e" not in digits else 0
@@ -182,7 +189,7 @@ def _mass(mass: float, words: Words) -> str:
 
 
 def title_block(values: Mapping[str, str], template: SheetTemplate, words: Words, projection: Projection) -> Framed:
-    """The title block, its lower right corner at (0, 0)."""
+    """Return the title block, its lower right corner at (0, 0)."""
     sizes = template.title
     whole = Box(0.0, 0.0, sizes.width, sizes.height)
     found = Framed(Figure((outlined(whole), *_lines([cell.box for cell in template.cells.values()], whole))))
@@ -192,7 +199,7 @@ def title_block(values: Mapping[str, str], template: SheetTemplate, words: Words
 
 
 def _lines(boxes: Sequence[Box], whole: Box) -> Iterator[Line]:
-    """Between cells, each once, as long as it goes on; none on the outline of the whole."""
+    """Yield the lines between cells, each drawn once over its whole length; none on the outline of the whole."""
     upright, level = defaultdict[float, list[tuple[float, float]]](list), defaultdict[float, list[tuple[float, float]]](list)
     for box in boxes:
         for across in {box.left, box.right} - {whole.left, whole.right}:
@@ -206,7 +213,7 @@ def _lines(boxes: Sequence[Box], whole: Box) -> Iterator[Line]:
 
 
 def _joined(spans: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Spans that touch or overlap as one."""
+    """Return the spans with those that touch or overlap as one."""
     found: list[tuple[float, float]] = []
     for low, high in sorted(spans):
         if found and low <= found[-1][1]:
@@ -219,7 +226,7 @@ def _joined(spans: list[tuple[float, float]]) -> list[tuple[float, float]]:
 def _cell(
     name: str, cell: TitleCell, values: Mapping[str, str], words: Words, caption_height: float, projection: Projection
 ) -> Framed:
-    """Its caption and value."""
+    """Return the caption and the value, or the symbol, of a cell."""
     box, room = cell.box, cell.width - 2 * _MARGIN
     found = Framed()
     if text := _caption(name, cell, words):
@@ -241,7 +248,9 @@ def _cell(
 
 
 def _between(figure: Figure, floor: float, ceiling: float) -> Figure:
-    """A text lower, and if it must be smaller, where marks above its letters would meet what is above: Kuggstång."""
+    """Return a text moved down, and made smaller if necessary, so that marks above its letters (Kuggstång) meet nothing
+    above.
+    """
     box = figure.box
     if box.height > ceiling - floor:
         share = (ceiling - floor) / box.height
@@ -252,13 +261,13 @@ def _between(figure: Figure, floor: float, ceiling: float) -> Figure:
 
 
 def _caption(name: str, cell: TitleCell, words: Words) -> str:
-    """The word of [frame] that the cell names, or its own text."""
+    """Return the caption of a cell: the word of [frame] that the cell names, or its own text."""
     asked = name if cell.caption is None else cell.caption
     return words.labels.get(f"frame.{asked}", "" if cell.caption is None else asked)
 
 
 def _symbol(projection: Projection, box: Box) -> Figure:
-    """The symbol of the method of projection in the middle of a box."""
+    """Return the symbol of the method of projection in the middle of a box."""
     height = min(5.0, 0.8 * box.height)
     symbol = projection_symbol(projection, height=height)
     across, up = symbol.box.middle
@@ -266,14 +275,14 @@ def _symbol(projection: Projection, box: Box) -> Figure:
 
 
 OUTER_EDGE, INNER_EDGE = -0.3, 0.2
-"""Limits (mm) of edges that nothing else is said of (ISO 13715)."""
+"""Limits (mm) of edges without an indication of their own (ISO 13715)."""
 
 _MOST_LINES = 12
-"""Of one note."""
+"""Largest number of lines of one note."""
 
 
 def common_notes(options: DrawingOptions, template: SheetTemplate, words: Words) -> Iterator[str]:
-    """General tolerances, unless the title block has them; edges, and the standards that sizes go by."""
+    """Yield the notes on general tolerances (unless the title block has them), on edges, and on the standards for sizes."""
     if options.general_tolerance and not any("general_tolerance" in cell.names for cell in template.cells.values()):
         yield f"{words['frame.general_tolerance']} {options.general_tolerance}"
     outer, inner = (words.number(limit, 1, signed=True) for limit in (OUTER_EDGE, INNER_EDGE))
@@ -282,7 +291,7 @@ def common_notes(options: DrawingOptions, template: SheetTemplate, words: Words)
 
 
 def notes(lines: Sequence[str], template: SheetTemplate, width: float | None = None) -> Framed:
-    """Notes one below the other, long ones wrapped, the lower left corner at (0, 0). Empty without lines."""
+    """Return notes one below the other, long ones wrapped, the lower left corner at (0, 0). Empty without lines."""
     sizes = template.notes
     room = sizes.width if width is None else width
     found, bottom = Framed(), 0.0
@@ -295,13 +304,13 @@ def notes(lines: Sequence[str], template: SheetTemplate, width: float | None = N
 
 
 _GAP = 4.0
-"""Between parts, and from the frame to the notes."""
+"""Distance between tables, and from the frame to the notes."""
 
 _MANY = 12
-"""Rows of a table that is not drawn in two columns where these are narrower than they should be."""
+"""Largest number of rows of a table that is never drawn in two narrowed columns."""
 
 _ONCE = ("material", "heat_treatment")
-"""Keys of rows that title blocks have, too."""
+"""Keys of rows that title blocks may also have."""
 
 _LEAST_NOTES = 60.0
 """Width of the narrowest notes beside the title block; on narrower sheets they stand above it."""
@@ -309,7 +318,7 @@ _LEAST_NOTES = 60.0
 
 @dataclass(frozen=True)
 class Furnished:
-    """A sheet without its views: `free` is where these may stand, but for the boxes that are `taken`."""
+    """A sheet without its views: these may stand in the box `free`, except in the boxes that are `taken`."""
 
     figure: Figure = field(repr=False)
     free: Box
@@ -319,7 +328,7 @@ class Furnished:
 
 @dataclass(frozen=True, kw_only=True)
 class Furniture:
-    """What stands on a sheet beside views, whatever the size of the sheet.
+    """The content of a sheet beside its views, independent of the size of the sheet.
 
     `notes` come before those of the options; the common ones (edges, standards) before both. `table_title` and `rows` are the
     gear data table.
@@ -334,10 +343,10 @@ class Furniture:
     parts: Sequence[PartLine] = ()
 
     def on(self, size: SheetSize, values: Mapping[str, str]) -> Furnished:
-        """All of it on a sheet, the paper's lower left corner at (0, 0); `values` as of `title_values`.
+        """Return the furniture on a sheet, the paper's lower left corner at (0, 0); `values` are those of `title_values`.
 
-        The table is in lower rows or in several columns where it would not have room above the title block, and without
-        what stands in that. Nothing is `free` where it has no room at all.
+        The table gets lower rows or several columns if it has no room above the title block. It leaves out material and heat
+        treatment if the title block has them. `free` is empty if the furniture has no room at all.
         """
         frame = inside_frame(size, self.template.frame)
         stack = self._stack(values, frame)
@@ -356,7 +365,7 @@ class Furniture:
         return Furnished(Figure.of(figure, *(each.figure for each in parts)), free, taken, notices)
 
     def _stack(self, values: Mapping[str, str], frame: Box) -> Framed:
-        """Title block, parts list and revisions upon each other, in the lower right corner."""
+        """Return title block, parts list and revisions above each other, in the lower right corner."""
         block = title_block(values, self.template, self.words, self.options.projection)
         found = block.moved(frame.right, frame.bottom)
         for each in (
@@ -367,12 +376,14 @@ class Furniture:
         return found
 
     def _rows(self, values: Mapping[str, str]) -> list[TableRow]:
-        """Those of the table: a sheet says material and treatment once, in its title block if that has cells for them."""
+        """Return the rows of the table, without material and heat treatment if the title block has cells for them."""
         titled = {name for cell in self.template.cells.values() for name in cell.names if values.get(name)}
         return [row for row in self.rows if row.key not in titled or row.key not in _ONCE]
 
     def _table(self, rows: Sequence[TableRow], frame: Box, room: float) -> Framed:
-        """The gear data table in the upper right corner, in the first form that is no higher than `room`."""
+        """Return the gear data table in the upper right corner, in the first form that is no higher than `room` (mm), else the
+        last.
+        """
         table = Framed()
         for sizes, columns, low in self._forms(len(rows), frame.width):
             table = data_table(rows, self.table_title, sizes, columns=columns, low=low)
@@ -381,7 +392,9 @@ class Furniture:
         return table.moved(frame.right, frame.top)
 
     def _forms(self, rows: int, width: float) -> Iterator[tuple[DataTableSizes, int, bool]]:
-        """Sizes, number of columns, and whether rows are low; on narrow paper two columns as wide as that for many rows."""
+        """Yield sizes, number of columns, and whether rows are low. Narrow paper has two narrower columns for many rows
+        first.
+        """
         sizes = self.template.data_table
         most = int(width / sizes.width)
         if most < 2 and rows > _MANY:
@@ -389,7 +402,7 @@ class Furniture:
         yield from ((sizes, columns, low) for columns in range(1, max(most, 1) + 1) for low in (False, True))
 
     def _notes(self, frame: Box, stack: Box) -> Framed:
-        """The notes left of the title block, else above what stands on that."""
+        """Return the notes left of the title block, else above the tables that stand on it."""
         lines = [*common_notes(self.options, self.template, self.words), *self.notes, *self.options.notes]
         beside = stack.left - frame.left - 2 * _GAP
         if beside >= _LEAST_NOTES:

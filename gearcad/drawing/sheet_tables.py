@@ -17,20 +17,20 @@ from gearcad.drawing.sheet_template import LEAST, DataTableSizes, SheetTemplate
 from gearcad.drawing.words import Words
 
 CLOSEST = 0.65
-"""Width of the closest letters over that of the font."""
+"""Width of the narrowest letters over that of the font."""
 
 _HEIGHTS = (14.0, 10.0, 7.0, 5.0, 3.5, 2.5, LEAST)
-"""Those of ISO 3098-1, and the smallest."""
+"""Heights of letters by ISO 3098-1, and the smallest."""
 
 _PITCH = 1.6
-"""Of lines, over the height of letters."""
+"""Distance of lines, over the height of letters."""
 
 _ELLIPSIS = "…"
 
 
 @dataclass(frozen=True)
 class Fitted:
-    """Lines of one height and width of letters; `kept` are the characters that are left where it was shortened."""
+    """Lines of text with one height and width of letters; `kept` is the number of characters left if the text was shortened."""
 
     lines: tuple[str, ...]
     height: float
@@ -39,16 +39,16 @@ class Fitted:
 
     @property
     def pitch(self) -> float:
-        """From line to line."""
+        """Distance from line to line (mm)."""
         return _PITCH * self.height
 
     @property
     def depth(self) -> float:
-        """From the top of the first line's capitals to the line of the last."""
+        """Height from the last line to the top of the first line's capitals (mm)."""
         return self.height + self.pitch * (len(self.lines) - 1)
 
     def at(self, place: Point, anchor: Anchor = Anchor.LEFT, pen: Pen = Pen.TEXT) -> Figure:
-        """The texts, the last line at a place."""
+        """Return the figure of the texts, the last line at a place."""
         up = [self.pitch * (len(self.lines) - 1 - number) for number in range(len(self.lines))]
         texts = zip(self.lines, up, strict=True)
         return Figure(
@@ -61,10 +61,10 @@ class Fitted:
 
 
 def fit(text: str, room: float, height: float, *, depth: float = 0.0, least: float = LEAST, closest: float = CLOSEST) -> Fitted:
-    """A text in a room that is so wide, and so high (`depth`, else one line); letters no smaller than `least`, nor closer
-    than `closest`.
+    """Return a text fitted to the width `room` (mm) and the height `depth` (mm; else one line).
 
-    The largest letters of those that serve; of equal ones the fewest lines, and letters closer rather than more lines.
+    Letters are no smaller than `least`, nor narrower than `closest`. The largest possible letters are taken; of equal ones the
+    fewest lines, and narrower letters rather than more lines. A text that does not fit is shortened.
     """
     measured = _Measured.of(text)
     heights = [height, *(each for each in _HEIGHTS if least < each < height), *([least] if least < height else [])]
@@ -83,7 +83,7 @@ def fit(text: str, room: float, height: float, *, depth: float = 0.0, least: flo
 
 
 def shortened_notice(key: str, text: str, fitted: Fitted, owner: str) -> tuple[Notice, ...]:
-    """That a text was shortened; nothing where it was not."""
+    """Return a notice that a text was shortened; empty if it was not."""
     if fitted.kept is None:
         return ()
     return (Notice("drawing-shortened", f"{owner} has room for {fitted.kept} of its {len(text)} characters", where=key),)
@@ -94,7 +94,7 @@ def _most_lines(height: float, depth: float) -> int:
 
 
 def _stretches(measured: _Measured, room: float, height: float, lines: int, closest: float) -> Iterator[float]:
-    """Widths of letters to try, the widest first."""
+    """Yield the widths of letters to try, the widest first."""
     yield STRETCH
     whole = measured.width * height
     if lines == 1 and whole:
@@ -107,7 +107,7 @@ def _stretches(measured: _Measured, room: float, height: float, lines: int, clos
 
 @dataclass(frozen=True)
 class _Measured:
-    """A text with the places of its letters, in lengths over height and width of letters."""
+    """A text with the places of its letters, for letters of unit height and width."""
 
     text: str
     places: Sequence[float]
@@ -121,8 +121,10 @@ class _Measured:
         return self.places[-1]
 
     def wrapped(self, room: float, most: int | None = None) -> tuple[str, ...]:
-        """Lines that are no wider than `room`, broken at spaces where there are some; of at most so many the last has an
-        ellipsis."""
+        """Return lines no wider than `room`, broken at spaces where possible.
+
+        There are at most `most` lines; if the text has more, the last line ends with an ellipsis.
+        """
         lines: list[str] = []
         start = 0
         while start < len(self.text) or not lines:
@@ -135,14 +137,16 @@ class _Measured:
         return tuple(lines)
 
     def _reach(self, start: int, room: float) -> int:
-        """The end of what of the text from `start` on has room; not before a mark that belongs to the letter before it."""
+        """Return the end of the part of the text from `start` on that has room; never before a mark that belongs to the letter
+        before it.
+        """
         end = bisect_right(self.places, self.places[start] + room + 1e-9) - 1
         while start < end < len(self.text) and _belongs(self.text[end]):
             end -= 1
         return max(end, start)
 
     def _line(self, start: int, room: float) -> tuple[int, int]:
-        """The end of a line, and the start of the next."""
+        """Return the end of a line, and the start of the next."""
         end = max(self._reach(start, room), start + 1)
         if end >= len(self.text) or self.text[end] == " ":
             return end, end + 1
@@ -151,29 +155,29 @@ class _Measured:
 
 
 def _belongs(letter: str) -> bool:
-    """Whether a letter stands on, or joins, the one before it."""
+    """Return whether a letter stands on, or joins, the one before it."""
     return unicodedata.combining(letter) > 0 or unicodedata.category(letter) in ("Mn", "Me", "Cf") or letter in "\ufe0f\u200d"
 
 
 @dataclass(frozen=True)
 class Framed:
-    """A figure with its place, and what had to be shortened in it."""
+    """A figure, and notices of the texts that were shortened in it."""
 
     figure: Figure = field(default_factory=Figure)
     notices: tuple[Notice, ...] = ()
 
     @property
     def empty(self) -> bool:
-        """Whether there is nothing to be seen."""
+        """Return whether the figure has no shapes."""
         return not self.figure.shapes
 
     @property
     def box(self) -> Box:
-        """What holds it. Raises ValueError of an empty one."""
+        """The smallest box that holds the figure. Raises ValueError for an empty one."""
         return self.figure.box
 
     def moved(self, across: float, up: float) -> Framed:
-        """The same elsewhere."""
+        """Return the figure moved to the right and up (mm), with its notices."""
         return Framed(self.figure.moved(across, up), self.notices)
 
     def __add__(self, other: Framed) -> Framed:
@@ -181,14 +185,14 @@ class Framed:
 
 
 MARGIN = 1.5
-"""From the side of a cell to its text."""
+"""Distance from the side of a cell to its text."""
 
 _CELL_AIR = 1.0
 """Least distance of texts from the lines above and below."""
 
 
 def ruled(columns: Sequence[float], heights: Sequence[float]) -> Figure:
-    """Outline and lines of a table of rows from the bottom up, its lower left corner at (0, 0)."""
+    """Return the outline and lines of a table with rows from the bottom up, its lower left corner at (0, 0)."""
     across, up = [0.0, *accumulate(columns)], [0.0, *accumulate(heights)]
     lines: list[Shape] = [Line((0.0, each), (across[-1], each), Pen.TABLE) for each in up[1:-1]]
     lines += [Line((each, 0.0), (each, up[-1]), Pen.TABLE) for each in across[1:-1]]
@@ -196,13 +200,13 @@ def ruled(columns: Sequence[float], heights: Sequence[float]) -> Figure:
 
 
 def outlined(box: Box) -> Polyline:
-    """The thick outline of a table."""
+    """Return the thick outline of a table."""
     corners = [(box.left, box.bottom), (box.right, box.bottom), (box.right, box.top), (box.left, box.top)]
     return Polyline.straight(corners, Pen.OUTLINE, closed=True)
 
 
 def row_of_texts(texts: Sequence[str], columns: Sequence[float], height: float, text: float) -> tuple[list[Fitted], float]:
-    """The texts of a row as they fit, and how high it is: as high as asked, or as two lines of small letters need."""
+    """Return the fitted texts of a row, and its height (mm): `height`, or as much as two lines of small letters need."""
     tallest = max(height, _tall(text))
     fitted = [
         fit(each, column - 2 * MARGIN, text, depth=tallest - 2 * _CELL_AIR) for each, column in zip(texts, columns, strict=True)
@@ -211,14 +215,14 @@ def row_of_texts(texts: Sequence[str], columns: Sequence[float], height: float, 
 
 
 def _tall(text: float) -> float:
-    """Of a row with two lines of smaller letters."""
+    """Return the height (mm) of a row with two lines of smaller letters."""
     return 2 * _CELL_AIR + 2.6 * min(text, LEAST) + 0.1
 
 
 def grid_upwards(
     rows: Sequence[Sequence[str]], keys: Sequence[str], columns: Sequence[float], height: float, text: float, owner: str
 ) -> Framed:
-    """Rows of texts from the bottom up, the lower left corner at (0, 0); `keys` are what notices call the rows."""
+    """Return a table of texts from the bottom up, the lower left corner at (0, 0); `keys` name the rows in notices."""
     found: list[Framed] = []
     heights: list[float] = []
     starts = [0.0, *accumulate(columns)]
@@ -237,7 +241,7 @@ _LEAST = 1.8
 
 _LARGEST_LIMITS = 3.5
 _STACKED = 1.58
-"""How high two limits are one above the other, over the height of the text to which they belong."""
+"""Height of two limits one above the other, over the height of their text."""
 
 _ROW_AIR = 0.8
 """Least distance of texts from the lines above and below."""
@@ -259,7 +263,7 @@ class TableRow(Protocol):
 
 
 def data_table(rows: Iterable[TableRow], title: str, sizes: DataTableSizes, *, columns: int = 1, low: bool = False) -> Framed:
-    """The table under its title, the upper right corner at (0, 0); in several columns if asked, in `low` rows.
+    """Return the table under its title, the upper right corner at (0, 0), in one or several columns; `low` asks for low rows.
 
     A value that is too long is written smaller, then in two lines, then shortened.
     """
@@ -279,7 +283,7 @@ def data_table(rows: Iterable[TableRow], title: str, sizes: DataTableSizes, *, c
 
 
 def _heading(title: str, width: float, sizes: DataTableSizes) -> Framed:
-    """Title, and the unit of what has none; its upper left corner at (0, 0)."""
+    """Return the heading: the title, and the unit of values without one; its upper left corner at (0, 0)."""
     units = fit("mm", width / 3, sizes.text)
     head = fit(title, width - 2 * MARGIN - width / 3, 1.4 * sizes.text)
     at = (MARGIN, -(sizes.heading + head.height) / 2)
@@ -288,7 +292,7 @@ def _heading(title: str, width: float, sizes: DataTableSizes) -> Framed:
 
 
 def _column(rows: Sequence[TableRow], sizes: DataTableSizes, height: float) -> Framed:
-    """Rows from the top down; the lower left corner of as many rows as there are at (0, 0)."""
+    """Return rows from the top down, the lower left corner of the last at (0, 0)."""
     found = Framed(ruled(sizes.columns, [height] * len(rows)))
     for number, row in enumerate(rows):
         found += _row(row, sizes, height).moved(0.0, height * (len(rows) - 1 - number))
@@ -296,7 +300,7 @@ def _column(rows: Sequence[TableRow], sizes: DataTableSizes, height: float) -> F
 
 
 def _row(row: TableRow, sizes: DataTableSizes, height: float) -> Framed:
-    """Its lower left corner at (0, 0)."""
+    """Return a row of the gear data table, its lower left corner at (0, 0)."""
     starts = [0.0, *accumulate(sizes.columns)]
     rooms = [each - 2 * MARGIN for each in sizes.columns]
     depth = height - 2 * _ROW_AIR
@@ -321,12 +325,12 @@ def _row(row: TableRow, sizes: DataTableSizes, height: float) -> Framed:
 
 
 def _limits_height(row: TableRow, sizes: DataTableSizes, height: float) -> float:
-    """Of a text to which limits would belong: where there is none they are all there is to read."""
+    """Return the text height (mm) from which the size of limits follows: larger where limits stand without a text."""
     return sizes.text if row.text else max(sizes.text, min(_LARGEST_LIMITS, (height - 2 * _ROW_AIR) / _STACKED))
 
 
 def _symbol(words: str, room: float, text: float, height: float) -> Figure:
-    """As large as it can be, its subscripts above the line below."""
+    """Return a symbol as large as its cell permits, its subscripts above the line below."""
     sizes = [text * (1 - step / 20) for step in range(10) if text * (1 - step / 20) >= _LEAST] or [text]
     written = next((each for size in sizes if (each := symbol(words, size)).width <= room), symbol(words, sizes[-1]))
     return written.at((0.0, max((height - written.height) / 2, written.below + _ROW_AIR / 2)))
@@ -357,7 +361,9 @@ class PartLine:
 
 
 def parts_list(parts: Sequence[PartLine], template: SheetTemplate, words: Words) -> Framed:
-    """Its heading at the bottom, the first item above it; the lower right corner at (0, 0). Empty without parts."""
+    """Return the parts list with its heading at the bottom and the first item above it; the lower right corner at (0, 0).
+    Empty without parts.
+    """
     if not parts:
         return Framed()
     sizes = template.parts_list
@@ -369,7 +375,9 @@ def parts_list(parts: Sequence[PartLine], template: SheetTemplate, words: Words)
 
 
 def revisions(changes: Sequence[Revision], template: SheetTemplate, words: Words) -> Framed:
-    """The heading at the bottom, the first revision above it; the lower right corner at (0, 0). Empty without revisions."""
+    """Return the table of revisions with its heading at the bottom and the first revision above it; the lower right corner at
+    (0, 0). Empty without revisions.
+    """
     if not changes:
         return Framed()
     sizes = template.revisions

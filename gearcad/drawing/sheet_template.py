@@ -57,26 +57,26 @@ VALUES = (
     "heat_treatment",
     "mass",
 )
-"""What the value of a cell may have in braces."""
+"""Names that the value of a cell may have in braces."""
 
 CAPTION_TOP = 1.0
-"""From the top of a cell to its caption."""
+"""Distance from the top of a cell to its caption."""
 
 _CAPTION_AIR = 0.7
-"""Between the caption and the value of a cell."""
+"""Distance between the caption and the value of a cell."""
 
 _AIR = 0.65
 """Least distance of a value from the bottom of its cell."""
 
 _BELOW = 0.33
-"""How far letters reach below their line, over their height."""
+"""Reach of letters below their line, over their height."""
 
 _IN_BRACES = re.compile(r"\{([^{}]*)\}")
 
 
 @dataclass(frozen=True, kw_only=True)
 class FrameSizes:
-    """Margins, and the strip with letters and numbers."""
+    """Sizes of the frame (mm): margins, and the strip with letters and numbers."""
 
     binding_margin: Annotated[float, _EDGE]
     margin: Annotated[float, _EDGE]
@@ -95,7 +95,7 @@ class FrameSizes:
 
 @dataclass(frozen=True, kw_only=True)
 class TitleSizes:
-    """The title block as a whole."""
+    """Sizes of the title block as a whole (mm)."""
 
     width: Annotated[float, _SOME]
     height: Annotated[float, _SOME]
@@ -104,7 +104,7 @@ class TitleSizes:
 
 @dataclass(frozen=True, kw_only=True)
 class TitleCell:
-    """A cell of the title block, from its lower left corner; without `caption` that of its name."""
+    """A cell of the title block, placed by its lower left corner (mm); without `caption` it has the caption of its name."""
 
     left: Annotated[float, _MM]
     bottom: Annotated[float, _MM]
@@ -117,31 +117,31 @@ class TitleCell:
 
     @property
     def value_bottom(self) -> float:
-        """Where the line of its value may be at the lowest: letters reach below it."""
+        """Lowest height (mm) of the value's text line, below which letters still reach."""
         return self.bottom + _AIR + _BELOW * self.text
 
     def value_top(self, caption: float) -> float:
-        """How far up the value may reach, below a caption of this height."""
+        """Return the greatest height (mm) of the value, below a caption of this text height (mm)."""
         return self.bottom + self.height - CAPTION_TOP - (0.0 if self.caption == "" else caption + _CAPTION_AIR)
 
     @property
     def box(self) -> Box:
-        """Where it is in the title block."""
+        """Box of the cell in the title block (mm)."""
         return Box(self.left, self.bottom, self.left + self.width, self.bottom + self.height)
 
     def filled(self, values: Mapping[str, str]) -> str:
-        """Its value with what stands in braces put in."""
+        """Return the value of the cell with the names in braces replaced by `values`."""
         return " ".join(_IN_BRACES.sub(lambda found: values.get(found[1], ""), self.value).split())
 
     @property
     def names(self) -> list[str]:
-        """What its value has in braces."""
+        """Names in braces in the value of the cell."""
         return _IN_BRACES.findall(self.value)
 
 
 @dataclass(frozen=True, kw_only=True)
 class DataTableSizes:
-    """Columns and rows of the gear data table."""
+    """Sizes of the gear data table (mm): columns, rows and text."""
 
     words: Annotated[float, _SOME]
     symbol: Annotated[float, _SOME]
@@ -160,14 +160,14 @@ class DataTableSizes:
         return sum(self.columns)
 
     def narrowed(self, width: float) -> DataTableSizes:
-        """With columns that have such a width together."""
+        """Return the sizes with columns that have this width (mm) together."""
         part = width / self.width
         return replace(self, words=part * self.words, symbol=part * self.symbol, value=part * self.value)
 
 
 @dataclass(frozen=True, kw_only=True)
 class PartsListSizes:
-    """Columns and rows of the parts list."""
+    """Sizes of the parts list (mm): columns, rows and text."""
 
     item: Annotated[float, _SOME]
     quantity: Annotated[float, _SOME]
@@ -185,7 +185,7 @@ class PartsListSizes:
 
 @dataclass(frozen=True, kw_only=True)
 class RevisionSizes:
-    """Columns and rows of the table of revisions."""
+    """Sizes of the table of revisions (mm): columns, rows and text; `most` is the greatest number of revisions."""
 
     index: Annotated[float, _SOME]
     text_width: Annotated[float, _SOME]
@@ -202,7 +202,7 @@ class RevisionSizes:
 
 @dataclass(frozen=True, kw_only=True)
 class NoteSizes:
-    """The notes: how wide, and how far their lines are apart."""
+    """Sizes of the notes (mm): width, text, and distance of lines."""
 
     width: Annotated[float, _SOME]
     text: Annotated[float, _TEXT]
@@ -213,7 +213,7 @@ _FILE = "drawing_title.toml"
 _CELLS = "title.cells"
 
 _AROUND = 2.0
-"""What a row must be higher than its letters."""
+"""Least difference (mm) between the height of a row and of its letters."""
 
 Part = TypeVar("Part")
 
@@ -233,7 +233,9 @@ def _no_words() -> dict[str, dict[str, str]]:
 
 @dataclass(frozen=True, kw_only=True)
 class SheetTemplate:
-    """Sizes of all that frames a sheet, the cells of its title block by their names, and words in place of others."""
+    """Sizes of a sheet's frame and tables, the cells of its title block by their names, and words that replace the shipped
+    ones.
+    """
 
     frame: FrameSizes
     title: TitleSizes
@@ -246,7 +248,9 @@ class SheetTemplate:
 
     @classmethod
     def of(cls, file: str | None) -> Self:
-        """The shipped one, with what a file has in its place. Raises SpecError that names file and key."""
+        """Return the shipped template, with its entries replaced by those of a file. Raises SpecError that names file and
+        key.
+        """
         shipped = tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
         if file is None:
             return cls._made(shipped)
@@ -266,7 +270,7 @@ class SheetTemplate:
         return cls(cells=_cells(content["title"]["cells"], made["title"]), **made)
 
     def words(self, language: Language) -> Words:
-        """Those of a language, with what the company says in their place."""
+        """Return the words of a language, with the company's own words in their place."""
         words = Words.of(language)
         return replace(words, labels={**words.labels, **self.other_words[language.value]})
 
@@ -275,7 +279,7 @@ class SheetTemplate:
 
 
 def _read(file: str) -> dict[str, Any]:
-    """The content of a company's file. Raises SpecError."""
+    """Return the content of a company's template file. Raises SpecError."""
     try:
         return tomllib.loads(file_bytes(Path(file)).decode("utf-8-sig"))
     except OSError as error:
@@ -286,7 +290,9 @@ def _read(file: str) -> dict[str, Any]:
 
 
 def _merged(shipped: Mapping[str, Any], own: Mapping[str, Any], inside: str = "") -> dict[str, Any]:
-    """What is shipped with what is a company's own in its place, table by table; cells may be new, or false for none."""
+    """Return the shipped content with the company's own in its place, table by table. Cells may be new, or false for none.
+    Raises ParameterError.
+    """
     merged, cells = dict(shipped), inside == _CELLS
     for key, value in own.items():
         where = f"{inside}.{key}" if inside else key
@@ -315,7 +321,7 @@ def _nearest(key: str, known: tuple[str, ...]) -> str:
 
 
 def _part(kind: type[Part], content: Mapping[str, Any], where: str) -> Part:
-    """A part of the template. Raises ParameterError."""
+    """Return a part of the template, of class `kind`. Raises ParameterError."""
     known = [each.name for each in fields(_dataclass(kind))]
     for key, value in content.items():
         if key not in known:
@@ -341,7 +347,7 @@ def _dataclass(kind: type[Any]) -> type[DataclassInstance]:
 
 
 def _cells(content: Mapping[str, Any], title: TitleSizes) -> dict[str, TitleCell]:
-    """The cells, within the title block and none over another, with known values only. Raises ParameterError."""
+    """Return the cells by name, within the title block, none over another, with known values only. Raises ParameterError."""
     cells: dict[str, TitleCell] = {}
     whole = Box(0.0, 0.0, title.width, title.height)
     for name, given in content.items():
@@ -363,7 +369,7 @@ def _cells(content: Mapping[str, Any], title: TitleSizes) -> dict[str, TitleCell
 
 
 def _words(content: Any) -> dict[str, dict[str, str]]:
-    """Words in place of others, by language and key. Raises ParameterError."""
+    """Return the words that replace shipped ones, by language and key. Raises ParameterError."""
     known_words = _known_words()
     known = tuple(known_words)
     found = _no_words()

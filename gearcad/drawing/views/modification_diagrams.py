@@ -22,7 +22,7 @@ _BETWEEN = 24
 
 @dataclass(frozen=True)
 class Series:
-    """One curve: the key of its words, depths (µm) at the `places` and all along `fine` of its Depths."""
+    """One curve: the key of its words, and its depths (µm) at the `places` and at the `fine` places of its Depths."""
 
     key: str
     at_places: Floats
@@ -31,9 +31,9 @@ class Series:
 
 @dataclass(frozen=True)
 class Depths:
-    """Depths (µm) over roll lengths or heights z (mm): `places` are the ends, the middle, and where reliefs begin.
+    """Depths (µm) over roll lengths or heights z (mm): `places` are the ends, the middle, and the starts of reliefs.
 
-    `fine` are the places of the points of a curve, `diameters` those of the places (None along the face).
+    `fine` are the places of a curve's points. `diameters` are the diameters (mm) at the places; None along the face.
     """
 
     places: Floats
@@ -43,22 +43,22 @@ class Depths:
 
     @property
     def extent(self) -> tuple[float, float]:
-        """Least and greatest of all depths and 0."""
+        """Least and greatest of all depths and 0 (µm)."""
         every = np.concatenate([[0.0], *(each.along for each in self.series)])
         return float(every.min()), float(every.max())
 
     @property
     def turned(self) -> Self:
-        """The same from the last place to the first."""
+        """The same depths from the last place to the first."""
         series = tuple(replace(each, at_places=each.at_places[::-1], along=each.along[::-1]) for each in self.series)
         diameters = None if self.diameters is None else self.diameters[::-1]
         return replace(self, places=self.places[::-1], fine=self.fine[::-1], series=series, diameters=diameters)
 
 
 def profile_depths(gear: Gear) -> Depths | None:
-    """Over roll lengths from root form to tip form circle, at mid face width; with twist at both ends too.
+    """Return depths over roll lengths from root form to tip form circle, at mid face width; with twist at both ends too.
 
-    What changes along the face only is left out. None where nothing is done to the profile.
+    Modifications along the face only are left out. None without a modification of the profile.
     """
     form = gear.flank_form
     if not form.modification.on_profile:
@@ -81,9 +81,10 @@ def profile_depths(gear: Gear) -> Depths | None:
 
 
 def helix_depths(gear: Gear) -> Depths | None:
-    """Along the face at mid profile, what is done to the profile there left out; of both flanks where they differ.
+    """Return depths along the face at mid profile, without the modification of the profile there; for both flanks if they
+    differ.
 
-    None where nothing is done along the face.
+    None without a modification along the face.
     """
     form = gear.flank_form
     of = form.modification
@@ -104,14 +105,14 @@ def helix_depths(gear: Gear) -> Depths | None:
 
 
 def _fine(places: Floats) -> Floats:
-    """The places and points between them."""
+    """Return the places and points between them."""
     steps = np.arange(len(places) * _BETWEEN - _BETWEEN + 1) / _BETWEEN
     result: Floats = np.interp(steps, np.arange(len(places)), places)
     return result
 
 
 _WIDTH, _HEIGHT = 60.0, 15.0
-"""Of the curves."""
+"""Width and height of the curves (mm of paper)."""
 
 _SMALL, _TITLE = 2.5, 3.5
 """Heights of texts."""
@@ -120,15 +121,15 @@ _ROW = 4.2
 _CELL_AIR = 1.6
 _NUMBER_GAP = 3.5
 _DROP = 3.0
-"""From the lowest depth to the numbers of the places."""
+"""Distance from the lowest depth to the numbers of the places."""
 
 _PENS = {"profile_start": Pen.THIN, "profile_end": Pen.HIDDEN, "flank_left": Pen.HIDDEN}
-"""Those of curves that are not thick."""
+"""Pens of the curves that are not thick."""
 
 
 @dataclass(frozen=True)
 class _Plot:
-    """Where places and depths are on paper; the unmodified flank is at height 0, material taken off below it."""
+    """Scales from places and depths to paper; the unmodified flank is at height 0, removed material below it."""
 
     depths: Depths
 
@@ -146,7 +147,7 @@ class _Plot:
 
 
 def depth_diagram(title: str, place_symbol: str, depths: Depths, notes: Sequence[str], draughting: Draughting) -> Figure:
-    """The diagram with its title above and notes below; `place_symbol` is that of the places."""
+    """Return the diagram with its title above and its table and notes below; `place_symbol` is the symbol of the places."""
     plot = _Plot(depths)
     top = max(plot.up(depths.extent[0]), 0.0)
     drawn = Figure.of(_curves(plot), _places(plot), _names(plot, draughting.words))
@@ -170,7 +171,7 @@ def _curves(plot: _Plot) -> Figure:
 
 
 def _places(plot: _Plot) -> Figure:
-    """A thin line down from each place to its number."""
+    """Return a thin line down from each place to its number."""
     across = [plot.across(place) for place in plot.depths.places]
     numbers = spread(across, _NUMBER_GAP)
     end, low = plot.floor - 1.0, plot.floor - _DROP
@@ -182,7 +183,7 @@ def _places(plot: _Plot) -> Figure:
 
 
 def _names(plot: _Plot, words: Words) -> Figure:
-    """Those of the curves at their right ends, where there are several."""
+    """Return the names of the curves at their right ends; empty for a single curve."""
     series = sorted(plot.depths.series, key=lambda each: plot.up(each.along[-1]))
     if len(series) == 1:
         return Figure()
@@ -196,7 +197,7 @@ def _names(plot: _Plot, words: Words) -> Figure:
 
 
 def _table(place_symbol: str, depths: Depths, words: Words) -> Figure:
-    """Its upper left corner at the origin: number, diameter, place (mm), depths (µm)."""
+    """Return the table of number, diameter (mm), place (mm) and depths (µm), its upper left corner at the origin."""
     several = len(depths.series) > 1
     columns = [["", *(str(i + 1) for i in range(len(depths.places)))]]
     if depths.diameters is not None:
@@ -213,9 +214,9 @@ def _table(place_symbol: str, depths: Depths, words: Words) -> Figure:
 
 
 def modification_figures(drawn: DrawnGear, draughting: Draughting) -> tuple[Figure, ...]:
-    """That of the profile and that along the face, each where there is something to show; none of a rack.
+    """Return the diagram of the profile and the diagram along the face, each if there is something to show; none for a rack.
 
-    That along the face lies as the section of the gear does; both say from which end z is counted.
+    The diagram along the face has the direction of the gear's section; both state the end from which z is counted.
     """
     gear, words = drawn.gear, draughting.words
     if not isinstance(gear, Gear):
@@ -232,7 +233,7 @@ def modification_figures(drawn: DrawnGear, draughting: Draughting) -> tuple[Figu
 
 
 def _notes(gear: Gear, depths: Depths, direction: int, words: Words) -> Iterator[str]:
-    """What signs mean, and where it matters where z begins and how flanks are looked at."""
+    """Yield notes on the sign of depths and, if it matters, on the origin of z and the viewing direction of flanks."""
     yield words["rings.depth_sign"]
     near, far = ("left", "right") if direction > 0 else ("right", "left")
     several = len(depths.series) > 1
