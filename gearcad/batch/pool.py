@@ -28,9 +28,9 @@ from gearcad.version import __version__
 
 @contextmanager
 def remembered_interrupt() -> Iterator[Callable[[], None]]:
-    """What raises KeyboardInterrupt if Ctrl-C was pressed since, whatever became of the one that was raised then.
+    """Yield a function that raises KeyboardInterrupt if Ctrl-C was pressed since, even if the first KeyboardInterrupt was lost.
 
-    Elsewhere than in the main thread, and where somebody else minds Ctrl-C, it does nothing.
+    Outside the main thread, and if another handler for Ctrl-C is installed, the function does nothing.
     """
     if (
         threading.current_thread() is not threading.main_thread()

@@ -187,7 +187,7 @@ class Status(Enum):
 
 @dataclass(frozen=True)
 class Checked:
-    """What the check of a row has found: its faults, or else the hash of its inputs and the pickled design that they make."""
+    """Result of the check of a row: its faults, or else the hash of its inputs and the pickled design that they make."""
 
     faults: tuple[str, ...] = ()
     inputs: str = ""
@@ -215,7 +215,7 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class Record:
-    """What the table of results says of a row; `stop` is set if no other row can fare better."""
+    """Entry of a row in the table of results; `stop` is set if no other row can succeed either."""
 
     number: int
     status: Status
@@ -280,7 +280,7 @@ def _since(began: float) -> float:
 
 
 def _document(task: Task, folder: Path) -> dict[str, Any]:
-    """What data.json says, and the figures of the other jobs' documents under their verbs."""
+    """Return the content of data.json, with the figures of the other jobs' documents under their verbs."""
     document = _read(folder, DATA)
     for job in task.stages:
         if job.verb != DATA and job.verb in job.parts:

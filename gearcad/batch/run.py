@@ -358,7 +358,7 @@ class _Run:
             return []
 
     def summary(self, results: list[Path]) -> Summary:
-        """What to tell the user."""
+        """Return the summary of the run for the user."""
         states = dict.fromkeys(Status, 0)
         errors, short = [], 0
         for _, record in self.journal.results():

@@ -82,7 +82,7 @@ class Study:
 
     @property
     def rows(self) -> int:
-        """How many designs there are."""
+        """Return the number of designs."""
         if self.sample is not None:
             return self.sample.rows
         return math.prod(len(variation.values) for variation in self.variations if isinstance(variation, Choices))
@@ -117,7 +117,7 @@ class Study:
             yield [_cell_text(f"{stem}-{number:0{width}}"), *(cells | seen).values()]
 
     def comments(self, table: str) -> Iterator[str]:
-        """What the head of the table says about it."""
+        """Yield the comment lines at the head of the table."""
         yield f"# A study of {self.name} ({self.source}): {self.rows} rows."
         if self.sample is None:
             yield "# Every combination of these values; the last key changes fastest:"
@@ -128,7 +128,7 @@ class Study:
         yield f"# Next: {self.next_command(table)}"
 
     def next_command(self, table: Path | str) -> str:
-        """What makes the rows of the table: nothing is built of a train."""
+        """Return the command that runs the rows of the table; a train gets `--do dynamics`, since nothing is built of it."""
         return f"gearcad batch {table}{' --do dynamics' if self.kind is DesignKind.TRAIN else ''}"
 
 

@@ -45,7 +45,7 @@ def completion(ctx: click.Context, shell: str) -> None:
 
 
 def _names(_ctx: click.Context, _parameter: click.Parameter, begun: str) -> list[str]:
-    """What a shell completes."""
+    """Return the names of starters that complete the text typed so far."""
     from gearcad.designs.reader import starters
 
     return [name for name in starters() if name.startswith(begun)]

@@ -176,7 +176,7 @@ def study(
 
 
 def _sample(method: str | None, rows: int | None, seed: int | None) -> Sample | None:
-    """What --sample, --n and --seed say together."""
+    """Return the sample that --sample, --n and --seed describe, or None for every combination. Raises ParameterError."""
     from gearcad.batch.study import Method, Sample
 
     if method is None:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def displacement_lines(study: TrainStudy) -> list[str]:
-    """How far everything moves at most, and what bearings carry."""
+    """Return lines with the greatest amplitudes of all motions, and the greatest forces on bearings."""
     swings = {
         quantity: [
             f"{each.name} {each.amplitude:.4g} {each.unit} at {each.speed:.5g} rpm"
@@ -132,7 +132,7 @@ def dynamics(spec: Path, variations: tuple[str, ...], output: Path | None, as_js
 
 
 def _varied(spec: Path, variations: tuple[str, ...]) -> tuple[Dynamics, Design]:
-    """What is done with the variants of a spec, and the first of them."""
+    """Return the job for the variants of a spec, and the first of these designs."""
     from gearcad.designs.variations import read_variants
     from gearcad.jobs.dynamics import Dynamics, DynamicsBeside
 
@@ -142,7 +142,7 @@ def _varied(spec: Path, variations: tuple[str, ...]) -> tuple[Dynamics, Design]:
 
 
 def _echo_next(study: Study, output: Path | None) -> None:
-    """What takes the specs of a train's pairs, if it has any."""
+    """Print the next command for the specs of a train's pairs, if there are any."""
     from gearcad.jobs.dynamics import specs_of
 
     folder = folder_of(output, study.name)
@@ -156,7 +156,7 @@ def _show(_name: str, study: Study) -> None:
 
 
 def _lines(study: Study) -> list[str]:
-    """What was found out, in a few lines."""
+    """Return the results of a study in a few lines."""
     from gearcad.dynamics.pair_result import ContactStudy, PairStudy
     from gearcad.dynamics.train_result import ModalStudy
     from gearcad.dynamics.variant_comparison import SideBySide
@@ -236,7 +236,7 @@ def _error_lines(study: TrainStudy) -> list[str]:
 
 
 def _pair_line(mesh: EngagedMesh) -> str:
-    """What a pair carries, and how stiff its teeth are then."""
+    """Return the line of a pair: its torque, its driving gear, and the stiffness of its teeth."""
     course, cycle = mesh.course, mesh.course.cycle
     carried = f"{course.torque:.6g} N·m on its pinion, {mesh.gears.pick(course.driver)} drives"
     return (
@@ -245,7 +245,10 @@ def _pair_line(mesh: EngagedMesh) -> str:
 
 
 def _campbell_lines(study: TrainStudy) -> list[str]:
-    """Where spectra were integrated: at how many speeds, and what is chaotic or parts there."""
+    """Return the line about integrated spectra: number of speeds, chaotic ones, and the share of time without contact.
+
+    Empty without spectra.
+    """
     of = study.campbell
     if of is None:
         return []

@@ -1,4 +1,4 @@
-"""What all commands share: one-line errors, exit statuses, common options."""
+"""Base of all commands: one-line errors, exit statuses, common options."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Commands(click.Group):
     """A group whose commands end with one line instead of a traceback, and with the exit status that fits."""
 
     def list_commands(self, _ctx: click.Context) -> list[str]:
-        """In the order of use, not of the alphabet."""
+        """Return the names of the commands in the order of use, not in alphabetical order."""
         return ["new", *job_commands(), "size", "identify", "study", "batch", "plot", "open", "completion"]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:

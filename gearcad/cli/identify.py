@@ -216,7 +216,7 @@ def identify(
 
 
 def _measurements(file: Path | None, given: dict[str, Any]) -> Measurements:
-    """Those of a file and of the options that are given."""
+    """Return the measurements of a file and of the options that are given. Raises ParameterError without a number of teeth."""
     from gearcad.designs.spec_writers import read_measurements, reading_of
 
     readings: dict[str, Any] = {}

@@ -73,7 +73,11 @@ def file_progress(*, shown: bool) -> Iterator[Progress | None]:
 
 @contextmanager
 def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[Progress | None]:
-    """What a job takes, if that is long, then percent and time left: a bar on a terminal, a line now and then elsewhere."""
+    """Show the progress of a job while the context is open; yield the function to report it, or None.
+
+    First the expected effort is printed if the job takes long. Then percent and time left follow: a bar on a terminal,
+    otherwise a line now and then.
+    """
     if not shown:
         yield None
         return
@@ -97,7 +101,7 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
 
 
 def _told(expected: Expected) -> str:
-    """What is worth telling before a job begins."""
+    """Return a note on the job before it begins: what it makes, and time and memory if they are large."""
     takes = f"takes {about(expected.seconds)} and {about_memory(expected.memory)} of memory"
     return ", ".join(filter(None, (expected.makes, takes if expected.seconds >= _LONG or expected.memory >= _LARGE else "")))
 
@@ -196,7 +200,7 @@ def quiet_option(command: Command) -> Command:
 
 
 def folder_of(output: Path | None, name: str) -> Path:
-    """Where the files of a design go."""
+    """Return the folder for the files of a design: `output`, otherwise output/NAME."""
     return output if output is not None else Path("output") / name
 
 
@@ -239,7 +243,7 @@ def perform_on(
 
 
 def echo_warnings(notices: Iterable[Notice], *, err: bool = False) -> None:
-    """What to know, a line each: among results what is about them, on stderr what is about the design."""
+    """Print the notices as warnings, a line each: among results those about results, on stderr those about the design."""
     colour = False if os.environ.get("NO_COLOR") else None  # None: where it is a terminal
     for text in texts(notices):
         click.secho(f"Warning: {text}", fg="yellow", err=err, color=colour)

@@ -101,7 +101,7 @@ def _of_pair(result: MeshResult) -> str:
 
 
 def _of_deck(file: str, deck: Deck) -> str:
-    """What is to be compared with, and how it is run."""
+    """Return the line of a deck: the figures of gearcad's own check for comparison, and the command that runs it."""
     of, job = deck.expected, file.removesuffix(".inp")
     root = of["root_stress"]
     stress = " and ".join(f"{each:.4g}" for each in (root.values() if isinstance(root, dict) else [root]))

@@ -176,7 +176,7 @@ def _row(each: Candidate) -> tuple[str, ...]:
 
 
 def _remarks(result: SearchResult, output: Path | None) -> Iterator[str]:
-    """How many more there are, what could not be made, and how to go on."""
+    """Yield lines about further sets, sets that could not be made, the columns, and the next command."""
     if result.left:
         yield f"{grouped(result.left)} more meet all conditions: --count"
     if result.unmade:
@@ -249,7 +249,7 @@ def _show(_name: str, found: Studied) -> None:
 
 
 def _lines(study: PlanetaryStudy) -> Iterator[str]:
-    """What was found out, in a few lines."""
+    """Yield the results of a study in a few lines."""
     train = study.train
     teeth = " / ".join(str(gear.teeth) for gear in train.gears.values())
     ratio = "no fixed member" if train.ratio is None else f"i = {train.ratio:.7g}"
@@ -290,7 +290,10 @@ def _cell(value: float | None, digits: int) -> str:
 
 
 def _power_words(power: float | None) -> str:
-    """Who drives and who is driven, which in a differential is up to the speeds."""
+    """Return whether a member drives or is driven, as words, from its power; "" without power.
+
+    In a differential this depends on the speeds.
+    """
     return "" if not power else "drives" if power > 0 else "is driven"
 
 

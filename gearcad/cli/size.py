@@ -65,7 +65,7 @@ def _marks(each: SizedPair, codes: list[str]) -> str:
 
 
 def notice_texts(result: Sizing) -> dict[str, list[str]]:
-    """What the ratings give notice of, by code: the texts, of some kinds different with each pair."""
+    """Return the texts of the ratings' notices by code, each text once. Some notices differ with each pair."""
     found: dict[str, list[str]] = {}
     for each in result.found:
         for notice in () if each.strength is None else each.strength.notices:
@@ -76,7 +76,7 @@ def notice_texts(result: Sizing) -> dict[str, list[str]]:
 
 
 def scuffing_line(options: RatingOptions) -> str | None:
-    """That scuffing was not judged, and what would let it be; None where it was."""
+    """Return the line that scuffing was not judged, with the options that would judge it, or None if it was judged."""
     from gearcad.sizing.proposals import unjudged_scuffing
 
     why = unjudged_scuffing(options)
@@ -84,7 +84,7 @@ def scuffing_line(options: RatingOptions) -> str | None:
 
 
 def basis_lines(options: RatingOptions, application_factor: float, assumed: Iterable[str]) -> Iterator[str]:
-    """What the safeties go by, said once: what is required, the accuracy, and what was assumed."""
+    """Yield lines with the basis of all safeties: the required values, the accuracy, and the assumed inputs."""
     grade = f"accuracy grade {options.accuracy_grade} of {options.accuracy.value}"
     grade += " (assumed)" if is_assumed(options.accuracy_grade) else ""
     required = f"S_H {options.required_safety_flank:g}, S_F {options.required_safety_root:g}"
@@ -331,7 +331,7 @@ def _row(each: SizedSet) -> tuple[str, ...]:
 
 
 def _remarks(result: SizedSets) -> Iterator[str]:
-    """What the safeties go by, how many were looked at, and what the columns are."""
+    """Yield lines with the basis of the safeties, the number of sets considered, and the meaning of the columns."""
 
     options, task = result.task.rating, result.task
     yield from basis_lines(options, task.application_factor, result.assumed)
@@ -408,7 +408,7 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
 
 
 def _size_remarks(result: Sizing, best: Path) -> Iterator[str]:
-    """What the safeties go by, what the columns are, what was left out, and how to go on from the spec of the best."""
+    """Yield lines with the basis of the safeties, the meaning of the columns, the pairs left out, and the next commands."""
     rating = result.task.rating
     yield from basis_lines(rating, result.task.load.application_factor, result.assumed)
     if (line := scuffing_line(rating)) is not None:

@@ -224,7 +224,10 @@ def ends_of(name: str, text: str) -> tuple[int, int]:
 
 
 def modules_of(text: str, *, second: bool) -> tuple[float, ...]:
-    """Those of a list, or those of ISO 54 from the least to the most of a range. Raises ParameterError."""
+    """Return the modules (mm) of a list, or those of ISO 54 in a range. Raises ParameterError.
+
+    `second` adds series II of ISO 54.
+    """
     from gearcad.sizing import ISO_54_I, ISO_54_II
 
     if not text.strip():

@@ -94,7 +94,7 @@ def print_verdict(name: str, result: CheckResult) -> None:
 
 
 def verdict_line(name: str, result: CheckResult) -> str:
-    """What a check comes to."""
+    """Return the conclusion of a check in one line."""
     from gearcad.jobs.strength import Check
 
     return Check().conclusion(name, result)
@@ -194,7 +194,7 @@ def print_strength(name: str, result: StrengthRating | TrainStrength) -> None:
 
 
 def strength_line(name: str, result: StrengthRating | TrainStrength) -> str:
-    """What a rating comes to."""
+    """Return the conclusion of a rating in one line."""
     from gearcad.jobs.strength import Rate
 
     return Rate().conclusion(name, result)

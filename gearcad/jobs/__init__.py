@@ -1,4 +1,4 @@
-"""What gearcad does with a design: a class and a function for each verb."""
+"""The jobs that gearcad does with a design: a class and a function for each verb."""
 
 from gearcad.jobs.verbs import VERBS, WITHOUT_DESIGN, job_of
 

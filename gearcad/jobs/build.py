@@ -153,7 +153,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         return design
 
     def document(self, result: ToothedDesign) -> dict[str, Any]:
-        """Whose files these are; `--json` tells of them."""
+        """Return the document that `--json` prints: kind, name of the design, and gearcad's version."""
         return {"kind": "build", "name": result.name, "gearcad": __version__}
 
     def notices(self, result: ToothedDesign) -> Sequence[Notice]:
@@ -183,7 +183,10 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         return Data().part_of(file) or file.rpartition(".")[2]
 
     def for_row(self, design: Design, parts: Collection[str]) -> Job[Any, Any]:
-        """These formats only, with the options that matter to them; a gear has no bracket, and a pair no carrier."""
+        """Return the job for these formats only, with the options that matter to them.
+
+        A gear gets no bracket, and only planetary trains get a carrier.
+        """
         formats = tuple(kind for kind in self.formats if kind.value in parts)
         if not formats:
             return Data()
@@ -201,7 +204,7 @@ def _formats(given: object) -> tuple[Format, ...]:
 
 
 def _train_writers(kind: Format, train: TrainProduct) -> dict[str, Writer]:
-    """What writes the carrier of a train, if one is made, and the train, in a format that has them."""
+    """Return the writers, by file name, of the carrier (if one is made) and of the whole train, in a format that has them."""
     found: dict[str, Writer] = {}
     if train.carrier is not None and kind.entry.write_carrier is not None:
         found[f"{train.train.carrier.name}.{kind.value}"] = partial(kind.entry.write_carrier, train.carrier)

@@ -65,7 +65,7 @@ def drawn_gears(design: ToothedDesign) -> tuple[DrawnGear, ...]:
 
 
 def drawn_assembly(design: ToothedDesign) -> DrawnPair | DrawnTrain | None:
-    """What the gears of a design make together; None of one that is by itself."""
+    """Return the pair or train that the gears of a design make, or None for a single gear or rack."""
     if isinstance(design, PairDesign | RackPairDesign):
         first, second = drawn_gears(design)
         return DrawnPair(name=design.name, pair=design.pair, parts=(first, second))
@@ -87,7 +87,7 @@ def _of_pair(
 
 
 def _of_train(design: PlanetaryDesign) -> Iterator[DrawnGear]:
-    """Those that differ in more than their name and mates."""
+    """Yield the gears of a train that differ in more than their name and mates."""
     seen: list[tuple[object, ...]] = []
     for drawn in _gears_of_train(design):
         what = (replace(drawn.gear, name="any"), drawn.material, drawn.grade, design.drawings.get(drawn.role))
@@ -118,7 +118,7 @@ def _mate(design: ToothedDesign, name: str, gear: Gear | Rack, pair: GearPair | 
 def _drawn(
     design: ToothedDesign, role: str, gear: Gear | Rack, material: Material | None, mates: tuple[Mate, ...] = ()
 ) -> DrawnGear:
-    """With the accuracy that its rating goes by, its own before that of all."""
+    """Return a gear or rack to draw, with its accuracy grade: its own, otherwise the one given for its rating."""
     rating: RatingOptions | None = getattr(design, "rating", None)
     grade = gear.accuracy_grade if isinstance(gear, Gear) else None
     if grade is None and rating is not None and not is_assumed(rating.accuracy_grade):
@@ -136,7 +136,7 @@ _STEM = "drawing"
 
 
 class SheetFormat(Enum):
-    """What sheets are written as; the value is the end of the names of files."""
+    """File format of sheets; the value is the suffix of file names."""
 
     DXF = "dxf"
     SVG = "svg"
@@ -174,7 +174,7 @@ class Draw(Job[ToothedDesign, Drawing]):
         return Drawing(name=design.name, sheets=sheets)
 
     def _sheets(self, design: ToothedDesign) -> Iterator[Sheet]:
-        """That of the assembly, then those of the gears."""
+        """Yield the sheet of the assembly, then those of the gears. Raises InputError."""
         gears, assembly = drawn_gears(design), drawn_assembly(design)
         options = overridden(design.drawing or DrawingOptions(), self.given)
         own = {name: overridden(part, self.given) for name, part in design.drawings.items()}
@@ -189,7 +189,7 @@ class Draw(Job[ToothedDesign, Drawing]):
                 yield draw_gear(gear, options, own.get(gear.role), alone=assembly is None)
 
     def document(self, result: Drawing) -> dict[str, Any]:
-        """What draw.json holds: of each sheet its files, and the exact values of the numbers on it."""
+        """Return the content of draw.json: the files of each sheet, and the unrounded values of the numbers on it."""
         sheets = [
             {
                 "name": sheet.name,
@@ -209,7 +209,7 @@ class Draw(Job[ToothedDesign, Drawing]):
         return result.notices
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
-        """How many sheets there are, and what to know of them."""
+        """Return the number of sheets, and the notices about them as warnings."""
         notices = (Notice(**each) for each in document["notices"])
         return {"sheets": len(document["sheets"]), "warnings": [str(each) for each in notices]}
 
@@ -224,7 +224,7 @@ class Draw(Job[ToothedDesign, Drawing]):
         return found | ({f"{_STEM}.pdf": result.sheets} if SheetFormat.PDF in self.formats else {})
 
     def files(self, result: Drawing) -> dict[str, Writer]:
-        """Those of each sheet, all of them as one PDF, then the document."""
+        """Return the writers of all files: each sheet, then all sheets as one PDF, then the document."""
         made: dict[str, Document] = {}
         found = {name: partial(_write, pages, made) for name, pages in self._pages(result).items()}
         return {**found, f"{self.verb}.json": partial(self.write_document, result)}
@@ -254,7 +254,7 @@ def _assembled(assembly: DrawnPair | DrawnTrain, options: DrawingOptions, own: M
 
 @contextmanager
 def _blaming(name: str) -> Iterator[None]:
-    """Of which sheet an error is. Raises InputError."""
+    """Add the name of a sheet to an InputError raised in this context."""
     try:
         yield
     except InputError as error:
@@ -333,7 +333,7 @@ _FINE = 0.001
 
 
 class Background(Enum):
-    """What a picture has where nothing is."""
+    """Background of a picture."""
 
     WHITE = "white"
     TRANSPARENT = "transparent"
@@ -341,7 +341,7 @@ class Background(Enum):
 
 @dataclass(frozen=True)
 class Pictured:
-    """A design, and how it is photographed."""
+    """A design, and the shot that is taken of it."""
 
     design: ToothedDesign
     shot: Shot
@@ -422,7 +422,7 @@ class Picture(Job[ToothedDesign, Pictured]):
             raise ParameterError("size", f"{width}x{height}", f"must be at most {most / 1e6:.0f} million pixels{words}")
 
     def document(self, result: Pictured) -> dict[str, Any]:
-        """What picture.json holds."""
+        """Return the content of picture.json."""
         loop = result.shot.loop
         turning = loop and {
             "frames": loop.frames,
@@ -453,7 +453,7 @@ class Picture(Job[ToothedDesign, Pictured]):
         return {self.file: self.writer(result), "picture.json": partial(self.write_document, result)}
 
     def writer(self, result: Pictured) -> Writer:
-        """What writes the image."""
+        """Return the writer of the image."""
         return partial(result.shot.write_animation, self.turning) if self.turning else result.shot.write_png
 
     def write_image(self, result: Pictured, path: Path) -> None:

@@ -42,12 +42,15 @@ from gearcad.version import __version__
 
 
 def table_files(verb: str, tables: Mapping[str, Mapping[str, NDArray[Any] | Sequence[Any]]]) -> dict[str, Writer]:
-    """What writes each of a result's tables, columns by their headings: `VERB-NAME.csv`."""
+    """Return the writers of a result's tables by file name, `VERB-NAME.csv`.
+
+    Each table holds columns by their headings.
+    """
     return {file_name(verb, name): partial(_write_table, columns) for name, columns in tables.items()}
 
 
 def file_name(verb: str, table: str) -> str:
-    """That of a table of this name."""
+    """Return the file name of a table: `VERB-TABLE.csv`."""
     return f"{verb}-{table.replace(' ', '-').replace('_', '-')}.csv"
 
 
@@ -56,7 +59,7 @@ def _write_table(columns: Mapping[str, NDArray[Any] | Sequence[Any]], path: Path
 
 
 def _cells(values: NDArray[Any] | Sequence[Any]) -> list[str]:
-    """Of a column; nan is a cell without a value."""
+    """Return the cells of a column as texts; nan gives an empty cell."""
     if isinstance(values, np.ndarray) and values.dtype == float:
         return [repr(value) if value == value else "" for value in values.tolist()]
     listed = values.tolist() if isinstance(values, np.ndarray) else values
@@ -74,8 +77,10 @@ _MOST_FREQUENCIES = 6
 
 
 def dynamics_columns(document: Mapping[str, Any]) -> dict[str, Any]:
-    """Of a pair: inertias and stiffness, its natural frequency, K_v at the speed and the highest. Of a train: its first
-    natural frequencies, K_v of each mesh at the speed and the highest, and the highest overload of each shaft.
+    """Return the figures of a document of dynamics for one line of a table.
+
+    Of a pair: inertias and stiffness, its natural frequency, K_v at the speed and the highest. Of a train: its first natural
+    frequencies, K_v of each mesh at the speed and the highest, and the highest overload of each shaft.
     """
     if document["model"] not in (model.value for model in PairModel):
         return _dynamics_columns_of_train(document)
@@ -161,7 +166,7 @@ _TABLES = (
 
 @dataclass(frozen=True, kw_only=True)
 class Dynamics(Job[PairDesign | TrainDesign, Study]):
-    """The study that [dynamics] of a design asks for."""
+    """The study for which [dynamics] of a design asks."""
 
     verb = "dynamics"
     accepts = (DesignKind.PAIR, DesignKind.TRAIN)
@@ -174,7 +179,7 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
         return _of_pair(design, progress)
 
     def _expected(self, design: PairDesign | TrainDesign) -> Expected | None:
-        """Of a train's runs in time, which may take minutes."""
+        """Return the expected effort of a train's runs in time, which may take minutes, or None."""
         if not isinstance(design, TrainDesign) or not design.train.meshes:
             return None
         if design.other_models or not (design.dynamics.drawn or design.dynamics.spectra):
@@ -185,14 +190,14 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
             return None  # `run` says why
 
     def document(self, result: Study) -> dict[str, Any]:
-        """What dynamics.json holds: everything but the long arrays."""
+        """Return the content of dynamics.json: everything but the long arrays."""
         return with_assumed({"kind": "dynamics", "name": result.name, "gearcad": __version__, **result.to_dict()})
 
     def notices(self, result: Study) -> Sequence[Notice]:
         return result.notices
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
-        """What a line of a table has of it."""
+        """Return the figures for one line of a table."""
         return dynamics_columns(document)
 
     def files(self, result: Study) -> dict[str, Writer]:
@@ -207,7 +212,10 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
 
 
 def specs_of(result: Study) -> dict[str, str]:
-    """Those of a train's pairs; of a train that was looked at several times, by the study that others are held against."""
+    """Return the specs of a train's pairs, by file name; empty if it has none.
+
+    For several studies of one train, the specs are those of the reference study.
+    """
     first = result.studies[result.reference] if isinstance(result, SideBySide) else result
     return pair_specs(first) if isinstance(first, TrainStudy) else {}
 
@@ -228,7 +236,7 @@ def _write_arrays(study: Study, path: Path) -> None:
 
 
 def _of_train(design: TrainDesign, progress: Progress | None) -> TrainStudy | ModalStudy | LevelStudy:
-    """By one model, or by several side by side."""
+    """Return the study of a train by one model, or by several side by side."""
     train, options, before = design.train, design.dynamics, dict[str, float]()
     if not train.meshes:
         return study_modes(train, options)
@@ -283,7 +291,7 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
 
 
 def _steps(steps: Mapping[str, float], options: DynamicsOptions) -> Mapping[str, float]:
-    """With those of tooth errors that are drawn, and of motions in time."""
+    """Return the steps with their expected seconds, and with those for drawn tooth errors, motions in time and spectra."""
     drawn = options.drawn and options.pair_model is PairModel.MESH
     more = {_ERRORS: 2.0 * options.error_samples} if drawn else {}
     more |= {} if options.transient is None else {"transient": 10.0}
@@ -291,7 +299,7 @@ def _steps(steps: Mapping[str, float], options: DynamicsOptions) -> Mapping[str,
 
 
 def _mesh_cycle(design: PairDesign, load: Load, options: DynamicsOptions) -> MeshCycle:
-    """By the method of the options, the bodies held as [check] says."""
+    """Return the mesh cycle by the method of the options; [check] says how the bodies are held."""
     from gearcad.stiffness.methods import METHODS  # only here: trains without pairs do not need them
 
     mounting, body = design.mounting or Mounting(), (design.check or CheckOptions()).body
@@ -300,7 +308,7 @@ def _mesh_cycle(design: PairDesign, load: Load, options: DynamicsOptions) -> Mes
 
 
 def _inertia(role: Role, pair: GearPair, material: Material, options: DynamicsOptions) -> float:
-    """Of a gear (kg·m²): as given, or that of its own solid."""
+    """Return the inertia of a gear (kg·m²): the given one, otherwise that of its solid."""
     if (given := options.inertias.pick(role)) is not None:
         return given
     from gearcad.solids.exact.inertia import mass_properties
@@ -309,7 +317,7 @@ def _inertia(role: Role, pair: GearPair, material: Material, options: DynamicsOp
 
 
 def _masses(pair: GearPair, materials: PerGear[Material]) -> PerGear[float]:
-    """Of pinion and wheel (kg), as solids."""
+    """Return the masses of pinion and wheel (kg), computed from their solids."""
     from gearcad.solids.exact.inertia import mass_properties
 
     return PerGear.each(lambda role: mass_properties(pair.gears.pick(role), materials.pick(role).density).mass)
@@ -335,7 +343,7 @@ def dynamics(
 
 @dataclass(frozen=True, kw_only=True)
 class DynamicsBeside(Dynamics):
-    """The studies that [dynamics] of each of the `variants` asks for; the design that is run is the first of them."""
+    """The studies for which [dynamics] of each of the `variants` asks; the design that is run is the first of them."""
 
     variants: Variants
 
@@ -376,7 +384,7 @@ def _require_chart(design: PairDesign | TrainDesign) -> None:
 
 
 def _over_speed(study: Study) -> TrainStudy:
-    """That of a train, or of a pair as one, with all there is to know of it."""
+    """Return the study of a train, or of a pair as a train, with all its notices."""
     if isinstance(study, PairStudy):
         return replace(study.study, found=tuple(dict.fromkeys((*study.study.found, *study.notices))))
     assert isinstance(study, TrainStudy)  # _require_chart has seen to it

@@ -1,4 +1,4 @@
-"""Job: what is done with a design - options are fields, a result comes out, and files hold the result; job `data`."""
+"""Job: an action on a design. Its options are fields, it returns a result, and it writes the result as files; job `data`."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ Writer = Callable[[Path], object]
 
 @dataclass(frozen=True, kw_only=True)
 class Job(ABC, Generic[Accepted, Result]):
-    """One verb with its options. Commands, tables and Python ask jobs, and nothing below them."""
+    """One verb with its options. Commands, tables and Python use jobs, and nothing below them."""
 
     verb: ClassVar[str]
     """Its name: that of its module, of its command, of its document and of its function in `gearcad`."""
@@ -67,7 +67,10 @@ class Job(ABC, Generic[Accepted, Result]):
         """The result for a design of a kind that it takes."""
 
     def expected(self, design: Design) -> Expected | None:
-        """What `run` is expected to take, where that is known. Raises what `run` raises for input that cannot be treated."""
+        """Return the expected effort of `run`, or None if it is unknown.
+
+        Raises the errors of `run` for input that cannot be treated.
+        """
         return self._expected(self._accepted(design))
 
     def _expected(self, _design: Accepted) -> Expected | None:
@@ -75,14 +78,14 @@ class Job(ABC, Generic[Accepted, Result]):
 
     @abstractmethod
     def document(self, result: Result) -> dict[str, Any]:
-        """What VERB.json holds, and `--json` prints."""
+        """Return the content of VERB.json, which `--json` prints."""
 
     def notices(self, _result: Result) -> Sequence[Notice]:
-        """What to know before trusting a result."""
+        """Return the notices that the user should know before trusting a result."""
         return ()
 
     def conclusion(self, _name: str, _result: Result) -> str:
-        """What the result of a design of this name comes to, in one line; "" where nothing is judged."""
+        """Return one line that sums up the result for a design of this name; "" if nothing is judged."""
         return ""
 
     def files(self, result: Result) -> dict[str, Writer]:
@@ -108,7 +111,10 @@ class Job(ABC, Generic[Accepted, Result]):
 
     @property
     def parts(self) -> dict[str, dict[str, Any]]:
-        """What a row keeps of it, each made again on its own, and the options on which it depends, as JSON has them."""
+        """Return the parts that a row keeps, each with the options on which it depends, as JSON values.
+
+        Each part is made again on its own.
+        """
         values = {each.name: getattr(self, each.name) for each in fields(self)}
         return {self.verb: {each.name: _plain(values[each.name]) for each in fields(self) if values[each.name] != each.default}}
 
@@ -117,11 +123,11 @@ class Job(ABC, Generic[Accepted, Result]):
         return self.verb if file == f"{self.verb}.json" else ""
 
     def for_row(self, _design: Design, _parts: Collection[str]) -> Job[Any, Any]:
-        """What makes these parts of a row: without options that the row has no use for."""
+        """Return the job that makes these parts of a row, without options that the row does not use."""
         return self
 
     def figures(self, _document: dict[str, Any]) -> dict[str, Any]:
-        """What a table of results has of its document, in columns that begin with the verb."""
+        """Return the figures of a document for a table of results; their columns begin with the verb."""
         return {}
 
     def _accepted(self, design: Design) -> Accepted:
@@ -135,7 +141,7 @@ def _require_progress(progress: object) -> None:
 
 
 def _plain(value: Any) -> Any:
-    """As JSON gives it back."""
+    """Return a value as JSON would give it back: tuples as lists, enum members as their values."""
     return list(value) if isinstance(value, tuple) else value.value if isinstance(value, Enum) else value
 
 
@@ -198,7 +204,7 @@ class Data(Job[Design, Design]):
         return design
 
     def document(self, result: Design) -> dict[str, Any]:
-        """What data.json holds: inputs and derived properties under their field names (mm, degrees)."""
+        """Return the content of data.json: inputs and derived properties under their field names (mm, degrees)."""
         return result.to_dict()
 
     def notices(self, result: Design) -> Sequence[Notice]:

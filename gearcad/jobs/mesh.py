@@ -148,7 +148,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
         return expected_mesh(plan)
 
     def document(self, result: MeshResult) -> dict[str, Any]:
-        """What mesh.json holds."""
+        """Return the content of mesh.json."""
         beside = [f"{name}{end}" for name in result.meshes for kind in result.plan.options.formats for end in kind.entry.beside]
         return mesh_document(result, [*self.files(result), *beside])
 

@@ -35,8 +35,9 @@ SUFFIX = "-modified"
 
 @dataclass(frozen=True, kw_only=True)
 class CycleFigures:
-    """What a check says of a mesh cycle: transmission error in µm, stresses in MPa, and at how many positions a tip's edge
-    carries.
+    """Figures of a check of one mesh cycle.
+
+    They are the transmission error in µm, stresses in MPa, and the number of positions at which the edge of a tip carries load.
     """
 
     transmission_error_peak_to_peak: float
@@ -49,7 +50,10 @@ class CycleFigures:
 
     @classmethod
     def of(cls, cycle: SolidCycle) -> CycleFigures:
-        """Those of a cycle with the extremes of a check. Raises ParameterError where all contact is beside edges."""
+        """Return the figures of a cycle, with the extremes of a check.
+
+        Raises ParameterError if all contact is beside edges.
+        """
         extremes = {quantity.name: found.value for quantity in SOLID if (found := cycle.extreme(quantity)) is not None}
         if "contact_pressure" not in extremes:
             permitted = "must leave a place of contact away from the edges of the flanks: beside them no pressure is told"
@@ -67,20 +71,20 @@ class CycleFigures:
 
 
 class Robustness(NamedTuple):
-    """Transmission error, peak to peak (µm), as the pair is and as proposed, under another condition than the load."""
+    """Transmission error, peak to peak (µm), before and after the proposal, under another condition than the load."""
 
     condition: Condition
     before: float
     after: float
 
     def to_dict(self) -> dict[str, float]:
-        """As the document of a proposal has it: the condition's fields, and both errors."""
+        """Return the entry in the document of a proposal: the fields of the condition, and both errors (µm)."""
         return {**asdict(self.condition), "before": self.before, "after": self.after}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Proposal(Pictured):
-    """Modifications for a design at a torque (N·m on the pinion), and what they do; `pair` is the design's with them.
+    """Modifications for a design at a torque (N·m on the pinion), and their effects; `pair` is the design's pair with them.
 
     `bound` (MPa) is that of the contact pressure. All figures are those that a check of solid bodies finds.
     """
@@ -102,7 +106,7 @@ class Proposal(Pictured):
 
     @property
     def name(self) -> str:
-        """Of the modified design."""
+        """Return the name of the modified design."""
         return self.design.name + SUFFIX
 
     @cached_property
@@ -124,7 +128,7 @@ class Proposal(Pictured):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What an engineer should know before making this."""
+        """Return the notices that an engineer should know before manufacture."""
         after, bound, found = self.after, self.bound, []
         if after.contact_pressure > bound:
             text = f"the contact pressure is {after.contact_pressure:.0f} MPa, above the bound of {bound:.0f} MPa"
@@ -260,7 +264,7 @@ class Modify(Job[PairDesign, Proposal]):
         return [min(known)] if len(known) == len(limits) else []
 
     def document(self, result: Proposal) -> dict[str, Any]:
-        """What modify.json holds: µm, MPa, mm of roll; the changes under their keys of a spec."""
+        """Return the content of modify.json: µm, MPa, mm of roll; the changes under their keys of a spec."""
         return {"kind": "modify", "name": result.name, "gearcad": __version__, **result.to_dict()}
 
     def notices(self, result: Proposal) -> Sequence[Notice]:
@@ -321,7 +325,7 @@ class _Tried(NamedTuple):
 
     @property
     def shape(self) -> ReliefShape:
-        """Of the tip relief."""
+        """Return the shape of the tip relief."""
         return self.search.variants.shape
 
     @property

@@ -1,4 +1,4 @@
-"""Planetary: what comes of a planetary train at its load."""
+"""Job `planetary`: the study of a planetary train at its load."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _MOST_FREQUENCIES = 3
 
 
 class Studied(NamedTuple):
-    """A design, and what was found out of its train."""
+    """A design, and the study of its train."""
 
     design: PlanetaryDesign
     study: PlanetaryStudy
@@ -64,7 +64,7 @@ class Planetary(Job[PlanetaryDesign, Studied]):
         return Studied(replace(design, load=study.load, speeds=study.given_speeds), study)
 
     def document(self, result: Studied) -> dict[str, Any]:
-        """What planetary.json holds."""
+        """Return the content of planetary.json."""
         head = {"kind": self.verb, "name": result.design.name, "gearcad": __version__}
         return with_assumed(head | study_document(result.study))
 
@@ -72,7 +72,10 @@ class Planetary(Job[PlanetaryDesign, Studied]):
         return result.study.notices
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
-        """What a line can hold: ratio, efficiencies, speeds and torques, K_gamma, torsional stiffness, first frequencies."""
+        """Return the figures for one line of a table.
+
+        They are ratio, efficiencies, speeds and torques, K_gamma, torsional stiffness and the first natural frequencies.
+        """
         found = {name: document[name] for name in _FIGURES}
         for name, member in document["members"].items():
             found |= {f"members.{name}.{key}": member[key] for key in ("speed", "torque")}
@@ -102,7 +105,7 @@ def _write_report(result: Studied, path: Path) -> None:
 
 
 def _specs(result: Studied) -> Iterator[tuple[str, Writer]]:
-    """Those of the meshes and stages under what they carry."""
+    """Yield file name and writer of the spec of each mesh and stage, with the load that it carries."""
     sharing, flow = result.study.sharing, result.study.flow
     design = result.design if flow is not None else replace(result.design, load=None)
     pairs = MeshPairs(design=design, computed_factor=None if sharing is None else sharing.mesh_load_factor)

@@ -34,7 +34,7 @@ def write_sizing(result: Sizing, folder: Path) -> list[Path]:
 
 
 def _comments(best: SizedPair) -> Iterator[str]:
-    """What the best is for, and what it has."""
+    """Yield comment lines with the task and the figures of the best pair."""
     load, rating = best.task.load, best.task.rating
     life = "the endurance limit" if rating.life is None else f"{rating.life:g} h"
     yield f"{load.torque:g} N·m at {load.speed:g} rpm, u = {best.task.ratio:g}, {life}: best by {best.task.criterion.value}"
@@ -62,7 +62,7 @@ def write_set_sizes(result: SizedSets, folder: Path) -> list[Path]:
 
 
 def _set_sizes_comments(result: SizedSets, best: SizedSet) -> Iterator[str]:
-    """What the lightest is for, and what it has."""
+    """Yield comment lines with the task and the figures of the lightest set."""
     task = result.task
     life = "the endurance limit" if task.rating.life is None else f"{task.rating.life:g} h"
     yield f"{task.torque_words} at {task.speed:g} rpm, i = {task.sets.ratio:g}, {life}: the lightest found"

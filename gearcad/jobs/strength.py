@@ -68,7 +68,10 @@ class Check(Job[PairDesign, CheckResult]):
         return replace(design.check or CheckOptions(), model=self.model)
 
     def document(self, result: CheckResult) -> dict[str, Any]:
-        """What check.json holds: stiffness in N/(mm·µm) of common face width, transmission error in µm, stresses in MPa."""
+        """Return the content of check.json.
+
+        Stiffness is in N/(mm·µm) of common face width, transmission error in µm, stresses in MPa.
+        """
         return reported_document(result) if self.report else check_document(result)
 
     def for_row(self, _design: Design, _parts: Collection[str]) -> Check:
@@ -133,9 +136,11 @@ _VERDICT = ("passed", "strength")
 
 
 def rate_columns(document: Mapping[str, Any]) -> dict[str, Any]:
-    """Of rate.json: verdict, safeties of each gear and the least, torque, life, scuffing, load factors, stresses.
+    """Return the figures of a rate.json for one line of a table.
 
-    Of a planetary train verdict, least safeties and life of all its meshes. A life without end is no number: it has a column.
+    They are the verdict, safeties of each gear and the least, torque, life, scuffing, load factors and stresses. Of a planetary
+    train they are the verdict, the least safeties and the life of all its meshes. A life without end is no number: it has a
+    column.
     """
     verdict, warnings = {name: document[name] for name in _VERDICT}, {"warnings": document["warnings"]}
     if "meshes" in document:
@@ -228,7 +233,7 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
         return f"{name}{at}: {result.verdict}"
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
-        """What a line of a table has of it."""
+        """Return the figures for one line of a table."""
         return rate_columns(document)
 
     def files(self, result: StrengthRating | TrainStrength) -> dict[str, Writer]:
@@ -263,7 +268,7 @@ def _of_bodies(design: PairDesign, load: Load) -> BodyLoad | None:
 
 
 def _of_train(design: PlanetaryDesign) -> TrainStrength:
-    """That of its study, in which planets share the load."""
+    """Return the rating of a planetary train from its study, in which planets share the load."""
     from gearcad.dynamics.planetary.planetary_study import study_planetary  # only here: pairs do not need the dynamics
 
     load = design.loaded(_NO_LOAD)
@@ -354,7 +359,7 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
         return expected_methods(pair, material, self.methods, body=body, mounting=design.mounting, positions=self.positions)
 
     def document(self, result: StiffnessComparison) -> dict[str, Any]:
-        """What stiffness.json holds: N/µm, per face width N/(mm·µm), degrees, µm."""
+        """Return the content of stiffness.json: N/µm, per face width N/(mm·µm), degrees, µm."""
         head = {"kind": "stiffness", "name": result.pair.name, "gearcad": __version__}
         return with_assumed(head | result.to_dict(self.fourier))
 
@@ -362,7 +367,10 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
         return result.notices
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
-        """Of each method the figures over one base pitch; its notes, and why others are left out, are warnings."""
+        """Return the figures of each method over one base pitch.
+
+        Notes of the methods, and the reasons why others are left out, are warnings.
+        """
         methods = document["methods"]
         notes = [f"{of['title']}: {note}" for of in methods.values() for note in of["notes"]]
         notes += [f"{METHODS[name].title}: left out: {reason}" for name, reason in document["left_out"].items()]

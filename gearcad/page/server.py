@@ -289,7 +289,7 @@ def _stop(_number: int, _frame: object) -> None:
 
 
 def _hang_up(_number: int, _frame: object) -> None:
-    """Raise SIGTERM for a hang-up, because the server handles SIGTERM itself while it serves."""
+    """Raise SIGTERM for a hang-up (SIGHUP), because the server has its own handler for SIGTERM while it serves."""
     signal.raise_signal(signal.SIGTERM)
 
 

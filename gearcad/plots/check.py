@@ -86,7 +86,7 @@ def plot_mesh_stiffness(result: CheckResult, ax: Axes | None = None) -> Axes:
 
 
 def plot_transmission_error(result: CheckResult, ax: Axes | None = None) -> Axes:
-    """How far the wheel lags under load over one base pitch, and what each gear gives of it; all about their means."""
+    """Draw the transmission error over one base pitch (µm along the line of action), whole and by gears, less the means."""
     axes = prepared(ax, _ROLL, "along the line of action, less the mean, in µm")
     cycle = result.cycle
     curves = [("transmission error", cycle.course("transmission_error"), result.mean_lag.whole, DARK, "-", 1.5)]
@@ -119,7 +119,7 @@ def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
 
 
 def _limits(result: CheckResult, name: str) -> list[Limit]:
-    """Those of the materials, each once."""
+    """Return the limits of a property of both materials, each once."""
     return list(dict.fromkeys(getattr(material, name) for material in by_gear(result.material).values()))
 
 

@@ -115,7 +115,7 @@ def plot_sliding(pair: GearPair | RackPair, ax: Axes | None = None) -> Axes:
 
 
 def _helix_turn(pair: GearPair) -> float:
-    """How far (deg) a helical pinion's section at the wheel's lower end is turned: what `wheel_pose` takes into account."""
+    """Return the turn (degrees) of a helical pinion's section at the wheel's lower end, which `wheel_pose` takes into account."""
     return math.degrees(twist(pair.pinion, pair.wheel_pose().z))
 
 
@@ -193,7 +193,7 @@ def plot_gear(gear: Gear, ax: Axes | None = None) -> Axes:
 
 
 def plot_modification(gear: Gear, ax: Axes | None = None) -> Axes:
-    """How far (µm) the left flank is taken back, along the face and from the root form circle to the tip form circle.
+    """Draw the depth (µm) by which the left flank is taken back, along the face and from root form circle to tip form circle.
 
     Raises GeometryError for a gear whose flanks are not modified.
     """

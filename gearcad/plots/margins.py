@@ -1,4 +1,4 @@
-"""Figures whose margins are as wide as what stands in them: measured as they are drawn, by the renderer that draws them."""
+"""Figures whose margins fit the texts around their axes. The renderer that draws the figure measures these."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class FittedFigure(Figure):
         super().draw(renderer)
 
     def add_subplot(self, *arguments: Any, **options: Any) -> Axes:
-        """As any figure does; plain axes are such as a notebook shows."""
+        """Add axes as any figure does; plain axes are those that a notebook shows."""
         if not {"projection", "polar", "axes_class"} & options.keys():
             options["axes_class"] = _ShownAxes
         return super().add_subplot(*arguments, **options)  # type: ignore[no-any-return]
@@ -103,7 +103,7 @@ _NOTHING = 1e-12
 
 
 def _tick_spaces(figure: Figure) -> list[int]:
-    """How many numbers have room along each axis."""
+    """Return the number of tick labels that have room along each axis."""
     axes = [axis for of in figure.axes for axis in (of.xaxis, of.yaxis)]
     return [min(axis.get_tick_space(), _MOST_TICKS) for axis in axes]
 
@@ -134,7 +134,7 @@ def _fit(figure: Figure, renderer: RendererBase) -> None:
 
 
 def _rooms(figure: Figure, renderer: RendererBase) -> Iterator[_Room]:
-    """Of all axes that stand in the grid; a colour bar stands in the place of its axes."""
+    """Yield the room needed around all axes in the grid; a colour bar counts at the place of its axes."""
     for axes in figure.axes:
         if (spec := axes.get_subplotspec()) is None:
             continue
@@ -159,7 +159,7 @@ def _filled(axes: Axes, grid: BboxBase) -> Bbox:
 
 
 def _margins(spans: list[range], needed: list[Floats]) -> tuple[float, float, float]:
-    """What columns (or rows) need before the first, after the last, and between any two of them (pixels)."""
+    """Return the margins (pixels) that columns or rows need before the first, after the last, and between two."""
     count = max(span.stop for span in spans)
     before, after = np.zeros((2, count))
     for span, (first, last) in zip(spans, needed, strict=True):
@@ -170,7 +170,7 @@ def _margins(spans: list[range], needed: list[Floats]) -> tuple[float, float, fl
 
 
 def _edges(figure: Figure, renderer: RendererBase) -> Floats:
-    """What legends and labels of the whole figure take, ((left, right), (top, bottom)) in pixels.
+    """Return the room for legends and labels of the whole figure, ((left, right), (top, bottom)) in pixels.
 
     Legends are above the axes; labels stand upright before them or lie below, and are moved to the edge.
     """

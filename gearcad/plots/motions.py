@@ -120,7 +120,7 @@ _LABELLED = 4
 
 
 class _Window(NamedTuple):
-    """The samples that are seen closely, and what they are in words."""
+    """The samples shown in detail, and a description of them in words."""
 
     samples: slice
     words: str
@@ -164,7 +164,7 @@ def plot_motion(history: TimeHistory, figure: Figure | None = None) -> Figure:
 
 
 def plot_angles(history: TimeHistory, figure: Figure | None = None) -> Figure:
-    """How far both gears have turned; below, closely, how far beyond the uniform turning, which hides it above."""
+    """Draw the angles of both gears over time (degrees); below, in detail, their deviation from uniform rotation."""
     of = new_figure(MOTION_INCHES) if figure is None else figure
     above, below = of.subplots(2, 1)
     prepared(above, "time in ms", "turn in °")
@@ -238,7 +238,7 @@ def plot_transient_factors(study: TrainStudy, run: Transient, figure: Figure | N
 
 
 def _draw_lasting(axes: Axes, study: TrainStudy, run: Transient, mesh: int) -> None:
-    """Of both charts, under the torques of the run where these are not those of the train."""
+    """Draw the steady factors of both charts, under the torques of the run if they differ from those of the train."""
     for chart, style in ((study.up, "-"), (study.down, "--")):
         if chart is None:
             continue

@@ -101,7 +101,7 @@ def legend_above(axes: Axes, columns: int, raised: float = 0.0) -> None:
 
 
 def _fitting(axes: Axes, most: int) -> int:
-    """As many columns as the words of a legend, that fill one column after the other, have room in."""
+    """Return the greatest number of columns, at most `most`, in which the words of a legend have room."""
     widths = [_HANDLE + _LETTER * len(words) for words in axes.get_legend_handles_labels()[1]]
     for columns in range(most, 1, -1):
         rows = math.ceil(len(widths) / columns)

@@ -41,12 +41,15 @@ def colour_of(train: PlanetaryTrain, name: str) -> str:
 
 
 def role_of(train: PlanetaryTrain, name: str) -> str:
-    """What a member or shaft is to the train: "input", "output", "fixed", or nothing of these."""
+    """Return the role of a member or shaft in the train: "input", "output", "fixed", or "" for none of these."""
     return {train.input: "input", train.output: "output", train.fixed: "fixed"}.get(name, "")
 
 
 def power_ways(train: PlanetaryTrain, flow: PowerFlow | None) -> dict[str, str]:
-    """Of members and shafts: "in" where power goes into the train, "out" where it leaves; by input and output if none flows."""
+    """Return the direction of power for members and shafts: "in" where it enters the train, "out" where it leaves.
+
+    If no power flows, the input and the output decide.
+    """
     powers = {} if flow is None else flow.powers
     least = _ROUNDING * max(map(abs, powers.values()), default=0.0)
     found = {name: "in" if power > 0 else "out" for name, power in powers.items() if abs(power) > least}
@@ -54,7 +57,7 @@ def power_ways(train: PlanetaryTrain, flow: PowerFlow | None) -> dict[str, str]:
 
 
 def role_words(train: PlanetaryTrain, name: str, ways: Mapping[str, str]) -> str:
-    """What it is to the train, and which way power goes there where that does not say it, such as "power in"."""
+    """Return the role of a member, and the direction of power, such as "power in", if the role does not give it."""
     role, way = role_of(train, name), ways.get(name, "")
     said = not way or role == f"{way}put"
     return ", ".join(each for each in (role, "" if said else f"power {way}") if each)
@@ -66,7 +69,7 @@ def rim_words(train: PlanetaryTrain, rim: Rim) -> str:
 
 
 def signed(gear: Gear) -> str:
-    """Its number of teeth as formulas have it, with a minus for a ring."""
+    """Return the text "z = ..." with the number of teeth, negative for a ring."""
     return f"z = {gear.teeth}".replace("-", "−")
 
 
@@ -182,7 +185,7 @@ def plot_front(train: PlanetaryTrain, pose: TrainPose, turning: Mapping[str, flo
 
 
 def _radius(mesh: SetMesh) -> float:
-    """How far from the axis the gears of a mesh reach (mm)."""
+    """Return the greatest distance (mm) of the gears of a mesh from the axis."""
     planet = abs(mesh.pair.centre_distance) + mesh.rim.gear.tip_diameter / 2
     return planet if mesh.external else max(planet, outer_diameter(mesh.central.gear) / 2)
 
@@ -200,7 +203,7 @@ def _draw_gears(axes: Axes, train: PlanetaryTrain, pose: TrainPose, rim: Rim, ch
 
 
 def _section(gear: Gear, height: float) -> float:
-    """How far (degrees) the section at a height above the bottom of the teeth is turned."""
+    """Return the turn (degrees) of the section at a height (mm) above the bottom of the teeth."""
     return math.degrees(float(section_turn(gear, np.array([height]))[0]))
 
 
@@ -252,7 +255,7 @@ def _draw_turn(axes: Axes, turn: _Turn) -> None:
 
 
 def lever_places(train: PlanetaryTrain) -> dict[str, float]:
-    """How far from the carrier members and "planets" stand on the lever, that of the first central being 1.
+    """Return the places of members and "planets" on the lever, as distances from the carrier; the first central is at 1.
 
     Speeds against the carrier are as these: (w_b - w_c)/(w_a - w_c) = 1/i_0, and (w_p - w_c)/(w_a - w_c) = -z_a/z_2.
     """
@@ -425,7 +428,7 @@ def torsion_inches(torsion: TorsionalStiffness) -> tuple[float, float]:
 
 
 def plot_torsion(torsion: TorsionalStiffness, ax: Axes | None = None) -> Axes:
-    """What each spring adds to the twist, the greatest first."""
+    """Draw the share of each spring in the twist (%), the greatest first."""
     axes = prepared(new_figure(torsion_inches(torsion)).subplots() if ax is None else ax, "share of the twist in %", "")
     found = sorted(torsion.contributions, key=lambda each: -each.share)
     places = range(len(found))

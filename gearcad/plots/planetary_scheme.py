@@ -56,7 +56,7 @@ _BETWEEN = (0.3, 0.6)
 
 
 class Places:
-    """Places of the parts of a train."""
+    """Places of the parts of a train in the drawing."""
 
     def __init__(self, train: PlanetaryTrain) -> None:
         self.train = train
@@ -64,7 +64,7 @@ class Places:
         """Of the working circles of rims (mm), on the outer side of the train (1) and on the inner one."""
 
     def _radius(self, rim: Rim, sign: int) -> float:
-        """In the mesh on that side, or in the one that there is: where two are, they may differ."""
+        """Return the working radius (mm) of a rim in the mesh on that side, or in its only mesh; two meshes may differ."""
         meshes = [mesh for mesh in self.train.meshes if mesh.rim is rim]
         mesh = next((mesh for mesh in meshes if mesh.central.gear.internal == (sign > 0)), meshes[0])
         return abs(mesh.pair.working_pitch_diameters.pick(mesh.rim_role)) / 2
@@ -107,7 +107,7 @@ class Places:
 
     @cached_property
     def rims(self) -> dict[str, tuple[float, float]]:
-        """From where to where along the axis rims are drawn, from left to right."""
+        """Return the start and end of each rim along the axis, by name, from left to right."""
         rims = sorted(self.train.rims, key=lambda rim: rim.axial_position + rim.gear.face_width / 2)
         first, start, found = rims[0], 0.0, {}
         for rim in rims:
@@ -148,7 +148,10 @@ class Places:
 
     @cached_property
     def sides(self) -> dict[str, int]:
-        """On which side members come out (-1: left): inputs left where that can be, centrals of two planes on their own."""
+        """Return the side on which each member comes out (-1: left, 1: right).
+
+        Inputs are on the left if possible; centrals in two planes are each on their own side.
+        """
         roles, wanted, found = self._roles(), {"input": -1, "output": 1}, {}
         first, second = (sum(bar) for bar in self.centrals.values())
         for central, own in zip(self.train.centrals, (first - second, second - first), strict=True):
@@ -159,7 +162,7 @@ class Places:
         return found | {self.train.carrier.name: -side if side in taken and -side not in taken else side}
 
     def _roles(self) -> dict[str, str]:
-        """What members are to the train, by themselves or by the stages on them."""
+        """Return the role of each member in the train, its own or that of the stages on it."""
         roles = {name: role_of(self.train, name) for name in self.train.members}
         for _, inner, outer in reversed(placed_stages(self.train)):
             roles[inner] = roles.get(inner) or role_of(self.train, inner) or roles.get(outer) or role_of(self.train, outer)
@@ -183,7 +186,7 @@ _PLATE, _SHAFT, _STAGE, _STUB, _ARROW = 0.2, 0.3, 0.42, 0.35, 0.3
 
 
 class Weight(Enum):
-    """How broad a stroke is."""
+    """Width of a stroke."""
 
     TEETH = 2.6
     BODY = 1.4
@@ -199,14 +202,14 @@ class Stroke(NamedTuple):
 
 
 class Ground(NamedTuple):
-    """What does not turn: a hatched line at a point, hatched on the side `away` ((0, 1): above)."""
+    """A part that does not turn: a hatched line at a point, hatched on the side `away` ((0, 1): above)."""
 
     at: Point
     away: tuple[int, int]
 
 
 class Arrow(NamedTuple):
-    """Where power goes in or out."""
+    """An arrow where power enters or leaves."""
 
     part: str
     start: Point
@@ -224,7 +227,7 @@ class Callout(NamedTuple):
 
 @dataclass(frozen=True)
 class Plan:
-    """All that is drawn; `ways` of members and shafts are "in" and "out", as power goes there."""
+    """The complete content of the drawing; `ways` gives "in" or "out" for members and shafts, the direction of power there."""
 
     strokes: tuple[Stroke, ...]
     grounds: tuple[Ground, ...]

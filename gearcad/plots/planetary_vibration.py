@@ -310,7 +310,7 @@ RESPONSE_INCHES = (FIGURE_INCHES[0], 4.2)
 
 
 def plot_response(response: PlanetaryResponse, ax: Axes | None = None) -> Axes:
-    """Of each mesh the greatest dynamic load factor of all planets, running up and, where it differs, down.
+    """Draw the greatest dynamic load factor of all planets of each mesh, running up and, if different, running down.
 
     Shaded: motions that do not last. The bar below: flanks part at some time of the period.
     """

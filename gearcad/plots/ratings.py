@@ -161,7 +161,7 @@ _MARKS = "osD"
 
 
 def plot_residuals(found: Identification, ax: Axes | None = None) -> Axes:
-    """How far the most probable candidates are off each reading, in its uncertainties."""
+    """Draw the residuals of the most probable candidates for each reading, in uncertainties of the reading."""
     axes = prepared(ax, "off, in uncertainties", "")
     rows = [place for place, each in enumerate(found.measured.readings) if each.value]
     axes.axvspan(-_USUAL, _USUAL, color="#eeeeee", zorder=0)

@@ -89,7 +89,10 @@ def plot_shaft_overload(study: TrainStudy, ax: Axes | None = None) -> Axes:
 
 
 def _set_height(axes: Axes, charts: list[KvChart]) -> None:
-    """From 1 or below to the greatest K_v, with room for names above; logarithmic where it is far above 1."""
+    """Set the range of the axis from 1 or below to the greatest K_v, with room for names above.
+
+    The axis is logarithmic if the greatest K_v is far above 1.
+    """
     drawn = [chart.factors.ravel() for chart in charts] + [each.standard for each in charts if each.standard is not None]
     factors = np.concatenate(drawn)
     factors = factors[np.isfinite(factors)]

@@ -88,7 +88,7 @@ def plot_stiffness(comparison: StiffnessComparison, ax: Axes | None = None) -> A
 
 
 def plot_parts(comparison: StiffnessComparison, cycle: MeshCycle, ax: Axes | None = None) -> Axes:
-    """What makes 1/stiffness by one method while the middle pair goes from A to E: pinion, wheel and contact on each other."""
+    """Draw the compliance (µm/N) of pinion, wheel and contact, stacked, by one method while the middle pair goes from A to E."""
     axes = prepared(ax, _PLACE, "compliance in µm/N")
     _stack(axes, comparison, cycle)
     axes.set_ylim(0, _HEADROOM / cycle.minimum)
@@ -170,7 +170,7 @@ def _along_path(comparison: StiffnessComparison, cycle: MeshCycle, values: Float
 
 
 def _limits(comparison: StiffnessComparison) -> tuple[float, float]:
-    """Where the axis begins and ends (mm)."""
+    """Return the limits (mm) of the axis along the line of action."""
     path = comparison.pair.path_of_contact
     margin = _MARGIN * (path.E - path.A)
     return path.A - margin, path.E + margin

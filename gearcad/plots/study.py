@@ -214,7 +214,7 @@ def _triangulation(x: NDArray[np.float64], y: NDArray[np.float64], key: str) -> 
 
 
 def _draw_points(axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
-    """Where something was computed: dark, with a light rim that stands out of contours and lines; at the border whole."""
+    """Draw the computed points: dark, with a light rim against contours and lines, and not clipped at the border."""
     size, rim = (2.5, 0.3) if len(x) > _MANY else (4.5, 0.7)
     axes.plot(x, y, "o", color="black", markersize=size, markeredgecolor="white", markeredgewidth=rim, clip_on=False, zorder=4)
 
@@ -225,7 +225,7 @@ def _is_wide(values: NDArray[np.float64]) -> bool:
 
 
 def _straightened(wide: bool, values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """As they lie on the paper: logarithms where the axis is logarithmic."""
+    """Return values as plotted: their logarithms (base 10) if the axis is logarithmic."""
     import numpy as np
 
     return np.log10(values) if wide else values

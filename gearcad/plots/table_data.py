@@ -1,4 +1,4 @@
-"""What a picture shows: chosen columns of the results.csv that a batch wrote."""
+"""Data of a picture: chosen columns of the results.csv that a batch wrote."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def _find_key(role: str, asked: str, headings: Sequence[str]) -> str:
 
 
 def _hint(asked: str, headings: Sequence[str]) -> str:
-    """What to ask for instead."""
+    """Return a hint for an unknown column: similar headings, or where to find the columns."""
     if near := _near(asked, headings):
         return f"did you mean {' or '.join(near[:_MOST_SUGGESTED])}?"
     checked = any(heading.startswith("check.") for heading in headings)
@@ -213,6 +213,6 @@ def _colour_column(key: str, texts: Mapping[int, str]) -> Column:
 
 
 def _name(path: Path) -> str:
-    """What to call the results: batch writes results.csv into a folder named after the table."""
+    """Return a name for the results: batch writes results.csv into a folder named after the table."""
     folder = path.resolve().parent.name
     return folder if path.stem == "results" and folder else path.stem

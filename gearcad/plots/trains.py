@@ -207,7 +207,7 @@ def _node(shaft: Shaft, end: str) -> _Node:
 
 
 def _distances(ways: dict[_Node, dict[_Node, float]], start: _Node) -> dict[_Node, float]:
-    """From one node to all that hang together with it, the nearest first (Dijkstra)."""
+    """Return the distances from one node to all connected nodes, the nearest first (Dijkstra)."""
     found: dict[_Node, float] = {}
     waiting = [(0.0, start)]
     while waiting:
@@ -370,7 +370,7 @@ def _panels(
     words: str,
     curve: _Curve,
 ) -> Figure:
-    """What `curve` has of each name in each chart of each study, None where it has nothing."""
+    """Draw a panel for each name, with the values of `curve` for each chart of each study; None leaves a curve out."""
     drawn = figure or new_figure(beside_inches(len(names), len(of.studies)))
     panels = drawn.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
     for panel, name in zip(panels, names, strict=True):
@@ -380,7 +380,7 @@ def _panels(
 
 
 def _draw(of: SideBySide, panel: Axes, name: str, below: str, words: str, curve: _Curve) -> None:
-    """What `curve` has of a name in each chart of each study, over speed."""
+    """Draw the values of `curve` for one name in each chart of each study, over speed."""
     prepared(panel, below, f"{plain(name)}: {words}")
     shown, widths = [], layered(len(of.studies))
     for width, colour, label, study in zip(widths, study_colours(len(of.studies)), of.labels, of.studies, strict=True):

@@ -1,4 +1,4 @@
-"""The reports of a check, of a rating, of stiffness by several methods, of dynamics, of a planetary train: HTML files."""
+"""HTML reports of a check, of a rating, of stiffness by several methods, of dynamics, and of a planetary train."""
 
 import lazy_loader
 

@@ -154,7 +154,10 @@ def _report_row(comparison: StiffnessComparison, cycle: MeshCycle) -> _MethodRow
 
 
 def _figures(comparison: StiffnessComparison) -> list[Picture]:
-    """Those of the comparison alone: parts of the compliance, and the load's influence; none that would show nothing."""
+    """Return the figures of the comparison: parts of the compliance, and influence of the load.
+
+    Figures that would show nothing are left out.
+    """
     found = []
     if comparison.divided:
         address = figure_address(partial(plot_parts_of_all, comparison), "svg", parts_inches(comparison))
@@ -186,7 +189,7 @@ class ToothView(NamedTuple):
 
 
 def tooth_view(surface: ToothSurface, role: Role, caption: str) -> ToothView:
-    """That of a gear."""
+    """Return the view of the most stressed tooth of a gear."""
     return ToothView(
         title=f"Stress in a tooth of the {role.value}",
         address=picture_address(partial(plot_tooth, surface), "png"),
@@ -257,17 +260,17 @@ class CheckSections(ABC, Generic[Checked]):
 
     @property
     def verdict(self) -> str:
-        """As a sentence begins."""
+        """Return the verdict, beginning with a capital letter."""
         return self.result.verdict[0].upper() + self.result.verdict[1:]
 
     @property
     def gates(self) -> list[ComparisonRow]:
-        """What decides."""
+        """Return the rows of comparisons that decide the verdict."""
         return [_row(each) for each in self.result.comparisons if each.role is ComparisonRole.GATE]
 
     @property
     def information(self) -> list[ComparisonRow]:
-        """What does not decide."""
+        """Return the rows of comparisons that are for information only."""
         return [_row(each) for each in self.result.comparisons if each.role is ComparisonRole.INFORMATION]
 
     @property
@@ -309,7 +312,7 @@ class CheckSections(ABC, Generic[Checked]):
     @cached_property
     @abstractmethod
     def figures(self) -> list[Picture]:
-        """In the order of the report."""
+        """Return the figures in the order of the report."""
 
     @cached_property
     def views(self) -> list[ToothView]:
@@ -336,7 +339,7 @@ class CheckSections(ABC, Generic[Checked]):
 
     @property
     def over_torque_and_mesh_size(self) -> list[Picture]:
-        """What the check varies."""
+        """Return the figures over torque, and over mesh size if a convergence study was made."""
         of = self.result
         found = [
             _common("Pressure over torque", partial(plot_sweep_pressure, of), "sweep_pressure", of.trends),
@@ -348,7 +351,7 @@ class CheckSections(ABC, Generic[Checked]):
 
     @cached_property
     def stiffness(self) -> StiffnessSection | str:
-        """By other methods; why not, where they cannot be had."""
+        """Return the section on stiffness by other methods, or the reason why there is none."""
         return section_of_check(self.result.stiffness_methods)
 
     @cached_property
@@ -360,22 +363,22 @@ class CheckSections(ABC, Generic[Checked]):
 
     @property
     def gear_rows(self) -> list[Row]:
-        """Of both gears."""
+        """Return the rows of both gears."""
         return gear_rows(self.result.pair)
 
     @property
     def pair_rows(self) -> list[Row]:
-        """Of the pair."""
+        """Return the rows of the pair."""
         return pair_rows(self.result.pair)
 
     @property
     def load_rows(self) -> list[Row]:
-        """Of material, load and mounting."""
+        """Return the rows of material, load and mounting."""
         return load_rows(self.result.material, self.result.load, self.result.mounting)
 
     @property
     def rating_rows(self) -> list[Row]:
-        """Of the rating."""
+        """Return the rows of the rating."""
         return rating_rows(self.result)
 
 
@@ -417,7 +420,7 @@ def _number(value: float | None) -> str:
 
 
 def _deviation(comparison: Comparison) -> str:
-    """From a value, or how much of a limit is used up."""
+    """Return the deviation of a value from its reference in percent, or the used share of a limit; "-" if there is none."""
     if comparison.deviation is None:
         return "-"
     percent = 100 * comparison.deviation
@@ -425,7 +428,7 @@ def _deviation(comparison: Comparison) -> str:
 
 
 class PlaneSections(CheckSections[PlaneCheck]):
-    """Those of the transverse section."""
+    """Sections of the report on the transverse section."""
 
     template: ClassVar[str] = "report_plane.html"
     captions: ClassVar[str] = "captions_plane.txt"
@@ -454,7 +457,7 @@ class PlaneSections(CheckSections[PlaneCheck]):
 
 
 class SolidSections(CheckSections[SolidCheck]):
-    """Those of bodies over their face widths."""
+    """Sections of the report on solid bodies over their face widths."""
 
     template: ClassVar[str] = "report_solid.html"
     captions: ClassVar[str] = "captions_solid.txt"
@@ -509,7 +512,7 @@ def report_html(result: CheckResult, design_name: str) -> str:
 
 @singledispatch
 def _sections(result: CheckResult) -> CheckSections[Any]:
-    """Those of its model."""
+    """Return the sections of a result, by its model."""
     raise NotImplementedError(type(result).__name__)
 
 

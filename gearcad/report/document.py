@@ -77,14 +77,14 @@ def _of_gear(name: str) -> str:
 
 
 def sentences(template: str, macro: str, *values: object) -> str:
-    """What a macro of a template says of values: plain text, in which its lines follow each other."""
+    """Return the text that a macro of a template makes of values: plain text with its lines joined by spaces."""
     said = str(getattr(_plain().get_template(template).module, macro)(*values))
     return re.sub(r"[ \n]*\n[ \n]*", " ", said).strip(" ")
 
 
 @cache
 def _plain() -> Environment:
-    """Of texts, in which nothing is escaped: a page does that, where it shows them."""
+    """Return the environment of text templates. Nothing is escaped in them: the page does that where it shows them."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     loader = FileSystemLoader(templates())
@@ -99,7 +99,7 @@ def _short(value: float | None) -> str:
 
 
 def _beyond(value: float, reference: float, digits: int = 1) -> str:
-    """By how many percent a value is above its reference, or with a minus below it."""
+    """Return the percentage by which a value is above its reference, with a sign; negative if below."""
     return f"{100 * (value / reference - 1):+.{digits}f}"
 
 
@@ -174,12 +174,12 @@ def pair_picture(pair: GearPair) -> Picture:
 
 
 def picture_address(draw: Callable[[Axes], Axes], kind: str, inches: tuple[float, float] = FIGURE_INCHES) -> str:
-    """What is drawn on axes, as a data: URL of an "svg" or "png"."""
+    """Return a drawing on axes as a data: URL of an "svg" or "png"."""
     return figure_address(lambda figure: draw(figure.subplots()), kind, inches)
 
 
 def figure_address(draw: Callable[[Figure], object], kind: str, inches: tuple[float, float] = FIGURE_INCHES) -> str:
-    """What is drawn on a figure, as a data: URL of an "svg" or "png"."""
+    """Return a drawing on a figure as a data: URL of an "svg" or "png"."""
     from matplotlib import style
 
     with style.context(["default", {"svg.hashsalt": "gearcad"}]):
@@ -216,7 +216,7 @@ class Row(NamedTuple):
 
 
 def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[Row]:
-    """What describes the gears: their fields `keys`, and the modifications of their flanks."""
+    """Return the rows of both gears: their fields `keys`, and the modifications of their flanks."""
     gears = (pair.pinion, pair.wheel)
     values = [_flat(gear.to_dict() | {"modification": gear.flank_form.in_use}) for gear in gears]
     written = symbols_of(Gear) | symbols.GEAR
@@ -225,7 +225,7 @@ def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[Row]:
 
 
 def pair_rows(pair: GearPair) -> list[Row]:
-    """What describes the pair."""
+    """Return the rows of the pair."""
     values = _flat(pair.to_dict())
     written = symbols_of(GearPair) | symbols.PAIR
     return [_row(written[key], values[key]) for key in _PAIR.split()]

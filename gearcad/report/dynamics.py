@@ -95,7 +95,7 @@ _DISPLACEMENTS_WIDE = (6.6, 4.2)
 
 
 def displacement_table(study: TrainStudy) -> WordTable:
-    """Where inertias, flanks and axes swing farthest."""
+    """Return the table of the greatest amplitudes of inertias, flanks and axes."""
     rows = []
     for each in study.greatest_amplitudes:
         words = f"{each.name}: {each.quantity}" + ("" if each.direction is None else f", running {each.direction.value}")
@@ -249,7 +249,7 @@ def error_table(study: TrainStudy) -> WordTable | None:
 
 
 def _asked(study: TrainStudy, of: ErrorStudy) -> int | None:
-    """Where the train's speed is."""
+    """Return the index of the train's speed among the speeds of the error study, or None."""
     found = np.flatnonzero(np.isclose(of.speeds, abs(study.train.speed), rtol=1e-9))
     return int(found[0]) if len(found) and study.train.speed else None
 
@@ -326,7 +326,7 @@ def _train_html(study: TrainStudy, name: str) -> str:
 
 
 def _parts(study: TrainStudy) -> list[WordTable]:
-    """What the train is made of."""
+    """Return the tables of the parts of the train."""
     shafts = [shaft_table(study)] if study.train.shafts else []
     return [inertia_table(study), *shafts, mesh_table(study), *([pair_table(study)] if study.pairs else [])]
 
@@ -364,7 +364,7 @@ def _levels_html(study: LevelStudy, name: str) -> str:
 
 
 def _beside(study: SideBySide) -> dict[str, Any]:
-    """What both pages of several studies show."""
+    """Return the values that both pages of several studies show."""
     first = study.studies[study.reference]
     return {
         "of": study,
@@ -455,7 +455,7 @@ def _campbell_figures(study: TrainStudy) -> list[Picture]:
 
 
 def _transient_figures(study: TrainStudy) -> list[Picture]:
-    """Of a run with changing speed or torque, where there is one."""
+    """Return the figures of a run with changing speed or torque; empty if there is none."""
     run, found = study.transient, []
     if run is not None and run.speed_changes:
         over = partial(plot_transient_factors, study, run)

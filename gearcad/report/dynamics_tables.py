@@ -109,7 +109,7 @@ def mesh_table(study: TrainStudy) -> WordTable:
 
 
 def pair_table(study: TrainStudy) -> WordTable:
-    """What the pairs of meshes are and carry, by which method their stiffness was found, and what it came to."""
+    """Return the table of the pairs of meshes: pair, method of its stiffness, torque, stiffness and transmission error."""
     heads = (
         "mesh",
         "pair",
@@ -302,7 +302,7 @@ def contact_rows(study: ContactStudy) -> list[Row]:
 
 
 def verdict_table(of: LevelStudy) -> WordTable:
-    """Of every model but the reference: what it is, and where it says most too little and too much."""
+    """Return the table of all models but the reference: their status, and their greatest underestimate and overestimate."""
     finest = of.labels[of.reference]
     heads = ("model", "is", "greatest difference", "of", "at rpm", f"{finest}", "model", "% of the load")
     rows = []
@@ -342,7 +342,7 @@ def level_resonance_table(of: LevelStudy) -> WordTable:
 
 
 def deciding_table(of: LevelStudy) -> WordTable:
-    """What each model lacks where it fails."""
+    """Return the table of the effects that each model lacks where it fails."""
     heads = ("model", "of", "shaken by", "what it lacks", "at rpm", "mode", "Hz", "share, %")
     return WordTable(heads, [row for verdict in of.verdicts for row in _decisions(verdict)], 4)
 

@@ -92,7 +92,7 @@ class Section(NamedTuple):
 
 
 def said(macro: str, *values: object) -> str:
-    """What a macro of the captions says."""
+    """Return the text that a macro of the captions makes of values."""
     return sentences("captions_planetary.txt", macro, *values)
 
 
@@ -102,7 +102,7 @@ def figure(title: str, draw: Callable[[Figure], object], inches: tuple[float, fl
 
 
 def on_axes(draw: Callable[..., object]) -> Callable[[Figure], object]:
-    """What draws on axes, for one that has a whole figure."""
+    """Return a function that draws on a figure, from one that draws on axes."""
     return lambda of: draw(ax=of.subplots())
 
 
@@ -443,7 +443,7 @@ def _mode(modes: PlanetaryModes, family: ModeFamily) -> tuple[str, ...]:
 
 
 def _spring_words(spring: Spring) -> str:
-    """What a spring belongs to, all planets together."""
+    """Return the words for the part to which a spring belongs; all planets together."""
     if spring.kind is SpringKind.MESH:
         return spring.owner
     if spring.kind in (SpringKind.PIN_RADIAL, SpringKind.PIN_TANGENTIAL):
@@ -481,7 +481,7 @@ def _response(response: PlanetaryResponse) -> Section:
 
 
 def _resonance_table(campbell: PlanetaryCampbell) -> WordTable:
-    """Where harmonics of meshes excite modes: those of the largest shares, by speed."""
+    """Return the table of resonances: those with the largest shares where harmonics of meshes excite modes, by speed."""
     found = sorted(campbell.excited, key=lambda each: (-round(each.share or 0.0, 3), campbell.lines[each.line].harmonic))
     rows = []
     for met in sorted(found[:_MOST_RESONANCES], key=lambda each: each.speed):
@@ -523,7 +523,7 @@ def planetary_html(study: PlanetaryStudy, name: str) -> str:
 
 
 def _methods(study: PlanetaryStudy) -> list[str]:
-    """How the stiffness of the meshes was found."""
+    """Return the methods by which the stiffness of the meshes was found, each once."""
     return list(dict.fromkeys(each.cycle.method for each in (study.stiffness or {}).values()))
 
 
@@ -534,5 +534,5 @@ def _editions(study: PlanetaryStudy) -> list[str]:
 
 
 def _missing(study: PlanetaryStudy) -> list[tuple[str, str]]:
-    """What could not be computed, and why: together what has the same reason."""
+    """Return the quantities that could not be computed, and the reason for each."""
     return [(notice.where.removeprefix("no "), notice.text) for notice in study.notices if notice.code == _MISSING]

@@ -77,7 +77,7 @@ def _mesh(name: str, gears: tuple[Gear, Gear], pair: GearPair) -> tuple[str, ...
 
 
 def assembly_rows(train: PlanetaryTrain) -> list[Row]:
-    """What must hold for the train to go together, each with its numbers."""
+    """Return the rows of the conditions for assembly of the train, with their numbers."""
     distance = float(train.centre_distance)
     rows = [Row("centre distance of both meshes", "a", (short(distance),), "mm", "planets turn on one axis")]
     if train.planets > 1:
@@ -201,7 +201,7 @@ def phase_table(train: PlanetaryTrain, phases: Mapping[str, MeshPhases]) -> Word
 
 
 def harmonic_table(train: PlanetaryTrain, phases: Mapping[str, MeshPhases]) -> WordTable:
-    """What the first harmonics of each mesh do: the sums of the planets' forces over those in phase."""
+    """Return the table of the first harmonics of each mesh: sums of the planets' forces over those in phase."""
     rows = [
         (f"{each.harmonic} × {name}", _excites(each.excited), f"{each.torque:.3f}", f"{each.force:.3f}")
         for name, sums in train_harmonics(train, dict(phases)).items()

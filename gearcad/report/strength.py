@@ -45,7 +45,10 @@ class Group(NamedTuple):
 
 
 def safety_rows(rating: StrengthRating, document: Mapping[str, Any]) -> list[Row]:
-    """Of flanks and roots: safety beside the required one, torque, damage, life, cycles; then of scuffing."""
+    """Return the rows of the safeties: of flanks and roots, then of scuffing.
+
+    Of flanks and roots they are the safety, the required safety, torque, damage, life and cycles.
+    """
     return [_row(each, rating.names) for each in safety_quantities(rating, document)]
 
 
@@ -56,7 +59,7 @@ def factor_groups(rating: StrengthRating, document: Mapping[str, Any]) -> list[G
 
 
 def option_rows(options: RatingOptions) -> list[Row]:
-    """What [rating] says that is not left as it would be without it, and the standards."""
+    """Return the rows of [rating] options that differ from their defaults, and of the standards."""
     written = symbols_of(RatingOptions)
     always = ("standard", "accuracy", "accuracy_grade")
     return [
@@ -74,7 +77,7 @@ def option_rows(options: RatingOptions) -> list[Row]:
 
 
 def material_rows(materials: PerGear[Material]) -> list[Row]:
-    """What is known of both materials."""
+    """Return the rows of the known properties of both materials."""
     written = symbols_of(Material)
     found = ((written[each.name], [getattr(of, each.name) for of in materials]) for each in fields(Material))
     return [
@@ -108,7 +111,7 @@ def spectrum_rows(rating: StrengthRating) -> list[tuple[str, ...]]:
 
 
 def tolerance_rows(document: Mapping[str, Any], names: PerGear[str]) -> list[Row]:
-    """What the accuracy grade permits the flanks, and the dimensions that an allowance of the tooth thickness leaves."""
+    """Return the rows of the tolerances of the flanks by accuracy grade, and of the limits of dimensions for tooth thickness."""
     both = names.map(lambda name: document["tolerances"][name] or {})
     thickness = PerGear(*(values.get("thickness_limits", {}) for values in both))
     flanks = {"grade": Symbol("", "", "ISO 1328-1", "accuracy grade")} | symbols.TOLERANCES
@@ -222,7 +225,7 @@ def _figures(rating: StrengthRating) -> list[Picture]:
 
 
 def _lives(rating: StrengthRating) -> list[Picture]:
-    """What flanks and roots bear over load cycles, where that is known."""
+    """Return the figures of the strength of flanks and roots over load cycles, where it is known."""
     return [
         Picture(
             f"What the {part.value}s bear",
@@ -268,7 +271,7 @@ class StrengthSection(NamedTuple):
 
 
 def strength_section(of: CheckStrength) -> StrengthSection:
-    """Of a check."""
+    """Return the section on strength of a check."""
     rows = [_strength_row(of, part, role, found) for part, both in of.parts.items() for role, found in both.items()]
     told = [written(sentences("strength_check.txt", macro, of)) for macro in ("applied", "contained", "nonlinear", "contact")]
     groups = factor_groups(of.rating, of.rating.to_dict()) if of.judged else []

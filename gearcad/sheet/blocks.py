@@ -46,9 +46,9 @@ class Section(NamedTuple):
 
 
 class Sheet(NamedTuple):
-    """All that is shown of a design: a line that says what it is, its sections, and what to know before making it.
+    """The content of a design's data sheet: a title line, its sections, and the notices to know before manufacture.
 
-    `units` says what holds where a row has no unit of its own, `clauses` whose the sources are.
+    `units` gives the units of rows that have none of their own, `clauses` the standards to which the sources belong.
     """
 
     name: str
@@ -110,7 +110,7 @@ _PAIR_BLOCKS = {
 
 
 def pair_section(pairs: Mapping[str, Mapping[str, Any]]) -> Section:
-    """Of flattened documents, by the names of the columns; a single pair that needs no name is called ""."""
+    """Return the section of pairs from their flattened documents, by column name; a single pair without a name is ""."""
     blocks: list[Block] = []
     for title, keys in _PAIR_BLOCKS.items():
         blocks += block(title, (_pairs_row(key, pairs) for key in keys.split() if any(key in pair for pair in pairs.values())))
@@ -214,9 +214,9 @@ def _is_there(values: Mapping[str, Any], key: str) -> bool:
 
 
 def _in_use(gear: Gear) -> dict[str, Any]:
-    """What the sheet shows of a gear otherwise than its document.
+    """Return the fields of a gear that the sheet shows differently from its document.
 
-    Modifications that do something, a diametral pitch that was given, and that some gauges are for spur rings.
+    They are modifications that do something, a diametral pitch that was given, and a note that some gauges are for spur rings.
     """
     shown = {"modification": gear.flank_form.in_use} | _given_pitch(gear)
     return shown | (_OF_SPUR_RINGS if gear.internal and gear.helix_angle else {})

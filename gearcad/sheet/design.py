@@ -72,7 +72,10 @@ def _row(key: str, symbol: Symbol, values: list[Any]) -> Row:
 
 
 def _shown_of(table: str, values: Mapping[str, Any]) -> dict[str, Any]:
-    """What is there; of the mounting what is not 0, and of the rating, which has much, what is not as ever."""
+    """Return the values of a table that the sheet shows.
+
+    Values of None are left out, zeros of the mounting too, and values of the rating that are as usual.
+    """
     there = {key: value for key, value in values.items() if value is not None and not (table == "mounting" and value == 0)}
     if table != "rating" or not there:
         return there

@@ -26,7 +26,7 @@ _OF_MEMBER = symbols_of(Central) | symbols_of(Rim) | symbols_of(Carrier) | symbo
 
 
 def planetary_sections(train: Mapping[str, Any]) -> tuple[Section, ...]:
-    """Those of the document of a train."""
+    """Return the sections of a planetary train from its document."""
     pairs = {name: flattened(pair) for name, pair in (*train["meshes"].items(), *train["stages"].items())}
     return Section((), tuple(_blocks(train))), pair_section(pairs)
 
@@ -49,7 +49,7 @@ _TITLES = {"inertia": "Inertias", "shaft": "Shafts", "mesh": "Meshes"}
 
 
 def train_sections(document: Mapping[str, Any]) -> Iterator[Section]:
-    """Those of the document of `data.json`, without what nothing has a value of."""
+    """Yield the sections of a train from the document of `data.json`, without rows that have no value."""
     known = {key: field.symbol for key, field in TRAIN[MAIN].items()} | symbols.TRAIN
     own = {key: value for key, value in document[MAIN].items() if key != TORQUES}
     yield Section((), (Block("Train", _given(_train_row(MAIN, key, known[key], [value]) for key, value in own.items())),))
@@ -62,7 +62,7 @@ def train_sections(document: Mapping[str, Any]) -> Iterator[Section]:
 
 
 def _given(rows: Iterable[Row]) -> tuple[Row, ...]:
-    """Those in which something stands."""
+    """Return the rows that have a value other than 0 in some column."""
     return tuple(row for row in rows if set(row.texts) - {ABSENT, "0"})
 
 
@@ -133,7 +133,10 @@ class Quantity(NamedTuple):
 
 
 def safety_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> Iterator[Quantity]:
-    """Of flanks and roots: safety beside the required one, torque, damage, life, cycles; then of scuffing."""
+    """Yield the safety quantities of flanks and roots, then those of scuffing.
+
+    Of flanks and roots they are the safety, the required safety, torque, damage, life and cycles.
+    """
     for part in Part:
         name, safety = part.value, symbols.STRENGTH[f"S_{part.index}"]
         yield Quantity(f"safety.{name}", safety, document["safety"][name])

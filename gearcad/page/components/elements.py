@@ -14,7 +14,7 @@ from gearcad.page.words import Words
 
 
 class BarView(Element, component="gear_bar.js"):
-    """Switch for light and dark; it follows the system until the user chooses, and the browser remembers the choice."""
+    """Bar with the list of keys and a switch for light or dark. The browser remembers the choice; at first the system decides."""
 
     def __init__(self, words: Words) -> None:
         super().__init__()
