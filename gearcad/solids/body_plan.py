@@ -92,7 +92,7 @@ class EndCone:
         return self.slope / math.hypot(1.0, self.slope)
 
     def beyond(self, radius: ArrayLike) -> Floats:
-        """How far (mm) a radius (mm) is beyond the face radius towards the tips: where it is above 0, there is the cone."""
+        """Return the distance (mm) of a radius (mm) beyond the face radius towards the tips. The cone is where this is above 0."""
         result: Floats = self.side * (np.asarray(radius, float) - self.face_radius)
         return result
 
@@ -300,7 +300,10 @@ class RackPlan:
         return [*found, (*edges, Edge(at, 1, side))]
 
     def _stops(self, lines: Floats, inner: Wholes, corners: _Corners) -> list[tuple[_Place, int]]:
-        """Where lines meet one way round the rim, and its middle corner, each with its line (-1: none), in the order of c."""
+        """Return the places where lines meet one way round the rim, and its middle corner, in the order of c.
+
+        Each place comes with the number of its line (-1: none).
+        """
         first, middle, last = corners
         turn, found = self._c(middle), list[tuple[_Place, int]]()
         for line in inner.tolist():

@@ -48,12 +48,12 @@ class Standing:
 
     @property
     def offset(self) -> tuple[float, float, float]:
-        """Where its own origin is (mm)."""
+        """Position (x, y, z) in mm of the body's own origin."""
         return self.axle.x, self.axle.y, self.z
 
     @property
     def extent(self) -> tuple[float, float]:
-        """Its lowest and highest z (mm), hubs included."""
+        """Lowest and highest z (mm) of the body, hubs included."""
         back, front = self.body.gear.body.hub_ends
         return self.z - back, self.z + self.body.gear.face_width + front
 
@@ -122,7 +122,7 @@ class TrainLayout:
 
 
 def stage_keys(train: PlanetaryTrain) -> list[PerGear[str]]:
-    """What the gears of each stage are called: a gear has its own name if that tells it from all others."""
+    """Return the names of the gears of each stage. A gear has its own name if no other gear has it."""
     taken = [*train.members, *(rim.name for rim in train.rims)]
     taken += [gear.name for stage in train.stages for gear in stage.pair.gears]
 
@@ -171,7 +171,7 @@ class Sweep:
 
     @property
     def distance(self) -> float:
-        """Of its axis from the train's (mm)."""
+        """Distance (mm) of the body's axis from the train's."""
         return math.hypot(self.standing.axle.x, self.standing.axle.y)
 
     def about_the_train(self) -> _Extent:

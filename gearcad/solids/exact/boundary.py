@@ -229,7 +229,9 @@ def cylinder_along_z(radius: float, axis: Point = ORIGIN) -> CylinderSurface:
 
 
 def cone_about_z(radius: float, sine: float, z: float, *, up: bool) -> ConeSurface:
-    """Of `radius` at height z, widening upwards (or downwards); `sine` of its half angle."""
+    """Return a cone about the z axis with `radius` (mm) at height z (mm), widening upwards or downwards; `sine` of its half
+    angle.
+    """
     return ConeSurface(level_frame(z, up=up), radius, math.asin(sine))
 
 
@@ -333,7 +335,7 @@ class Recorder:
         self._faces: list[BoundaryFace] = []
 
     def boundary(self) -> Boundary:
-        """What was taken down."""
+        """Return the boundary recorded so far."""
         return Boundary(self.tolerance, self._places, self._vertices, self._sources, self._edges, self._laid, self._faces)
 
     def moved(self, z: float, angle: float) -> Recorder:

@@ -59,7 +59,7 @@ class _Run(NamedTuple):
 
 
 def moments(boundary: Boundary) -> Moments:
-    """Of the solid within a closed boundary."""
+    """Return the moments of the solid within a closed boundary."""
     laid = {
         (edge, surface, place): curves
         for edges, surface, places, curves in boundary.laid
@@ -82,7 +82,7 @@ def moments(boundary: Boundary) -> Moments:
 
 
 def _run(boundary: Boundary, face: BoundaryFace, number: int, along: bool, laid: tuple[OnSurface, ...]) -> _Run:
-    """How a loop of a face runs along an edge."""
+    """Return the curve, its ends and its turn, along which a loop of a face runs on an edge."""
     edge: BoundaryEdge = boundary.edges[number]
     ends = (edge.first, edge.last) if along else (edge.last, edge.first)
     if laid:
@@ -92,7 +92,10 @@ def _run(boundary: Boundary, face: BoundaryFace, number: int, along: bool, laid:
 
 
 def _flow(surface: SurfaceForm, run: _Run) -> Floats:
-    """What an edge adds to the flows of both fields through a face, by Green: ∮ (∫ F·(S_u x S_v) du from u = 0) dv."""
+    """Return the flows (2,) that an edge adds to both fields through a face.
+
+    By Green: ∮ (∫ F·(S_u x S_v) du from u = 0) dv.
+    """
     nodes, weights = _gauss()
     length = run.last - run.first
     t = run.first + length * nodes
@@ -208,7 +211,7 @@ class MassProperties(NamedTuple):
 
 
 def mass_properties(gear: Gear, density: float) -> MassProperties:
-    """Of a gear made of a material of `density` (kg/m³). Raises what `gear_boundary` raises."""
+    """Return the mass properties of a gear made of a material of `density` (kg/m³). Raises what `gear_boundary` raises."""
     found = moments(gear_boundary(gear))
     return MassProperties(found.volume * density * 1e-9, found.polar * density * 1e-15)
 

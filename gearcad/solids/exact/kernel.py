@@ -111,7 +111,8 @@ class _Maker:
         return made
 
     def _copies(self) -> tuple[list[int], list[float]]:
-        """Of every edge the one it is a copy of, and by how many pitches it is turned against that: itself and 0 for others.
+        """Return, for every edge, the edge that it copies and the pitches by which it is turned from that: itself and 0 for
+        others.
 
         Edges of other teeth are those of the first one, moved: they share curves, vertices and curves on surfaces.
         """

@@ -92,7 +92,7 @@ class FilletSurface:
         return self._stretch * z - self.drift * self._radius * math.sin(self.u(c))
 
     def along_teeth(self, c: float, z: float) -> OnSurface:
-        """In its parameters: the line of constant c from height z on."""
+        """Return the line of constant c from height z on, in the parameters of the surface."""
         return LineOnSurface(self.u(c), self.v(c, z), 0, 1)
 
     def level(self, z: float) -> CircleCurve | EllipseCurve:
@@ -175,7 +175,7 @@ class _Builder:
         self.edges: dict[tuple[int, int], int] = {}
 
     def boundary(self) -> Boundary:
-        """All of it."""
+        """Return the boundary of the whole rack."""
         for strip in self.plan.strips:
             self._strip(strip)
         for side in RackSide:

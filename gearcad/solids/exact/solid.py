@@ -122,7 +122,9 @@ def _location(frame: Frame) -> cadquery.Location:
 
 
 def cad_product(model: cadquery.Assembly | cadquery.Solid, name: str, colour: Colour) -> Product | None:
-    """What a solid, as a part of a name and colour, or an assembly is made of; None where not all solids in it are ours."""
+    """Return the product of a solid, as a part of a name and colour, or of an assembly; None unless gearcad made all its
+    solids.
+    """
     import cadquery
 
     if isinstance(model, cadquery.Assembly):
@@ -153,13 +155,13 @@ def _part_of(node: cadquery.Assembly, parts: dict[Any, SolidProduct]) -> SolidPr
 
 
 def _boundary_of(solid: Any) -> Boundary | None:
-    """What a solid was made of, if it is one of ours and stands where it stood then."""
+    """Return the boundary of a solid that gearcad made, if it has not been moved since; else None."""
     made, boundary = getattr(solid, _MADE, (None, None))
     return boundary if made is not None and solid.wrapped.IsEqual(made) else None
 
 
 def product_name(node: cadquery.Assembly) -> str:
-    """What a part of an assembly, or a sub-assembly, is called as a product."""
+    """Return the product name of a part of an assembly, or of a sub-assembly."""
     return str(node.metadata.get(_PRODUCT, node.name))
 
 

@@ -194,7 +194,7 @@ def parameter_at_radius(span: FlankSpan, radius: float) -> float:
 
 
 def _crossing(rising: Callable[[float], float], value: float, low: float, high: float) -> float:
-    """Where a function that rises from `low` to `high` has a value."""
+    """Return the place between `low` and `high` where a rising function has a value."""
     for _ in range(60):
         middle = 0.5 * (low + high)
         if rising(middle) < value:
@@ -219,7 +219,7 @@ def required(poles: Floats | None, what: str) -> Floats:
 
 
 def sweep_of(gear: Gear, pieces: Sequence[Piece]) -> Sweep:
-    """How the pieces of a gear's tooth 0 are swept: as exact screws, or modified."""
+    """Return the sweep of the pieces of a gear's tooth 0: exact screws, or modified flanks."""
     return ModifiedSweep(gear, pieces) if gear.modification.present else Sweep(gear)
 
 
@@ -362,7 +362,7 @@ class ModifiedSweep(Sweep):
 
 
 def whole_sweep(gear: Gear, pieces: Sequence[Piece]) -> Sweep:
-    """How the pieces of a gear's tooth 0 are swept over its face width."""
+    """Return the sweep of the pieces of a gear's tooth 0 over its whole face width."""
     if gear.double_helix.present:
         return MirroredSweep(gear, sweep_of(halves(gear)[0].gear, pieces))
     return sweep_of(gear, pieces)
@@ -437,7 +437,7 @@ class SideEdge:
     high: float
 
     def on_cylinder(self, turn: float) -> OnSurface:
-        """Its curve on the cylinder of a land, turned by `turn` (rad)."""
+        """Return the edge's curve on the cylinder of a land, turned by `turn` (rad)."""
         if np.all(self.angles == self.angles[0]):
             return LineOnSurface(float(self.angles[0]) + turn, 0, 0, 1)
         poles = np.stack([self.angles + turn, np.linspace(self.low, self.high, len(self.angles))], -1)
@@ -549,7 +549,9 @@ class ToothLayout:
         return Drawn(BezierCurve(poles), segment.first, segment.last, LineOnSurface(0, end.z, 1, 0))
 
     def _draw_on_cone(self, end: End, segment: Segment, piece: FlankSpan) -> Drawn:
-        """Where a flank meets the cone: z follows from the radius, so the curve is explicit in the flank's own u."""
+        """Return the curves where a flank meets the cone. z follows from the radius, so the curve is explicit in the flank's
+        own u.
+        """
         first, span = segment.first, segment.last - segment.first
 
         def curve(t: Floats) -> Floats:

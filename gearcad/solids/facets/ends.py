@@ -339,7 +339,9 @@ class _RingCapper(ToothEnd):
     # ------------------------------------------------------------------ the cone beyond the strips
 
     def _up_the_cone(self, cap: Cap, set_back: Bools) -> Cap:
-        """Where the chain lies on the cone, go on along its generators to the circle where that meets the end plane."""
+        """Return the cap continued along the cone's generators, where the chain lies on the cone, to its circle in the end
+        plane.
+        """
         count = int(set_back.sum())
         circle = points_at(np.array(self.grid.cone.face_radius), cap.ring_angle[set_back], np.array(self.end_plane))
         outer = cap.ring.copy()
@@ -466,7 +468,7 @@ def _directions(angle: Floats) -> Floats:
 
 
 def _turn(angle: float) -> Floats:
-    """By which points (n, 2) are multiplied to turn them counter-clockwise."""
+    """Return the matrix (2, 2) by which points (n, 2) are multiplied to turn them counter-clockwise; `angle` in radians."""
     cosine, sine = math.cos(angle), math.sin(angle)
     return np.array([[cosine, sine], [-sine, cosine]])
 

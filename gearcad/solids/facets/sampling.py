@@ -180,7 +180,7 @@ def split(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCon
 
 
 def falling_cells(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> tuple[Bools, Bools]:
-    """Where the cells (layers, len(s) - 1) of the right and of the left flank are better cut from lower right to upper left.
+    """Return where cells (layers, len(s) - 1) of the right and left flank are better cut from lower right to upper left.
 
     Seen from outside; cells are numbered from root to tip.
     """
@@ -223,7 +223,7 @@ def _inside(one: Floats, two: Floats, three: Floats) -> Floats:
 
 
 def _deviations(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> list[_Deviations]:
-    """Those of the left and, where it is another one, the right flank."""
+    """Return the deviations of the left flank and, if it differs, of the right flank."""
     if not gear.modification.present:
         left = _of_screw(piece.curve, s, layers, cone)
         if not (layers.apex and cone.present):
@@ -267,12 +267,12 @@ class _Bend(NamedTuple):
         return cls(profile, mixed, helix, tilt)
 
     def deviation(self, angle: Floats) -> Floats:
-        """Of edges that go along the profile and turn by an angle."""
+        """Return the deviations (mm) of edges that go along the profile and turn by an angle (rad)."""
         result: Floats = (self.profile + angle * (self.mixed + angle * self.helix)) / self.tilt
         return result
 
     def uprights(self, angle: Floats) -> Floats:
-        """Of edges that turn by an angle only."""
+        """Return the deviations (mm) of edges that turn by an angle (rad) only."""
         result: Floats = angle**2 * self.helix / self.tilt
         return result
 
@@ -291,7 +291,7 @@ def _of_screw(curve: Curve, s: Floats, layers: Layers, cone: EndCone) -> _Deviat
 
 
 def _of_modified(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone, *, left: bool) -> _Deviations:
-    """In the middles of the edges, along the normal; the right flank is mirrored first."""
+    """Return the deviations in the middles of the edges, along the normal; the right flank is mirrored first."""
     hand = 1 if left else -1
 
     def surface(s: Floats, z: Floats) -> Floats:
@@ -466,7 +466,9 @@ def _samples(gear: Gear, piece: FlankCurve, layers: Layers, cone: EndCone, chord
 
 
 def _turns(gear: Gear, pieces: list[FlankCurve], samples: list[Floats], heights: Floats) -> tuple[Floats, Floats]:
-    """By what the points of the right and left flank are turned (rad): each (layers + 1, k + 1), as `heights`."""
+    """Return the angles (rad) by which the points of the right and left flank are turned: each (layers + 1, k + 1), as
+    `heights`.
+    """
     if not gear.modification.present:
         return np.zeros(heights.shape), np.zeros(heights.shape)
     ends = np.cumsum([0, *(len(s) - 1 for s in samples)])

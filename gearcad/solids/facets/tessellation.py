@@ -83,7 +83,7 @@ class DiscBuilder(Builder):
         self.faces.append(found if top else found[:, ::-1])
 
     def _centre(self, ring: Wholes, angle: Floats, z: float, *, top: bool) -> Wholes:
-        """From the innermost ring of an end to the bore, or to a point on the axis."""
+        """Return the triangles from the innermost ring of an end to the bore, or to a point on the axis."""
         if self.opening is None:
             middle = self.add(np.array([[0.0, 0.0, z]]))
             return np.stack([np.repeat(middle, len(ring)), ring, np.roll(ring, -1)], -1)
@@ -156,7 +156,10 @@ class RingBuilder(Builder):
     # ------------------------------------------------------------------ circles
 
     def _fitted(self, made: Callable[[int], _Made], circle_of: Callable[[_Made], Floats]) -> _Made:
-        """What is made of so many parts that no triangle is folded between its circle and what is inside on either end."""
+        """Return the parts made in the first number in which no end triangle is folded between their circle and what is inside.
+
+        Raises SolverError if no number of parts fits.
+        """
         least = least_distance(self.gear, self.chord_error)
         for parts in _PARTS:
             found = made(parts)

@@ -30,10 +30,10 @@ class Section(NamedTuple):
 
 
 def section_of(lines: Floats) -> Section:
-    """What lines (m, 2, 2), ends as (u, v), enclose by the rule of even and odd; open at a level they may be.
+    """Return the section that lines (m, 2, 2), ends as (u, v), enclose by the even-odd rule. Lines may be open at a level.
 
-    Between two levels at which lines end none begins nor ends, and those that cross stand in pairs: no topology is asked for,
-    so neither slim triangles nor thousands of teeth do harm.
+    Between two neighbouring levels no line begins or ends, and the lines that cross stand in pairs. No topology is needed, so
+    neither slim triangles nor thousands of teeth do harm.
     """
     levels, places = _levels(lines[..., 0])
     upward = np.take_along_axis(lines, np.argsort(places, axis=1)[..., None], axis=1)
@@ -51,7 +51,7 @@ def section_of(lines: Floats) -> Section:
 
 
 def _at(lines: Floats, levels: Floats, low: Indices, high: Indices, level: Indices) -> Floats:
-    """Where lines (n, 2, 2) from level to level are at a level (n,)."""
+    """Return the positions of lines (n, 2, 2), which run from level to level, at a level (n,)."""
     share = (levels[level] - levels[low]) / (levels[high] - levels[low])
     found: Floats = lines[:, 0, 1] * (1 - share) + lines[:, 1, 1] * share
     return found
@@ -113,7 +113,7 @@ class CutFacets:
 
 
 def cut_away(facets: Facets, cut: Cut) -> CutFacets:
-    """What a cut leaves of facets that stand in their place."""
+    """Return what a cut leaves of facets, which stand in their place, and the cut faces."""
     first = cut.normals[0]
     near, beyond, lines = _parted(facets, cut.point, first)
     if len(cut.normals) == 1:
@@ -175,7 +175,9 @@ def _clipped(lines: Floats, height: Floats) -> Floats:
 
 
 def _cut_face(lines: Floats, point: Floats, normal: Floats, level: Floats) -> CutFace:
-    """What lines (m, 2, 3) in a plane enclose, as strips across a direction in it; at level 0 it ends where they do."""
+    """Return the face that lines (m, 2, 3) in a plane enclose, as strips across a direction in it. At level 0 it ends where the
+    lines do.
+    """
     frame = np.stack([level, np.cross(normal, level)])
     section = section_of((lines - point) @ frame.T)
     strips, end = point + section.strips @ frame, point + section.lowest @ frame

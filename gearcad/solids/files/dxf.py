@@ -270,7 +270,7 @@ def rack_contour(rack: Rack, accuracy: float = 0.0005) -> Floats:
 
 
 def _chain(piece: Piece, length: float, accuracy: float) -> Arcs | None:
-    """What of a piece is between x = 0 and `length`, from left to right; None for nothing."""
+    """Return the arcs of a piece between x = 0 and `length`, from left to right; None if nothing lies there."""
     (first, _), (last, _) = piece.start, piece.end
     low, high = max(first, 0.0), min(last, length)
     if high - low < SNAP:

@@ -58,11 +58,11 @@ class Format(Enum):
 
     @property
     def entry(self) -> Entry:
-        """What there is to know of it."""
+        """Entry of this format: words, writers and the options that matter to it."""
         return _ENTRIES[self]
 
     def minded(self, options: FileOptions) -> dict[str, Any]:
-        """Those of the options that matter to it, by name."""
+        """Return the options that matter to this format, by name."""
         return {name: getattr(options, name) for name in self.entry.options}
 
 

@@ -60,7 +60,7 @@ class _Rolling(Protocol):
 
     @property
     def corner(self) -> tuple[float, float]:
-        """Where the tip's rounding begins: across and along (mm)."""
+        """Point where the tip's rounding begins: across and along (mm)."""
 
     def outline(self, gear: Gear, chord_error: float) -> tuple[Floats, Floats, Floats]:
         """Half of the tool's tooth in the transverse section, towards tooth 0: theta, across and along (mm), each (n,).

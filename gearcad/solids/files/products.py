@@ -43,7 +43,7 @@ class GearProduct:
         return [Part(name=self.name, facets=self.facets, colour=self.colour, rotation=rotation)]
 
     def write_dxf(self, path: Path) -> None:
-        """Its section: see `write_dxf`."""
+        """Write the gear's section: see `write_dxf`."""
         from gearcad.solids.files.dxf import write_dxf
 
         write_dxf(self.gear, path, circles=self.options.circles)
@@ -115,7 +115,7 @@ class RackProduct:
         return [Part(name=self.name, facets=self.facets, colour=self.colour)]
 
     def write_dxf(self, path: Path) -> None:
-        """Its side view: see `write_rack_dxf`."""
+        """Write the rack's side view: see `write_rack_dxf`."""
         write_rack_dxf(self.rack, path, lines=self.options.circles)
 
     def write_points(self, path: Path) -> None:

@@ -52,7 +52,7 @@ class Arrays:
 
     @property
     def tables(self) -> dict[str, Any]:
-        """What the tree says of them."""
+        """Tables of the JSON tree that describe the arrays: accessors, buffer views and the buffer."""
         sizes = [len(array) for array in self._arrays]
         starts = np.cumsum([0, *sizes]).tolist()
         views = [{"buffer": 0, "byteOffset": start, "byteLength": size} for start, size in zip(starts, sizes, strict=False)]
@@ -99,7 +99,7 @@ class Part:
 
     @property
     def made_as(self) -> str:
-        """What it is called as a product: its own name, where there is only one of it."""
+        """Name of the part as a product: its own name if it occurs only once."""
         return self.product or self.name
 
 
@@ -119,7 +119,7 @@ class Turning:
     turns: Mapping[str, float]
 
     def turns_of(self, name: str) -> float:
-        """Of an axle by its name; nothing else turns."""
+        """Return the turns of an axle, by its name; 0 for anything else, which does not turn."""
         return self.turns.get(name, 0.0)
 
     def keyframes(self) -> Floats:
@@ -237,7 +237,7 @@ class _Shapes:
         self._numbers: dict[int, int] = {}
 
     def number_of(self, part: Part, arrays: Arrays) -> int:
-        """That of the mesh of a part."""
+        """Return the number of the mesh of a part; adds the mesh and its material if they are new."""
         number = self._numbers.setdefault(id(part.facets), len(self.meshes))
         if number == len(self.meshes):
             # Without normals viewers shade every triangle flat; averaged ones would round off the edges of the teeth.

@@ -26,7 +26,7 @@ from gearcad.solids.train_plan import Standing, TrainLayout
 
 
 def looks_alike_after(gear: Gear) -> int:
-    """Of how many equal parts a turn of the gear is: its teeth, fewer with bolt holes, one with a keyway."""
+    """Return the number of equal parts in a turn of the gear: its teeth, fewer with bolt holes, one with a keyway."""
     body = gear.body
     return 1 if body.keyway_width else math.gcd(gear.tooth_count, body.bolt_holes)
 
@@ -82,7 +82,7 @@ class Loop:
 
     @property
     def seconds(self) -> float:
-        """How long it lasts."""
+        """Duration of the loop (s)."""
         return self.frames / FRAMES_PER_SECOND
 
     @property
@@ -194,7 +194,7 @@ def _closed(product: TrainProduct, carrier: float, central: float) -> Loop | Non
 
 
 def _cut_short(product: TrainProduct, carrier: float, central: float) -> Loop:
-    """As much of the motion as the longest loop shows."""
+    """Return the part of the motion that the longest loop can show; this loop does not close."""
     turning = _Turning(product, carrier, central)
     turns = MOST_FRAMES / QUICK / turning.pitches(1.0)
     text = f"it would come round in more than {MOST_FRAMES} frames only: at its end the loop jumps"
@@ -225,7 +225,7 @@ class _Turning:
 
     @cached_property
     def _both(self) -> list[tuple[Standing, float]]:
-        """What stands, and its own turns each time."""
+        """Standing gears of the train, each with its own turns (counter-clockwise positive) in one unit of the motion."""
         begun, turned = self.layout(0.0).standing, self.layout(1.0).standing
         return [(one, (other.rotation - one.rotation) / 360) for one, other in zip(begun, turned, strict=True)]
 
@@ -256,7 +256,7 @@ def _alike(one: Standing, other: Standing) -> bool:
 
 
 def _symmetry(train: PlanetaryTrain) -> int:
-    """Of how many equal parts the carrier is."""
+    """Return the number of equal parts of the carrier."""
     angles = sorted(angle % 360 for angle in train.angles)
     for parts in range(train.planets, 1, -1):
         turned = sorted((angle + 360 / parts) % 360 for angle in angles)
@@ -290,7 +290,7 @@ _GAP, _GAP_OF_RING = 0.3, 0.8
 
 
 def direction_of(product: Product, view: View) -> Direction:
-    """From where a product is seen in a view."""
+    """Return the direction from which a product is seen in a view."""
     if view is not View.CORNER:
         return _FIXED[view]
     if isinstance(product, TrainProduct):
@@ -303,8 +303,10 @@ def direction_of(product: Product, view: View) -> Direction:
 
 
 def cuts_of(product: Product, parts: Sequence[Part], cutaway: Cutaway) -> dict[str, Cut]:
-    """What a cutaway takes off each part: all on the near side of the plane through the axes along x, of a quarter what is
-    on one side of the part's own axis. A train is cut about its own axis, a rack across its width or in the middle of it.
+    """Return the cut of each part by name. A cutaway takes off all on the near side of the plane through the axes along x.
+
+    A quarter takes off only the side of the part's own axis that faces the eye. A train is cut about its own axis, a rack
+    across its width or in the middle of it.
     """
     near, aside = (
         np.array([0.0, -1.0, 0.0]),
@@ -325,9 +327,9 @@ def cuts_of(product: Product, parts: Sequence[Part], cutaway: Cutaway) -> dict[s
 
 
 def apart(product: PairProduct | RackPairProduct, parts: Sequence[Part]) -> tuple[float, float, float]:
-    """How far (mm) the second part of a pair is moved for the first to come free, with a gap: a ring down, others aside.
+    """Return the shift (x, y, z) in mm that frees the second part of a pair from the first: a ring down, others aside.
 
-    Trains move themselves apart.
+    A gap is left between both. Trains move themselves apart.
     """
     diameter = product.pair.pinion.tip_diameter
     pinion, mate = (points_of([part]) for part in parts)
@@ -345,7 +347,10 @@ class Close(NamedTuple):
 
 
 def close_by(product: Product) -> Close:
-    """Where teeth mesh; of a train those of its first central with the first planet. Raises GeometryError without a mesh."""
+    """Return the pitch point of the mesh; of a train that of its first central with the first planet.
+
+    Raises GeometryError without a mesh.
+    """
     if isinstance(product, GearProduct | RackProduct):
         raise GeometryError("view", View.MESH, "needs a pair or a train: one part has no mesh")
     if isinstance(product, TrainProduct):
@@ -407,7 +412,7 @@ class Shot:
 
     @cached_property
     def camera(self) -> Camera:
-        """From where it is seen, whatever the share."""
+        """Camera of the shot, the same at every share of the loop."""
         width, height = self.size
         direction = direction_of(self.product, self.view)
         points = np.concatenate([self._looked_at(number / _LOOKED_AT) for number in range(_LOOKED_AT if self.loop else 1)])
@@ -432,14 +437,17 @@ class Shot:
 
     @cached_property
     def _apart(self) -> tuple[float, float, float]:
-        """How far parts but the first are moved (mm); trains move themselves."""
+        """Shift (x, y, z) in mm of parts other than the first; trains move their parts themselves."""
         if not self.exploded or not isinstance(self.product, PairProduct | RackPairProduct):
             return 0.0, 0.0, 0.0
         return apart(self.product, self.product.scene())
 
 
 def loop_of(product: Product, view: View) -> Loop:
-    """How a product turns; close by, a train is seen from its carrier. Raises GeometryError for what does not turn."""
+    """Return the loop in which a product turns; in a close view, a train is seen from its carrier.
+
+    Raises GeometryError for a product that does not turn.
+    """
     if isinstance(product, TrainProduct):
         return train_loop(product, carrier_held=view is View.MESH)
     if isinstance(product, PairProduct):

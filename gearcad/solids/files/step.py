@@ -158,7 +158,7 @@ class _SolidWriter:
         self.lifts = np.array([place.z for place in boundary.places])
 
     def solid(self) -> int:
-        """All of it."""
+        """Write the whole solid and return the number of its entity."""
         boundary, add = self.boundary, self.data.add
         vertices = [add(f"VERTEX_POINT('',#{self._point(point)})") for point in boundary.vertices]
         curves = self._placed((edge.curve, edge.place) for edge in boundary.edges)
@@ -557,7 +557,7 @@ class _StepWriter:
         )
 
     def _shape(self, definition: int, representation: int) -> None:
-        """That a representation is the shape of a product."""
+        """Write that a representation is the shape of a product."""
         shape = self.data.add(f"PRODUCT_DEFINITION_SHAPE('','',#{definition})")
         self.data.add(f"SHAPE_DEFINITION_REPRESENTATION(#{shape},#{representation})")
 
@@ -596,7 +596,7 @@ class _StepWriter:
         return representation
 
     def _occur(self, occurrence: Occurrence, part: tuple[int, int], whole: tuple[int, int], frames: tuple[int, int]) -> None:
-        """That a product occurs in an assembly: where its origin is, and what it is called there."""
+        """Write that a product occurs in an assembly: the place of its origin, and its name there."""
         add = self.data.add
         move = add(f"ITEM_DEFINED_TRANSFORMATION('','',#{frames[0]},#{frames[1]})")
         relation = add(

@@ -162,7 +162,7 @@ class Shape:
     outlines: Floats
 
     def lines(self, towards: Floats) -> vtkPolyData:
-        """What is drawn for an eye that way (3,)."""
+        """Return the lines to draw for an eye in the direction `towards` (3,)."""
         vertices, ends = self.facets.vertices, self.edges.drawn(towards)
         own = len(vertices) + np.arange(2 * len(self.outlines)).reshape(-1, 2)
         return line_data(np.concatenate([vertices, self.outlines.reshape(-1, 3)]), np.concatenate([ends, own]))
@@ -184,7 +184,7 @@ def cut_shape(part: Part, cut: Cut) -> Shape:
 
 
 def _smoothed(facets: Facets) -> vtkPolyData:
-    """With normals that are smooth but for sharp edges."""
+    """Return the facets with normals that are smooth except at sharp edges."""
     from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 
     smooth = vtkPolyDataNormals()
@@ -197,7 +197,7 @@ def _smoothed(facets: Facets) -> vtkPolyData:
 
 
 def _flat(face: CutFace) -> vtkPolyData:
-    """With the normal of its plane: slim triangles have none that is exact."""
+    """Return the triangles of a cut face with the normal of its plane: slim triangles have no exact normal of their own."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
 
     points = face.triangles.reshape(-1, 3)
@@ -251,7 +251,7 @@ class Studio:
             self.window.RemoveRenderer(renderer)
 
     def _taken(self) -> Pixels:
-        """What stands before the camera: each pixel the mean of its finer ones."""
+        """Return the picture that the camera takes (height, width, 4): each pixel is the mean of its finer ones."""
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
@@ -303,7 +303,7 @@ def studio(size: tuple[int, int], *, transparent: bool = False, finer: int | Non
 
 
 def _renderer(camera: Camera) -> vtkRenderer:
-    """On nothing, seen without perspective."""
+    """Return a renderer with a transparent background and a parallel projection."""
     from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
 
     renderer = vtkRenderer()
@@ -342,7 +342,9 @@ def _actor(data: vtkPolyData, colour: Colour, pose: Floats) -> vtkActor:
 
 
 def _mean(finer: Pixels) -> NDArray[np.float32]:
-    """Of finer pixels (height, n, width, n, 4); their colours are multiplied by their opacity."""
+    """Return the mean (height, width, 4) of finer pixels (height, n, width, n, 4). Their colours are multiplied by their
+    opacity.
+    """
     sums = np.zeros((len(finer), finer.shape[2], 4), np.uint16)
     for row in range(finer.shape[1]):
         for column in range(finer.shape[3]):

@@ -180,9 +180,10 @@ _WHOLE = 1e-6
 
 
 def turning_of(layout: TrainLayout, given: Mapping[str, float] | None = None) -> Turning:
-    """As `turns_of` says: once, or so often that all teeth come round, where nothing turns over _MOST_TURNS times.
+    """Return the turning of a train by `turns_of`: once, or repeated until all teeth come round.
 
-    Raises ParameterError for speeds that contradict each other.
+    No part turns more than _MOST_TURNS times; a single turning in which one would is cut short. Raises ParameterError for
+    speeds that contradict each other.
     """
     turns = turns_of(layout, given)
     most = max(map(abs, turns.values()))
@@ -205,7 +206,7 @@ def turns_of(layout: TrainLayout, given: Mapping[str, float] | None = None) -> d
 
 
 def _times_round(layout: TrainLayout, turns: Mapping[str, float], most: float) -> int:
-    """How often these turns bring every body to where it looks as at first; 1 if that takes too long."""
+    """Return how many times these turns bring every body to where it looks as at first; 1 if that takes too long."""
     pitches: dict[str, int] = {layout.carrier.name: 1}
     for standing in layout.standing:
         # All gears of an axle come round together.
@@ -262,7 +263,7 @@ def write_train_dxf(layout: TrainLayout, path: Path | str, *, accuracy: float = 
 
 
 def section_angle(layout: TrainLayout, standing: Standing) -> float:
-    """How far (rad) the section of a gear is turned in the plane that cuts its mesh."""
+    """Return the angle (rad) by which the section of a gear is turned in the plane that cuts its mesh."""
     gear = standing.body.gear
     height = gear.face_width / 2
     if standing in layout.stages:
@@ -330,7 +331,7 @@ class TrainProduct:
 
     @cached_property
     def plan(self) -> TrainPlan:
-        """What is made, and where it stands."""
+        """Plan of the train: its bodies and their places."""
         return TrainPlan.of(self.train, carrier=self.options.carrier, exploded=self.options.exploded)
 
     def require_room(self) -> None:
@@ -358,7 +359,7 @@ class TrainProduct:
         return list(self._scene(TrainPlan.of(self.train, carrier=self.options.carrier, exploded=not self.options.exploded)))
 
     def turning(self) -> Turning | None:
-        """How the train turns, if that is asked for."""
+        """Turning of the train; None unless the options ask for it."""
         return turning_of(self.plan.layout, self.speeds) if self.options.turning else None
 
     def write_dxf(self, path: Path) -> None:
