@@ -181,7 +181,7 @@ ORDERS: dict[Element, list[int] | slice] = dict.fromkeys(Element, slice(None)) |
 
 
 def nodes_of_parts(mesh: ElementMesh) -> Iterator[Indices]:
-    """Of each part the nodes, in order, that no part before it has."""
+    """Yield, for each part, its nodes in order, without those of parts before it."""
     waiting: Bools = np.ones(len(mesh.points), bool)
     for part in mesh.parts.values():
         own = np.zeros_like(waiting)

@@ -30,7 +30,7 @@ class MeshFormat(Enum):
 
     @property
     def entry(self) -> Entry:
-        """What there is to know of it."""
+        """Entry of this format: words, writer, names of other files and required library."""
         return _ENTRIES[self]
 
     def require(self) -> None:
@@ -224,7 +224,7 @@ class MeshOptions:
 
     @property
     def extent(self) -> Extent | None:
-        """How much is to be meshed; None for what suits the design."""
+        """Extent of the gears to be meshed; None for the extent that suits the design. Raises ParameterError."""
         if not isinstance(self.what, str):
             raise ParameterError("what", self.what, _EXTENTS)
         if self.what == AUTO:

@@ -454,7 +454,10 @@ def _by_depth(gear: Gear, lengths: Floats, deviation: float) -> Floats:
 
 @cache
 def _root_error() -> tuple[Floats, Floats]:
-    """How far a parabola through the ends and the middle of sqrt(1 + x), x from 0 to u, is from it: u (n,) and e (n,)."""
+    """Return u (n,) and the greatest error e (n,) of a parabola that replaces sqrt(1 + x) over x from 0 to u.
+
+    The parabola runs through the ends and the middle of the curve.
+    """
     share, t = np.geomspace(1e-2, 1e8, 201), np.linspace(-1, 1, 201)
 
     def root(place: Floats) -> Floats:

@@ -46,7 +46,7 @@ class GearPlan(ABC):
 
     @property
     def amount(self) -> Amount | None:
-        """What it will come to, where that is known."""
+        """Amount of elements and nodes expected; None if not known before."""
         return None
 
     @property
@@ -60,7 +60,7 @@ class GearPlan(ABC):
 
     @property
     def notices(self) -> Iterable[Notice]:
-        """What to know before using the mesh."""
+        """Notices to read before the mesh is used."""
         return ()
 
 
@@ -194,13 +194,13 @@ class MeshPlan:
 
     @property
     def amount(self) -> Amount | None:
-        """What all gears will come to, where that is known."""
+        """Amount of elements and nodes expected of all gears together; None if not known before."""
         every = [amount for each in self.gears.values() if (amount := each.amount) is not None]
         return Amount(*map(sum, zip(*every, strict=True))) if len(every) == len(self.gears) else None
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before using the meshes."""
+        """Notices to read before the meshes are used."""
         return tuple(notice.within(name) for name, each in self.gears.items() for notice in each.notices)
 
     def pressed(self, zones: PerGear[Mapping[int, ContactZone]], *, left: bool) -> MeshPlan:
@@ -242,7 +242,9 @@ def _with_zones(plan: GearPlan, zones: Mapping[int, ContactZone]) -> GearPlan:
 
 
 def plan_mesh(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | None) -> MeshPlan:
-    """What is meshed of a design's `gears`, which are those of a `pair` or one alone. Raises ParameterError, GeometryError."""
+    """Return the plan of the meshes of a design's `gears`: one gear, or both of a `pair`. Raises ParameterError and
+    GeometryError.
+    """
     chosen = _chosen(options, gears, pair)
     element_given = None if options.element == AUTO else Element(options.element)
     dimension = _dimension(options, element_given, chosen)
@@ -260,7 +262,7 @@ def plan_mesh(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | 
 
 
 def _planned(gear: Gear, options: MeshOptions, extent: Extent, element: Element) -> GearPlan:
-    """How a gear is meshed."""
+    """Return the plan of one gear: tetrahedra of the whole part, or sectors of teeth."""
     fillet = options.fillet_elements
     if element is Element.TET10:
         grading = TetrahedronGrading() if fillet is None else TetrahedronGrading(fillet_elements=fillet)
@@ -302,7 +304,7 @@ def _dimension(options: MeshOptions, element: Element | None, gears: Mapping[str
 
 
 def _usual(dimension: int, element: Element | None, pair: GearPair | None) -> Extent:
-    """How much is meshed where nothing is said of it."""
+    """Return the extent where the options name none: the whole part for tet10, one gear's ring, or a pair in mesh."""
     if element is Element.TET10:
         return Extent(What.PART)
     if pair is None:
@@ -311,7 +313,10 @@ def _usual(dimension: int, element: Element | None, pair: GearPair | None) -> Ex
 
 
 def _usual_element(dimension: int, extent: Extent) -> Element:
-    """That of which nothing is said. Triangles become larger inwards from where a pair touches; quadrangles stand in rows."""
+    """Return the element where the options name none.
+
+    Triangles become larger inwards from the contact of a pair; quadrangles stand in rows.
+    """
     if extent.what is What.PART:
         return Element.TET10
     if dimension == 3:
@@ -361,7 +366,7 @@ _COPIES, _IMPORTS = 2.2, 1e8
 
 
 def expected_mesh(plan: MeshPlan) -> Expected | None:
-    """What a mesh is expected to be and to take; None for tetrahedra, of which nobody knows."""
+    """Return the expected size, time and memory of a mesh; None for tetrahedra, whose number is not known before."""
     amount = plan.amount
     if amount is None:
         return None

@@ -319,14 +319,14 @@ class SectorLayout:
 
     @cached_property
     def root(self) -> tuple[Piece, ...]:
-        """From the cut along root land, if there is one, and lower fillet to the split."""
+        """Pieces of the outline from the cut along root land, if there is one, and lower fillet to the split."""
         lengths = self._lengths
         land = self._piece(lengths, Side.LEFT_ROOT, CurveKind.ROOT) if CurveKind.ROOT in self._curves else ()
         return (*land, *self._piece(lengths, Side.LEFT_FILLET, CurveKind.FILLET, 0.0, self.split))
 
     @cached_property
     def flank(self) -> tuple[Piece, ...]:
-        """From the split along upper fillet, flank and tip chamfer, if there is one, to the tip land.
+        """Pieces of the outline from the split along upper fillet, flank and tip chamfer, if there is one, to the tip land.
 
         A chamfer turns more from the land than from the flank, so the block has its corner there.
         """
@@ -386,7 +386,7 @@ class SectorLayout:
 
     @cached_property
     def depth(self) -> float:
-        """From the split to the held circle, in logarithms of radii."""
+        """Distance from the split to the held circle, in logarithms of radii."""
         return float(self.corner[1]) - self.plane.height(self.held_radius)
 
     def across_line(self, s: Floats) -> Floats:

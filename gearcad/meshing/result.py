@@ -52,7 +52,7 @@ class Gate:
         return f"{self.quantity}: {self.value:.3g}, must be {bound}{' ' if self.unit else ''}{self.unit}"
 
     def to_dict(self) -> dict[str, Any]:
-        """As mesh.json has it."""
+        """Return the entry of mesh.json."""
         bound = "at_least" if self.least else "at_most"
         return {"quantity": self.quantity, "value": self.value, bound: self.limit, "unit": self.unit, "passed": self.passed}
 
@@ -86,7 +86,7 @@ class JudgedMesh:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know of it."""
+        """Notice that elements are too coarse, if flanks or fillets deviate too much between nodes."""
         off = self.deviations
         if off.between <= COARSE:
             return ()
@@ -105,21 +105,21 @@ class JudgedMesh:
 
     @property
     def openness(self) -> float:
-        """What share of the surface has no name, or two; 0 if every side is there once."""
+        """Share of the surface that has no name, or two; 0 if every side is there once."""
         return openness(self._surface, self.quality.element.shape.dimension)
 
     @property
     def mean_offset(self) -> float:
-        """How far (µm) the surface is from the exact one on the mean: by how much area or volume differ."""
+        """Mean distance (µm) of the surface from the exact one: the difference in area or volume over the size of the surface."""
         return 1000 * abs(self.whole - self.exact) / self._surface.size
 
     @property
     def greatest_offset(self) -> float:
-        """How far (µm) the surface is from the exact one at the most, as far as it is measured between nodes."""
+        """Greatest distance (µm) of the surface from the exact one, as far as measured between nodes."""
         return max(self.deviations.between, self.others.between)
 
     def to_dict(self) -> dict[str, Any]:
-        """As mesh.json has it."""
+        """Return the entry of mesh.json."""
         solid = self.quality.element.shape.dimension == 3
         size = "area" if solid else "length"
         return {
@@ -143,7 +143,7 @@ class Deck(Protocol):
 
     @property
     def expected(self) -> dict[str, Any]:
-        """What our own check finds of the same, to be compared with."""
+        """Results of gearcad's own check for the same case, to compare with."""
 
     def write(self, path: Path) -> None:
         """Write it."""
@@ -169,7 +169,7 @@ class MeshResult(Pictured):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before using the meshes."""
+        """Notices to read before the meshes are used."""
         found = (notice.within(name) for name, judged in self.judged.items() for notice in judged.notices)
         return (*self.plan.notices, *found)
 
@@ -267,7 +267,7 @@ def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> Mes
 
 
 def _judged(mesh: ElementMesh, planned: GearPlan, plan: MeshPlan) -> JudgedMesh:
-    """What is found of one gear's mesh. Raises SolverError for one with folded elements."""
+    """Return one gear's mesh with its quality, deviations and gates. Raises SolverError for a mesh with folded elements."""
     measured = quality(mesh)
     require_good(measured, _FOLDED)
     sides = {name: (len(faces), measure_side(mesh, name)) for name, faces in mesh.sides.items()}
@@ -289,8 +289,10 @@ def _judged(mesh: ElementMesh, planned: GearPlan, plan: MeshPlan) -> JudgedMesh:
 
 
 def _gates(judged: JudgedMesh, plan: MeshPlan) -> Iterator[Gate]:
-    """What decides. Edges that are straight, or as long as somebody wants, are as far off as comes of that, but area and volume
-    then differ by no more than the faces do between their nodes.
+    """Yield the gates that decide whether a mesh is passed.
+
+    The deviation between nodes has no gate for straight edges, for tet10, or if a size or a number of elements is given.
+    Without a gate of its own, the mean distance of the surface must not exceed the greatest between nodes.
     """
     element, off = plan.element, judged.deviations
     yield Gate("least scaled Jacobian", judged.quality.least_jacobian, LEAST_SCALED_JACOBIAN[element], "", least=True)

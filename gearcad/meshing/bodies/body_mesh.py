@@ -144,7 +144,7 @@ def mesh_body(
 
 
 def swept_notices(gear: Gear) -> list[Notice]:
-    """What of a gear's body swept hexahedra do not have."""
+    """Return a notice of the features of a gear's body that swept hexahedra leave out; an empty list if there are none."""
     body = gear.body
     features = {
         "keyway": body.keyway_width,
@@ -281,11 +281,11 @@ def poses(pair: GearPair, roll_angle: float, approach: float = 0.0, *, solid: bo
 
 
 def contacts(pair: GearPair, roll_angle: float, beyond: float = 0.0, *, left: bool = True) -> PerGear[Mapping[int, float]]:
-    """Where the flanks of unmodified teeth touch in the middle of the common face width: teeth of each gear, and roll lengths
-    (mm) on their flanks.
+    """Return the teeth of each gear in contact in the middle of the common face width, and their roll lengths (mm).
 
-    Tooth j of the pinion meets tooth -j of the wheel, or tooth j of a ring, whose roll lengths are negative. Pairs up to
-    `beyond` (mm on the line of action) outside the path of contact count too; their places are the ends of the flanks.
+    Flanks are taken as unmodified. Tooth j of the pinion meets tooth -j of the wheel, or tooth j of a ring, whose roll lengths
+    are negative. Pairs up to `beyond` (mm on the line of action) outside the path of contact count too; their places are the
+    ends of the flanks.
     """
     middle, pitch = _lengths(pair, roll_angle).pinion, pair.pinion.transverse_base_pitch
     first, last = pair.usable_path
@@ -339,7 +339,7 @@ _CLOSEST = 1e-3
 
 
 class Amount(NamedTuple):
-    """What a mesh consists of; `bytes` is the memory that its nodes and elements take."""
+    """Counts of elements and nodes of a mesh; `bytes` is the memory that they take."""
 
     elements: int
     nodes: int
@@ -377,9 +377,10 @@ def expected_amount(
     element: Element,
     contacts: Mapping[int, ContactZone] = NO_CONTACTS,
 ) -> Amount:
-    """What `mesh_section` or `mesh_body` will make of the same. Of triangles one sector of each kind is meshed for it.
+    """Return the amount of elements and nodes that `mesh_section` or `mesh_body` will make from the same arguments.
 
-    Raises ParameterError, also for tetrahedra, of which nobody knows, GeometryError and SolverError.
+    For triangles, one sector of each kind is meshed to count them. Raises ParameterError, also for tetrahedra, whose number is
+    not known before, GeometryError and SolverError.
     """
     if element is Element.TET10:
         raise ParameterError("element", element.value, "must not be tet10: how many there will be is not known before")
@@ -401,7 +402,7 @@ def _amount(element: Element, elements: int, nodes: int) -> Amount:
 
 
 class _Section(NamedTuple):
-    """Of a section: its elements, vertices and edges."""
+    """Counts of a section: its elements, vertices and edges."""
 
     elements: int
     vertices: int
@@ -409,7 +410,7 @@ class _Section(NamedTuple):
 
     @classmethod
     def of(cls, sectors: Sectors, teeth: int | None) -> _Section:
-        """By Euler's formula, from elements and edges of the outline."""
+        """Return the counts of elements, vertices and edges by Euler's formula, from elements and edges of the outline."""
         counts = [sectors.count(tooth) for tooth in teeth_of(sectors.gear, teeth)]
         elements, outline = (sum(getattr(count, name) for count in counts) for name in ("elements", "outline"))
         holes = 1 if teeth is None and not sectors.disc else 0
@@ -431,9 +432,10 @@ def _in_disc(sectors: Sectors, edges: int) -> int:
 
 
 def factor_for(elements: int, count: Callable[[float], int], dimension: int) -> float:
-    """By how much shorter all edges must be for `count`, which gives elements for such a factor, to come to `elements`.
+    """Return the factor by which all edges must be shorter for the number of elements to come to `elements` within 10 %.
 
-    It comes within 10 %, or raises ParameterError with what is near.
+    `count` gives the number of elements for a factor. Raises ParameterError, which names a number nearby, if none is within 10
+    %.
     """
     require_whole("elements", elements, at_least=1, at_most=10**9)
     factor, low, high = 1.0, 0.0, math.inf

@@ -50,7 +50,7 @@ class Element(Enum):
 
     @property
     def shape(self) -> Shape:
-        """Its nodes and sides."""
+        """Nodes and sides of the element."""
         return _SHAPES[self]
 
 
@@ -220,7 +220,7 @@ def side_fields(mesh: ElementMesh) -> Iterator[tuple[str, NDArray[np.int16] | ND
 
 
 def part_numbers(mesh: ElementMesh) -> NDArray[np.uint8]:
-    """Of each element: which of the parts it belongs to, from 1."""
+    """Return the number (m,) of the part to which each element belongs, from 1."""
     numbers = np.empty(len(mesh.cells), np.uint8)
     for number, part in enumerate(mesh.parts.values(), 1):
         numbers[part] = number
@@ -271,7 +271,7 @@ def _powers(kind: str) -> Wholes:
 
 @cache
 def _coefficients(kind: str) -> Floats:
-    """Of the monomials (n,) in the shape functions (n,)."""
+    """Return the coefficients (n, n) of the monomials in the shape functions."""
     result: Floats = np.linalg.inv(np.prod(local_places(kind)[:, None] ** _powers(kind), axis=-1))
     return result
 

@@ -107,7 +107,7 @@ class Deviations:
     worst: str
 
     def to_dict(self) -> dict[str, Any]:
-        """As mesh.json has it."""
+        """Return the deviations as an entry of mesh.json."""
         return {"nodes": self.nodes, "between_nodes": self.between, "worst": self.worst}
 
 
@@ -234,7 +234,7 @@ class SideDeviations:
     worst: str
 
     def to_dict(self) -> dict[str, Any]:
-        """As mesh.json has it."""
+        """Return the deviations as an entry of mesh.json."""
         return {"nodes": self.nodes, "between_nodes": self.between, "worst": self.worst}
 
 
@@ -302,7 +302,7 @@ def _from_radius(radius: float, points: Floats) -> Floats:
 
 
 def _from_tip(gear: Gear, tooth: int, solid: bool, points: Floats) -> Floats:
-    """From the tip circle or a tip chamfer of the tooth, whichever is nearer."""
+    """Return the distances (mm) of points from the tip circle or a tip chamfer of the tooth, whichever is nearer."""
     every = [_from_radius(gear.profile.tip_diameter / 2, points), *chamfer_distances(gear, tooth, points, solid=solid)]
     nearest: Floats = np.minimum.reduce(every)
     return nearest

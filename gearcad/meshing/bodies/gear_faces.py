@@ -68,7 +68,7 @@ class BrepFace:
 
     @property
     def width(self) -> float:
-        """How wide (mm) it is, which may be long."""
+        """Width (mm) of the face, which may be long: area over the diagonal of its box."""
         return self.area / float(np.linalg.norm(self.box[1] - self.box[0]))
 
 
@@ -156,7 +156,7 @@ def _gmsh() -> Iterator[Any]:
 
 @contextmanager
 def _refusals(what: str) -> Iterator[None]:
-    """What gmsh raises is an Exception and no more."""
+    """Raise SolverError in place of any error of gmsh, whose own errors are plain Exceptions."""
     try:
         yield
     except Exception as error:
@@ -188,7 +188,7 @@ def _face(gmsh: Any, tag: int) -> BrepFace:
 
 
 def _set_sizes(gmsh: Any, faces: Sequence[int], wanted: EdgeLengths) -> None:
-    """On faces the least of what they and their neighbours want; into faces and inwards it grows."""
+    """Set gmsh's edge lengths: on faces the least that they and their neighbours want; they grow into faces and inwards."""
     for name, value in _OPTIONS.items():
         gmsh.option.set_number(f"Mesh.{name}", value)
     fields = [_constant(gmsh, length, tags) for length, tags in _grouped(faces, wanted.faces).items()]
@@ -227,7 +227,7 @@ def _interrupts_kept() -> Iterator[Event]:
 
 
 def _asked(radial: Mapping[tuple[int, int], RadialLengths], interrupted: Event) -> Callable[..., float]:
-    """What tells gmsh the length at a place: after an interrupt the greatest there is, so that it is done soon."""
+    """Return a callback that tells gmsh the length (mm) at a place; after an interrupt the greatest length, to finish soon."""
 
     def length(dimension: int, tag: int, x: float, y: float, _z: float, length: float) -> float:
         if interrupted.is_set():
@@ -326,7 +326,7 @@ class GearFaces:
         return flank_curves(self.gear)
 
     def told(self, faces: Sequence[BrepFace]) -> list[GearFace]:
-        """What these faces are. Raises SolverError for one that a gear has not."""
+        """Return the kind of each of these faces. Raises SolverError for a face that a gear does not have."""
         return [_TELL[face.surface](self, face) for face in faces]
 
     def _tooth(self, face: BrepFace) -> tuple[int, float]:

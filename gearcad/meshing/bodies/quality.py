@@ -57,7 +57,7 @@ class WorstElement:
         return f"element {self.number + 1} at ({x:.4g}, {y:.4g}, {z:.4g}) mm{near}"
 
     def to_dict(self) -> dict[str, Any]:
-        """As mesh.json has it: elements are counted from 1, as files do."""
+        """Return the element as an entry of mesh.json. Elements are counted from 1, as in files."""
         return {
             "element": self.number + 1,
             "scaled_jacobian": self.scaled_jacobian,
@@ -86,7 +86,7 @@ class Quality:
     worst: tuple[WorstElement, ...]
 
     def to_dict(self) -> dict[str, Any]:
-        """As mesh.json has it."""
+        """Return the quality as an entry of mesh.json."""
         return {
             "least_scaled_jacobian": self.least_jacobian,
             "mean_scaled_jacobian": self.mean_jacobian,
@@ -200,7 +200,10 @@ def _longest_at_a_vertex(tangents: list[Floats]) -> Floats:
 
 
 def _of_edges(element: Element, nodes: Floats) -> tuple[Floats, Floats]:
-    """Of elements with nodes at (m, nodes, dimension): longest over shortest edge, and the greatest cosine between two."""
+    """Return two arrays (m,) for elements with nodes at (m, nodes, dimension).
+
+    These are longest over shortest edge, and the greatest cosine between two edges.
+    """
     edges = np.array(element.shape.edges)
     vectors = nodes[:, edges[:, 1]] - nodes[:, edges[:, 0]]
     lengths = np.maximum(np.sqrt((vectors**2).sum(axis=-1)), _NOTHING)
@@ -308,7 +311,7 @@ def measure_whole(mesh: ElementMesh) -> float:
 
 
 def _measure(places: Floats, face: str) -> Measure:
-    """Of faces together, with nodes at `places` (n, nodes, 3)."""
+    """Return the measure of faces together, with nodes at `places` (n, nodes, 3)."""
     local, weights = _quadrature(face)
     size, outward, moments = 0.0, np.zeros(3), np.zeros(3)
     for values, slopes, weight in zip(shape_values(face, local), shape_slopes(face, local), weights, strict=True):

@@ -35,7 +35,7 @@ class Turns:
     fields: Floats
 
     def at(self, height: int) -> Floats:
-        """Those of all nodes (n,) at one of the heights, by its number."""
+        """Return the angles (n,) in rad of all nodes at one of the heights, by its number."""
         result: Floats = self.shares[height] @ self.fields
         return result
 
@@ -149,7 +149,10 @@ class _Outline:
         return left * (1 + place) / 2 + right * (1 - place) / 2
 
     def _of_root_land(self, angle: Floats, *, left: bool) -> Floats:
-        """From the end of this fillet to the cut in the middle of the land, which is between both ends."""
+        """Return the turns at angles (rad) on the root land, from the end of this fillet to the cut in the middle of the land.
+
+        The turn at the cut is halfway between those at both ends.
+        """
         end = np.zeros(1)
         own, other = self._of_fillet(end, left=left), self._of_fillet(end, left=not left)
         middle = np.pi / self.gear.tooth_count

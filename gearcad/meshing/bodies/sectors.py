@@ -308,7 +308,7 @@ class Sectors:
     def of_gear(
         cls, gear: Gear, held_radius: float, sizes: MeshSizes, element: Element, contacts: Mapping[int, ContactZone]
     ) -> Sectors:
-        """Those of a gear whose teeth have zones by any number that means them: -1 is the last tooth."""
+        """Return the sectors of a gear. Zones may go by any number of a tooth: -1 is the last tooth."""
         return cls(gear, held_radius, sizes, element, {tooth % gear.tooth_count: zone for tooth, zone in contacts.items()})
 
     def __post_init__(self) -> None:
@@ -339,7 +339,10 @@ class Sectors:
         return self.known[kind]
 
     def count(self, tooth: int) -> SectorCount:
-        """What it has; quadrangles need no mesh to be counted. Raises GeometryError and SolverError."""
+        """Return the counts of a tooth's sector.
+
+        Quadrangles are counted without a mesh. Raises GeometryError and SolverError.
+        """
         kind = self._kind(tooth)
         if kind not in self.counted:
             self.counted[kind] = self._count(kind) if self.element is Element.QUAD8 else _counted(self.of(tooth))

@@ -248,7 +248,7 @@ def part_edges(points: Floats, cells: Cells, wanted: list[Edges]) -> tuple[Float
 
 
 def _parts(cells: Cells, rings: list[Indices], edges: Edges, new: int) -> list[Cells]:
-    """What becomes of the tetrahedra around each edge: those that are around both vanish, each other one is two."""
+    """Return the tetrahedra that replace those around each edge: those around both edges vanish, each other one becomes two."""
     both = np.intersect1d(rings[0], rings[-1]) if len(rings) == 2 else rings[0][:0]
     found = []
     for ring, edge in zip(rings, edges, strict=True):
@@ -258,7 +258,7 @@ def _parts(cells: Cells, rings: list[Indices], edges: Edges, new: int) -> list[C
 
 
 def _best(points: Floats, edges: Edges, whole: Cells, parts: Cells) -> Floats:
-    """Where the new vertex makes the worst of the new tetrahedra best."""
+    """Return the place (3,) of the new vertex, chosen so that the worst of the new tetrahedra is as good as possible."""
     ends = np.unique(edges)
     middle = points[ends].mean(0)
     way = points[np.setdiff1d(whole, ends)].mean(0) - middle
@@ -633,7 +633,7 @@ def _halved(gear: Gear, tooth: int, triangles: Cells, points: Floats) -> dict[st
 
 
 def _found(cells: Cells, triangles: Cells) -> Wholes:
-    """Where triangles (k, 3) are among the sides of tetrahedra (m, 10), four of each. Raises SolverError."""
+    """Return the places of triangles (k, 3) among the sides of tetrahedra (m, 10), four sides each. Raises SolverError."""
     number = np.full(int(cells.max()) + 1, -1)
     nodes = np.unique(triangles)
     number[nodes] = np.arange(len(nodes))
