@@ -74,7 +74,7 @@ def _least_radius(gear: GearData) -> float:
 
 
 def _terms(gear: GearData) -> str:
-    """What the corner's room depends on."""
+    """Return, in words, the condition under which the cutter's corner has room."""
     teeth = gear.cutter.teeth
     return "for a space of that depth" if teeth is None else f"for a cutter of {teeth} teeth that reaches the root circle"
 
@@ -167,7 +167,7 @@ class _CutterTips(ToothTips):
 
     @classmethod
     def rounded(cls, tip: ShaperTip, teeth: int) -> _CutterTips:
-        """Those of a cutter's corner."""
+        """Return the rounded tips of a cutter with `teeth` teeth, from its corner `tip`."""
         along, across = tip.outline(np.linspace(tip.last_angle, 0.0, _CORNER_POINTS if tip.radius else 1))
         edges = zip(np.hypot(along, across).tolist(), np.arctan2(across, along).tolist(), strict=True)
         return cls(teeth, tip.base_radius, tip.base_half_angle, tuple(edges))
@@ -180,7 +180,9 @@ class _CutterTips(ToothTips):
 
 
 def trimming_notices(gear: GearData, profile: ToothProfile) -> Iterator[Notice]:
-    """What a ring's cutter takes from its tips; nothing without a cutter."""
+    """Yield a notice if the cutter of a ring trims the ring's tips, as it rolls or as it is fed in. Yield nothing without a
+    cutter.
+    """
     teeth = gear.cutter.teeth
     if not gear.internal or teeth is None:
         return
@@ -196,7 +198,7 @@ def trimming_notices(gear: GearData, profile: ToothProfile) -> Iterator[Notice]:
 
 
 def _tips(gear: GearData, profile: ToothProfile, teeth: int) -> InternalTips:
-    """Those of the cutter inside its ring."""
+    """Return the tips of the cutter inside its ring, with `teeth` teeth of the cutter."""
     tip = shaper_tip(gear, corner_radius(gear))
     return InternalTips(_CutterTips.rounded(tip, teeth), ToothTips.of(profile), tip.centre_distance)
 
@@ -221,7 +223,7 @@ MOST_TWIST = 720.0
 
 
 def check_given(gear: GearData) -> None:
-    """What can be said of it before its teeth: each field, the module and the thinning that follow, and the other numbers."""
+    """Check a gear before its teeth exist: each field alone, then the other numbers. Derives module and thinning in between."""
     _check_fields(gear)
     derive_module(gear)
     derive_thinning(gear)

@@ -295,7 +295,7 @@ class ShaperTip:
 
     @property
     def _side(self) -> int:
-        """Where the gear's axis is: behind the cutter's (+1, a ring) or before its tip (-1)."""
+        """Return on which side the gear's axis is: +1 behind the cutter's (a ring), -1 before the cutter's tip."""
         return 1 if self.internal else -1
 
     @cached_property
@@ -314,7 +314,7 @@ class ShaperTip:
         return self.centre_distance > 0
 
     def _contact(self, theta: Floats) -> _Contact:
-        """Where theta cuts: the normal passes through the pitch point, sin gamma = h/r_w0."""
+        """Return the contact at which `theta` cuts: its normal passes through the pitch point, sin gamma = h/r_w0."""
         normal = self._normal(theta)
         gamma = np.arcsin(normal.moment / self.working_radius)
         rise = 2 * self.working_radius * np.sin(gamma / 2) ** 2 - normal.short

@@ -125,9 +125,10 @@ def standard_tolerance(grade: int, size: float) -> float:
 
 
 def limit_deviations(tolerance_class: str, size: float) -> LimitDeviations:
-    """Those of a hole ("H7") or a shaft ("g6"): letters d to h, js, j (shafts), k, m, n, p, r, s and u; up to 500 mm.
+    """Return the limit deviations (µm) of a hole ("H7") or a shaft ("g6") of `size` (mm).
 
-    Classes js, JS, h and H reach as far as their grade. Raises ParameterError.
+    Letters d to h, js, j (shafts), k, m, n, p, r, s and u are covered, up to 500 mm. Classes js, JS, h and H reach as far as
+    their grade. Raises ParameterError.
 
     >>> limit_deviations("H7", 40), limit_deviations("g6", 40)
     (LimitDeviations(upper=25.0, lower=0.0), LimitDeviations(upper=-9.0, lower=-25.0))

@@ -384,7 +384,7 @@ class Gear(GearData):
 
     @cached_property
     def thickness_limits(self) -> ThicknessLimits | None:
-        """What gauges may find within the `tooth_allowance`; None without one."""
+        """Limits (mm) of what gauges may find within the `tooth_allowance`; None without one."""
         allowance = self.thickness_allowance
         return None if allowance is None else ThicknessLimits.of(self.inspection, allowance)
 
@@ -392,7 +392,7 @@ class Gear(GearData):
 
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
-        """What an engineer should know about this gear before making it."""
+        """Notices about this gear that an engineer should read before making it."""
         of_inspection = self.inspection.notices(self.form_diameter, self.tip_form_diameter, self.half_width)
         return (*self._notices_of_teeth(), *of_inspection)
 
@@ -584,7 +584,9 @@ class TurnedCurve:
         return np.stack([radius * np.cos(angle), radius * np.sin(angle)], -1)
 
     def direction(self, s: ArrayLike) -> Floats:
-        """That of the curve, and a sideways step by what the turn grows."""
+        """Return the direction of travel (rad) at parameters `s` of the turned curve. The sum of the curve's own direction, the
+        turn, and the tilt by the sideways step as the turn grows.
+        """
         s = np.asarray(s, float)
         heading, (radius, angle) = self.curve.direction(s), self.curve.polar(s)
         low, high = np.clip(s - _STEP, 0, 1), np.clip(s + _STEP, 0, 1)

@@ -319,7 +319,9 @@ def corner_radius(gear: GearData) -> float:
 
 
 def corner_notices(gear: GearData) -> Iterator[Notice]:
-    """What was taken for a corner that was not given: no cutter at all, and the full radius instead of the rack's."""
+    """Yield a notice if the radius of the cutter's corner was assumed: no cutter is given, or the full radius replaces the
+    rack's.
+    """
     if not shaped(gear):
         return
     radius, rack = corner_radius(gear), gear.rack.root_radius
@@ -333,7 +335,7 @@ def corner_notices(gear: GearData) -> Iterator[Notice]:
 
 
 def first_touch(gear: GearData, profile: ToothProfile, pressure_angle: float) -> float:
-    """Where on the line of action (mm from T1) the left flank of tooth 0 is while that tooth points at the mate.
+    """Return the place (mm from T1, along the line of action) of the left flank of tooth 0 while that tooth points at the mate.
 
     r_b (psi_b + alpha_wt), psi_b the half tooth angle on the base circle; `pressure_angle` is the working transverse one
     (degrees). Turned by phi (rad, counter-clockwise) the flank is r_b phi further on, the other left flanks whole base pitches
@@ -354,7 +356,10 @@ def check_body(gear: GearData) -> None:
 
 
 def _check_gap(gear: GearData) -> None:
-    """What is between the halves of a double helical gear lies below the teeth and leaves a wall round bore and keyway."""
+    """Raise GeometryError unless the gap of a double helical gear lies below its teeth and leaves a wall round the bore.
+
+    The wall is also round the keyway.
+    """
     wall = 2 * LEAST_RIM * gear.normal_module
     least, most = gear.body.opening_diameter + wall, gear.root_diameter - wall
     if not least <= gear.gap_diameter <= most:
@@ -368,7 +373,10 @@ def least_rim_diameter(gear: GearData) -> float:
 
 
 def _check_ring(gear: GearData) -> None:
-    """What is outside the teeth of a ring."""
+    """Raise GeometryError if the body outside the teeth of a ring is not possible.
+
+    Checks rim, bolt holes and end chamfers, and that no parts for external gears are given.
+    """
     body = gear.body
     for name in ("bore", "keyway_width", "hub_diameter"):
         if getattr(body, name):
@@ -412,7 +420,10 @@ def _check_bolt_holes(gear: GearData) -> None:
 
 
 def _check_disc(gear: GearData) -> None:
-    """What is inside the teeth of an external gear."""
+    """Raise GeometryError if the body inside the teeth of an external gear is not possible.
+
+    Checks bore, keyway, hub, rim thickness and end chamfers, and that no parts for internal gears are given.
+    """
     for name in ("rim_diameter", "bolt_circle"):
         if getattr(gear.body, name):
             raise GeometryError(f"body.{name}", getattr(gear.body, name), "must be left out: it is for internal gears", "mm")

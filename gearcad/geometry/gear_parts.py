@@ -206,7 +206,7 @@ _ALLOWANCES = ((6, 100.0), (32, 200.0), (100, 300.0))
 
 
 def keyway_of(bore: float) -> Keyway:
-    """Of a bore from 6 to 500 mm. Raises GeometryError for another one.
+    """Return the keyway (mm) of DIN 6885 for a bore from 6 to 500 mm. Raises GeometryError for another bore.
 
     >>> keyway_of(40.0)
     Keyway(width=12.0, depth=3.3)
@@ -321,7 +321,7 @@ class Body:
 
     @property
     def hub_ends(self) -> tuple[float, float]:
-        """How far the hub stands out below z = 0 and beyond z = face width (mm)."""
+        """Lengths (mm) by which the hub stands out below z = 0 and beyond z = face width."""
         back = self.hub_length if self.hub_side in (HubSide.BACK, HubSide.BOTH) else 0.0
         front = self.hub_length if self.hub_side in (HubSide.FRONT, HubSide.BOTH) else 0.0
         return back, front

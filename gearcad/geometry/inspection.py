@@ -178,7 +178,9 @@ class Inspection:
 
     @property
     def pin_axial_shift(self) -> float:
-        """How far apart along the axis two pins lie that are measured over (mm): half an axial pitch if z is odd, else 0."""
+        """Return the distance (mm) along the axis between the two pins of a measurement: half an axial pitch if z is odd, else
+        0.
+        """
         if not self.helix_angle or self.teeth % 2 == 0:
             return 0.0
         return self.lead / self.teeth / 2
@@ -349,7 +351,7 @@ class RackInspection:
         return self.pin_centre(pin) - pin / 2 * math.sin(math.radians(self.pressure_angle))
 
     def over_pin(self, pin: float) -> float:
-        """From the back to the highest line of the pin, M = H_0 + centre + D/2.
+        """Return the distance (mm) from the rack's back to the highest line of the pin, M = H_0 + centre + D/2.
 
         Raises GeometryError for a pin that rests on the root, or on no flank.
         """
@@ -374,7 +376,7 @@ class RackInspection:
         return max(lowest, (self._normal_space / tangent - 2 * self.root_depth) * sine / (1 - sine)), highest
 
     def notices(self) -> Iterator[Notice]:
-        """What to know of the suggested pin."""
+        """Yield a notice if the suggested pin touches no flank, or stays below the tips."""
         pin = self.pin_diameter
         try:
             over = self.over_pin(pin)
@@ -426,9 +428,10 @@ def chord_below_tip(teeth: Inspection, addendum: float, height: float) -> Chord:
 
 
 def inspection_of(gear: GearData, middle_diameter: float) -> Inspection:
-    """That of a gear, external or internal, whose gauges had best touch on a diameter (mm, signed as its own).
+    """Return the inspection of a gear, external or internal. Gauges should touch on `middle_diameter` (mm, signed as the gear's
+    own).
 
-    Of data whose tip diameter is not known yet it gives everything but chordal heights.
+    If the tip diameter of the data is not known yet, the inspection gives everything but chordal heights.
     """
     kind = InternalInspection if gear.internal else Inspection
     thickness, angle = gear.normal_tooth_thickness, gear.transverse_pressure_angle
@@ -469,13 +472,16 @@ class ThicknessLimits:
 
     @classmethod
     def of(cls, inspection: Inspection, allowance: ToothAllowance) -> ThicknessLimits:
-        """Those of a gear whose `inspection` is that of teeth in the middle of their allowances."""
+        """Return the thickness limits of a gear. Its `inspection` is of teeth in the middle of their allowances."""
         half, internal = allowance.tolerance / 2000, inspection.teeth < 0
         extremes = tuple(_with_thickness(inspection, inspection.normal_tooth_thickness + each) for each in (-half, half))
         count, ball = inspection.spanned, inspection.ball_diameter
 
         def limits(measure: Callable[[Inspection], float], measured: bool) -> Limits | None:
-            """Thick teeth make spans larger, those over the spaces of a ring smaller."""
+            """Return the least and greatest reading (mm); None if `measured` is false or a ball falls to the base circle.
+
+            Thick teeth make spans larger, but spans over the spaces of a ring smaller.
+            """
             with suppress(GeometryError):  # a ball that falls to the base circle of thin teeth measures nothing
                 return Limits(*sorted(map(measure, extremes))) if measured else None
             return None

@@ -40,10 +40,11 @@ class FilletCut(NamedTuple):
 def fillet_cut(
     own: ToothProfile, mate: ToothProfile, *, centre_distance: float, pressure_angle: float, rounding: float
 ) -> FilletCut | None:
-    """What the tip edges of `mate` cut from the fillet of `own` while flanks touch; None if it is no more than `rounding`.
+    """Return the deepest cut by the tip edges of `mate` into the fillet of `own` while flanks touch. None if it is no deeper
+    than `rounding` (mm).
 
-    At a centre distance (mm) and its working transverse pressure angle (degrees). Where contact already ends in the fillet
-    (d_Ff above d_Nf) this includes what the involute of the mate overlaps.
+    The gears stand at a centre distance (mm) with its working transverse pressure angle (degrees). Where contact already ends
+    in the fillet (d_Ff above d_Nf) the cut includes what the involute of the mate overlaps.
     """
     edges = sorted({_flank_end(mate), _land_edge(mate)})
     cuts = (_cut_by_edge(own, mate, radius, angle, centre_distance, pressure_angle) for radius, angle in edges)
@@ -193,13 +194,13 @@ class ToothTips:
 
     @classmethod
     def of(cls, profile: ToothProfile) -> ToothTips:
-        """Those of a tooth profile."""
+        """Return the tips of a tooth profile."""
         edges = tip_edges(profile)
         return cls(round(profile.teeth), profile.base_diameter / 2, math.radians(profile.base_half_angle), edges)
 
     @classmethod
     def sharp(cls, teeth: int, base_radius: float, base_half_angle: float, tip_radius: float) -> ToothTips:
-        """Those of a ring without tip chamfers."""
+        """Return the tips of a ring without tip chamfers; radii in mm, the half angle on the base circle in radians."""
         roll = math.sqrt((tip_radius - base_radius) * (tip_radius + base_radius)) / base_radius
         return cls(teeth, base_radius, base_half_angle, ((tip_radius, base_half_angle + roll - math.atan(roll)),))
 
@@ -251,7 +252,7 @@ class InternalTips:
 
     @property
     def _ratio(self) -> float:
-        """By how much the ring turns when the pinion turns by one."""
+        """Turn of the ring per turn of the pinion."""
         return self.pinion.teeth / self.ring.teeth
 
     @cached_property
@@ -325,10 +326,11 @@ class InternalTips:
 
 
 def internal_fillet_cut(own: ToothProfile, mate: ToothProfile, *, centre_distance: float, rounding: float) -> FilletCut | None:
-    """What the tip edges of `mate` cut from the fillet of `own`, one of them a ring, with flanks touching.
+    """Return the deepest cut by the tip edges of `mate` into the fillet of `own` while flanks touch. One of the gears is a
+    ring.
 
-    None if it is no more than `rounding` (mm). Where contact already ends in the fillet this includes what the involute of
-    the mate overlaps.
+    None if the cut is no deeper than `rounding` (mm). Where contact already ends in the fillet the cut includes what the
+    involute of the mate overlaps.
     """
     pinion, ring = (mate, own) if own.internal else (own, mate)
     tips = InternalTips(ToothTips.of(pinion), ToothTips.of(ring), centre_distance)

@@ -125,9 +125,9 @@ _MOST_TRIALS = 100
 def root_between(
     function: Callable[[float], float], low: float, high: float, *, xtol: float = 2e-12, rtol: float = _EPSILON
 ) -> float:
-    """Where a function that has different signs at `low` and `high` is 0, to xtol + rtol |x|, by Brent's rule.
+    """Return where a function is 0 between `low` and `high`, at which its signs differ, to xtol + rtol |x|, by Brent's rule.
 
-    Step by step that of `scipy.optimize.brentq`, whose import costs more than any gear. Raises ValueError for equal signs,
+    The steps are those of `scipy.optimize.brentq`, whose import costs more than any gear. Raises ValueError for equal signs,
     SolverError where the tolerance is not reached.
     """
     before, here = low, high

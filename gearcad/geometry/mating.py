@@ -50,7 +50,7 @@ def internal_tips(pair: PairData, ring: ToothProfile | None = None) -> InternalT
 
 
 def interference_margins(pair: PairData) -> InterferenceMargins:
-    """How far the pair is from each interference (mm)."""
+    """Return the margins (mm) of the pair against each kind of interference."""
     tips = internal_tips(pair)
     pinion, ring = (abs(tangent_length(gear.form_diameter, gear.base_diameter)) for gear in pair.gears)
     return InterferenceMargins(
@@ -150,7 +150,9 @@ def _has_room(pair: PairData, margin: Callable[[InternalTips], float], clear: bo
 
 
 def _sharp_tips(pair: PairData, teeth: int, tip_alteration: float) -> InternalTips:
-    """Those of the same pair with another number of teeth and tip of the ring, but for its tip chamfers, by formula."""
+    """Return the tips of the same pair with `teeth` teeth and another `tip_alteration` of the ring. Calculated by formula,
+    without the ring's tip chamfers.
+    """
     pinion, ring = pair.gears
     share = teeth / ring.tooth_count
     half_angle = ring.normal_tooth_thickness / (ring.normal_module * teeth) - involute(ring.transverse_pressure_angle)
@@ -221,7 +223,7 @@ def _fillet_margin(pair: PairData, role: Role) -> float:
 
 
 def _fillet_text(pair: PairData, role: Role, cut: FilletCut) -> str:
-    """What the tip of its mate does to the fillet of a gear, and the tip that would not."""
+    """Return, in words, how the mate's tip cuts into the fillet of a gear, and which tip would not."""
     owner, other, gear, margin = role.value, role.mate.value, pair.gears.pick(role), _fillet_margin(pair, role)
     form = f"{'outside' if gear.internal else 'below'} its root form circle {gear.form_diameter:.4f} mm"
     if margin < -ROUNDING * pair.pinion.normal_module:
@@ -300,7 +302,7 @@ def tip_on_form_circle(gear: GearData, mate: Gear, centre_distance: float) -> fl
 
 
 def _fillet_cut(pair: PairData, role: Role) -> FilletCut | None:
-    """What the tip of its mate cuts from the fillet of a gear."""
+    """Return the cut by the mate's tip into the fillet of a gear; None without one."""
     return _cut(pair.gears.pick(role).profile, pair.gears.pick(role.mate).profile, pair)
 
 
@@ -419,7 +421,9 @@ def check_centre_distance(pair: PairData) -> None:
 
 
 def check_tolerance(pair: PairData) -> None:
-    """That of the centre distance keeps the axes off where base circles touch."""
+    """Raise GeometryError if the tolerance of the centre distance lets the axes come to where base circles touch, or if ISO 286
+    has none.
+    """
     if (name := pair.centre_distance_tolerance) is None:
         return
     if abs(pair.centre_distance) > LARGEST_DISTANCE:

@@ -223,14 +223,15 @@ class FlankForm:
     def of(
         cls, modification: FlankModification, profile: ToothProfile, face_width: float, helix_angle: float, module: float
     ) -> FlankForm:
-        """That of teeth of this profile; face width and normal module in mm, helix angle in degrees."""
+        """Return the flank form of teeth of this profile; face width and normal module in mm, helix angle in degrees."""
         base, side = profile.base_diameter, -1 if profile.internal else 1
         first, last = (side * tangent_length(end, base) for end in (profile.form_diameter, profile.tip_form_diameter))
         return cls(modification, first, last, face_width, base / 2, -1 if helix_angle < 0 else 1, module)
 
     def depth(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
-        """How far (mm) the left or right flank is taken back at roll lengths and heights z (mm), in the shape to which both
-        broadcast. Beyond the ends of the flank it is what it is at the end.
+        """Return the depth (mm) by which the left or right flank is taken back at roll lengths and heights z (mm).
+
+        The result has the shape to which both broadcast. Beyond the ends of the flank the depth is that at the end.
         """
         of = self.modification
         roll, z = np.clip(lengths, self.first, self.last), np.clip(heights, 0.0, self.width)

@@ -151,7 +151,7 @@ class GearPair(PairData):
 
     @cached_property
     def interference_margins(self) -> InterferenceMargins | None:
-        """How far tips are from each interference (mm), of a pair with a ring; None without one."""
+        """Margins (mm) of the tips against each kind of interference, for a pair with a ring; None without one."""
         return interference_margins(self) if self.internal else None
 
     @cached_property
@@ -193,7 +193,7 @@ class GearPair(PairData):
 
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
-        """What an engineer should know about this pair before making it."""
+        """Notices about this pair that an engineer should read before making it."""
         interference = interference_notices(self) if self.internal else self._fillet_interference()
         return (*interference, *self._notices_of_mesh())
 
@@ -213,7 +213,7 @@ class GearPair(PairData):
             yield Notice("low-contact-ratio", f"contact ratio: transverse contact ratio {ratio:.4f} is below 1")
 
     def _fillet_cut(self, role: Role) -> FilletCut | None:
-        """What the tip of its mate cuts from the fillet of a gear."""
+        """Return the cut by the mate's tip into the fillet of a gear; None if it is negligible."""
         return fillet_cut(
             self.gears.pick(role).profile,
             self.gears.pick(role.mate).profile,
@@ -241,7 +241,7 @@ class GearPair(PairData):
         return pair_html(self.name, self.gears, self.gears.map(lambda gear: gear.profile), self.wheel_pose(), figures)
 
     def _tolerated(self) -> dict[str, Any]:
-        """What a document has of tolerances, where there are any."""
+        """Return the tolerances for `to_dict`: the class of the centre distance and the limits of backlash, if there are any."""
         limits, name = self.backlash_limits, self.centre_distance_tolerance
         given = {} if name is None else {"centre_distance_tolerance": name}
         return given if limits is None else given | {"backlash_limits": limits._asdict()}

@@ -86,7 +86,7 @@ def shift_sum_limit(*, teeth: PerGear[int], helix_angle: float, pressure_angle: 
 
 
 def _beyond(limit: float, teeth: PerGear[int]) -> str:
-    """On the side of a limit where external teeth mesh, or the other one for internal teeth."""
+    """Return, in words, the side of a limit on which the teeth mesh: above for external teeth, below for internal teeth."""
     return f"above {at_least(limit)}" if sum(teeth) > 0 else f"below {at_most(limit)}"
 
 
@@ -173,7 +173,7 @@ class SpecificSliding(NamedTuple):
 
     @classmethod
     def between(cls, own: PerGear[Floats]) -> SpecificSliding:
-        """That of velocities (2,) along the tangent in A and E, in any unit."""
+        """Return the specific sliding from velocities (2,) along the tangent in A and E, in any unit."""
         sliding = sliding_along(own)
         ends = [float(values[end]) if math.isfinite(values[end]) else None for end in (0, 1) for values in sliding]
         finite = [abs(value) for value in ends if value is not None]
@@ -281,7 +281,7 @@ class ContactZone:
 
     @property
     def _reach(self) -> float:
-        """How far a line reaches along the path over the face width (mm)."""
+        """Distance (mm) along the path over which a line of contact extends across the face width."""
         return self.width * math.tan(self._helix)
 
     def line_length(self, roll_angle: ArrayLike) -> Any:
@@ -395,7 +395,7 @@ class PairData:
 
     @property
     def _sizes(self) -> dict[str, Any]:
-        """What the formulas of profile shift and centre distance want to know of both gears."""
+        """Arguments about both gears for the formulas of profile shift and centre distance."""
         return {
             "normal_module": self.pinion.normal_module,
             "teeth": self.gears.map(lambda gear: gear.teeth),
@@ -464,7 +464,7 @@ class PairData:
         return Backlash(*(settled(each, self.centre_distance) for each in self._backlash()))
 
     def _backlash(self, thicker: float = 0.0, farther: float = 0.0) -> Backlash:
-        """That of teeth `thicker` by a share of half their tolerances, with axes `farther` apart (mm)."""
+        """Return the backlash with teeth `thicker` by a share of half their tolerances, and with axes `farther` apart (mm)."""
 
         def half_angle(gear: Gear) -> float:
             allowance = gear.thickness_allowance

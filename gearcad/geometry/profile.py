@@ -284,7 +284,7 @@ class ToothProfile:
 
     @property
     def outer_diameter(self) -> float:
-        """Of root and tip circle the outer one (mm)."""
+        """Diameter (mm) of the outer one of root and tip circle."""
         return max(self.root_diameter, self.tip_diameter)
 
     @property
@@ -349,7 +349,7 @@ class ToothProfile:
 
     @cached_property
     def fillet(self) -> Fillet:
-        """What the tool's tip leaves between root circle and involute."""
+        """Fillet curve that the tool's tip leaves between root circle and involute."""
         return Fillet(self.tool, self._last_theta, self._half_pitch)
 
     @cached_property

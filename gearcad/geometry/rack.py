@@ -109,7 +109,7 @@ class RackData:
 
     @property
     def tip_form_height(self) -> float:
-        """Where the straight flank ends, above the reference line: the tip less its chamfer."""
+        """Height (mm) above the reference line at which the straight flank ends: the tip less its chamfer."""
         return self.tip_height - self.tip_chamfer
 
     @property
@@ -130,17 +130,17 @@ class RackData:
 
     @property
     def total_height(self) -> float:
-        """From the back to the tips."""
+        """Height (mm) from the back to the tips."""
         return self.height + self.tip_height
 
     @property
     def whole_pitches(self) -> int:
-        """How many pitches the length holds."""
+        """Number of whole pitches in the length."""
         return math.floor(self.length / self.transverse_pitch + WHOLE_PITCH)
 
     @property
     def drift(self) -> float:
-        """How far a tooth moves along +x (mm) per mm of height z: -tan beta, as a right-hand tooth on +y does."""
+        """Distance (mm) that a tooth moves along +x per mm of height z: -tan beta, as a right-hand tooth on +y does."""
         return 0.0 - math.tan(math.radians(self.helix_angle))
 
 
@@ -236,7 +236,7 @@ class RackProfile:
 
     @property
     def form_depth(self) -> float:
-        """Where the straight flank begins, below the reference line (mm)."""
+        """Depth (mm) below the reference line at which the straight flank begins."""
         return self.root_depth - self.root_radius * (1 - math.sin(math.radians(self.pressure_angle)))
 
     @cached_property
@@ -380,7 +380,7 @@ def _check_flank(rack: RackData) -> None:
 
 
 def _check_chamfer(rack: RackData) -> None:
-    """It takes material off, and leaves some flank and some land."""
+    """Raise GeometryError unless the tip chamfer takes material off and leaves some flank and some land."""
     slope = math.tan(math.radians(rack.transverse_pressure_angle))
     if slope >= 1:
         permitted = "must be 0 mm: the flank leans in by more than the chamfer's 45 deg"
@@ -539,7 +539,7 @@ class Rack(RackData):
 
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
-        """What an engineer should know about this rack before making it."""
+        """Notices about this rack that an engineer should read before making it."""
         return (*self._notices_of_teeth(), *self.inspection.notices())
 
     @property

@@ -67,12 +67,12 @@ class RackPairData:
 
     @property
     def pitch_line_height(self) -> float:
-        """Where the pitch line is on the rack, above its reference line: H - r."""
+        """Height (mm) of the pitch line on the rack above its reference line: H - r."""
         return self.mounting_distance - self.pitch_radius
 
     @property
     def back_distance(self) -> float:
-        """From the pinion's axis to the rack's back."""
+        """Distance (mm) from the pinion's axis to the rack's back."""
         return self.mounting_distance + self.rack.height
 
     @property
@@ -125,7 +125,7 @@ class RackPairData:
 
     @property
     def travel_per_degree(self) -> float:
-        """How far the rack moves per degree of the pinion."""
+        """Travel (mm) of the rack per degree of the pinion."""
         return self.travel_per_revolution / 360
 
     def rack_force(self, torque: float) -> float:
@@ -224,7 +224,10 @@ class RackPlace(NamedTuple):
 
 
 def cut_by_rack(pinion: ToothProfile, rack: RackProfile, place: RackPlace) -> EdgeCut:
-    """What the tip edges of a rack cut from the pinion's fillet while flanks touch; the place is a diameter (mm) there."""
+    """Return the deepest cut (mm) by the tip edges of a rack into the pinion's fillet while flanks touch.
+
+    The cut's `place` is a diameter (mm) of the pinion.
+    """
     working, reach = pinion.reference_diameter / 2, pinion.form_diameter / 2
 
     def clearance(height: float, half: float) -> tuple[float, Callable[[Floats], tuple[Floats, Floats]]]:
@@ -277,7 +280,10 @@ def _rack_edges(rack: RackProfile) -> list[tuple[float, float]]:
 
 
 def _deepest(clear: Callable[[Floats], tuple[Floats, Floats]], farthest: float) -> tuple[float, float]:
-    """Where (the first result) the second one is least between -farthest and farthest, and how far below zero it is."""
+    """Return where the pinion or rack is cut deepest, for t between -farthest and farthest, and how deep.
+
+    The place is the first result of `clear`, where the second is least; the depth is how far the second is below zero there.
+    """
     t = np.linspace(-farthest, farthest, _STEPS)
     for _ in range(3):
         at, room = clear(t)
@@ -338,7 +344,7 @@ class RackPair(RackPairData):
         return PathOfContact(start, end - pitch, middle, start + pitch, end)
 
     def _along(self, height: float) -> float:
-        """Where on the line of action (mm from T1) the rack is at a height over its reference line."""
+        """Return the place (mm from T1, on the line of action) of the rack at a height over its reference line."""
         angle = math.radians(self.working_transverse_pressure_angle)
         return self.pinion.base_diameter / 2 * math.tan(angle) - (height - self.pitch_line_height) / math.sin(angle)
 
@@ -393,7 +399,7 @@ class RackPair(RackPairData):
 
     @property
     def active_root_depth(self) -> float:
-        """How far below its reference line the pinion's tip form circle reaches on the rack's flank (mm)."""
+        """Depth (mm) below the rack's reference line to which the pinion's tip form circle reaches on the rack's flank."""
         path, angle = self.path_of_contact, math.radians(self.working_transverse_pressure_angle)
         return (path.E - path.C) * math.sin(angle) - self.pitch_line_height
 
@@ -428,7 +434,7 @@ class RackPair(RackPairData):
 
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
-        """What an engineer should know about this pair before making it."""
+        """Notices about this pair that an engineer should read before making it."""
         return (*self._interference(), *self._notices_of_mesh())
 
     @property
@@ -450,7 +456,9 @@ class RackPair(RackPairData):
         return RackPlace(self.mounting_distance, touching)
 
     def _interference(self) -> Iterator[Notice]:
-        """What the tip of one cuts from the other's fillet; a pinion that is merely undercut loses contact, no material."""
+        """Yield a notice for each tip that cuts into the other's fillet. A pinion that is merely undercut loses contact, no
+        material.
+        """
         teeth = self.pinion.profile, self.rack.profile
         if (cut := cut_by_rack(*teeth, self._place)).depth > FELT * self.pinion.normal_module:
             text = f"the rack's tip cuts {cut.depth:.2g} mm into the pinion's fillet at diameter {cut.place:.4f} mm"
