@@ -1,4 +1,4 @@
-"""Packages whose names are imported when they are first asked for, so that a command is as quick to start as to be stopped."""
+"""Packages whose names are imported at their first use, so that commands start quickly."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Verb(ModuleType):
 
     @property
     def function(self) -> Callable[..., Any]:
-        """That of the job."""
+        """The function of the job."""
         package, _, name = self.__name__.rpartition(".")
         module = import_module(f"{package}.jobs.verbs").module_of(name)
         found: Callable[..., Any] = getattr(import_module(f"{package}.jobs.{module}"), name)
@@ -85,7 +85,7 @@ class Verb(ModuleType):
 
     @property
     def __doc__(self) -> str:  # type: ignore[override]
-        """That of the room, then that of the function but for its examples, which are tested where they stand."""
+        """Docstring of the room, then that of the function without its examples, which are tested in their own place."""
         from inspect import cleandoc
 
         words = cleandoc(self.function.__doc__ or "").split("\n\n")

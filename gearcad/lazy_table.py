@@ -1,4 +1,4 @@
-"""LazyTable: a table of names whose values are made when they are first asked for."""
+"""LazyTable: a table of names whose values are made at their first use."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Value = TypeVar("Value")
 
 
 class LazyTable(Mapping[str, Value]):
-    """A mapping of `names`, each value of which `make` gives once."""
+    """A mapping of `names`; `make` is called once for each value, at its first use."""
 
     def __init__(self, names: Iterable[str], make: Callable[[str], Value]) -> None:
         self._names, self._make = tuple(names), make

@@ -106,7 +106,7 @@ _GRADE = re.compile(
 
 
 def grade_of(name: str) -> Grade | None:
-    """The grade that a name such as "Eh MQ" or "GGG (ferr.) ML" stands for; None for any other name."""
+    """Return the grade that a name such as "Eh MQ" or "GGG (ferr.) ML" stands for; None for any other name."""
     found = _GRADE.fullmatch(name.strip())
     return None if found is None else Grade(MaterialGroup(found[1]), MaterialQuality(found[2]))
 
@@ -187,12 +187,12 @@ Materials = Material | PerGear[Material]
 
 
 def of_both(material: Materials) -> PerGear[Material]:
-    """Those of both gears, of which one material may stand for both."""
+    """Return the materials of both gears; one material may stand for both."""
     return PerGear(material, material) if isinstance(material, Material) else material
 
 
 def by_gear(material: Materials) -> dict[str, Material]:
-    """Those of "pinion" and "wheel"; under "" that of both where it is the same."""
+    """Return the materials under "pinion" and "wheel", or one under "" if both are the same."""
     materials = of_both(material)
     if materials.pinion == materials.wheel:
         return {"": materials.pinion}
@@ -200,19 +200,19 @@ def by_gear(material: Materials) -> dict[str, Material]:
 
 
 def materials_document(material: Materials) -> dict[str, Any]:
-    """What documents have of it: "material" of both, or "materials" by gear."""
+    """Return the materials as documents have them: "material" of both, or "materials" by gear."""
     if isinstance(material, Material):
         return {"material": asdict(material)}
     return {"materials": {role.value: asdict(each) for role, each in material.items()}}
 
 
 def elastic_constants(materials: PerGear[Material]) -> tuple[PerGear[float], PerGear[float]]:
-    """E (MPa) and nu of both gears."""
+    """Return E (MPa) and nu of both gears."""
     return materials.map(lambda material: material.youngs_modulus), materials.map(lambda material: material.poisson_ratio)
 
 
 def _range(name: str, values: Sequence[float]) -> tuple[float, float]:
-    """Two limits, the lower one first."""
+    """Return two limits, the lower one first."""
     if len(values) != 2 or values[0] >= values[1]:
         raise ParameterError(name, list(values), "must be a number, or a range [low, high]", "MPa")
     return float(values[0]), float(values[1])

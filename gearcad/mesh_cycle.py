@@ -1,4 +1,4 @@
-"""MeshCycle: how stiff a pair is over one base pitch, by any method, and what a reader or a dynamic model takes from it."""
+"""MeshCycle: the mesh stiffness of a pair over one base pitch, by any method, and the values derived from it."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ class FourierSeries(NamedTuple):
 
     @property
     def amplitude(self) -> Floats:
-        """Of each harmonic (N/µm)."""
+        """Amplitude of each harmonic (N/µm)."""
         return np.hypot(self.cosine, self.sine)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `stiffness.json` has it."""
+        """Return the series as `stiffness.json` has it."""
         return {
             "mean": self.mean,
             "cosine": self.cosine.tolist(),
@@ -195,7 +195,7 @@ class MeshCycle(Pictured):
         return FourierSeries(float(self.weights @ values), np.cos(turns) @ weighted, np.sin(turns) @ weighted)
 
     def to_dict(self) -> dict[str, Any]:
-        """Figures and curves as `stiffness.json` has them: N/µm, µm/N, µm, degrees; per face width N/(mm·µm)."""
+        """Return figures and curves as `stiffness.json` has them: N/µm, µm/N, µm, degrees; per face width N/(mm·µm)."""
         course: dict[str, Any] = (
             {}
             if self.mean_only

@@ -1,4 +1,4 @@
-"""Mounting: how the gears of a pair stand to each other in the machine, unlike in the drawing."""
+"""Mounting: the positions of the gears of a pair in the machine, where they differ from the drawing."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Mounting:
 
     @property
     def pitch_error(self) -> float:
-        """How far (µm) the flanks of the middle pair of teeth stand proud, both together."""
+        """Pitch error (µm) of the middle pair of teeth, both flanks together, positive if they stand proud."""
         return self.pinion_pitch_error + self.wheel_pitch_error
 
     @property

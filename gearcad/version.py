@@ -1,4 +1,4 @@
-"""The version of gearcad: what makes a file says which it was.
+"""The version of gearcad, which output files state.
 
 A build, or an installation of a checkout, writes it to `_version.py`, from the tag of the repository.
 """

@@ -1,4 +1,4 @@
-"""Machine code by numba. Import this room inside functions only: numba takes half a second to come."""
+"""Machine code by numba. Import this room inside functions only: the import of numba takes half a second."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def compiled(function: Function) -> Function:
-    """Machine code that lets other threads run and rounds as written; kept on disk where that can be written."""
+    """Return a function as machine code that lets other threads run and rounds as written; cached on disk if possible."""
     options = {"nogil": True, "error_model": "numpy"}
     try:
         made: Function = numba.njit(cache=True, **options)(function)
@@ -21,6 +21,9 @@ def compiled(function: Function) -> Function:
 
 
 def inlined(function: Function) -> Function:
-    """The same, taken into the code of its callers: passing an array to a function takes longer than using it."""
+    """Return a function as machine code that is inlined into its callers.
+
+    Passing an array to a function takes longer than using it.
+    """
     made: Function = numba.njit(nogil=True, error_model="numpy", inline="always")(function)
     return made

@@ -36,7 +36,7 @@ _CACHE = "XDG_CACHE_HOME"
 
 @contextmanager
 def drawing(path: Path | str, layers: Layers) -> Iterator[Drawing]:
-    """A document with these layers, which is written to `path` once it has been drawn."""
+    """Yield a document with these layers, and write it to `path` once it has been drawn."""
     document = new_document(setup=("linetypes",))
     add_layers(document, layers)
     yield document
@@ -44,7 +44,7 @@ def drawing(path: Path | str, layers: Layers) -> Iterator[Drawing]:
 
 
 def new_document(*, setup: tuple[str, ...] = ()) -> Drawing:
-    """An empty document; `setup` names what it has of the library's own."""
+    """Return an empty document; `setup` names the resources of ezdxf that it gets."""
     with _fixed_meta_data():
         document = ezdxf().new("R2010", setup=list(setup))
     # ezdxf adds these from a set when it writes, in an order that changes from process to process.
@@ -63,7 +63,7 @@ def add_layers(document: Drawing, layers: Layers) -> None:
 
 
 def write_document(document: Drawing, path: Path | str) -> None:
-    """Write a document, as the same bytes whenever it is."""
+    """Write a document; the same document gives the same bytes."""
     with (
         _fixed_meta_data(),
         Path(path).open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream,
@@ -73,7 +73,7 @@ def write_document(document: Drawing, path: Path | str) -> None:
 
 @contextmanager
 def _fixed_meta_data() -> Iterator[None]:
-    """The only way to keep ezdxf from writing the time and new identifiers into files is this global option."""
+    """Keep ezdxf from writing the time and new identifiers into files; only this global option does so."""
     with _global_options:
         options = ezdxf().options
         before = options.write_fixed_meta_data_for_testing
@@ -86,7 +86,7 @@ def _fixed_meta_data() -> Iterator[None]:
 
 @cache
 def ezdxf() -> ModuleType:
-    """The library. When imported it looks through the fonts of the system and notes them in the user's home.
+    """Return the library ezdxf. Its import reads the fonts of the system and writes a list of them to the user's home.
 
     We draw no letters with it: it gets an empty list of fonts, in a folder that is gone when it has read it.
     """

@@ -34,7 +34,7 @@ def printable(text: str) -> str:
 
 
 def shown(text: str, most: int = LONGEST_VALUE) -> str:
-    """A name or a key of a user's as a message has it: printable, and cut short."""
+    """Return a user's name or key for a message: printable, and cut short."""
     text = printable(text[: most + 1])  # cut before it grows, too
     return text if len(text) <= most else f"{text[: most - 3]}..."
 
@@ -67,7 +67,7 @@ def format_number(value: object) -> str:
 
 
 def _digits(value: int) -> int:
-    """How many decimal digits a large whole number has, give or take one."""
+    """Return the number of decimal digits of a large whole number, give or take one."""
     return math.ceil(value.bit_length() * math.log10(2))
 
 
@@ -190,7 +190,7 @@ def require_number(
 
 
 def is_finite_number(value: Any) -> bool:
-    """True for a number that is near to some float."""
+    """Return whether a value is a number near to some float."""
     try:
         return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
     except OverflowError:
@@ -232,7 +232,7 @@ def as_path(parameter: str, value: Any) -> Path:
 
 
 def as_choice(parameter: str, value: Any, kind: type[Choice]) -> Choice:
-    """The member of an enum, given as a member or as its value; raises ParameterError naming all the values."""
+    """Return the member of an enum, given as a member or as its value; raises ParameterError naming all the values."""
     try:
         return kind(value)
     except ValueError:
@@ -241,7 +241,7 @@ def as_choice(parameter: str, value: Any, kind: type[Choice]) -> Choice:
 
 
 def out_of_memory(error: MemoryError) -> str:
-    """What to tell of it: one line, with what was asked for where that is known."""
+    """Return a message of one line for a MemoryError, with the requested amount if it is known."""
     reason = " ".join(str(error).split())
     return f"there is not enough memory{f' ({shown(reason)})' if reason else ''}; ask for less, or free some"
 

@@ -57,7 +57,7 @@ def note_folder(folder: Path) -> None:
 
 @contextmanager
 def undivided() -> Iterator[None]:
-    """For changes on disk, a matter of moments, that Ctrl-C should not divide."""
+    """Keep Ctrl-C from dividing changes on disk inside this context; it is for short moments."""
     _tell(_BEGIN)
     try:
         yield
@@ -94,7 +94,7 @@ def _is_heard(number: signal.Signals) -> bool:
 
 
 def _nothing(_number: int, _frame: object) -> None:
-    """A handler for the sake of its wake-up."""
+    """Do nothing: a handler that only wakes up the process."""
 
 
 def _become_worker(keeper: int, told: int) -> None:
@@ -118,7 +118,7 @@ def die_with(parent: int) -> None:
 
 
 def death(number: int) -> str:
-    """What a signal did to a process, in words."""
+    """Return a phrase on how a signal ended a process."""
     name = signal.Signals(number).name
     return f"killed its process ({name}{', perhaps for want of memory' if name == 'SIGKILL' else ''})"
 

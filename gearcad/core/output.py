@@ -83,7 +83,7 @@ UNWRITABLE = (OSError, UnicodeEncodeError)
 
 
 def unwritable(folder: Path, error: OSError | UnicodeEncodeError) -> OutputError:
-    """The error for a place that cannot be written, whatever the system's reason."""
+    """Return the error for a place that cannot be written, whatever the system's reason."""
     if isinstance(error, UnicodeEncodeError):
         reason = f"the locale has no letter {error.object[error.start]!a}"
         return OutputError("output", str(folder), f"cannot be written ({reason}); give another name, or set LC_ALL=C.UTF-8")

@@ -154,7 +154,7 @@ class Derived(float):
 
 
 class DerivedCount(int):
-    """The same of a whole number, whose default is None."""
+    """A whole number that stands for "not given: derived", as Derived; its default is None."""
 
     __slots__ = ()
 
@@ -177,7 +177,7 @@ def derive(instance: Any, field: str, value: float) -> None:
 
 
 def derive_count(instance: Any, field: str, value: int) -> None:
-    """The same of a whole number."""
+    """Let a field of a frozen object be the whole number `value`, as DerivedCount, unless it was given."""
     if not is_given(getattr(instance, field)):
         object.__setattr__(instance, field, DerivedCount(value))
 
@@ -387,7 +387,7 @@ def _is_list(member: Any) -> bool:
 
 
 def _leaves(member: Any) -> Iterator[Any]:
-    """What lists, and lists of lists, are of."""
+    """Yield the types of the elements of lists, and of lists of lists."""
     for each in get_args(member) if _is_list(member) else (member,):
         if each is not Ellipsis:
             yield from _leaves(each) if _is_list(each) else (each,)
@@ -399,13 +399,13 @@ def _is_enum(member: Any) -> bool:
 
 @cache
 def schema_of(kind: type[DataclassInstance]) -> Mapping[str, FieldSchema]:
-    """What a type says of its fields, by their names, in their order."""
+    """Return the schema of each field of a type, by name and in the order of the fields."""
     hints = get_type_hints(kind, include_extras=True)
     return MappingProxyType({each.name: _schema(each, hints[each.name]) for each in fields(kind)})
 
 
 def parts_of(kind: type[DataclassInstance]) -> dict[str, type[DataclassInstance]]:
-    """The fields of a type that have fields of their own, and their types."""
+    """Return the fields of a type that have fields of their own, and their types."""
     return {name: field.part for name, field in schema_of(kind).items() if field.part is not None}
 
 
@@ -428,14 +428,14 @@ def _schema(field: Any, hint: Any) -> FieldSchema:
 
 
 def _default(field: Any) -> Any:
-    """The default of a dataclass's field; None where it has none."""
+    """Return the default of a dataclass's field; None where it has none."""
     if field.default is not MISSING:
         return field.default
     return None if field.default_factory is MISSING else field.default_factory()
 
 
 def symbols_of(kind: type[DataclassInstance]) -> dict[str, Symbol]:
-    """How the fields of a type are written, those of its parts behind a dot: `rack.root_radius`."""
+    """Return the symbols of the fields of a type; fields of its parts are named with a dot: `rack.root_radius`."""
     found: dict[str, Symbol] = {}
     for name, field in schema_of(kind).items():
         if field.part is None:

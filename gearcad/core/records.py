@@ -30,7 +30,7 @@ Indices = NDArray[np.intp]
 
 
 def distinct(values: Floats) -> Floats:
-    """Values (n,) in their order, each once. NumPy's own function imports all of masked arrays for that."""
+    """Return values (n,) in their order, each once. NumPy's own function imports all of masked arrays for that."""
     ordered = np.sort(values)
     kept: Floats = ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])]
     return kept
@@ -50,7 +50,7 @@ V = TypeVar("V")
 
 
 class Role(Enum):
-    """Which gear of a pair; the value is its name in specs, documents and files."""
+    """Role of a gear in a pair; the value is its name in specs, documents and files."""
 
     PINION = "pinion"
     WHEEL = "wheel"
@@ -75,25 +75,25 @@ class PerGear(NamedTuple, Generic[T]):
     wheel: T
 
     def pick(self, role: Role) -> T:
-        """That of one gear."""
+        """Return the value of one gear."""
         return self.pinion if role is Role.PINION else self.wheel
 
     def items(self) -> Iterator[tuple[Role, T]]:
-        """Each with its Role."""
+        """Yield the value of each gear with its Role."""
         return zip(Role, self, strict=True)
 
     def map(self, function: Callable[[T], U]) -> PerGear[U]:
-        """What a function makes of each; errors about a value say whose it is."""
+        """Return the results of a function for both values. Errors about a value name its gear."""
         return PerGear(_named(Role.PINION, function, self.pinion), _named(Role.WHEEL, function, self.wheel))
 
     @classmethod
     def each(cls, function: Callable[[Role], U]) -> PerGear[U]:
-        """What a function makes for each Role; errors about a value say whose it is."""
+        """Return the results of a function for both Roles. Errors about a value name its gear."""
         return PerGear(_named(Role.PINION, function, Role.PINION), _named(Role.WHEEL, function, Role.WHEEL))
 
 
 def _named(role: Role, function: Callable[[V], U], argument: V) -> U:
-    """What a function makes; an error about a value says whose it is."""
+    """Return the result of a function. An error about a value names the gear."""
     try:
         return function(argument)
     except InputError as error:
@@ -102,7 +102,7 @@ def _named(role: Role, function: Callable[[V], U], argument: V) -> U:
 
 @contextmanager
 def naming(role: Role) -> Iterator[None]:
-    """Let errors about a value inside say whose it is: `pinion.teeth`."""
+    """Let errors about a value inside this context name the gear: `pinion.teeth`."""
     try:
         yield
     except InputError as error:
@@ -132,17 +132,17 @@ class Notice:
         return replace(self, where=f"{owner}: {self.where}" if self.where else owner)
 
     def to_dict(self) -> dict[str, str]:
-        """As documents have it."""
+        """Return the notice as documents have it."""
         return {"code": self.code, "where": self.where, "text": self.text}
 
 
 def texts(notices: Iterable[Notice]) -> tuple[str, ...]:
-    """Each notice in a line, without those said before."""
+    """Return each notice in a line, without repetitions."""
     return tuple(dict.fromkeys(map(str, notices)))
 
 
 def joined(notices: Iterable[Notice]) -> Sequence[Notice]:
-    """Each text once, where it was first, with all places that it is about.
+    """Return each text once, at its first place, with all places that it is about.
 
     >>> stiff = Notice("rigid", "taken for rigid")
     >>> print(*joined([stiff.within("sharing"), stiff.within("running")]))
@@ -169,7 +169,7 @@ class Verdict(Enum):
 
 
 def together(verdicts: Iterable[Verdict]) -> Verdict:
-    """Failed if one is, and passed if all are.
+    """Return failed if one verdict is, passed if all are, else not judged.
 
     >>> together([Verdict.PASSED, Verdict.NOT_JUDGED]).value
     'not judged'
@@ -228,7 +228,7 @@ def is_usual(value: Any, default: Any) -> bool:
 
 
 def concise(self: Any) -> str:
-    """The `__repr__` of a dataclass: the fields that differ from their defaults, as one would type them.
+    """Return the `__repr__` of a dataclass: the fields that differ from their defaults, as one would type them.
 
     Values that say they are `derived` are left out, so that the text evaluates to an equal object.
     """
@@ -243,5 +243,5 @@ def concise(self: Any) -> str:
 
 
 def grouped(number: int) -> str:
-    """A whole number, its thousands apart."""
+    """Return a whole number as text, with its thousands apart."""
     return f"{number:,}".replace(",", "\u202f")

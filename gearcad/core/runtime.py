@@ -19,7 +19,7 @@ _VARIABLES = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """One thread for all that is loaded, and for what is loaded meanwhile."""
+    """Limit libraries to one thread inside this context, also libraries that are loaded meanwhile."""
     from threadpoolctl import ThreadpoolController
 
     there = ThreadpoolController()
@@ -41,7 +41,7 @@ def one_thread() -> Iterator[None]:
 
 
 def _usual() -> int:
-    """Threads that a library has that is loaded elsewhere."""
+    """Return the number of threads of a library that is loaded elsewhere."""
     asked = next((os.environ[name] for name in _VARIABLES if os.environ.get(name, "").isdecimal()), "")
     return int(asked) if asked else cores()
 
@@ -49,7 +49,10 @@ def _usual() -> int:
 def on_all_cores(
     work: Callable[[Item], Found], items: Sequence[Item], counted: Callable[[int, int], None] = lambda _done, _count: None
 ) -> list[Found]:
-    """What `work` (compiled code, FFT) makes of each of the items, in order; `counted` hears how many are done, of how many."""
+    """Return the results of `work` (compiled code, FFT) for each of the items, in order, computed on all cores.
+
+    `counted` is called with the number of items that are done, and of all.
+    """
     from concurrent.futures import ThreadPoolExecutor
 
     found: list[Found] = []
@@ -65,12 +68,12 @@ def on_all_cores(
 
 
 def cores() -> int:
-    """That this process may use."""
+    """Return the number of CPU cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def machine_memory() -> float:
-    """Bytes that the machine has, or less where the system permits less; endless where that is not told."""
+    """Return the memory of the machine (bytes), or less if the system permits less; infinite if not known."""
     try:
         import resource
 
@@ -95,16 +98,16 @@ Share = Callable[[float], None]
 
 
 def unheard(_share: float) -> None:
-    """A Share for those who do not ask."""
+    """Ignore a share: a Share for callers that do not ask for progress."""
 
 
 def part(share: Share, begin: float, end: float) -> Share:
-    """What tells the share of a part that begins and ends at these shares of the whole."""
+    """Return a Share for a part that begins and ends at these shares of the whole."""
     return lambda done: share(begin + done * (end - begin))
 
 
 def onwards(share: Share) -> Share:
-    """Never backwards, where a part may have to be done again."""
+    """Return a Share that never goes backwards, for a part that may have to be done again."""
     most = 0.0
 
     def tell(done: float) -> None:
@@ -116,13 +119,13 @@ def onwards(share: Share) -> Share:
 
 
 class Tell(Protocol):
-    """Called with what is being done, and how much of it is."""
+    """A function that is called with the name of a step and its share that is done."""
 
     def __call__(self, step: str, share: float = 0.0) -> None: ...
 
 
 def untold(step: str, share: float = 0.0) -> None:
-    """A Tell for those who do not ask."""
+    """Ignore a step: a Tell for callers that do not ask for progress."""
 
 
 class Expected(NamedTuple):
@@ -152,22 +155,22 @@ class Agenda:
         self._progress(f"{step}, {detail}" if detail else step, before + share * self._steps[step], self._all)
 
     def within(self, step: str, detail: str = "") -> Share:
-        """What tells the share of one step."""
+        """Return a Share for one step."""
         return lambda share: self(step, share, detail)
 
     def counted(self, step: str, word: str) -> Callable[[int, int], None]:
-        """What tells that `done` of `count` things, called `word`, are done."""
+        """Return a function that reports `done` of `count` things, called `word`."""
         return lambda done, count: self(step, done / count, f"{word} {done + 1} of {count}")
 
 
 class Clock:
-    """How long a job still takes: by its expected time at first, by its own pace later."""
+    """Estimate of the time that a job still takes: by its expected time at first, by its own pace later."""
 
     def __init__(self, expected: Expected | None) -> None:
         self.began, self.expected = time.monotonic(), expected
 
     def left(self, share: float) -> str:
-        """In words; nothing where shares are those of steps, which take what they take."""
+        """Return the remaining time in words; "" without an expected time."""
         if self.expected is None:
             return ""
         gone = time.monotonic() - self.began
@@ -177,7 +180,7 @@ class Clock:
 
 
 def about(seconds: float) -> str:
-    """A time that is known roughly."""
+    """Return a time (s) as text, roughly."""
     if seconds < 90:
         step = 1 if seconds < 10 else 5
         return f"about {max(step * round(seconds / step), 1)} s"
@@ -185,7 +188,7 @@ def about(seconds: float) -> str:
 
 
 def about_memory(size: float) -> str:
-    """A size in bytes that is known roughly."""
+    """Return a size in bytes as text, roughly."""
     return f"{size / 1e9:.1f} GB" if size >= 0.95e9 else f"{100 * math.ceil(size / 1e8)} MB"
 
 
@@ -194,6 +197,6 @@ PACKAGE = Path(__file__).parents[1]
 
 
 def templates() -> Path:
-    """The folder of starters and of the templates of reports: inside the package in a wheel, beside it in a checkout."""
+    """Return the folder of starters and of the templates of reports: inside the package in a wheel, beside it in a checkout."""
     installed = PACKAGE / "templates"
     return installed if installed.is_dir() else PACKAGE.parent / "templates"

@@ -52,12 +52,12 @@ class Candidate:
 
     @property
     def diametral_pitch(self) -> float | None:
-        """Of a size that is one (1/inch)."""
+        """Diametral pitch (1/inch) of the size; None if the size is a module."""
         return self.fit.hypothesis.size.pitch
 
     @property
     def module_uncertainty(self) -> float:
-        """Of the normal module, 0 of one of a series."""
+        """Standard uncertainty of the normal module (mm); 0 for a module of a series."""
         return self.fit.uncertainty(Unknown.MODULE)
 
     @property
@@ -70,11 +70,11 @@ class Candidate:
 
     @property
     def thinning_uncertainty(self) -> float:
-        """Of the normal tooth thinning (mm)."""
+        """Standard uncertainty of the normal tooth thinning (mm)."""
         return self.gear.tooth_thinning * self.fit.uncertainty(Unknown.THINNING)
 
     def to_dict(self) -> dict[str, Any]:
-        """As identify.json has it."""
+        """Return the candidate as identify.json has it."""
         gear = self.gear
         return {
             "probability": self.probability,
@@ -99,7 +99,7 @@ class Candidate:
 
     @classmethod
     def of(cls, measured: Measured, fit: Fit, probability: float) -> Candidate | None:
-        """That of a fit; None where no such gear can be made."""
+        """Return the candidate of a fit, or None if no such gear can be made."""
         gear = _gear(measured, fit)
         if gear is None:
             return None
@@ -120,7 +120,7 @@ class Candidate:
 
 
 def on_involute(gear: Gear, place: Reading) -> bool:
-    """Whether a gauge touches the flanks of a gear, or has nothing to do with them."""
+    """Return whether a gauge touches the flanks of a gear, or does not measure flanks at all."""
     try:
         diameter = touches(gear.inspection, place)
     except (InputError, SolverError):
@@ -164,7 +164,7 @@ def _gear(measured: Measured, fit: Fit) -> Gear | None:
 
 
 def variance(slopes: Floats, fit: Fit) -> float:
-    """Of a reading, by what a fit leaves open, where it has these derivatives (u,)."""
+    """Return the variance of a reading that a fit leaves open, for these derivatives (u,) of the reading."""
     return float(slopes @ fit.covariance @ slopes)
 
 
@@ -206,7 +206,7 @@ class Deciding:
     apart: tuple[float, ...]
 
     def to_dict(self) -> dict[str, Any]:
-        """As identify.json has it."""
+        """Return the measurement as identify.json has it."""
         said, less = self.place.to_dict(), None if self.less is None else self.less.to_dict()
         for each in (said, less or {}):
             each.pop("value", None)
@@ -242,7 +242,7 @@ class Identification(Pictured):
 
     @property
     def fits(self) -> bool:
-        """Whether the best has residuals as uncertainties make them."""
+        """Whether the residuals of the best are as their uncertainties permit."""
         return self.chance >= _LEAST_FIT
 
     @property
@@ -252,17 +252,17 @@ class Identification(Pictured):
 
     @property
     def unlisted(self) -> float:
-        """How probable it is that the gear is none of the candidates listed."""
+        """Probability that the gear is none of the candidates listed."""
         return max(1 - sum(each.probability for each in self.candidates), 0.0)
 
     @property
     def rivals(self) -> tuple[Candidate, ...]:
-        """Those that are left beside the best."""
+        """Candidates beside the best that are not excluded; none if the best is certain."""
         return () if self.certain else tuple(each for each in self.candidates[1:] if each.probability >= (1 - _CERTAIN) / 5)
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before a gear is made by this."""
+        """Notices to be read before a gear is made by this result."""
         found = list(self.measured.notices)
         if not self.fits:
             found.append(Notice("no-fit", f"no candidate fits: {self._misfit}; count and measure again"))
@@ -276,7 +276,7 @@ class Identification(Pictured):
 
     @property
     def _misfit(self) -> str:
-        """What is wrong with the best: a reading, or else what such a gear has that hardly any has."""
+        """Text that names the misfit of the best: the worst reading, or else a property that hardly any gear has."""
         worst = max(range(len(self.measured.readings)), key=lambda each: abs(self.best.residuals[each]))
         if abs(off := self.best.residuals[worst]) >= _OFF:
             return f"the {self.measured.label(self.measured.readings[worst])} is {off:+.1f} uncertainties off"
@@ -289,7 +289,7 @@ class Identification(Pictured):
         return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """What identify.json holds."""
+        """Return the content of identify.json."""
         return {
             "kind": "identify",
             "teeth": self.measured.teeth,

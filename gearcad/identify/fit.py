@@ -41,7 +41,7 @@ def _rack(pressure_angle: float) -> BasicRack:
 
 
 def gear_data(teeth: int, unknowns: Floats) -> GearData:
-    """The gear: its tip circle by its alteration, its root circle by the rack."""
+    """Return the gear: its tip circle by its alteration, its root circle by the rack."""
     values = unknowns.tolist()
     return GearData(
         teeth=teeth,
@@ -56,7 +56,10 @@ def gear_data(teeth: int, unknowns: Floats) -> GearData:
 
 
 def read_off(measured: Measured, places: Sequence[Reading], unknowns: Floats) -> Floats:
-    """What the gauges at `places` would read, nan where one does not fit between the teeth or the pair does not mesh."""
+    """Return the readings (n,) of the gauges at `places`.
+
+    A reading is nan where the gauge does not fit between the teeth or the pair does not mesh.
+    """
     try:
         gear = gear_data(measured.teeth, unknowns)
     except InputError:
@@ -72,7 +75,7 @@ def read_off(measured: Measured, places: Sequence[Reading], unknowns: Floats) ->
 
 
 def _inspection(gear: GearData, places: Sequence[Reading]) -> Inspection | None:
-    """What gauges of flanks ask; None where there are none."""
+    """Return the inspection that gauges of flanks need; None without such gauges."""
     return inspection_of(gear, gear.reference_diameter) if any(place.size for place in places) else None
 
 
@@ -141,7 +144,7 @@ def sensitivity(
 
 
 def touches(inspection: Inspection, place: Reading) -> float | None:
-    """The diameter (mm, positive) on which a gauge touches the flanks; None for one that does not."""
+    """Return the diameter (mm, positive) on which a gauge touches the flanks; None for a gauge that does not."""
     if place.gauge is Gauge.SPAN:
         return abs(inspection.span_contact_diameter(int(place.size)))
     if place.gauge is Gauge.CHORDAL_THICKNESS:
@@ -184,12 +187,12 @@ class Fit:
 
     @property
     def log_evidence(self) -> float:
-        """Over all ways."""
+        """Logarithm of the probability over all ways."""
         return float(np.logaddexp.reduce(self.log_evidences)) + self.hypothesis.log_weight
 
     @property
     def shares(self) -> Floats:
-        """How much each way counts in uncertainties (w,): by the root of how probable it is, for the weights are judgement."""
+        """Weight of each way in uncertainties (w,), by the square root of its probability, as the weights are judgement."""
         doubted = self.log_evidences / 2
         found: Floats = np.exp(doubted - np.logaddexp.reduce(doubted))
         return found
@@ -209,7 +212,7 @@ class Fit:
 
     @property
     def covariance(self) -> Floats:
-        """Of the unknowns about their values here, other ways considered (u, u)."""
+        """Covariance (u, u) of the unknowns about their values here, other ways considered."""
         off = self.means - self.unknowns
         spread: Floats = np.einsum("w,wij->ij", self.shares, self.covariances + off[:, :, None] * off[:, None, :])
         return spread
@@ -244,7 +247,10 @@ def fitted(measured: Measured, hypothesis: Hypothesis, start: Floats, steps: int
 
 
 def _retreat(measured: Measured, unknowns: Floats, before: Floats | None) -> Floats:
-    """From where a ball falls to the base circle: half way back, or at first to thicker teeth, of a ring thinner ones."""
+    """Return unknowns (u,) away from those at which a ball falls to the base circle.
+
+    They are half way back to those `before`, or at first at thicker teeth, of a ring thinner ones.
+    """
     if before is not None:
         return (unknowns + before) / 2
     thicker = unknowns.copy()

@@ -24,7 +24,7 @@ TEETH = Whole(3, 2000, negative=(-10, "a ring"))
 
 
 class Gauge(StrEnum):
-    """What was measured."""
+    """The measured quantity."""
 
     TIP_DIAMETER = "tip_diameter"
     ROOT_DIAMETER = "root_diameter"
@@ -50,17 +50,17 @@ class Gauge(StrEnum):
 
     @property
     def unit(self) -> str:
-        """Of its readings."""
+        """Unit of its readings."""
         return "deg" if self in ANGLES else "mm"
 
     @property
     def sized(self) -> bool:
-        """Whether its readings are over something of a size."""
+        """Whether its readings need a size."""
         return self in _SIZED
 
     @property
     def size_in_words(self) -> str:
-        """What that size is."""
+        """Name of that size in words."""
         if self is Gauge.SPAN:
             return "teeth spanned"
         return "height below the tip" if self is Gauge.CHORDAL_THICKNESS else "diameter of pins or balls"
@@ -107,21 +107,21 @@ class Reading:
 
     @property
     def _size(self) -> str:
-        """What the size is."""
+        """Key of the size in documents."""
         return "height" if self.gauge is Gauge.CHORDAL_THICKNESS else "diameter"
 
     @property
     def place(self) -> tuple[Gauge, float]:
-        """What is measured, and over what."""
+        """Gauge and size of the reading."""
         return self.gauge, self.size
 
     def label(self, *, ring: bool = False) -> str:
-        """In words."""
+        """Return the measured quantity in words."""
         words = _SIZED.get(self.gauge, self.gauge.value.replace("_", " "))
         return words.format(self.size, "spaces" if ring else "teeth")
 
     def to_dict(self) -> dict[str, Any]:
-        """As documents have it."""
+        """Return the reading as documents have it."""
         size = {"teeth": int(self.size)} if self.gauge is Gauge.SPAN else {self._size: self.size}
         beside = size if self.gauge in _SIZED else {}
         return {"gauge": self.gauge.value, **beside, "value": self.value, "uncertainty": self.uncertainty}
@@ -165,20 +165,20 @@ class Measured:
 
     @property
     def spans(self) -> list[Reading]:
-        """Those over teeth or spaces, the fewest first."""
+        """Readings over teeth or spaces, the fewest first."""
         return sorted((each for each in self.readings if each.gauge is Gauge.SPAN), key=lambda each: each.size)
 
     def find(self, gauge: Gauge) -> Reading | None:
-        """The first reading of a gauge."""
+        """Return the first reading of a gauge."""
         return next((each for each in self.readings if each.gauge is gauge), None)
 
     def label(self, reading: Reading) -> str:
-        """A reading in words."""
+        """Return a reading in words."""
         return reading.label(ring=self.ring)
 
     @property
     def notices(self) -> Iterable[Notice]:
-        """What the readings leave open, whatever the gear is."""
+        """Notices on what the readings leave open, whatever the gear is."""
         if self._across_tips_less:
             less = self._across_tips_less
             text = f"an odd number of teeth: calipers across the tips read about {less:.2g} mm less than the tip diameter"
@@ -186,7 +186,7 @@ class Measured:
 
     @property
     def _across_tips_less(self) -> float:
-        """How much less parallel jaws read across the pointed tips of an odd number of teeth (mm): d_a (1 - cos(pi/z))/2."""
+        """Shortfall (mm) of parallel jaws across pointed tips against the tip diameter: d_a (1 - cos(pi/z))/2, z odd; else 0."""
         tip = self.find(Gauge.TIP_DIAMETER)
         if tip is None or self.ring or self.teeth % 2 == 0:
             return 0.0
@@ -281,7 +281,7 @@ class Measurements:
 
     @cached_property
     def measured(self) -> Measured:
-        """What was measured, each reading with its uncertainty."""
+        """Measured gear, with the uncertainty of each reading."""
         return Measured(teeth=self.teeth, readings=tuple(self._readings()), mate_teeth=self.mate_teeth)
 
     def _readings(self) -> Iterator[Reading]:

@@ -148,7 +148,10 @@ def _first_helix(measured: Measured, start: Floats) -> float:
 
 
 def _miss(measured: Measured, start: Floats) -> float:
-    """How far readings are from the usual, as a part of what may be; above 1 for what they rule out."""
+    """Return the greatest difference of readings from usual ones, over the permitted difference.
+
+    Above 1 the readings rule out the unknowns.
+    """
     lengths = [each for each in measured.readings if each.gauge in _REACH]
     circles, flanks = ([each for each in lengths if bool(each.size) is sized] for sized in (False, True))
     _, miss = _off(circles, measured, start)
@@ -160,7 +163,7 @@ def _miss(measured: Measured, start: Floats) -> float:
 
 
 def _off(places: list[Reading], measured: Measured, start: Floats) -> tuple[Floats, float]:
-    """How far readings are from the usual (mm), and the greatest as a part of what may be."""
+    """Return the differences (mm) of readings from usual ones, and the greatest of them over the permitted one."""
     off: Floats = np.array([each.value for each in places]) - read_off(measured, places, start)
     module = float(start[Unknown.MODULE])
     may = np.array([_REACH[each.gauge] * module + _SIGMAS * each.uncertainty for each in places])
@@ -219,7 +222,7 @@ def further(measured: Measured, rivals: Sequence[Candidate], uncertainty: float)
 
 
 def _told_by(each: Deciding, rivals: Sequence[Candidate]) -> float:
-    """How much a measurement tells of all, the more probable counting more."""
+    """Return how well a measurement separates all candidates; more probable ones count more."""
     return sum(rival.probability * min(apart, _FAR) for rival, apart in zip(rivals[1:], each.apart, strict=True))
 
 
@@ -250,7 +253,10 @@ def _places(measured: Measured, rivals: Sequence[Candidate], uncertainty: float)
 
 
 def _told(measured: Measured, rivals: Sequence[Candidate], place: Reading, less: Reading | None) -> Deciding | None:
-    """How far apart candidates are there; None where the gauge does not touch all their flanks."""
+    """Return what each candidate would read at `place`, and how far apart.
+
+    The result is None where the gauge does not touch all their flanks.
+    """
     places = [place] if less is None else [place, less]
     values, variances = [], []
     for each in rivals:

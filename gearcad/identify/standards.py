@@ -22,7 +22,7 @@ from gearcad.geometry.gear_parts import ISO_54_I, ISO_54_II, module_of_pitch
 
 
 class Unknown(IntEnum):
-    """Where each stands in the vector; lengths in mm, angles in degrees, coefficients in normal modules."""
+    """Index of each unknown in the vector; lengths in mm, angles in degrees, coefficients in normal modules."""
 
     MODULE = 0
     PRESSURE_ANGLE = 1
@@ -68,11 +68,11 @@ class StandardRack:
     largest_module: float = 1e9
 
     def dedendum_at(self, module: float) -> float:
-        """Its dedendum for a normal module (mm), in modules."""
+        """Return the dedendum, in modules, for a normal module (mm)."""
         return self.dedendum + self.constant / module
 
     def weight(self, angle: float, module: float) -> float:
-        """How usual it is at a pressure angle and a normal module."""
+        """Return the weight of the rack at a pressure angle (degrees) and a normal module (mm)."""
         return 0.0 if module > self.largest_module else self.weights.get(angle, self.weights[None])
 
 
@@ -167,7 +167,7 @@ class Hypothesis:
 
     @property
     def log_weight(self) -> float:
-        """How usual it is."""
+        """Logarithm of the weight of the hypothesis."""
         angle = FREE_ANGLE if self.free_angle else self._angle_weight
         size = _FREE if self.free else self.size.weight
         if self.transverse:
@@ -201,20 +201,20 @@ class Ways:
 
 
 def hypotheses(spur: bool | None) -> list[Hypothesis]:
-    """All standard ones, of spur gears, helical ones, or both."""
+    """Return all standard hypotheses, of spur gears, helical ones, or both."""
     kinds = [False, True] if spur is None else [not spur]
     return [Hypothesis(size, angle, helical) for helical, angle, size in product(kinds, ANGLES, SIZES)]
 
 
 def transverse_hypotheses(helices: Iterable[float]) -> list[list[Hypothesis]]:
-    """All of usual sizes of the transverse section, each about these helix angles (degrees)."""
+    """Return all hypotheses with usual sizes of the transverse section, each about these helix angles (degrees)."""
     usual = [size for size in SIZES if size.weight >= _USUAL]
     return [[Hypothesis(size, angle, True, transverse_at=helix) for helix in helices] for angle, size in product(ANGLES, usual)]
 
 
 @lru_cache(maxsize=4096)
 def ways(hypothesis: Hypothesis, mated: bool) -> Ways:
-    """The ways under a hypothesis, of a gear with a mate or without."""
+    """Return the ways under a hypothesis, of a gear with a mate or without."""
     module, angle = hypothesis.size.module, hypothesis.pressure_angle
     tips = ((1 - _ALTERED, 0.0, 0.0), (_ALTERED, _ALTERATION, _ALTERATION_SPREAD))
     shifts = _SHIFTS_OF_PAIRS if mated else ((1 - _SHIFTED, 0.0, 0.0), (_SHIFTED, 1.0, 0.0))

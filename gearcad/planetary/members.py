@@ -100,7 +100,7 @@ class TrainLoad:
 
     @property
     def notices(self) -> Iterator[Notice]:
-        """What to know of it: that its torque has its old name."""
+        """Notice that the torque is given under its old name; none otherwise."""
         if self.torque is not None:
             yield old_torque_notice("output_torque")
 
@@ -165,7 +165,7 @@ class Central(NamedPart):
 
     @property
     def mesh_name(self) -> str:
-        """Of its mesh with the planets, such as "sun-planet"."""
+        """Name of its mesh with the planets, such as "sun-planet"."""
         return f"{self.name}-{self.meshes}"
 
 
@@ -257,7 +257,7 @@ class SetMesh:
 
     @property
     def name(self) -> str:
-        """Such as "sun-planet"."""
+        """Name of the mesh, such as "sun-planet"."""
         return self.central.mesh_name
 
     @property
@@ -267,12 +267,12 @@ class SetMesh:
 
     @property
     def central_role(self) -> Role:
-        """Which gear of the pair the central is."""
+        """Role of the central in the pair."""
         return Role.PINION if self.pair.pinion is self.central.gear else Role.WHEEL
 
     @property
     def rim_role(self) -> Role:
-        """Which gear of the pair the planet's is."""
+        """Role of the planet's rim in the pair."""
         return self.central_role.mate
 
     @property
@@ -292,7 +292,7 @@ class SetMesh:
 
     @classmethod
     def of(cls, central: Central, rim: Rim, centre_distance: float) -> SetMesh:
-        """The mesh at a centre distance (mm, a magnitude; NaN: the one without backlash).
+        """Return the mesh at a centre distance (mm, a magnitude; NaN: the one without backlash).
 
         Raises InputError, whose parameter begins with the mesh's name.
         """
@@ -306,7 +306,10 @@ class SetMesh:
 
 
 def mates_of(central: Central, rim: Rim) -> PairData:
-    """A central and the rim it meshes with, not asked whether they fit: the smaller external gear is the pinion."""
+    """Return the pair of a central and the rim it meshes with; the smaller external gear is the pinion.
+
+    Whether they fit is not checked.
+    """
     first = not central.gear.internal and central.gear.teeth <= rim.gear.teeth
     pinion, wheel = (central.gear, rim.gear) if first else (rim.gear, central.gear)
     return PairData(pinion=pinion, wheel=wheel, name=central.mesh_name)
@@ -322,20 +325,20 @@ TrainMaterial = Material | Mapping[str, Material]
 
 
 def material_of(material: TrainMaterial | None, gear: str) -> Material:
-    """That of a gear, by the name of the central or rim, or of the gear of a stage."""
+    """Return the material of a gear, by the name of the central, the rim, or the gear of a stage."""
     if isinstance(material, Mapping):
         return material.get(gear, Material())
     return material or Material()
 
 
 def mesh_material(material: TrainMaterial | None, mesh: SetMesh) -> Materials:
-    """That of the pair of a mesh."""
+    """Return the material, or both materials, of the pair of a mesh."""
     names = {mesh.central_role: mesh.central.name, mesh.rim_role: mesh.rim.name}
     return _of_pair(material, PerGear.each(lambda role: names[role]))
 
 
 def stage_material(material: TrainMaterial | None, stage: PairStage) -> Materials:
-    """That of the pair of a stage."""
+    """Return the material, or both materials, of the pair of a stage."""
     return _of_pair(material, stage.pair.gears.map(lambda gear: gear.name))
 
 

@@ -68,7 +68,10 @@ def heights(train: TrainData) -> dict[str, float]:
 
 
 def assembled(train: TrainData) -> Fit:
-    """How the planets stand at carrier angle 0, with tooth 0 of the second central on +x: rotations (rad) at each bottom."""
+    """Return how the planets stand at carrier angle 0, with tooth 0 of the second central on +x.
+
+    Rotations (rad) are those at the bottom of each gear.
+    """
     first, second = train.meshes
     angles = [math.radians(angle) for angle in train.angles]
     clocking = 0.0 if train.adjusted else math.radians(float(second.rim.clocking) - float(first.rim.clocking))
@@ -190,11 +193,11 @@ class MeshPhases:
 
     @property
     def cycle(self) -> tuple[float, ...]:
-        """Where each planet is in the mesh cycle of the pair: roll angle of the pinion over that of a base pitch, 0 to 1."""
+        """Position of each planet in the mesh cycle of the pair, 0 to 1: roll angle of the pinion over that of a base pitch."""
         return self.ahead if self.driver is Role.PINION else tuple(_fraction(-each) for each in self.ahead)
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the phases as a document for JSON."""
         return {
             "ahead": list(self.ahead),
             "relative": list(self.relative),
@@ -214,8 +217,9 @@ class Drive(NamedTuple):
 
 
 def drive_of(train: TrainData, load: TrainLoad | None = None) -> Drive:
-    """How a train with a fixed member is driven at a load, of which the signs count; without one, or at rest, its input turns
-    counter-clockwise and drives.
+    """Return how a train with a fixed member is driven at a load.
+
+    Only the signs of the load count. Without a load, or at rest, its input turns counter-clockwise and drives.
 
     Losses do not count: what locks itself does not run. Of a differential, which has two inputs, the first central drives.
     """
@@ -255,7 +259,7 @@ def mesh_phases(
 
 
 def phases_between(first: MeshPhases, second: MeshPhases) -> tuple[float, ...]:
-    """How far the second mesh of each planet is ahead of the first (base pitches, 0 to 1).
+    """Return how far the second mesh of each planet is ahead of the first (base pitches, 0 to 1).
 
     It stays as the train turns where both mesh with the same rim; of stepped planets it is that of the pose.
     """
@@ -263,7 +267,7 @@ def phases_between(first: MeshPhases, second: MeshPhases) -> tuple[float, ...]:
 
 
 def _phases(mesh: SetMesh, planets: tuple[PlanetPose, ...], sense: int, turning: int) -> MeshPhases:
-    """Those of a mesh whose central is turned with `sense` and turns with `turning` against the carrier."""
+    """Return the phases of a mesh whose central is turned with `sense` and turns with `turning` against the carrier."""
     outer = 1 if mesh.external else -1
     ahead = [_ahead(mesh, planet, side=sense * outer, turning=-turning * outer) for planet in planets]
     return MeshPhases(
@@ -299,7 +303,7 @@ def _middle_of_hand(mesh: SetMesh) -> float:
 
 
 def _fraction(pitches: float) -> float:
-    """From 0 to 1; what only rounding keeps from a whole pitch is 0."""
+    """Return the fraction of a number of base pitches (0 to 1); a rounding error below a whole pitch gives 0."""
     within = pitches % 1.0
     return 0.0 if within > 1 - _ROUNDING else within
 
@@ -332,21 +336,22 @@ class HarmonicSum(NamedTuple):
 
     @property
     def excited(self) -> Excited:
-        """Which modes it shakes."""
+        """Modes that the harmonic excites."""
         return Excited(self.torque > 0, self.force > 0)
 
 
 def excited_modes(teeth: int, planets: int, harmonic: int) -> Excited:
-    """Of planets at equal angles, exactly: k = m z mod N is 0 for a torque, 1 or N - 1 for a force; z of the central.
+    """Return the modes that a harmonic excites, for planets at equal angles.
 
-    A planet alone has both.
+    With the teeth z of the central, k = m z mod N is 0 for a torque, and 1 or N - 1 for a force. A planet alone has both. Whole
+    numbers leave no rounding.
     """
     remainder = harmonic * teeth % planets
     return Excited(remainder == 0, remainder in (1 % planets, planets - 1))
 
 
 def harmonic_sums(relative: Sequence[float], angles: Sequence[float], harmonics: int = HARMONICS) -> tuple[HarmonicSum, ...]:
-    """Of the harmonics 1, 2, ..., for planets at any `angles` (degrees) with `relative` phases (base pitches)."""
+    """Return the sums of the harmonics 1, 2, ... for planets at `angles` (degrees) with `relative` phases (base pitches)."""
     psi = [math.radians(angle) for angle in angles]
     found = []
     for harmonic in range(1, harmonics + 1):
@@ -360,7 +365,7 @@ def harmonic_sums(relative: Sequence[float], angles: Sequence[float], harmonics:
 def train_harmonics(
     train: TrainData, phases: dict[str, MeshPhases] | None = None, harmonics: int = HARMONICS
 ) -> dict[str, tuple[HarmonicSum, ...]]:
-    """Of both meshes of a train by their names."""
+    """Return the harmonic sums of both meshes of a train by their names."""
     phases = mesh_phases(train) if phases is None else phases
     return {name: harmonic_sums(mesh.relative, train.angles, harmonics) for name, mesh in phases.items()}
 

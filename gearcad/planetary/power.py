@@ -35,7 +35,7 @@ class Balance:
 def balance(
     train: TrainData, speeds: Mapping[str, float], ends: Mapping[str, Shaft], known: Shaft, torque: float, eta: float
 ) -> Balance:
-    """All torques from the `torque` on the shaft `known`, at `speeds` of which only the signs and their zeros matter.
+    """Return all torques, from the `torque` on the shaft `known`; of `speeds` only the signs and the zeros matter.
 
     `ends` has the shaft of each member on which the world acts; `eta` is the efficiency of every mesh.
     Raises SolverError where nothing balances it: the train locks itself.
@@ -58,7 +58,7 @@ def balance(
 
 
 def _passed(stages: dict[str, PerGear[float]], link: Link, torque: float, speeds: Mapping[str, float], eta: float) -> float:
-    """What a torque on the outer shaft of a stage puts on its inner one."""
+    """Return the torque on the inner shaft of a stage caused by a torque on its outer shaft; add both to `stages`."""
     inner, outer = link.teeth
     through = -torque * inner / outer * _kept(torque * speeds[link.shafts[1]], eta)
     _note(stages, link, -through, torque)
@@ -66,7 +66,7 @@ def _passed(stages: dict[str, PerGear[float]], link: Link, torque: float, speeds
 
 
 def _asked(stages: dict[str, PerGear[float]], link: Link, torque: float, speeds: Mapping[str, float], eta: float) -> float:
-    """The torque on the outer shaft of a stage that puts this one on its inner one."""
+    """Return the torque on the outer shaft of a stage that causes a given torque on its inner shaft."""
     inner, outer = link.teeth
     asked = -torque * outer / inner / _kept(torque * speeds[link.shafts[0]], eta)
     _note(stages, link, -torque, asked)
@@ -115,7 +115,7 @@ def rolling_speed(train: TrainData, speeds: Mapping[str, float]) -> float:
 
 
 def rolling_power(train: TrainData, torques: Mapping[str, float], speeds: Mapping[str, float]) -> float:
-    """T_a (w_a - w_c): what rolls from the first central to the second as seen from the carrier, in N·m·rpm."""
+    """Return T_a (w_a - w_c), in N·m·rpm: the power that rolls from the first central to the second, seen from the carrier."""
     return torques[train.centrals[0].name] * rolling_speed(train, speeds)
 
 
@@ -167,7 +167,7 @@ class PowerFlow:
 
     @property
     def circulation(self) -> str:
-        """The same in words."""
+        """Sentence that states whether power circulates."""
         if self.rolling_ratio is None:
             return "no power flows"
         if self.circulates:
@@ -175,7 +175,7 @@ class PowerFlow:
         return f"no power circulates: {self.rolling_ratio:.4g} of what goes in rolls through the meshes"
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the flow of power as a document for JSON."""
         return {
             "speeds": self.speeds.to_dict(),
             "torques": dict(self.torques),
@@ -319,7 +319,7 @@ class PinForce:
 
     @property
     def size(self) -> float:
-        """Of the force in the plane of rotation, with the centrifugal one (N)."""
+        """Size (N) of the force in the plane of rotation, the centrifugal force included."""
         return math.hypot(self.radial + (self.centrifugal or 0.0), self.tangential)
 
     @property
@@ -340,7 +340,7 @@ class TrainForces:
     stages: Mapping[str, MeshForce]
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the forces as a document for JSON."""
         return {
             "meshes": {name: asdict(force) for name, force in self.meshes.items()},
             "pin": asdict(self.pin) | {"size": self.pin.size, "tilting_moment": self.pin.tilting_moment},
@@ -372,7 +372,10 @@ def _on_wheel(stage: PairStage, flow: PowerFlow) -> MeshForce:
 
 
 def _force(pair: GearPair, torque: float, radius: float, helix_angle: float) -> MeshForce:
-    """From a torque (N·m) at a base radius (mm); `helix_angle` of the gear pushed, negative where it is pushed clockwise."""
+    """Return the force of a mesh from a torque (N·m) at a base radius (mm).
+
+    `helix_angle` is that of the gear pushed, negative where it is pushed clockwise.
+    """
     normal = abs(torque) * 1e3 / radius
     angle = math.radians(pair.working_transverse_pressure_angle)
     hand = 0.0 if pair.double_helical else math.copysign(math.radians(pair.pinion.base_helix_angle), helix_angle)
@@ -423,7 +426,7 @@ _SLOWEST = 1e-6
 
 
 class FactorSource(Enum):
-    """Where K_gamma comes from."""
+    """Source of K_gamma."""
 
     GIVEN = "given"
     COMPUTED = "computed"
@@ -456,7 +459,7 @@ def mesh_load_factor(train: TrainData, load: TrainLoad, computed: float | None =
 
 @dataclass(frozen=True, kw_only=True)
 class MeshLoad:
-    """What the mesh of a central with one planet carries, seen from the carrier.
+    """The load of the mesh of a central with one planet, seen from the carrier.
 
     The torque of `load` (N·m) is the N-th part of that on the central, on the pair's pinion: positive where it presses the
     flanks that a pinion which is driven counter-clockwise presses; its speed (rpm) is that of the pinion against the carrier.
@@ -483,7 +486,7 @@ class MeshLoad:
 
     @property
     def contacts(self) -> PerGear[int]:
-        """How often a flank of each gear's teeth comes into mesh in one of its turns against the carrier."""
+        """Number of contacts of a flank of each gear in one turn against the carrier."""
         return PerGear.each(lambda role: self.planets if role is self.mesh.central_role else 1)
 
     @property
@@ -494,7 +497,7 @@ class MeshLoad:
         return PerGear.each(lambda role: rolled / gears.pick(role).tooth_count * self.contacts.pick(role))
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON: N·m, rpm and N."""
+        """Return the load as a document for JSON: N·m, rpm and N."""
         return {
             "torque": self.load.torque,
             "speed": self.load.speed,
@@ -509,7 +512,7 @@ class MeshLoad:
 
 
 def mesh_loads(train: TrainData, flow: PowerFlow, computed_factor: float | None = None) -> dict[str, MeshLoad]:
-    """Of both meshes of a set by their names, under a flow of power; K_gamma as `mesh_load_factor` has it."""
+    """Return the loads of both meshes of a set by their names, under a flow of power; K_gamma is by `mesh_load_factor`."""
     found = mesh_load_factor(train, flow.load, computed_factor)
     first, second = train.meshes
     central_drives = _rolling(train, flow) >= 0
@@ -521,7 +524,7 @@ def mesh_loads(train: TrainData, flow: PowerFlow, computed_factor: float | None 
 
 
 def _mesh_load(train: TrainData, mesh: SetMesh, flow: PowerFlow, found: MeshLoadFactor, driver: Role) -> MeshLoad:
-    """That of one mesh; errors of its load say of which."""
+    """Return the load of one mesh. Errors of the load name the mesh."""
     factor = flow.load.application_factor
     try:
         load = Load(
@@ -542,7 +545,10 @@ def _mesh_load(train: TrainData, mesh: SetMesh, flow: PowerFlow, found: MeshLoad
 
 
 def stage_loads(train: TrainData, flow: PowerFlow) -> dict[str, Load]:
-    """Of the pairs before and behind the set by their names: torque (N·m) of what their wheels carry, on the pinion."""
+    """Return the load of each pair before and behind the set by its name.
+
+    The torque (N·m) is the load of the wheel, on the pinion.
+    """
     return {
         stage.name: Load(
             torque=flow.stage_torques[stage.name].wheel / stage.pair.gear_ratio + 0.0,
@@ -560,7 +566,7 @@ def _on_pinion(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> float:
 
 
 def _pinion_speed(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> float:
-    """Of the pinion against the carrier (rpm); what is too slow to be a speed is 0."""
+    """Return the speed (rpm) of the pinion against the carrier; 0 if it is below the least speed."""
     members = flow.speeds.members
     central = members[mesh.central.name] - members[train.carrier.name]
     # A planet is one body, whatever the rim.
@@ -569,9 +575,9 @@ def _pinion_speed(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> float:
 
 
 def _rolling(train: TrainData, flow: PowerFlow) -> float:
-    """Positive where power rolls from the first central to the second, with the carrier at rest; 0 where none rolls.
+    """Return the sign of the rolling power at a resting carrier: 1 from the first central to the second; 0 if there is none.
 
-    Of a train at rest as a positive speed of its input would have it; of a differential that is none.
+    For a train at rest the sign is that for a positive speed of its input; for a differential at rest it is 0.
     """
     members = flow.speeds.members
     if not any(members.values()):

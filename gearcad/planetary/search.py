@@ -45,7 +45,7 @@ class Candidate:
 
     @property
     def name(self) -> str:
-        """Such as A-24-21-66-n3."""
+        """Name such as A-24-21-66-n3."""
         return f"{self.kind.value}-{'-'.join(str(abs(teeth)) for teeth in self.teeth.values())}-n{self.planets}"
 
     @property
@@ -60,19 +60,19 @@ class Candidate:
 
     @property
     def helix_angles(self) -> dict[str, float]:
-        """Of the gears: both rims of a planet have one hand, opposed to suns and that of rings."""
+        """Helix angles of the gears (degrees): the rims of a planet have the hand of rings, opposed to that of suns."""
         planet = -self.task.helix_angle if self.kind is not SetType.D else self.task.helix_angle
         return {name: (-planet if name.startswith("sun") else planet) + 0.0 for name in self.teeth}
 
     @property
     def modules(self) -> dict[str, float]:
-        """Of the gears (mm)."""
+        """Normal modules of the gears (mm) by their names."""
         first, second = self.task.modules
         of_second = (MEMBERS[self.kind][1], RIMS[1]) if self.kind is not SetType.A else ()
         return {name: second if name in of_second else first for name in self.teeth}
 
     def gear(self, name: str) -> Gear:
-        """One of its gears. Raises GeometryError."""
+        """Return one of the gears. Raises GeometryError."""
         return Gear(
             name=name,
             teeth=self.teeth[name],
@@ -84,7 +84,7 @@ class Candidate:
         )
 
     def train(self) -> PlanetaryTrain:
-        """The train, checked. Raises GeometryError where it cannot be made."""
+        """Return the train, checked. Raises GeometryError if it cannot be made."""
         roles, stepped = self.task.roles(self.kind), self.kind is not SetType.A
         meshed = (RIMS[0], RIMS[stepped])
         return PlanetaryTrain(
@@ -104,7 +104,7 @@ class Candidate:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the candidate as a document for JSON."""
         return {
             "name": self.name,
             "type": self.kind.value,
@@ -139,7 +139,7 @@ WIDEST = 300.0
 
 @dataclass(frozen=True, kw_only=True)
 class SearchResult:
-    """What a search has found, best first.
+    """The result of a search, best set first.
 
     `considered` are all sets with their numbers of planets, `removed` how many each condition took of those that the ones
     before it had left, `unmade` what those say that could not be made, `left` how many more would follow.
@@ -155,7 +155,7 @@ class SearchResult:
     nearest: tuple[float, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the result as a document for JSON."""
         return {
             "kind": "planetary search",
             "task": asdict(self.task) | {"types": [kind.value for kind in self.task.types]},
@@ -272,7 +272,10 @@ def _ranked(kept: list[ManySets]) -> Iterator[Candidate]:
 
 
 def _keys(sets: ManySets) -> tuple[np.ndarray[Any, Any], ...]:
-    """What sets are ranked by, from the first to the last, ties by planets and teeth; rounded, so that equal ones are equal."""
+    """Return the sort keys of sets, the first key first; ties go by planets and teeth.
+
+    Values are rounded, so that equal ones are equal.
+    """
     deviation = np.round(np.abs(sets.ratio / sets.task.ratio - 1), 12)
     diameter = np.round(sets.sizes.diameter, 6)
     last = (sets.planets, *(np.abs(teeth) for teeth in sets.teeth))
@@ -280,7 +283,7 @@ def _keys(sets: ManySets) -> tuple[np.ndarray[Any, Any], ...]:
 
 
 def _candidate(sets: ManySets, place: int) -> Candidate:
-    """One of them."""
+    """Return one of the sets as a candidate."""
     one = sets.picked(np.array([place]))
     kind, sizes, stepped = sets.kind, one.sizes, sets.kind is not SetType.A
     a, rim_a, rim_b, b = (int(teeth[0]) for teeth in one.teeth)

@@ -105,7 +105,7 @@ class SearchTask:
             self.roles(each)
 
     def _check_ends(self, name: str, kind: Whole) -> None:
-        """A least and a most."""
+        """Check the pairs of least and most."""
         given = getattr(self, name)
         if not isinstance(given, tuple) or len(given) != 2:
             raise ParameterError(name, given, "must be two whole numbers, the least and the most")
@@ -116,7 +116,7 @@ class SearchTask:
 
     @property
     def modules(self) -> tuple[float, float]:
-        """Of the first and the second mesh (mm)."""
+        """Normal modules (mm) of the first and the second mesh."""
         return self.module, self.module if self.module_2 is None else self.module_2
 
     @property
@@ -126,11 +126,16 @@ class SearchTask:
 
     @property
     def least_distance(self) -> float:
-        """Between the tips of neighbouring planets (mm)."""
+        """Least distance (mm) between the tips of neighbouring planets."""
         return self.module if self.tip_distance is None else self.tip_distance
 
     def roles(self, kind: SetType) -> Roles:
-        """Of a type: those given, then the usual ones as far as they are free, then what is left. Raises ParameterError."""
+        """Return the roles of members in a set of a type. Raises ParameterError.
+
+        Given roles come first, then usual ones for members that are still free, then the remaining members.
+
+        Raises ParameterError.
+        """
         members = MEMBERS[kind]
         given: dict[str, str] = {}
         for role in Roles._fields:
@@ -159,12 +164,12 @@ class TeethGrid(NamedTuple):
     b: Wholes
 
     def picked(self, which: Bools | Indices) -> TeethGrid:
-        """Those with these numbers, or where a mask is true."""
+        """Return the sets with these indices, or those where a mask is true."""
         return TeethGrid(*(teeth[which] for teeth in self))
 
     @property
     def row(self) -> tuple[Wholes, Wholes, Wholes]:
-        """Whole numbers by which the speeds of a, b and carrier add up to 0."""
+        """Whole numbers (three arrays (n,)) by which the speeds of a, b and carrier add up to 0."""
         of_a, of_b = self.a * self.rim_b, self.rim_a * self.b
         return of_a, -of_b, of_b - of_a
 
@@ -191,7 +196,7 @@ def grids(task: SearchTask, kind: SetType) -> Iterator[TeethGrid]:
 
 
 def _window(task: SearchTask) -> int:
-    """How many teeth the second central can be away from the number that is coaxial without profile shift.
+    """Return how many teeth the second central can be away from the number that is coaxial without profile shift.
 
     A centre distance changes by less than the shift sum in modules, and a tooth is half a module of it.
     """
@@ -207,7 +212,10 @@ def _second(task: SearchTask, kind: SetType, total: Wholes, rim_b: Wholes, offse
 
 
 def _within(task: SearchTask, kind: SetType, grid: TeethGrid) -> Bools:
-    """Where the second central is within its limits and outside its planets, and the set is of its type and has a ratio."""
+    """Return a mask of the sets that are of the type and have a ratio.
+
+    Their second central is within its limits and outside its planets.
+    """
     low, high = task.teeth if kind is SetType.C else task.ring_teeth
     size = grid.b if kind is SetType.C else -grid.b
     within: Bools = (low <= size) & (size <= high) & (grid.row[2] != 0)
@@ -244,7 +252,7 @@ class MeshSizes:
 
     @property
     def ring(self) -> Bools:
-        """Where the central is one."""
+        """Mask of the meshes whose central is a ring."""
         result: Bools = self.central < 0
         return result
 
@@ -304,7 +312,10 @@ class MeshSizes:
         return result
 
     def least_shift(self, teeth: Wholes) -> Floats:
-        """That of an outer gear without undercut: h_fP - rho (1 - sin alpha_n) - z sin^2 alpha_t/(2 cos beta)."""
+        """Return the least profile shift of an outer gear without undercut.
+
+        It is h_fP - rho (1 - sin alpha_n) - z sin^2 alpha_t/(2 cos beta).
+        """
         straight = RACK.dedendum - float(RACK.root_radius) * (1 - math.sin(math.radians(RACK.pressure_angle)))
         a_tooth = math.sin(self.transverse_angle) ** 2 / (2 * math.cos(self.helix_angle))
         result: Floats = straight - a_tooth * teeth.astype(float)
@@ -320,7 +331,7 @@ class SetSizes:
 
     @classmethod
     def of(cls, task: SearchTask, teeth: TeethGrid, *, stepped: bool) -> SetSizes:
-        """Those of a grid."""
+        """Return the sizes of the sets of a grid."""
         helix = math.radians(task.helix_angle)
         pairs = ((teeth.a, teeth.rim_a), (teeth.b, teeth.rim_b))
         first, second = (
@@ -336,7 +347,7 @@ class SetSizes:
 
     @property
     def coaxial(self) -> Bools:
-        """Where one centre distance serves both meshes."""
+        """Mask of the sets in which one centre distance serves both meshes."""
         low, high = self._limits
         result: Bools = low <= high + ROUNDING * self.meshes[0].module
         return result
@@ -355,12 +366,12 @@ class SetSizes:
 
     @cached_property
     def rim_shifts(self) -> tuple[Floats, Floats]:
-        """x of the rims, to four digits; of a plain planet that of the sun's mesh for both."""
+        """Profile shifts x of the rims, to four digits; a plain planet has that of the sun's mesh for both."""
         first = self._rim_shift(self.meshes[0])
         return first, self._rim_shift(self.meshes[1]) if self.stepped else first
 
     def _rim_shift(self, mesh: MeshSizes) -> Floats:
-        """In a ring SHIFT, at a sun half of the sum; more or less where one of the gears would be undercut."""
+        """Return x of the rims: SHIFT in a ring, half of the sum at a sun; more or less to avoid undercut of either gear."""
         total, least = mesh.shift_sum_at(self.distance), mesh.least_shift(mesh.rim)
         at_sun = np.minimum(total / 2, total - mesh.least_shift(mesh.central))
         shift = np.maximum(np.where(mesh.ring, SHIFT, at_sun), least)
@@ -393,7 +404,7 @@ class SetSizes:
         return first, second
 
     def _clear_alteration(self, mesh: MeshSizes, rim_shift: Floats, central_shift: Floats) -> Floats:
-        """Of a ring: |d_a2| >= 2 sqrt(r_b2^2 + (|T1T2| + t_Ff1)^2)."""
+        """Return k of a ring that keeps |d_a2| >= 2 sqrt(r_b2^2 + (|T1T2| + t_Ff1)^2)."""
         tangent = self.distance * np.sin(mesh.working_angle(self.distance)) + mesh.form_reach(mesh.rim, rim_shift)
         least = np.hypot(mesh.base_radius(mesh.central), tangent)
         change = (np.abs(tip_radius(mesh, mesh.central, central_shift)) - least) / mesh.module
@@ -431,7 +442,7 @@ class SetSizes:
 
 
 def rounded_up(value: Floats, digits: int) -> Floats:
-    """To so many digits behind the point, but for rounding."""
+    """Return values rounded up to a number of digits behind the point; rounding errors are not rounded up."""
     result: Floats = np.round(np.ceil(value * 10.0**digits - 1e-6) / 10.0**digits, max(digits, 0)) + 0.0
     return result
 
@@ -459,12 +470,12 @@ class ManySets:
     planets: Wholes
 
     def picked(self, which: Bools | Indices) -> ManySets:
-        """Those with these numbers, or where a mask is true."""
+        """Return the sets with these indices, or those where a mask is true."""
         return ManySets(self.task, self.kind, self.teeth.picked(which), self.planets[which])
 
     @cached_property
     def sizes(self) -> SetSizes:
-        """Their centre distances and profile shifts."""
+        """Centre distances and profile shifts of the sets."""
         return SetSizes.of(self.task, self.teeth, stepped=self.kind is not SetType.A)
 
     @property
@@ -474,7 +485,7 @@ class ManySets:
 
     @cached_property
     def efficiency(self) -> Floats:
-        """From input to output, with the sign of the rolling power that agrees with itself, as `balance` has it."""
+        """Efficiency from input to output (n,), with the sign of the rolling power that is consistent, as in `balance`."""
         members, roles = MEMBERS[self.kind], self.task.roles(self.kind)
         driving, driven, held = (members.index(name) for name in roles)
         speeds: list[Floats] = [np.ones_like(self.ratio)] * 3
@@ -492,7 +503,7 @@ class ManySets:
 
     @property
     def in_phase(self) -> Wholes:
-        """How many meshes have all planets in phase: z mod N = 0."""
+        """Number of meshes (n,) that have all planets in phase: z mod N = 0."""
         result: Wholes = (self.teeth.a % self.planets == 0).astype(int) + (self.teeth.b % self.planets == 0)
         return result
 
@@ -514,7 +525,7 @@ def _coaxial(sets: ManySets) -> Bools:
 
 
 def _whole_involutes(sets: ManySets) -> Bools:
-    """No undercut of outer gears."""
+    """Return a mask of the sets whose outer gears have no undercut."""
     sizes = sets.sizes
     whole = np.ones(len(sets.planets), bool)
     for mesh, rim, central in zip(sizes.meshes, sizes.rim_shifts, sizes.central_shifts, strict=True):
@@ -576,7 +587,7 @@ def _tips_clear(sets: ManySets) -> Bools:
 
 
 def _neighbours(sets: ManySets) -> Bools:
-    """Tips of planets keep their distance, rim by rim."""
+    """Return a mask of the sets whose neighbouring planets keep their tip distance, rim by rim."""
     apart = 2 * sets.sizes.distance * np.sin(math.pi / sets.planets)
     most = np.maximum(*sets.sizes.rim_tips)
     result: Bools = (sets.planets == 1) | (apart - 2 * most >= sets.task.least_distance)

@@ -46,32 +46,32 @@ class Gap(NamedTuple):
 
 
 def least_gap(train: TrainData) -> Gap:
-    """Of two planets or more."""
+    """Return the least angle between neighbouring planets, for two planets or more."""
     order = sorted(range(train.planets), key=lambda number: train.angles[number] % 360)
     around = [(*order, order[0])[i : i + 2] for i in range(len(order))]
     return min(Gap((train.angles[b] - train.angles[a]) % 360, (a, b)) for a, b in around)
 
 
 def most_planets(train: TrainData) -> int:
-    """How many planets at equal angles have room for every rim, whether their teeth fit or not."""
+    """Return the number of planets at equal angles that have room for every rim, whether their teeth fit or not."""
     share = max(_wanted(train, rim) for rim in train.rims) / (2 * float(train.centre_distance))
     return 1 if share >= 1 else max(math.ceil(math.pi / math.asin(share)) - 1, 1)
 
 
 def with_room(train: TrainData) -> list[int]:
-    """The numbers of planets, from 1 on, whose teeth fit at equal angles and that have room."""
+    """Return the numbers of planets, from 1 on, whose teeth fit at equal angles and that have room."""
     return [number for number in range(1, most_planets(train) + 1) if train.adjusted or train.positions % number == 0]
 
 
 def free_distance(train: TrainData) -> float | None:
-    """Between the tips of neighbouring planets (mm), the least; None of a planet alone."""
+    """Return the least distance (mm) between the tips of neighbouring planets; None of a planet alone."""
     if train.planets == 1:
         return None
     return _apart(train, least_gap(train)) - max(rim.gear.tip_diameter for rim in train.rims)
 
 
 def check_neighbours(train: TrainData) -> None:
-    """2 a sin(gap/2) is above tip diameter and tip distance of each rim. Raises GeometryError."""
+    """Raise GeometryError unless 2 a sin(gap/2) is above tip diameter and tip distance of each rim."""
     if train.planets == 1:
         return
     gap = least_gap(train)
@@ -92,12 +92,12 @@ def check_neighbours(train: TrainData) -> None:
 
 
 def _apart(train: TrainData, gap: Gap) -> float:
-    """Distance (mm) of the axes of neighbours."""
+    """Return the distance (mm) of the axes of neighbours."""
     return 2 * float(train.centre_distance) * math.sin(math.radians(gap.angle) / 2)
 
 
 def _wanted(train: TrainData, rim: Rim) -> float:
-    """Distance (mm) of axes that a rim needs, at least."""
+    """Return the least distance (mm) of axes that a rim needs."""
     return rim.gear.tip_diameter + train.tip_distance
 
 
@@ -116,7 +116,7 @@ class Span(NamedTuple):
 
 
 def check_heights(train: TrainData) -> None:
-    """Teeth at the same height that do not mesh are clear of each other. Raises ParameterError, GeometryError."""
+    """Raise ParameterError or GeometryError unless teeth at the same height that do not mesh are clear of each other."""
     first = train.rims[0]
     for name, value, unit in (("axial_position", first.axial_position, "mm"), ("clocking", first.clocking, "deg")):
         if value:
@@ -132,7 +132,7 @@ def check_heights(train: TrainData) -> None:
 
 
 def teeth_spans(train: TrainData) -> dict[str, Span]:
-    """Heights over which the teeth of rims and centrals stand, by names."""
+    """Return the heights (mm) over which the teeth of rims and centrals stand, by names."""
     spans = {rim.name: Span(rim.axial_position, rim.axial_position + rim.gear.face_width) for rim in train.rims}
     for mesh in train.meshes:
         low = mesh.rim.axial_position + (mesh.rim.gear.face_width - mesh.central.gear.face_width) / 2
@@ -141,7 +141,7 @@ def teeth_spans(train: TrainData) -> dict[str, Span]:
 
 
 def _fouled(train: TrainData) -> Iterator[str]:
-    """What stands in the way of what, in words."""
+    """Yield one sentence for each collision of rims and centrals."""
     spans = teeth_spans(train)
     for one, other in pairwise(train.rims):
         if spans[one.name].meets(spans[other.name]):
@@ -164,13 +164,13 @@ def _centrals_overlap(a: Central, b: Central) -> bool:
 
 
 def _reach(train: TrainData, central: Central, rim: Rim) -> float:
-    """How far (mm) the tips of a rim reach beyond those of a central that it does not mesh with; negative if clear."""
+    """Return how far (mm) the tips of a rim reach beyond those of a central without mesh between them; negative if clear."""
     distance = -float(train.centre_distance) if central.gear.internal else float(train.centre_distance)
     return (rim.gear.tip_diameter + central.gear.tip_diameter) / 2 - distance
 
 
 def _clear_positions(train: TrainData) -> tuple[float, float]:
-    """Below and above which positions of the second rim nothing of both meshes stands at the same height."""
+    """Return the positions (mm) of the second rim below and above which nothing of both meshes stands at the same height."""
     first, second = train.meshes if train.meshes[0].rim is train.rims[0] else train.meshes[::-1]
     widths = [max(mesh.rim.gear.face_width, mesh.central.gear.face_width) for mesh in (first, second)]
     level = (first.rim.gear.face_width - second.rim.gear.face_width) / 2
@@ -178,7 +178,10 @@ def _clear_positions(train: TrainData) -> tuple[float, float]:
 
 
 def stage_notices(train: TrainData) -> Iterator[Notice]:
-    """What of each stage is where planets or centrals pass; its tip circles are looked at, not its shafts and bodies."""
+    """Yield a notice for each gear of a stage that is in the way of planets or centrals.
+
+    Tip circles are checked, not shafts and bodies.
+    """
     heights, reaches = teeth_spans(train), _reaches(train)
     for stage, pose in zip(train.stages, train_pose(train).stages, strict=True):
         for role, place in pose.gears.items():
@@ -191,14 +194,14 @@ def stage_notices(train: TrainData) -> Iterator[Notice]:
 
 
 def _reaches(train: TrainData) -> dict[str, Span]:
-    """From where to where, from the axis of the train, teeth of rims and centrals pass."""
+    """Return the radial range (mm, from the axis of the train) over which the teeth of rims and centrals pass, by names."""
     distance = float(train.centre_distance)
     found = {rim.name: Span(distance - rim.gear.tip_diameter / 2, distance + rim.gear.tip_diameter / 2) for rim in train.rims}
     return found | {central.name: _stage_room_reach(central.gear, GearPlace(0.0, 0.0, 0.0, 0.0)) for central in train.centrals}
 
 
 def _stage_room_reach(gear: Gear, place: GearPlace) -> Span:
-    """The same of a gear in its place: what is outside the tips of a ring, or inside those of another gear."""
+    """Return the radial range (mm) of a gear in its place: outside the tips of a ring, or inside those of another gear."""
     off, radius = math.hypot(place.x, place.y), abs(gear.tip_diameter) / 2
     return Span(max(radius - off, 0.0), math.inf) if gear.internal else Span(max(off - radius, 0.0), off + radius)
 
@@ -214,7 +217,7 @@ _OFFERED = 4
 
 
 def check_errors(train: TrainData) -> None:
-    """As many errors as planets. Raises ParameterError."""
+    """Raise ParameterError unless there are as many errors as planets, or none."""
     given = {f"{rim.name}.tooth_errors": rim.tooth_errors for rim in train.rims}
     given[f"{train.carrier.name}.pin_errors"] = train.carrier.pin_errors
     for name, values in given.items():
@@ -224,7 +227,7 @@ def check_errors(train: TrainData) -> None:
 
 
 def check_angles(train: TrainData) -> None:
-    """As many angles as planets. Raises ParameterError."""
+    """Raise ParameterError unless there are as many angles as planets, or a word in their place."""
     angles = train.planet_angles
     if angles not in (EQUAL, PERMITTED) and (isinstance(angles, str) or len(angles) != train.planets):
         permitted = f'must be "equal", "permitted" or {train.planets} angles, one a planet'
@@ -232,7 +235,10 @@ def check_angles(train: TrainData) -> None:
 
 
 def check_assembly(train: TrainData) -> None:
-    """Nothing is in the way of anything, and the teeth fit. Raises ParameterError, GeometryError with what would do."""
+    """Check that nothing is in the way of anything, and that the teeth fit.
+
+    Raises ParameterError, GeometryError with what would do.
+    """
     check_heights(train)
     try:
         check_neighbours(train)
@@ -244,7 +250,10 @@ def check_assembly(train: TrainData) -> None:
 
 
 def check_teeth(train: TrainData) -> None:
-    """The teeth fit where the planets stand. Raises GeometryError with where they would, and which sets near by can."""
+    """Raise GeometryError unless the teeth fit where the planets stand.
+
+    The error names the angles where they would fit, and which sets near by can.
+    """
     if misfit := first_misfit(train):
         angle, off = misfit
         near = " or ".join(f"{each:.7g}" for each in _fitting_beside(train, angle))
@@ -261,14 +270,14 @@ def first_misfit(train: TrainData) -> tuple[float, str] | None:
 
 
 def _fitting_beside(train: TrainData, angle: float) -> tuple[float, float]:
-    """Where the teeth fit (degrees) next below and above an angle."""
+    """Return the angles (degrees) next below and above an angle at which the teeth fit."""
     step, start = 360 / train.positions, train.angles[0]
     below = start + math.floor((angle - start) / step) * step
     return below, below + step
 
 
 def _what_can(train: TrainData) -> str:
-    """In words: all angles that fit, and how planets at equal angles would."""
+    """Return a text that names all angles that fit, and how planets at equal angles would."""
     everywhere = f"all multiples of 360/{train.positions} deg do"
     if train.planet_angles != EQUAL:
         return everywhere
@@ -313,7 +322,10 @@ _BALANCED = 1e-9
 
 
 def train_notices(train: TrainData) -> Iterator[Notice]:
-    """Those of the pairs, backlash, teeth that meet too often, stages in the way, planets that do not balance each other."""
+    """Yield the notices of a train.
+
+    They are about pairs, backlash, teeth that meet too often, stages in the way, and planets that do not balance each other.
+    """
     for mesh in train.meshes:
         yield from _named(mesh)
         module, backlash = mesh.pair.pinion.normal_module, mesh.pair.circumferential_backlash
@@ -336,7 +348,7 @@ def train_notices(train: TrainData) -> Iterator[Notice]:
 
 
 def _named(mesh: SetMesh) -> Iterator[Notice]:
-    """The notices of a pair, whose gears are called by their names."""
+    """Yield the notices of a pair, with the gears under their names."""
     names = {mesh.central_role.value: mesh.central.name, mesh.rim_role.value: mesh.rim.name}
     for notice in mesh.pair.notices:
         text = re.sub(r"\b(?:the )?(pinion|wheel)\b", lambda found: names[found[1]], notice.text)
@@ -347,7 +359,10 @@ _GIVEN = ("planets", "input", "output", "fixed", "tip_distance", "basic_ratio", 
 
 
 def train_document(train: TrainData) -> dict[str, Any]:
-    """What a train is given and derives, its meshes among it, for JSON; the gears have documents of their own."""
+    """Return the given and derived values of a train, with its meshes, as a document for JSON.
+
+    The gears have documents of their own.
+    """
     parts: list[Central | Rim | Carrier] = [*train.centrals, *train.rims, train.carrier]
     notices = tuple(train_notices(train))
     return {
@@ -365,7 +380,7 @@ def train_document(train: TrainData) -> dict[str, Any]:
 
 
 def _fields(part: DataclassInstance) -> dict[str, Any]:
-    """What is given of a part beside its gears; lists as JSON has them."""
+    """Return the given values of a part beside its gears; tuples become lists, as in JSON."""
     fields = {
         name: getattr(part, name) for name, field in schema_of(type(part)).items() if field.part is None and name != "name"
     }
@@ -402,11 +417,11 @@ class PlanetaryTrain(TrainData):
         return found[self.input] / found[self.output]
 
     def to_dict(self) -> dict[str, Any]:
-        """What is given and derived, for JSON (the gears have their own)."""
+        """Return the given and derived values for JSON (the gears have their own)."""
         return {"ratio": self.ratio, **train_document(self)}
 
     def _check_parts(self) -> None:
-        """The right number of parts of the right types."""
+        """Check that the parts are of the right number and types."""
         for name, kind, least, most in (("centrals", Central, 2, 2), ("rims", Rim, 1, 2), ("stages", PairStage, 0, 8)):
             given = getattr(self, name)
             if not isinstance(given, tuple) or not all(isinstance(each, kind) for each in given):
@@ -418,7 +433,7 @@ class PlanetaryTrain(TrainData):
             raise ParameterError("carrier", self.carrier, "must be a Carrier")
 
     def _check_names(self) -> None:
-        """Every name once, and each that is spoken of is there."""
+        """Check that every name is used once, and that each name referred to exists."""
         rims = [rim.name for rim in self.rims]
         shafts = [*self.members, *(end for stage in self.stages for end in (stage.pinion, stage.wheel))]
         named = [*self.members, *rims]
@@ -443,10 +458,10 @@ class PlanetaryTrain(TrainData):
 
     @cached_property
     def phases(self) -> dict[str, MeshPhases]:
-        """Of both meshes by name, at carrier angle 0, where the input turns counter-clockwise and drives (`mesh_phases`)."""
+        """Phases of both meshes by name (`mesh_phases`), at carrier angle 0; the input turns counter-clockwise and drives."""
         return mesh_phases(self)
 
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before making it."""
+        """Notices on the train, to be read before making it."""
         return tuple(train_notices(self))

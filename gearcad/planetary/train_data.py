@@ -1,4 +1,4 @@
-"""TrainData: what is given of a planetary train, its shafts, speeds (Willis), axial places and centre distance.
+"""TrainData: the given values of a planetary train, its shafts, speeds (Willis), axial places and centre distance.
 
 A set meshes central a with rim 2 and central b with rim 2' of the same planet; rings have negative teeth.
 """
@@ -153,7 +153,7 @@ class TrainData:
 
     @property
     def gears(self) -> dict[str, Gear]:
-        """Those of the set by the names of their members and rims, then those of the stages by their own."""
+        """Gears of the set by the names of their members and rims, then gears of the stages by their own names."""
         of_set = {central.name: central.gear for central in self.centrals} | {rim.name: rim.gear for rim in self.rims}
         return of_set | {gear.name: gear for stage in self.stages for gear in stage.pair.gears}
 
@@ -194,7 +194,11 @@ class TrainData:
 
     @cached_property
     def angles(self) -> tuple[float, ...]:
-        """Where the planets stand on the carrier (degrees); given ones exactly where the teeth have them."""
+        """Angles of the planets on the carrier (degrees).
+
+        Given angles are moved to the angles at which the teeth fit, if they differ by no more than ANGLE_ROUNDING. Angles of an
+        `adjusted` train stay as given.
+        """
         if self.planet_angles == EQUAL or not self.positions:
             return tuple(360 * number / self.planets for number in range(self.planets))
         step = 360 / self.positions
@@ -317,7 +321,7 @@ class Speeds:
     planet_relative: float
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the speeds as a document for JSON."""
         return {"members": dict(self.members), "planet": self.planet, "planet_relative": self.planet_relative}
 
 
@@ -401,7 +405,7 @@ def settle_heights(train: TrainData) -> None:
 
 
 def _settle_stages(train: TrainData, low: float, high: float, room: float) -> None:
-    """The same of the stages beside a set between two heights (mm)."""
+    """Set every `axial_position` that is not given, for the stages beside a set between two heights (mm)."""
     above = _way(train, train.output) or ()
     found: dict[str, PairStage] = {}
     nearest_first = sorted(train.stages, key=lambda stage: len(_way(train, stage.pinion) or ()))
@@ -438,13 +442,13 @@ def _rim_extent(train: TrainData, name: str, rim: Gear) -> _Extent:
 
 
 def _stage_extent(stage: PairStage) -> _Extent:
-    """The same of a stage, above the bottom of the pinion's teeth."""
+    """Return the lower and upper end (mm) of a stage, above the bottom of the pinion's teeth."""
     ends = [_gear_extent(stage.pair.pinion, 0.0), _gear_extent(stage.pair.wheel, stage.pair.wheel_pose().z)]
     return min(low for low, _ in ends), max(high for _, high in ends)
 
 
 def _gear_extent(gear: Gear, bottom: float) -> _Extent:
-    """The same of a gear with its hubs, whose teeth begin at `bottom`."""
+    """Return the lower and upper end (mm) of a gear with its hubs, whose teeth begin at `bottom`."""
     back, front = gear.body.hub_ends
     return bottom - back, bottom + gear.face_width + front
 
@@ -512,8 +516,11 @@ def _placed(pair: PairData, distance: float) -> PairData:
 
 
 def _shift_for(train: TrainData, pairs: list[PairData], number: int, distance: float) -> str:
-    """In words the shift of a central with which its mesh runs at a distance (mm), "" if none: that which leaves the thinning
-    as backlash, and with thinning that which leaves none."""
+    """Return a text that names the profile shift of a central with which its mesh runs at a distance (mm); "" if there is none.
+
+    Without thinning that shift leaves no backlash. With thinning the text names the shift that leaves it as backlash, and the
+    one that leaves none.
+    """
     central = train.centrals[number]
     try:
         placed, other = _placed(pairs[number], distance), train.rim_of(central).gear.profile_shift

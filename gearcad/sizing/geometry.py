@@ -36,11 +36,11 @@ class Columns:
     """Arrays of one shape as fields, some of them PerGear or other Columns; what else is a field holds for all variants."""
 
     def map(self, change: Callable[[np.ndarray[Any, Any]], np.ndarray[Any, Any]]) -> Self:
-        """What a function makes of every array."""
+        """Return the columns with a function applied to every array."""
         return type(self)(**{each.name: _changed(getattr(self, each.name), change) for each in fields(self)})
 
     def picked(self, which: Any) -> Self:
-        """Those with these numbers, or where a mask is true; or, as with any index of numpy, the same in another shape."""
+        """Return the variants with these indices, or where a mask is true; any other index of numpy changes the shape."""
         return self.map(lambda array: array[which])
 
     @classmethod
@@ -357,7 +357,7 @@ class ManyPairs(Columns):
 
     @property
     def meshes(self) -> Bools:
-        """Where the base circles are apart."""
+        """Mask of the pairs whose base circles are apart."""
         result: Bools = self.base_diameters.pinion + self.base_diameters.wheel < 2 * self.centre_distance
         return result
 
@@ -406,7 +406,7 @@ class Free(Enum):
 
 
 class LimitKind(Enum):
-    """What limits: its name, the least that is made at all, and the least that nobody is warned of."""
+    """What limits: its name, the value at or below which nothing is made, and the value below which a notice is given."""
 
     UNDERCUT = ("undercut", -math.inf, 0.0)
     THICKNESS = ("thickness", 0.0, 0.0)
@@ -418,12 +418,12 @@ class LimitKind(Enum):
 
     @property
     def refused(self) -> float:
-        """At or below this nothing is made of it."""
+        """Value at or below which nothing is made."""
         return self.value[1]
 
     @property
     def warned(self) -> float:
-        """Below this there is a notice."""
+        """Value below which there is a notice."""
         return self.value[2]
 
 
@@ -526,7 +526,7 @@ def _of_teeth(gear: ManyTeeth, role: Role | None) -> tuple[Limit, ...]:
 
 
 def _of_mesh(gears: PerGear[ManyTeeth], distance: Floats) -> tuple[Limit, ...]:
-    """What both have together, at a centre distance (mm); nan where base circles overlap."""
+    """Return the limits of a mesh at a centre distance (mm); nan where base circles overlap."""
     first, second = gears
     m = first.normal_module
     bases = np.asarray(first.base_diameter + second.base_diameter)

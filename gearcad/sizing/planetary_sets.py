@@ -89,15 +89,15 @@ class SetSizeTask:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know of it: that its torque has its old name."""
+        """Notice that the torque is given under its old name; none otherwise."""
         return () if self.torque is None else (old_torque_notice("input_torque"),)
 
     def material_of(self, name: str) -> Material:
-        """That of a gear."""
+        """Return the material of a gear, by its name."""
         return (self.ring_material or self.material) if name.startswith("ring") else self.material
 
     def factor(self, planets: int) -> float:
-        """K_gamma of a number of planets."""
+        """Return K_gamma for a number of planets."""
         if self.mesh_load_factor is not None:
             return min(self.mesh_load_factor, float(planets))
         found = PUBLISHED[0].of(planets)
@@ -105,7 +105,7 @@ class SetSizeTask:
 
 
 def _limits(name: str, material: Material) -> EnduranceLimits:
-    """Endurance limits; errors begin with the name of the field. Raises ParameterError."""
+    """Return the endurance limits. Errors begin with the name of the field. Raises ParameterError."""
     try:
         return endurance_limits(material)
     except ParameterError as error:
@@ -125,7 +125,7 @@ class SizedSet:
 
     @property
     def name(self) -> str:
-        """Such as A-24-21-66-n3-m2-b30."""
+        """Name such as A-24-21-66-n3-m2-b30."""
         return self.train.name
 
     @cached_property
@@ -146,7 +146,7 @@ class SizedSet:
 
     @property
     def bears(self) -> float:
-        """By how much more torque it could be loaded, about: flank stress grows with its root."""
+        """Permissible torque over the load's torque, approximately: flank stress grows with the square root of torque."""
         return min(self.margins[Part.FLANK] ** 2, self.margins[Part.ROOT])
 
     @property
@@ -155,7 +155,7 @@ class SizedSet:
         return self.strength.strength is Verdict.PASSED
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON: mm, kg."""
+        """Return the set as a document for JSON: mm, kg."""
         return {
             **self.candidate.to_dict(),
             "name": self.name,
@@ -182,11 +182,11 @@ class SizedSets:
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """What was not given and goes into the rating of what was found, in words."""
+        """Sentences on inputs that were not given and are used in the ratings of the sets found, each once."""
         return tuple(dict.fromkeys(text for each in self.found for text in each.strength.assumed))
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the sets as a document for JSON."""
         return {
             "kind": "planetary sizes",
             "ratio": self.task.sets.ratio,
@@ -252,7 +252,7 @@ def size_sets(task: SetSizeTask, count: int = 20, progress: Progress | None = No
 
 
 def expected(task: SetSizeTask, count: int) -> Expected:
-    """What that takes at the most: the search may find fewer tooth numbers."""
+    """Return the expected time and memory of a search, at the most: it may find fewer tooth numbers."""
     steps = _seconds(task.considered, count)
     return Expected(sum(steps.values()), _MEMORY, f"up to {task.considered} sets of tooth numbers")
 
@@ -303,7 +303,7 @@ def made(task: SetSizeTask, candidate: Candidate, module: float, width: float) -
 
 
 def _train(candidate: Candidate, name: str) -> PlanetaryTrain:
-    """That of a candidate, its rings with a rim that is as good as a solid one."""
+    """Return the train of a candidate, its rings with a rim that is as good as a solid one."""
     train = candidate.train()
 
     def ring(central: Central) -> Central:
@@ -327,7 +327,10 @@ class _Section(NamedTuple):
 
 
 def _section(gear: Gear, density: float) -> _Section:
-    """By the outline of its teeth, integrated about the axis: ∫ r^2/2 and ∫ r^4/4 over the angle; the bores are left out."""
+    """Return mass and moment of inertia of a gear, from the outline of its teeth; the bores are left out.
+
+    The outline is integrated about the axis: ∫ r^2/2 and ∫ r^4/4 over the angle.
+    """
     outline = gear.profile.points(gear.normal_module / 100)
     radius, angle = np.hypot(*outline.T), np.unwrap(np.arctan2(outline[:, 1], outline[:, 0]))
     area, polar = (abs(float(np.trapezoid(radius**power / power, angle))) * gear.tooth_count for power in (2, 4))
@@ -339,7 +342,7 @@ def _section(gear: Gear, density: float) -> _Section:
 
 
 def _masses(train: PlanetaryTrain, sections: dict[str, _Section]) -> TrainMasses:
-    """Those that K_v goes by."""
+    """Return the masses of a train that K_v depends on."""
     rims = [sections[name] for name in _rims(train)]
     planet = MemberMass(mass=sum(each.mass for each in rims), inertia=sum(each.inertia for each in rims))
     members = {each.name: MemberMass(**sections[each.name]._asdict()) for each in train.centrals}
@@ -358,7 +361,10 @@ class _Rough(NamedTuple):
 
 
 def _rough(task: SetSizeTask, candidate: Candidate) -> _Rough:
-    """By one of its sizes: mass, and the torque that it bears, grow with the cube of the module, and with the width."""
+    """Return a rough size of a set, from one of its sizes.
+
+    Mass, and the torque that it bears, grow with the cube of the module, and with the width.
+    """
     module = min(task.modules, key=lambda each: abs(each - 2.0))
     sized = made(task, candidate, module, _widest(task, candidate, module) / 2)
     if not sized.bears:

@@ -83,7 +83,7 @@ class SizedPair:
 
     @classmethod
     def of(cls, task: SizeTask, rated: Rated, *, narrowed: bool = True) -> SizedPair:
-        """That of a variant, n = 1; its least width is sought unless it is not `narrowed`."""
+        """Return the sized pair of a variant, n = 1; its least width is sought unless `narrowed` is False."""
         pairs, temperature = rated.pairs, float(rated.temperature[0])
 
         def number(values: Any) -> float:
@@ -111,7 +111,7 @@ class SizedPair:
 
     @property
     def name(self) -> str:
-        """Such as 17-26-m3-h15."""
+        """Name such as 17-26-m3-h15."""
         return f"{self.teeth.pinion}-{self.teeth.wheel}-m{self.normal_module:g}-h{self.helix_angle:g}"
 
     @property
@@ -155,7 +155,7 @@ class SizedPair:
         return GearPair(name=self.name, pinion=gears.pinion, wheel=gears.wheel, centre_distance=self.centre_distance)
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return the pair as a document for JSON."""
         given = {each: getattr(self, each) for each in _FIGURES}
         pairs = {each: getattr(self, each)._asdict() for each in ("teeth", "flank_safeties", "root_safeties")}
         judged = None if self.strength is None else self.strength.strength.value
@@ -208,7 +208,7 @@ class Sizing(Pictured):
 
     @property
     def best(self) -> SizedPair | None:
-        """The first."""
+        """The first of `found`."""
         return self.found[0] if self.found else None
 
     @property
@@ -220,12 +220,12 @@ class Sizing(Pictured):
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """What was not given and goes into the rating of what was found, in words."""
+        """Sentences on inputs that were not given and are used in the ratings of the pairs found, each once."""
         rated = (each.strength for each in self.found)
         return tuple(dict.fromkeys(text for strength in rated if strength is not None for text in strength.assumed))
 
     def to_dict(self) -> dict[str, Any]:
-        """What size.json holds."""
+        """Return the content of size.json."""
         task = self.task
         given = {name: getattr(task, name) for name in _OF_TASKS}
         return {
@@ -325,7 +325,7 @@ def search_pairs(task: SizeTask, *, count: int = 20, errors: int = 20, progress:
 
 
 def expected(task: SizeTask, count: int, errors: int) -> Expected:
-    """What that takes."""
+    """Return the expected time and memory of a search."""
     refinement = max(_REFINED * count, _LEAST_REFINED) * _REFINEMENT_SECONDS
     seconds = _seconds(task) + refinement + errors * _ERROR_SECONDS
     return Expected(seconds, _MEMORY, f"{task.variants:,} variants".replace(",", "\N{NO-BREAK SPACE}"))
@@ -363,7 +363,7 @@ def _judged(task: SizeTask, best: Rated | None, count: int, unmade: list[str]) -
 
 
 def _rated(sized: SizedPair) -> SizedPair:
-    """With its full rating. Raises InputError for a pair that cannot be made."""
+    """Return a pair with its full rating. Raises InputError for a pair that cannot be made."""
     task = sized.task
     return replace(sized, strength=rate_strength(sized.pair(), task.materials, task.load, task.rating))
 
@@ -376,7 +376,7 @@ def _on_front(rated: Rated, place: int) -> bool:
 
 
 def _with_error(sized: SizedPair) -> SizedPair:
-    """With its transmission error, if that can be had."""
+    """Return a pair with its transmission error, or unchanged if the error cannot be computed."""
     task = sized.task
     try:
         error = transmission_error(sized.pair(), task.materials, task.load.torque)

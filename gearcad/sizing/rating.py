@@ -67,7 +67,7 @@ _FIFTH = 5
 
 @dataclass(frozen=True)
 class ManyLoadFactors:
-    """Of pairs with face widths under the load of a task, by its options. `nominal` has their stiffness."""
+    """Load factors of pairs with face widths under the load of a task, by its options. `nominal` has their stiffness."""
 
     task: SizeTask
     nominal: NominalStresses
@@ -103,7 +103,7 @@ class ManyLoadFactors:
     # ------------------------------------------------------------------ deviations
 
     def _tolerances(self, grade: int) -> PerGear[GearTolerances[Numbers]]:
-        """Of both gears; nan where the standard has none."""
+        """Return the tolerances of both gears; nan where the standard has none."""
         pairs, accuracy = self.pairs, self._options.accuracy
 
         def of(teeth: Numbers, diameter: Numbers) -> GearTolerances[Numbers]:
@@ -120,7 +120,7 @@ class ManyLoadFactors:
         return PerGear(*map(of, pairs.teeth, pairs.diameters))
 
     def _deviations(self, given: Both | None, tolerance: Callable[[GearTolerances[Numbers]], Numbers]) -> PerGear[Numbers]:
-        """Those given, else those of the grade."""
+        """Return the given deviations (µm) of both gears, or else those of the accuracy grade."""
         if given is not None:
             return PerGear(*(np.asarray(value, float) for value in both(given)))
         return PerGear(*map(tolerance, self._tolerances(self._options.accuracy_grade)))
@@ -143,7 +143,7 @@ class ManyLoadFactors:
 
     @property
     def known(self) -> Bools:
-        """Where the standard has all tolerances that the factors go by."""
+        """Mask of the variants for which the standard has all tolerances that the factors depend on."""
         options = self._options
         needed: list[Numbers] = []
         if options.face_load_factor == "C":
@@ -333,11 +333,11 @@ class Rated(Columns):
 
     @property
     def ripple(self) -> Floats:
-        """How much the length of the lines of contact changes over the mesh, over its mean."""
+        """Change of the length of the lines of contact over the mesh, over its mean."""
         return line_ripple(self.pairs.contact_ratio, self.overlap_ratio)
 
     def meets(self, condition: str, task: SizeTask) -> Bools:
-        """Where one of the REQUIRED is as it must be."""
+        """Return a mask of the variants that meet a condition, one of REQUIRED."""
         if condition == MASS:
             return np.ones(len(self.order), bool) if task.max_mass is None else self.mass <= task.max_mass
         if condition == SCUFFING:
@@ -349,7 +349,7 @@ class Rated(Columns):
         return result
 
     def safe(self, task: SizeTask) -> Bools:
-        """Where all are."""
+        """Return a mask of the variants that meet all conditions."""
         result: Bools = np.logical_and.reduce([self.meets(each, task) for each in REQUIRED])
         return result
 
@@ -437,7 +437,7 @@ def _rated(task: SizeTask, pairs: ManyPairs, width: Floats, wanted: Bools, order
 
 
 def _flat(values: Floats | PerGear[Floats], shape: tuple[int, ...], rows: Indices, columns: Indices) -> Any:
-    """Those of the wanted variants, one after another."""
+    """Return the values of the wanted variants, one after another."""
     if isinstance(values, PerGear):
         return PerGear(*(_flat(each, shape, rows, columns) for each in values))
     return np.broadcast_to(values, shape)[rows, columns]

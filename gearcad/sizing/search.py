@@ -56,11 +56,11 @@ class Grid:
 
     @property
     def variants_of_a_group(self) -> int:
-        """How many keys in a row have the same teeth, module and helix angle."""
+        """Number of successive keys with the same teeth, module and helix angle."""
         return math.prod(self._shape[3:])
 
     def chunks(self) -> Iterator[ManyPairs]:
-        """All of them. Where no centre distance meshes without backlash it is nan."""
+        """Yield all pairs of the grid. The centre distance is nan where none meshes without backlash."""
         for start in range(0, len(self), CHUNK):
             yield self._pairs(np.arange(start, min(start + CHUNK, len(self))))
 
@@ -135,7 +135,7 @@ def shift_sums_within(task: SizeTask) -> tuple[float, float]:
 
 
 def _centre_distance(pairs: ManyPairs, task: SizeTask) -> Bools:
-    """Where profile shift takes up the centre distance."""
+    """Return a mask of the pairs whose centre distance is reached by permitted profile shifts."""
     total = pairs.shifts.pinion + pairs.shifts.wheel
     least, most = SHIFT_SUMS if task.centre_distance is not None else shift_sums_within(task)
     result: Bools = (total >= least) & (total <= most)  # false of nan
@@ -184,7 +184,7 @@ LIMITS: dict[str, Callable[[ManyPairs, SizeTask], Bools]] = {
 
 
 def width_within(width: Floats, pairs: ManyPairs, task: SizeTask) -> Bools:
-    """Where a face width is not too much for the module."""
+    """Return a mask of the pairs whose face width is not too large for the module."""
     result: Bools = width <= (task.max_width_in_modules + ROUNDING) * pairs.normal_module
     return result
 
@@ -215,7 +215,7 @@ def _keys(rated: Rated, criterion: Criterion) -> tuple[np.ndarray[Any, Any], ...
 
 
 def _figures(values: Floats) -> Floats:
-    """Values without the digits that are rounding."""
+    """Return values without their last digits, which are rounding errors."""
     with np.errstate(divide="ignore"):
         size = np.where(values == 0, 0.0, np.floor(np.log10(np.abs(values))))
     step = 10.0 ** (size - _DIGITS + 1)
@@ -245,7 +245,10 @@ def lightest_of_each(rated: Rated, group: Wholes) -> Rated:
 
 
 def front(rated: Rated) -> Bools:
-    """Where nothing is both lighter and safer: the front of mass and margin; of variants that are equal in both the first."""
+    """Return a mask of the front of mass and margin: no variant is both lighter and safer.
+
+    Of variants that are equal in both the mask has the first.
+    """
     mass, margin = _figures(rated.mass), _figures(rated.margin)
     order = np.lexsort((rated.order, -margin, mass))
     best = np.maximum.accumulate(margin[order])
@@ -279,7 +282,7 @@ class _Keeper:
     lightest: list[Rated] = field(default_factory=list)
 
     def add(self, rated: Rated) -> None:
-        """Variants that meet all conditions."""
+        """Add variants that meet all conditions."""
         self.best.append(self._best(rated))
         self.front.append(rated.picked(front(rated)))
         if sum(len(each.order) for each in self.best) > _KEPT:
@@ -289,18 +292,18 @@ class _Keeper:
         return best_of_each(rated, rated.pairs.key // self.group, self.task.criterion)
 
     def settle(self) -> None:
-        """Leave one of each."""
+        """Keep the best variant of each combination, and the front of all."""
         if self.best:
             self.best = [self._best(Rated.joined(self.best))]
             joined = Rated.joined(self.front)
             self.front = [joined.picked(front(joined))]
 
     def add_strongest(self, rated: Rated) -> None:
-        """The one of most safety, of variants that need not be safe enough."""
+        """Add the variant of most safety, out of variants that need not be safe enough."""
         self.strongest = _search_first([*self.strongest, rated], lambda each: -each.margin)
 
     def add_lightest(self, rated: Rated) -> None:
-        """The lightest, of variants that are safe, whatever mass is permitted."""
+        """Add the lightest variant, out of variants that are safe, whatever mass is permitted."""
         self.lightest = _search_first([*self.lightest, rated], lambda each: each.mass)
 
 
@@ -371,7 +374,7 @@ def _variants(task: SizeTask, pairs: ManyPairs, removed: dict[str, int]) -> Iter
 
 
 def _meeting(task: SizeTask, variants: Rated, conditions: Iterable[str], removed: dict[str, int]) -> Rated:
-    """Those that meet some of the REQUIRED."""
+    """Return the variants that meet some of the REQUIRED, and count in `removed` how many each condition takes."""
     left = variants
     for name in conditions:
         mask = left.meets(name, task)
@@ -420,7 +423,7 @@ def least_width(task: SizeTask, variant: Rated) -> float:
     """
 
     def reserve(width: float) -> float:
-        """Below 0 of too narrow a face, and of one that has no rating."""
+        """Return a number that is below 0 for too narrow a face, and for one that has no rating."""
         size = np.array([[width]])
         found = rate_many(task, variant.pairs, size, np.ones((1, 1), bool), np.zeros((1, 1), int))
         if not len(found.order):
@@ -526,12 +529,12 @@ def _mass_of_width(task: SizeTask, pairs: ManyPairs) -> Floats:
 
 
 def _rounded_down(width: Floats) -> Floats:
-    """As `rounded_width`, but never more."""
+    """Return face widths (mm) rounded as by `rounded_width`, but never up."""
     return np.where(width < 10, np.floor(width * 10 + 1e-6) / 10, np.floor(width + 1e-6))
 
 
 def _step(width: Floats) -> Floats:
-    """Of face widths above one (mm)."""
+    """Return the step (mm) of face widths from a width upwards."""
     return np.where(width < 10 - 1e-6, 0.1, 1.0)
 
 
@@ -568,13 +571,13 @@ def _lightest(task: SizeTask, pairs: ManyPairs, most_mass: Floats) -> Iterator[R
 
 
 def _safe(task: SizeTask, pairs: ManyPairs, width: Floats, wanted: Bools) -> Rated:
-    """Those with all safeties; their order is their place in (n, w)."""
+    """Return the variants with all safeties; their order is their place in (n, w)."""
     found = rate_many(task, pairs, width, wanted, np.arange(width.size).reshape(width.shape))
     return found.picked(found.safe(task))
 
 
 def _places(found: Rated, width: Floats) -> Bools:
-    """Where in (n, w) they are."""
+    """Return a mask (n, w) of the variants found."""
     result = np.zeros(width.shape, bool)
     result.ravel()[found.order] = True
     return result

@@ -410,6 +410,6 @@ def _notch(material: Material, group: MaterialGroup, section: ManyRoots) -> tupl
 
 
 def _group(material: Material) -> MaterialGroup:
-    """That of a material which has one: the task has seen to it."""
+    """Return the group of a material; the task has checked that it has one."""
     assert material.group is not None
     return material.group

@@ -1,4 +1,4 @@
-"""SizeTask: what a pair must carry for how long, and what it may be."""
+"""SizeTask: the load, the life and the permitted sizes of a pair to be found."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _RANGES = {
 
 
 class Criterion(StrEnum):
-    """What comes first in the ranking."""
+    """The first criterion of the ranking."""
 
     MASS = "mass"
     SAFETY = "safety"
@@ -102,7 +102,7 @@ class SizeTask:
         self._check_limits()
 
     def _check_variants(self) -> None:
-        """Some, and not more than can be gone through."""
+        """Check that there are variants, and not too many to try all."""
         if not self.teeth_pairs:
             permitted = (
                 f"must be more, or the range of teeth wider: no pinion from {self.teeth[0]} to {self.teeth[1]} teeth has one"
@@ -162,7 +162,7 @@ class SizeTask:
 
     @property
     def variants(self) -> int:
-        """How many pairs with a face width there are."""
+        """Number of pairs with a face width."""
         sums = 1 if self.centre_distance is not None else len(self.shift_sums)
         sizes = (self.modules, self.helix_angles, self.shifts, self.width_ratios)
         return len(self.teeth_pairs) * sums * math.prod(map(len, sizes))
