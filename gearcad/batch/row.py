@@ -178,7 +178,7 @@ _HOPELESS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.ENOENT)
 
 
 class Status(Enum):
-    """How a row ended."""
+    """Final status of a row."""
 
     OK = "ok"
     FAILED = "failed"

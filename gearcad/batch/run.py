@@ -36,7 +36,7 @@ from gearcad.jobs.job import Job
 
 @dataclass(frozen=True, kw_only=True)
 class Summary:
-    """How a run ended: its files, rows by status, one line for each failed row, and why it stopped early if it did.
+    """Result of a run: its files, rows by status, a line for each failed row, and the reason if it stopped early.
 
     `short` of the rows that are ok have a check with a gate that is not passed, or a rating that is not.
     """
@@ -62,10 +62,10 @@ RESULTS = "results.csv"
 COLUMNS = "columns.csv"
 PARQUET = "results.parquet"
 FILES = (RESULTS, COLUMNS, PARQUET)
-"""What `write_results` writes: the names are not for a design, nor for the table itself."""
+"""Files that `write_results` writes; neither a design nor the table itself may have these names."""
 
 _ROWS_PER_GROUP = 300
-"""What Parquet holds in memory before it writes: more rows make smaller files, fewer a smaller process."""
+"""Rows that Parquet holds in memory before it writes: more rows make smaller files, fewer a smaller process."""
 
 
 class Results(Protocol):

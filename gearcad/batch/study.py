@@ -34,7 +34,7 @@ _BLOCK = 4096
 
 
 class Method(Enum):
-    """How a sample is drawn; the value is that of `--sample`."""
+    """Method of drawing a sample; the value is that of `--sample`."""
 
     LATIN_HYPERCUBE = "lhs"
     SOBOL = "sobol"
@@ -45,7 +45,7 @@ _METHOD_WORDS = {Method.LATIN_HYPERCUBE: "a Latin hypercube", Method.SOBOL: "a s
 
 @dataclass(frozen=True, kw_only=True)
 class Sample:
-    """So many rows drawn by a method; the same seed draws the same rows. Raises ParameterError."""
+    """A number of rows drawn by a method; the same seed draws the same rows. Raises ParameterError."""
 
     method: Method
     rows: int
@@ -163,7 +163,7 @@ def write_study(study: Study, path: Path) -> None:
 
 
 class TableCheck(NamedTuple):
-    """How many rows of a table make no gear, and why the first does not ("" if all do)."""
+    """Number of a table's rows that make no gear, and the fault of the first ("" if all make one)."""
 
     faulty: int
     first_fault: str

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 VARIABLE = "_GEARCAD_COMPLETE"
-"""Of the environment: by it a shell asks for what fits."""
+"""Environment variable by which a shell asks for completions."""
 
 
 @click.command(short_help="Print what lets a shell complete commands.")
@@ -98,7 +98,7 @@ def _write_new(path: Path, text: str, force: bool) -> None:
 
 
 _STARTER = "reducer"
-"""What is opened if nothing is given."""
+"""Starter that is opened if no spec is given."""
 
 
 @click.command("open")

@@ -141,7 +141,7 @@ def _show(_name: str, drawing: Drawing, *, quiet: bool) -> None:
 
 _IMAGES = (".png", ".gif", ".apng", ".webp")
 _OTHERS = tuple(".avi .bmp .eps .jpe .jpeg .jpg .mov .mp4 .pdf .ps .svg .tga .tif .tiff .webm".split())
-"""Of images and films that nobody means for a folder."""
+"""Suffixes of images and films, which cannot be meant for a folder."""
 
 
 @click.command(short_help="Write a picture of SPEC, still or turning.")

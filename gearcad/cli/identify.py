@@ -28,7 +28,7 @@ _FAR = 100.0
 """Uncertainties beyond which nobody asks how far."""
 
 _CLEAR = 2.0
-"""How far apart candidates must be for a measurement to decide."""
+"""Distance between candidates at which a measurement decides, in uncertainties."""
 
 
 def identification_lines(found: Identification) -> Iterator[str]:

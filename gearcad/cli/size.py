@@ -43,7 +43,7 @@ _HINTS = {
     "root safety": "a larger --module, or fewer --teeth at the same centre distance",
     "scuffing safety": "a thicker oil, a higher scuffing_stage, or more --helix-angle",
 }
-"""What would help where a condition takes most variants."""
+"""Advice for each condition, given if it removes most variants."""
 
 
 def table_lines(result: Sizing) -> Iterator[str]:

@@ -110,7 +110,7 @@ def is_spec_name(path: Path) -> bool:
 
 
 _TEMPLATE = "drawing.template"
-"""What changes the title block of drawings."""
+"""Key of the template that changes the title block of drawings."""
 
 _fence: ContextVar[Path | None] = ContextVar("the folder in which files must be", default=None)
 
@@ -138,7 +138,7 @@ def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def find_named_files(tables: Mapping[str, Any], folder: Path) -> None:
-    """The same of the tables of a spec in `folder`, in place."""
+    """Replace the file names in the tables of a spec in `folder`, in place, by names that are valid from here."""
     train, drawing = tables.get("train"), tables.get("drawing")
     meshes = train.get("mesh") if isinstance(train, Mapping) else None
     named = [(f"train.mesh[{at}]", mesh, "pair") for at, mesh in enumerate(meshes)] if isinstance(meshes, list) else []
@@ -205,7 +205,10 @@ def spec_text(path: Path | str) -> str:
 
 
 def tables_of_text(text: str, file: str, folder: Path) -> tuple[dict[str, Any], Where]:
-    """The same of a spec's text, which messages call `file`; files that it names are seen from `folder`. Raises SpecError."""
+    """Return the tables of a spec's text, and a function that locates a key for messages. Raises SpecError.
+
+    Messages call the text `file`; files that it names are seen from `folder`.
+    """
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -262,7 +265,7 @@ LONGEST_NAME = 100
 """Most characters of a design's name: it becomes a folder, and file systems stop at 255 bytes."""
 
 LONGEST_NAME_IN_BYTES = 200
-"""The same in UTF-8, with room for what the names of files beside the folder add."""
+"""Greatest length of a name in bytes of UTF-8, with room for suffixes of the files beside the folder."""
 
 _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM", "LPT") for number in range(1, 10))}
 
@@ -279,14 +282,14 @@ class Described(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class Design(ABC):
-    """What one spec describes, of any kind: its subject under the name of its kind, and the inputs that later stages need.
+    """The design that one spec describes, of any kind: its subject under the name of its kind, and inputs for later stages.
 
     `name` becomes the name of the output folder. Raises ParameterError for a name that is not a plain file name.
     """
 
     kind: ClassVar[DesignKind]
     elsewhere: ClassVar[str] = ""
-    """What takes designs of this kind, if hardly any job does."""
+    """Words for the commands that take designs of this kind, if hardly any job does."""
 
     name: str
 

@@ -35,7 +35,7 @@ class ToothedDesign(Design):
 
     drawing: DrawingOptions | None = None
     drawings: Mapping[str, PartDrawing] = field(default_factory=dict)
-    """What the sheets of gears have of their own, by the gears' names in `gears`."""
+    """Options that belong to the sheet of one gear only, by the gears' names in `gears`."""
 
     @classmethod
     @abstractmethod

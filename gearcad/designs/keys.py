@@ -45,10 +45,10 @@ _MOST_LISTED, _NEAREST, _MOST_KEYS = 12, 5, 30
 """Permitted keys that a line can bear, and of more those that it names; a table's keys that it bears at the most."""
 
 Fields = Mapping[str, Mapping[str, FieldSchema]]
-"""What the keys of the tables of a kind of designs say of themselves."""
+"""Fields of the keys of all tables of a kind of design."""
 
 Cell = int | float | str | tuple[float, ...]
-"""What a spec and a cell of a design table can both hold."""
+"""Value that both a spec and a cell of a design table can hold."""
 
 PARTS = parts_of(Gear)
 """Fields of a gear that have fields of their own, and their types."""
@@ -186,7 +186,7 @@ def _fields_of_pairs() -> dict[str, FieldSchema]:
 
 
 FIELDS = LazyTable(("gear", "pair", "pinion", "wheel", "rack", *_HOMES), _fields)
-"""What each key of each table says of itself, the keys flattened with dots."""
+"""Field of each key of each table; the keys are flattened with dots."""
 
 
 def field_of(table: str, key: str) -> FieldSchema | None:
@@ -207,7 +207,7 @@ MOVED = {
     "check.wheel_tip_relief": "write wheel.modification.tip_relief and wheel.modification.tip_relief_length (mm)",
     "check.tip_relief_length": "write modification.tip_relief_length of pair, pinion or wheel, in mm and not in modules",
 }
-"""Where keys of earlier specs went."""
+"""New places of keys that earlier specs had."""
 
 
 def explain_unknown_table(table: str, fields: Fields = FIELDS) -> str:

@@ -114,7 +114,7 @@ _ROUNDING = 1e-9
 """Change of a tip alteration, in normal modules, that is rounding."""
 
 _MORE_TEETH = (1, 2, 4, 8, 16, 32, 64, 128)
-"""By how many teeth rings beyond their pinion are tried, each twice the last, before those between are."""
+"""Numbers of teeth beyond the pinion's that are tried for a ring, each twice the last, before those between."""
 
 _OPPOSED = ("helix_angle", "double_helix.offset")
 """Fields of a gear that its mate has with the opposite sign, and a ring with the same."""

@@ -232,7 +232,7 @@ _OF_TRAINS = {each.name for each in fields(PlanetaryTrain)}
 _REQUIRED = ("planets", "input", "output")
 
 _TAKEN = ("kind", "name", "gearcad", "materials", "drawings", "assumed", SPEEDS, MAIN, *BESIDE)
-"""What a document has beside its gears."""
+"""Keys of a document beside its gears."""
 
 
 @dataclass(frozen=True, kw_only=True)

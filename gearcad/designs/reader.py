@@ -88,7 +88,7 @@ _ALIASES = {
     "planetary": "planetary-24-21-66",
     "uhlir": "uhlir-19-23",
 }
-"""What a newcomer would ask for."""
+"""Names for starters that a newcomer would try."""
 
 NO_DESIGNS = ("drawing_title", "measured")
 """Starters that are no spec and no table of designs."""

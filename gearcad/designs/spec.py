@@ -47,7 +47,7 @@ _SAME = 1e-9
 """Difference of two modules or pressure angles that is rounding, as in GearPair."""
 
 _FOLLOWING = ("profile_shift", "tip_alteration", "tip_diameter", "root_diameter")
-"""What of a gear may follow from the centre distance."""
+"""Fields of a gear that may follow from the centre distance."""
 
 GearInputs = Mapping[str, Any]
 """Keyword arguments of a Gear, where `profile_shift` and `tip_alteration` may still be "auto"."""
@@ -256,7 +256,7 @@ _DIGITS_TOLD = 9
 """Decimals of a derived shift in words: beyond them it is rounding noise."""
 
 _SWITCH = {"true": True, "false": False}
-"""What cells of a table have for what is true or false."""
+"""Texts of table cells for true and false."""
 
 _OWN = ("material", "drawing")
 """Tables of a gear's own, which are read by themselves."""
@@ -390,7 +390,7 @@ class Spec:
         return {key[len(owner) + 1 :]: given.value for key, given in self.values.items() if key.startswith(owner + ".")}
 
     def given_of(self, owner: str) -> dict[str, Given]:
-        """The same with the keys that the user wrote."""
+        """Return the values of one table, still flat, with the keys that the user wrote."""
         return {key[len(owner) + 1 :]: given for key, given in self.values.items() if key.startswith(f"{owner}.")}
 
     def simple(self, owner: str, kind: type[Simple], values: Mapping[str, Any] | None = None) -> Simple:

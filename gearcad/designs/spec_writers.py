@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 
 _ALWAYS = ("helix_angle", "profile_shift", "tip_alteration")
-"""Of gears: what a spec without them takes from the mate, or as "auto"."""
+"""Fields of gears that are always written: without them a spec takes them from the mate, or as "auto"."""
 
 
 def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
@@ -275,7 +275,7 @@ class MeshPairs:
 
 
 _DIGITS = 12
-"""Of numbers of a task, without those that are rounding."""
+"""Significant digits of the numbers of a task, without those that are rounding."""
 
 
 def pair_keys(sized: SizedPair) -> dict[str, dict[str, Any]]:
@@ -367,7 +367,7 @@ def _tables(sized: SizedPair) -> Mapping[str, Mapping[str, Any]]:
 _GEARS = ("sun", "planet", "ring", "planet_2", "sun_2", "ring_2")
 
 _RIM = 5.0
-"""What the rim of a ring has outside its root circle, in modules of diameter."""
+"""Thickness of a ring's rim outside its root circle, in modules of diameter."""
 
 
 def write_found(result: SearchResult, path: Path) -> None:

@@ -36,7 +36,7 @@ from gearcad.geometry.gear_parts import MODULE_OR_PITCH
 Where = Callable[[str], str]
 
 _REQUIRED: dict[str, Cell] = {"teeth": 20, "normal_module": 2.0, "face_width": 20.0, "height": 20.0}
-"""What a gear or a rack cannot do without, as far as they have it, and values that fit each other."""
+"""Keys that a gear or a rack needs, as far as they have them, with values that fit each other."""
 
 _TOOTHED = {
     kind: tuple(table for table in tables if table in FIELDS and table != "pair") for kind, tables in MAIN_TABLES.items()
@@ -57,7 +57,7 @@ _SETS = {
 _RINGS: dict[str, dict[str, Cell]] = {
     owner: {f"{owner}.teeth": -70, f"{owner}.profile_shift": -0.3} for owner in ("gear", "wheel")
 }
-"""What makes rings of these sound gears: diameters and centre distances are negative beside them."""
+"""Values that make rings of these sound gears; diameters and centre distances are negative beside them."""
 
 
 def _sound_set(owner: str) -> dict[str, Cell]:
@@ -109,7 +109,10 @@ def fault_alone(key: str, value: Cell, where: Where, *, of: DesignKind | None = 
 
 
 def _fault_in_train(key: str, value: Cell, where: Where) -> SpecError | None:
-    """The same in a train: names of other parts are for the whole row to judge."""
+    """Return the fault of a value in a train that is wrong by itself, or None.
+
+    Names of other parts are left to the check of the whole row.
+    """
     found = TrainKey.of(key)
     if found is None or found.schema.members == (str,) or found.name == ALL:
         return None

@@ -283,7 +283,7 @@ _TOLD_BY_PAIR = ("base_radii", "teeth", "internal", "stiffness", "variation", "s
 """Keys of a mesh that its pair has in their place."""
 
 _NEVER_PART = "off"
-"""As a backlash: that of flanks that stay together whatever pulls them."""
+"""Value of a backlash for flanks that stay together under any load."""
 
 _LISTS = {"inertia": "inertias", "shaft": "shafts", "mesh": "meshes"}
 

@@ -92,10 +92,10 @@ def explain_unknown_planetary_column(heading: str) -> str:
 MAIN = "train"
 
 ALL = "*"
-"""In place of a name: all parts of a kind. What a part has of its own goes before it."""
+"""Stands in place of a name for all parts of a kind. A part's own value counts before it."""
 
 TRAIN_PARTS: dict[str, type[DataclassInstance]] = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
-"""What a train is made of, by the tables of its spec."""
+"""Types of the parts of a train, by the tables of its spec."""
 
 TORQUES = "torques"
 """The part of [train] whose keys are inertias."""
@@ -128,7 +128,7 @@ TRAIN: dict[str, dict[str, FieldSchema]] = {
         for key, each in _flat(name, field).items()
     },
 }
-"""What the keys of each table say of themselves; those of parts without the names."""
+"""Fields of the keys of each table; keys of parts are without the names."""
 
 _TORQUE = schema_of(_OfTorques)[TORQUES]
 

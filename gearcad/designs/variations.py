@@ -93,7 +93,7 @@ _COMPUTED = {
 }
 
 _TABLES = _COMPUTED | {table: inputs | _COMPUTED.get(table, {}) for table, inputs in _INPUTS.items()}
-"""By the beginning of the heading."""
+"""Symbols by the beginning of the heading."""
 
 _OF_TRAINS = _symbols(PLANETARY)
 _OF_TRAINS["planetary"] |= symbols.PLANETARY
@@ -105,7 +105,7 @@ _NAMED_OF_TRAINS = {
     "stages": _COMPUTED["pair"] | _INPUTS["pair"] | _STAGE,
     "members": _MEMBER | symbols.PLANETARY_MEMBER,
 }
-"""What stands under the name of a mesh, stage or member."""
+"""Symbols under the name of a mesh, stage or member."""
 
 _NAMED = ("stiffness",)
 """Tables whose quantities stand under a name each: `stiffness.iso6336.mean`."""
@@ -116,7 +116,10 @@ _OWNERS = tuple(role.value for role in Role)
 
 
 def column_of_train(heading: str) -> tuple[str, Symbol] | None:
-    """The same in a table of planetary trains: whose it is by the name of its gear, mesh or stage."""
+    """Return the owner and the symbol of a column in a table of planetary trains, or None for an unknown one.
+
+    The owner is the name of a gear, mesh or stage.
+    """
     table, _, field = heading.partition(".")
     kind, _, named = field.partition(".")
     if table == "planetary" and kind in _NAMED_OF_TRAINS:
@@ -248,7 +251,7 @@ _BESIDE = {
 """Tables beside those of the teeth whose keys may vary; a pair has all others."""
 
 _SIZES_OF_RACKS = ("teeth", "length")
-"""One of them is given."""
+"""Fields for the size of a rack, of which one is given."""
 
 _INSTEAD = {
     ("mesh", "damping"): ("damping_ratio",),
@@ -256,7 +259,7 @@ _INSTEAD = {
     ("mesh", "pair"): ("base_radii", "teeth", "internal", "stiffness", "variation", "shape", "contact_ratio"),
     ("shaft", "torsional_stiffness"): ("length", "diameter", "inner_diameter"),
 }
-"""What a part of a train gives up when another key of it varies."""
+"""Keys that a part of a train loses when another key of it varies."""
 
 _MOST_SHOWN = 6
 """Values of a wrong list that a message repeats."""
@@ -485,7 +488,7 @@ MOST_VARIANTS = 12
 _MODEL = "train.model"
 
 VariantValue = Cell | tuple[Cell, ...]
-"""Of a key that varies; several of models."""
+"""Value of a key that varies; for models, several in one tuple."""
 
 
 @dataclass(frozen=True)

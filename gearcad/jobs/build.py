@@ -106,7 +106,7 @@ _WHERE = {
     "exploded": "the assembly is there",
     "turning": "it is an animation of assembly.glb",
 }
-"""Where options show that no file but those of a few formats can show."""
+"""The effect of options that only a few formats show, for messages."""
 
 _OF_TRAINS = ("carrier", "exploded", "turning")
 """Options of planetary trains only."""

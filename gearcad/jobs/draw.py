@@ -132,7 +132,7 @@ Drawn = TypeVar("Drawn", DrawingOptions, PartDrawing)
 ASSEMBLY = "assembly"
 
 _STEM = "drawing"
-"""With what the names of files begin."""
+"""First part of the names of files."""
 
 
 class SheetFormat(Enum):
@@ -326,7 +326,7 @@ _LEAST, _MOST = 16, 8000
 """Pixels of width and height."""
 
 _MOST_PIXELS, _MOST_IN_ALL = 16_000_000, 250_000_000
-"""Of a picture, which takes some 60 bytes each, and of all frames, which are held until the file is written."""
+"""Greatest number of pixels of a picture (some 60 bytes each), and of all frames, which are held until the file is written."""
 
 _FINE = 0.001
 """Largest error of the facets in normal modules: less than a pixel where a mesh fills the picture."""

@@ -70,7 +70,7 @@ _OF_PAIRS = (
     "model stiffness_method mesh_stiffness_mean mesh_stiffness_tangent_mean pinion_inertia wheel_inertia tooth_stiffness"
     " tooth_damping natural_frequency damping_ratio static_approach contact_ratio resonance_speed_iso6336"
 ).split()
-"""What a line has of the document as it is."""
+"""Values that a line takes from the document unchanged."""
 
 _MOST_FREQUENCIES = 6
 """Natural frequencies above 0 that a line has of a train."""
@@ -161,7 +161,7 @@ _TABLES = (
     *("chart", *_OVER_SPEED, *(f"{name} down" for name in _OVER_SPEED), "modes", "component modes", "course", "course lines"),
     *("mesh stiffness", "campbell", "history", "spectrum", _ERRORS, "transient"),
 )
-"""Of any result."""
+"""Tables of any result."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -39,7 +39,7 @@ class Job(ABC, Generic[Accepted, Result]):
     """One verb with its options. Commands, tables and Python use jobs, and nothing below them."""
 
     verb: ClassVar[str]
-    """Its name: that of its module, of its command, of its document and of its function in `gearcad`."""
+    """Name of the job: that of its module, of its command, of its document and of its function in `gearcad`."""
 
     accepts: ClassVar[tuple[DesignKind, ...]]
     """The kinds of designs that it takes."""
@@ -146,7 +146,7 @@ def _plain(value: Any) -> Any:
 
 
 Subject: TypeAlias = "Design | GearPair | Gear | RackPair | Rack | PlanetaryTrain"
-"""What Python may give to a job."""
+"""Objects that Python may give to a job."""
 
 
 def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: Unpack[Inputs]) -> Design:

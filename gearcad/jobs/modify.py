@@ -30,7 +30,7 @@ from gearcad.mounting import Mounting
 from gearcad.version import __version__
 
 SUFFIX = "-modified"
-"""What the name of a modified design ends in."""
+"""Suffix of the name of a modified design."""
 
 
 @dataclass(frozen=True, kw_only=True)

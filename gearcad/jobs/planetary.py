@@ -24,7 +24,7 @@ from gearcad.version import __version__
 __all__ = ["Planetary", "Studied", "planetary"]
 
 _FIGURES = "ratio efficiency efficiency_back planet_speed_relative".split()
-"""What a line of a table takes from the document as it is."""
+"""Values that a line of a table takes from the document unchanged."""
 
 _MOST_FREQUENCIES = 3
 """Natural frequencies above 0 that a line of a table has."""

@@ -135,6 +135,9 @@ def identify(
 
 
 def identify_measured(measurements: Measurements, count: int = 10) -> Identification:
-    """The same of what a file says, as `read_measurements` has it."""
+    """Return the standard gears that the readings of a file may be of, as `identify` does.
+
+    `read_measurements` reads such a file.
+    """
     require_whole("count", count, at_least=1, at_most=_MOST)
     return identify_gear(measurements.measured, count)

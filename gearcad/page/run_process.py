@@ -140,7 +140,7 @@ DOWNLOADS = {
     "drawing-svg": RunKind(job=_draw("svg"), taken="*.svg"),
     "data": RunKind(job=_data, taken="data.json"),
 }
-"""What is made to be taken along."""
+"""Kinds of runs that make files for download."""
 
 RUNS = ANALYSES | DOWNLOADS
 

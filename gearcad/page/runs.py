@@ -79,7 +79,7 @@ class Run:
     number: int
     asked: Asked
     given: Mapping[str, str]
-    """What the spec says under its keys, by which runs are told from each other."""
+    """Values of the spec under its keys, by which runs are told apart."""
 
     state: State = State.WAITING
     step: str = ""
@@ -89,7 +89,7 @@ class Run:
     """The verdict as the command line says it, or the error."""
 
     name: str = ""
-    """Of the design, as its files are called."""
+    """Name of the design, as in the names of its files."""
 
     figures: Mapping[str, Any] = field(default_factory=dict)
     notices: tuple[str, ...] = ()
@@ -179,7 +179,7 @@ def _take(run: Run, told: Mapping[str, Any], clock: Clock) -> Clock:
 
 
 def _flat(figures: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
-    """Under dotted keys as a table of results has them; warnings are told as notices."""
+    """Yield the figures under dotted keys, as in a table of results. Lists are left out: warnings are reported as notices."""
     for key, value in figures.items():
         if isinstance(value, Mapping):
             yield from _flat(value, f"{before}{key}.")
@@ -235,7 +235,7 @@ _MOST_KEPT = 40
 
 
 class Turns:
-    """So many runs of all sessions at a time; sessions that wait are served in the order in which they came."""
+    """Permits for a limited number of runs of all sessions at a time; waiting sessions are served in order of arrival."""
 
     def __init__(self, count: int) -> None:
         self._free, self._waiting, self._changed = count, deque[object](), threading.Condition()
@@ -410,7 +410,7 @@ def _missing() -> Response:
 
 
 Takers = Mapping[str, tuple[int, Callable[[str, bytes], None]]]
-"""By what a file is: how many bytes it can have, and who takes its name and content."""
+"""Greatest size in bytes, and the function that takes name and content, for each kind of file."""
 
 _LONGEST_NAME = 200
 _WAITING: dict[str, Takers] = {}

@@ -245,10 +245,10 @@ _PATIENCE = 2.0
 """Seconds that threads have to end the processes of runs."""
 
 _RUNS = "gearcad-runs"
-"""What their threads are called."""
+"""Name of the threads of runs."""
 
 _PREFIX = "gearcad-open-"
-"""What the folders of servers are called."""
+"""Prefix of the names of the servers' folders."""
 
 _YOUNG = 60.0
 """Seconds in which who has made a folder has come to hold it."""
@@ -335,7 +335,7 @@ LOCAL = "127.0.0.1"
 """Address that no other machine reaches; other accounts of this one do."""
 
 PORT = 8765
-"""Where the page listens, unless that is taken: then at the next that is free."""
+"""Port of the page; if it is taken, the next free one is used."""
 
 _TRIED = 100
 """Ports that are tried."""

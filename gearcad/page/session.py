@@ -28,7 +28,7 @@ from gearcad.page.words import Language, Words, language_of
 from gearcad.page.workbench import DESIGN, TEXT, BesideDesign, linked_bench
 
 _SECONDS = 60.0
-"""Until nobody comes for it any more."""
+"""Seconds until an unclaimed handover is dropped."""
 
 
 class Handed(NamedTuple):
@@ -108,7 +108,7 @@ One = TypeVar("One", bound=Panel[Any])
 
 
 class Following:
-    """What was found for a design that is not the last any more is not shown. A panel that fails says so, the others go on."""
+    """Updates the panels for the last design; results for an older one are dropped. A panel that fails shows it, others go on."""
 
     def __init__(self, design: Callable[[], Design], failed: str) -> None:
         self._design, self._failed = design, failed
@@ -312,7 +312,7 @@ class Session:
         self.follow()
 
     def opened(self, text: str, name: str) -> None:
-        """Somebody opened another spec."""
+        """Take another spec that the user opened."""
         self.bench.open(text, name)
         self.follow(reveal=True)
 
@@ -322,7 +322,7 @@ class Session:
         background_tasks.create(self._following.compare(lambda: self.beside.design))
 
     def tabled(self, text: str, name: str) -> None:
-        """Somebody opened a table of results."""
+        """Show a table of results that the user opened."""
         self._right.choose("table")
         self._table.take(text, name)
 

@@ -28,13 +28,13 @@ _PAUSE = 1.0
 _AT = re.compile(r"\.toml line (\d+)")
 
 TEXT = "text"
-"""Where one types who types into the text itself."""
+"""Place of changes that the user types into the text itself."""
 
 
 class Fault(NamedTuple):
-    """What is wrong with a text: the line that the command line would print, and the key at fault ("" where it is none).
+    """The fault of a text: the line that the command line would print, and the key at fault ("" where it is none).
 
-    What cannot be written into the text at all is not `written`: only the field has it.
+    A fault is not `written` if the input cannot be written into the text at all: only the field has it.
     """
 
     line: str
@@ -155,7 +155,7 @@ def _value(key: str, typed: str) -> Cell | None:
 
 
 DESIGN = "design"
-"""Its name in the address."""
+"""Name of the design's parameter in the address."""
 
 LONGEST = 8000
 """Characters of a link: what browsers, servers and mails let through."""
@@ -304,7 +304,7 @@ class Kept(NamedTuple):
 
 
 class BesideDesign:
-    """What is `kept` beside the design of a workbench `bench`, if anything is."""
+    """The design `kept` beside that of a workbench `bench`, if there is one."""
 
     def __init__(self, bench: Workbench) -> None:
         self.bench, self.folder = bench, Folder(bench.folder)

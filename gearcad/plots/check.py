@@ -358,7 +358,7 @@ _DEPTH_WORDS = {
 COLOUR_MAP = "viridis"
 
 YAW, PITCH = 50.0, 25.0
-"""From where a tooth is looked at (deg): turned about its height so that the loaded flank shows, and tilted towards us."""
+"""Angles of view of a tooth (degrees): turned about its height to show the loaded flank, and tilted towards the viewer."""
 
 _AXES = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 """To the right, up and towards us, of a tooth seen along its axis: it stands upright."""

@@ -42,10 +42,10 @@ _FIRST: dict[str, tuple[str, Callable[[Any], Any]]] = {
     ),
     "Sizing": ("plot_front", lambda it: it),
 }
-"""By the name of a class: the function that draws it, and what of it that takes."""
+"""The function that draws an object, and the one that gives its argument, by the name of the class."""
 
 _DOTS_PER_INCH = 60
-"""Of the small picture of a result."""
+"""Resolution of the small picture of a result, in dots per inch."""
 
 
 def plot(shown: object, ax: Axes | None = None) -> Axes:

@@ -32,7 +32,7 @@ _MARGIN = 0.4
 """Around the gears, in normal modules."""
 
 _MOVED, _PLACES = 0.06, 61
-"""How far the centre distance changes where backlash is drawn, in normal modules, and at how many places."""
+"""Range of the centre distance where backlash is drawn, in normal modules, and number of places."""
 
 
 def pair_inches(pair: GearPair) -> tuple[float, float]:
@@ -271,13 +271,13 @@ _FILLS = {"pinion": GEARS.pinion[1], "wheel": GEARS.wheel[1], "gear": GEARS.pini
 """Colours of the parts."""
 
 _PALE = 0.22
-"""How much of its colour a part's elements have: lines are to be seen on them."""
+"""Share of its colour that a part's elements have, so that lines on them can be seen."""
 
 _SHADES = {"flank": "#5b9bd0", "fillet": "#f0a35e", "root": "#d9c27a", "tip": "#8fb996", "": "#d5d9dd"}
 """Colours of the sides of a body, by what their names hold; "" of all others."""
 
 _LIGHT = np.array([-0.45, 0.55, 0.7])
-"""From where light falls on a body, as it is seen: to the right, up, towards us."""
+"""Direction from which light falls on a body, as seen: to the right, up, towards the viewer."""
 
 _EDGE_ON = 1e-9
 """Faces whose normal has less than this towards us are not seen."""
@@ -357,7 +357,7 @@ def _rim(shape: Shape) -> list[int]:
 
 
 def _rim_of_face(nodes: int) -> list[int]:
-    """The same of a face of a body."""
+    """Return the nodes of a body's face all round: vertices and those between them in turn."""
     vertices = nodes if nodes == 4 else nodes // 2
     return list(range(4)) if nodes == 4 else [node for k in range(vertices) for node in (k, vertices + k)]
 

@@ -23,7 +23,7 @@ _MOST_TICKS = 9
 """Room for more numbers along an axis changes nothing: locators ask for no more."""
 
 _START = {"left": 0.12, "right": 0.98, "bottom": 0.14, "top": 0.84}
-"""Where axes stand as they are measured: about where most of them will."""
+"""Places of the axes while they are measured: close to the final ones of most figures."""
 
 _NOTEBOOK = 100
 """Dots per inch of what a notebook shows."""
@@ -82,7 +82,7 @@ class _Room(NamedTuple):
 
 
 _ROUNDING = 1e-9
-"""Of the greatest value along an axis: what differs by less is the same value, and its differences are rounding."""
+"""Share of the greatest value along an axis below which differences are rounding."""
 
 
 def _widen_rounding(axes: Axes) -> None:
@@ -99,7 +99,7 @@ def _widen_rounding(axes: Axes) -> None:
 
 
 _NOTHING = 1e-12
-"""What is less is 0, in every unit that is drawn."""
+"""Values below this are drawn as 0, in every unit."""
 
 
 def _tick_spaces(figure: Figure) -> list[int]:

@@ -108,13 +108,13 @@ def _draw_lines(study: SpeedSpectra, axes: Axes, highest: float) -> None:
 
 
 MOTION_INCHES = (6.6, 5.2)
-"""Of a figure of speeds, or of angles, over time."""
+"""Size of a figure of speeds, or of angles, over time, in inches."""
 
 _MESHES, _VIBRATIONS = 6, 12
 """Tooth meshes at the end of a motion that are seen closely; natural vibrations at its begin, of a mesh that nothing varies."""
 
 _BINS = 900
-"""Of a long motion, each drawn from its least to its greatest value."""
+"""Bins of a long motion, each drawn from its least to its greatest value."""
 
 _LABELLED = 4
 
@@ -319,10 +319,10 @@ _DECADES = 3.0
 """Range of amplitudes below the greatest."""
 
 _MOST_PIECES = 400
-"""Of a line over speed: each shows the greatest amplitude of its speeds."""
+"""Greatest number of pieces of a line over speed: each shows the greatest amplitude of its speeds."""
 
 _SHOWN = 0.02
-"""Of the greatest amplitude: frequencies go up to the highest of a line that has as much."""
+"""Share of the greatest amplitude: frequencies go up to the highest of a line that reaches it."""
 
 _NEAR = 0.05
 """Part of the axis below which names of natural frequencies would lie on each other."""

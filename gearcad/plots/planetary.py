@@ -30,7 +30,7 @@ PLANETS = SERIES[3]
 """Colour of the planets."""
 
 _ROUNDING = 1e-9
-"""Of the greatest power: what is no power."""
+"""Share of the greatest power below which a power counts as none."""
 
 
 def colour_of(train: PlanetaryTrain, name: str) -> str:
@@ -317,7 +317,7 @@ def _name(axes: Axes, train: PlanetaryTrain, places: Mapping[str, float], speeds
 
 
 _PLACES = 721
-"""Of a base pitch, at which stiffnesses are added up."""
+"""Places of a base pitch at which stiffnesses are added up."""
 
 _NAMED = 12
 """Most planets whose numbers have room beside their rows."""
@@ -394,7 +394,7 @@ SOURCE_COLOURS = {
 }
 
 _STYLES = ("--", ":", "-.")
-"""Of published factors, which are all grey."""
+"""Line styles of published factors, which are all grey."""
 
 
 def plot_sharing(sharing: LoadSharing, ax: Axes | None = None) -> Axes:

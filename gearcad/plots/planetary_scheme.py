@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 _SET_HEIGHT, _HEIGHT = 2.4, 3.4
-"""Of the set, and of it with the stages, where radii are to scale."""
+"""Heights of the set, and of the set with the stages, where radii are to scale."""
 
 CLEAR = 0.3
 """Least distance of a pitch point from the axis and from a pin."""
@@ -61,7 +61,7 @@ class Places:
     def __init__(self, train: PlanetaryTrain) -> None:
         self.train = train
         self.radii = {(rim.name, sign): self._radius(rim, sign) for rim in train.rims for sign in (1, -1)}
-        """Of the working circles of rims (mm), on the outer side of the train (1) and on the inner one."""
+        """Radii of the working circles of rims (mm), on the outer side of the train (1) and on the inner one (-1)."""
 
     def _radius(self, rim: Rim, sign: int) -> float:
         """Return the working radius (mm) of a rim in the mesh on that side, or in its only mesh; two meshes may differ."""
@@ -119,7 +119,10 @@ class Places:
 
     @cached_property
     def centrals(self) -> dict[str, tuple[float, float]]:
-        """The same of centrals: middle by middle with their rims, or half by half where both would be in one place."""
+        """Return the start and end of each central along the axis, by name.
+
+        A central is middle by middle with its rim, or takes half of it where both would be in one place.
+        """
         bars = {}
         for central, half in zip(self.train.centrals, (0.25, 0.75), strict=True):
             left, right = self.rims[central.meshes]
@@ -259,7 +262,7 @@ class _Draft:
         self.callouts: list[Callout] = []
         self._rim_of = {each.name: each.meshes for each in train.centrals}
         self.axes: dict[str, tuple[float, float]] = {}
-        """Of shafts: where they end so far, and how high they are."""
+        """Ends of the shafts drawn so far, and their heights."""
 
     def drawn(self) -> Plan:
         for side in (-1, 1):
@@ -457,7 +460,7 @@ def plot_scheme(train: PlanetaryTrain, ax: Axes | None = None, flow: PowerFlow |
 
 
 _Name = tuple[Callout, list[str], float, float]
-"""What is named, in which lines, how high, and from where on."""
+"""A name in the picture: its callout, its lines, its height (y), and the x of its column."""
 
 
 def _laid_out(plan: Plan, train: PlanetaryTrain) -> tuple[tuple[float, float, float, float], list[_Name]]:

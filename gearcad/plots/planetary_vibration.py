@@ -152,10 +152,10 @@ _LEAST, _MOST = 3.0, 6.5
 """Diameters (points) of the dots where modes are excited, by their share."""
 
 _ABOVE = 1.05
-"""Of the highest natural frequency, up to where the picture goes."""
+"""Upper end of the picture, as a multiple of the highest natural frequency."""
 
 _NUMBERED = {True: 0.97, False: 0.9}
-"""Of a line's length, where its number stands: above the line of the mesh that rises faster, below that of the other."""
+"""Place of a line's number, as a share of its length: above the line of the mesh that rises faster, below the other."""
 
 _ROW = 0.14
 """Inches between the numbers of natural frequencies beside the picture."""
@@ -346,7 +346,7 @@ _PITCHES = 6.0
 """Base pitches that are drawn close by, or fewer where the run is shorter."""
 
 _SHADES = ("#cc79a7", "#0072b2", "#009e73", "#d55e00", "#56b4e9", "#e69f00")
-"""Of planets; with more than these they come again."""
+"""Colours of planets; they repeat if there are more planets."""
 
 _ARCSECONDS = 3600.0
 

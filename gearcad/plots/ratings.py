@@ -119,7 +119,7 @@ def plot_flash(scuffing: Scuffing, ax: Axes | None = None) -> Axes:
 _INCHES, _DOTS = (7.2, 4.6), 150
 _BLUE, _RED = (each[1] for each in GEARS)
 _WIDE = 3.0
-"""How many times the mass of the lightest is shown: what is heavier was never a candidate."""
+"""Greatest mass shown, as a multiple of the lightest: heavier pairs were never candidates."""
 
 
 def plot_front(result: Sizing, ax: Axes | None = None) -> Axes:

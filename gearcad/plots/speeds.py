@@ -36,7 +36,7 @@ _ROOM = 1.16
 """Above the curves, for those names."""
 
 _APART = 0.02
-"""Of the height of the curves: K_v with the dampers' force that differs less is not drawn."""
+"""Share of the height of the curves: K_v with the dampers' force is drawn only if it differs by more."""
 
 _WIDE = 20.0
 """Overload, or ratio of greatest to least overload, above which the axis is logarithmic."""

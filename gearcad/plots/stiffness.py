@@ -53,7 +53,7 @@ _OWNERS = {
 """Shades of the parts, by the owner's name that they begin with."""
 
 _SHADES = ("foundation", "", "bending", "shear", "axial")
-"""What they are of, the darkest first; nothing where a method does not divide what a gear is."""
+"""Parts of the compliance by shade, the darkest first; "" for a method that does not divide the gear's part."""
 
 _HEADROOM = 1.12
 """For the names of A to E over what is drawn."""

@@ -45,7 +45,7 @@ _LETTER = 0.011
 """Part of the figure's width that a letter below a panel takes."""
 
 _LETTERS = 30
-"""Of all names along the train, that have room below a panel of half the width."""
+"""Greatest number of letters of all names along the train below a panel of half the width."""
 
 _Node = tuple[str, str]
 """("inertia", name), or ("ground", name of the shaft that ends there)."""

@@ -324,7 +324,7 @@ class CheckSections(ABC, Generic[Checked]):
         return Picture(title, picture_address(draw, kind), self.caption(caption, *values))
 
     def caption(self, name: str, *values: object) -> str:
-        """One of the model's own."""
+        """Return the caption of this name, from the model's own template."""
         return sentences(self.captions, name, self.result, *values)
 
     @property

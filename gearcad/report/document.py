@@ -43,7 +43,7 @@ _KNOWN = {
     for key, of in table.items()
     if "_" in key and of.symbol
 } | {"K_Bgamma": "K_Bγ", "F_beta_y": "F_βy", "q_prime": "q'"}
-"""By the names that documents have."""
+"""Symbols by the names that documents have."""
 
 _NAME = re.compile(r"(?<!\w)[A-Za-z]+(?:_[A-Za-z0-9]+)+(?!\w)")
 
@@ -104,7 +104,7 @@ def _beyond(value: float, reference: float, digits: int = 1) -> str:
 
 
 _LIBRARIES = ("numpy", "scipy", "scikit-fem", "gmsh", "matplotlib")
-"""What the figures of a report rest on, besides our own code."""
+"""Libraries on which the figures of a report rest, besides gearcad."""
 
 _HEADING = re.compile(r"<h2>(.*?)</h2>")
 
@@ -153,7 +153,7 @@ def _anchor(title: str, taken: Container[str]) -> str:
 
 
 _DOTS_PER_INCH = 160
-"""Of the pictures of fields; the others are lines."""
+"""Resolution of pictures of fields, in dots per inch; the others are lines."""
 
 _PACKED = 4
 """Level at which zlib packs them: half the time of the usual 6, and 6 % more bytes."""

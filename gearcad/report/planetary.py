@@ -167,7 +167,7 @@ def _phases(study: PlanetaryStudy) -> Section:
 
 
 _ROUNDING = 1e-9
-"""Of shares, µm and arc seconds."""
+"""Greatest rounding error of shares, µm and arc seconds."""
 
 
 def sections_of_bending(study: PlanetaryStudy) -> Iterator[Section]:

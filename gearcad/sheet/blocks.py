@@ -12,7 +12,7 @@ from gearcad.core.symbols import Symbol
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 
 ABSENT = "-"
-"""What stands where there is no value."""
+"""Text for an absent value."""
 
 
 class Row(NamedTuple):
@@ -171,7 +171,7 @@ _BELONGS_TO = {
 """Features of a body, a cutter and a double helix that mean nothing without another one."""
 
 _OF_SPUR_RINGS = {"span_measurement": "spur only", "between_pins": "spur only"}
-"""What the sheet of a helical ring says of them."""
+"""Texts that the sheet of a helical ring shows for these gauges."""
 
 
 def gear_section(gears: Mapping[str, Gear], document: Mapping[str, Any], pair: Mapping[str, Any]) -> Section:

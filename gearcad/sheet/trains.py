@@ -90,7 +90,7 @@ _TOLD = {
 }
 
 _CYCLES = {Part.FLANK: "ISO 6336-2, 11", Part.ROOT: "ISO 6336-3, 12"}
-"""Where the standard counts load cycles."""
+"""Clause in which the standard counts load cycles."""
 
 _BEHIND = "Behind the load factors"
 
@@ -106,7 +106,7 @@ FACTORS = (*_GROUPS, _BEHIND)
 """Titles of the blocks of factors and stresses."""
 
 _OF_ONE = {"Z_B": Role.PINION, "Z_D": Role.WHEEL}
-"""Whose factor it is, of those that documents have by themselves."""
+"""Gear to which a factor belongs, for factors that documents have by themselves."""
 
 
 _SHORT = {

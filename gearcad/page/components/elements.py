@@ -37,7 +37,7 @@ def _keys(words: Words) -> dict[str, str]:
 
 
 THREE = ui.scene
-"""Whose package of three.js the script of this element imports."""
+"""Element whose package of three.js the script of this element imports."""
 
 
 class BodiesView(Element, component="gear_bodies.js", esm={"gear-surfaces": "surfaces"}):

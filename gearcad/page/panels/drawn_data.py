@@ -59,7 +59,7 @@ CHORD = 2e-4
 """Error of outlines, in normal modules: seen only where a flank fills the window."""
 
 _DIGITS = 5
-"""Of a coordinate, in mm."""
+"""Decimals of a coordinate in mm."""
 
 
 def turns(gear: Gear, rotation: float, z: float) -> list[list[float]]:
@@ -73,7 +73,7 @@ def turns(gear: Gear, rotation: float, z: float) -> list[list[float]]:
 
 
 def drift(rack: Rack, travel: float, z: float) -> list[list[float]]:
-    """The same of a rack, as lengths (mm)."""
+    """Return the displacement (mm) of sections of a rack at heights (mm), as [height, displacement] rows."""
     return [[z, travel], [z + rack.face_width, travel + rack.drift * rack.face_width]]
 
 

@@ -30,7 +30,7 @@ _KINDS = (
     *(f"{teeth} {kind}" for kind in ("rack", "pinion and rack") for teeth in _TEETH[:2]),
     *("planetary train of type", "train", "inertias"),
 )
-"""Of which titles of designs are made."""
+"""Words of which titles of designs are made."""
 
 _VALUES = ("yes", "no", "infinite", "spur only")
 """Values that are words; what specs say, as they say it."""
@@ -82,7 +82,7 @@ class Cell(NamedTuple):
 
 
 Cells = Mapping[tuple[str, str], Cell]
-"""What stands on a sheet, by the keys of rows and the names of columns; in a single column by ""."""
+"""Cells of a sheet, by the keys of rows and the names of columns; a single column is ""."""
 
 
 def cells_of(sections: Iterable[Section]) -> Cells:
@@ -202,7 +202,7 @@ _ABOUT = {
     "stage-in-the-way": "axial_position",
     "unbalanced": "planets",
 }
-"""By the codes of notices, keys of the table that they are about, the first one first."""
+"""Keys that a notice is about, by its code, the most important first."""
 
 _MOST = 2
 """Fields that are named with a notice: more would hide it."""
@@ -332,7 +332,7 @@ _PINNED = (
     "safety.flank safety.root safety.scuffing.integral safety.scuffing.flash"
     " permissible_torque.flank permissible_torque.root life.flank life.root"
 )
-"""What one looks at first."""
+"""Keys of rows pinned at the top: those that the user looks at first."""
 
 _PINS = [f"strength.{key}" for key in _PINNED.split()]
 
