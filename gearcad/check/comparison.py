@@ -90,14 +90,17 @@ class Comparison:
         return deviation >= 0 if self.least else deviation <= 0
 
     def to_dict(self) -> dict[str, Any]:
-        """As `check.json` has it."""
+        """Return the comparison as `check.json` has it."""
         words = {"role": self.role.value, "subject": self.subject.value}
         found = {"deviation": self.deviation, "evaluated": self.evaluated, "passed": self.passed}
         return asdict(self) | words | found
 
 
 def verdict(comparisons: Iterable[Comparison], subject: Subject) -> Verdict:
-    """What the gates about a subject say: one that is not passed, or could not be evaluated, fails it."""
+    """Return the verdict of the gates about a subject.
+
+    A gate that is not passed, or could not be evaluated, fails it. Without gates it is not judged.
+    """
     gates = [each for each in comparisons if each.role is ComparisonRole.GATE and each.subject is subject]
     if not gates:
         return Verdict.NOT_JUDGED
@@ -230,7 +233,7 @@ class CheckStrength:
 
     @classmethod
     def of(cls, task: CheckTask, summary: Summary) -> CheckStrength:
-        """Of a task and what its check found. Raises what `rate_strength` raises."""
+        """Return the strength of a task by the summary of its check. Raises what `rate_strength` raises."""
         return cls(task=task, summary=summary, rating=task.strength_rating)
 
     @cached_property
@@ -262,11 +265,11 @@ class CheckStrength:
         }
 
     def _lacking(self, symbol: str, factor: float) -> float:
-        """What of a factor the model's own leaves to be applied."""
+        """Return the part of a factor, at least 1, that is still to be applied beyond the model's own factor."""
         return max(factor / self.own[symbol], 1.0) if symbol in self.own else factor
 
     def applied_words(self, part: Part) -> str:
-        """What the stress of a part is multiplied by."""
+        """Return in words the factors by which the stress of a part is multiplied."""
         of_flank = {"Z_eps": self.contact_ratio_factor} if part is Part.FLANK else {}
         factors = {**self.applied[part], **of_flank}
         words = (f"{name}{' beyond its own' if name in self.own else ''} {value:.4g}" for name, value in factors.items())
@@ -284,10 +287,10 @@ class CheckStrength:
 
     @cached_property
     def contact_ratio_factor(self) -> float:
-        """What of Z_eps is none of the load that the model shares: sqrt((4 - eps_alpha)/3 (1 - eps_beta) + eps_beta).
+        """Part of Z_eps that is no load sharing of the model: sqrt((4 - eps_alpha)/3 (1 - eps_beta) + eps_beta).
 
-        sigma_Hlim was told from tests by the standard's stress, which has Z_eps. Of spur gears it relieves the one pair of
-        teeth that carries all; with eps_beta from 1 on it is the length of the lines of contact, which solid bodies have.
+        Tests gave sigma_Hlim by the standard's stress, which has Z_eps. For spur gears it relieves the one pair of teeth that
+        carries all. With eps_beta from 1 on it is the length of the lines of contact, which solid bodies have.
         """
         pair = self.task.pair
         overlap = min(pair.overlap_ratio, 1.0)
@@ -295,13 +298,13 @@ class CheckStrength:
 
     @property
     def flank(self) -> PerGear[FoundStrength]:
-        """By the greatest pressure, that of both flanks."""
+        """Strength of the flank of each gear by the greatest pressure, which is that of both flanks."""
         missing = self.summary.missing.get("contact_pressure", "")
         return PerGear.each(lambda role: self._found(Part.FLANK, role, self.summary.contact_pressure, missing))
 
     @property
     def root(self) -> PerGear[FoundStrength]:
-        """By the greatest tension in the fillets."""
+        """Strength of the root of each gear by the greatest tension in its fillets."""
         return PerGear.each(lambda role: self._found(Part.ROOT, role, self.summary.root_tension.pick(role)))
 
     @property
@@ -326,7 +329,7 @@ class CheckStrength:
         return any(each.rated.safety is not None for both in self.parts.values() for each in both)
 
     def to_dict(self) -> dict[str, Any]:
-        """As check.json has it."""
+        """Return the strength as `check.json` has it."""
         parts = {part.value: {role.value: each.to_dict() for role, each in both.items()} for part, both in self.parts.items()}
         applied = {part.value: dict(factors) for part, factors in self.applied.items()}
         applied["flank"] |= {"Z_eps": self.contact_ratio_factor}

@@ -62,16 +62,19 @@ class Convergence:
 
     @property
     def key(self) -> str:
-        """Of the figure in a summary."""
+        """Name of the figure in a summary."""
         return _FIGURES[self.quantity]
 
     def to_dict(self) -> dict[str, Any]:
-        """As `check.json` has it."""
+        """Return the convergence as `check.json` has it."""
         return asdict(self)
 
 
 def three_meshes(cycles: Iterable[PlaneCycle]) -> tuple[Convergence, ...]:
-    """From the cycles on meshes refined by FACTORS: Richardson's estimate of the middle one's error."""
+    """Return the convergence of each quantity from the cycles on meshes refined by FACTORS.
+
+    The error is Richardson's estimate of the middle mesh's error.
+    """
     on_edge: list[tuple[bool, ...]] = []
 
     def watched() -> Iterator[PlaneCycle]:
@@ -92,7 +95,10 @@ def _on_edge(cycle: PlaneCycle, role: Role) -> bool:
 
 
 def three_solid_meshes(cycles: Iterable[SolidCycle]) -> tuple[Convergence, ...]:
-    """From the cycles on meshes refined by SOLID_FACTORS: Richardson's estimate of the middle one's error."""
+    """Return the convergence of each quantity from the cycles on meshes refined by SOLID_FACTORS.
+
+    The error is Richardson's estimate of the middle mesh's error.
+    """
     return tuple(_of_solids(quantity, values) for quantity, values in _values(cycles))
 
 
@@ -132,10 +138,13 @@ def _of_plane(quantity: str, values: tuple[float, ...], *, singular: bool = Fals
 
 
 def _of_solids(quantity: str, values: tuple[float, ...]) -> Convergence:
-    """Where the changes go back and forth, their range, twice the uncertainty of F. Stern et al. (J. Fluids Eng. 123, 2001).
+    """Return the convergence of a quantity of solid bodies by its `values` on three meshes, the coarsest first.
 
-    Else with an order p between LEAST_ORDER and SOLID_ORDER, or where less shows with the latter and the greater of what the
-    two changes give: delta r^p/(r^p - 1) from the finer mesh, delta/(r^p - 1) from the coarser one.
+    Where the changes go back and forth, the error is their range, twice the uncertainty of F. Stern et al. (J. Fluids Eng. 123,
+    2001).
+
+    Else it follows from an order p between LEAST_ORDER and SOLID_ORDER. Where less shows, p is SOLID_ORDER, and the error is
+    the greater of what the two changes give: delta r^p/(r^p - 1) from the finer mesh, delta/(r^p - 1) from the coarser one.
     """
     coarse, middle, fine = values
     refinement = SOLID_FACTORS[2]
@@ -164,7 +173,7 @@ class SweepPoint(NamedTuple):
     torsional_stiffness: PerGear[float]
 
     def to_dict(self) -> dict[str, Any]:
-        """As `check.json` has it."""
+        """Return the point as `check.json` has it."""
         return by_name(self._asdict())
 
 
@@ -175,17 +184,17 @@ class SweepTrends(NamedTuple):
 
     @classmethod
     def of(cls, sweep: Iterable[SweepPoint]) -> SweepTrends:
-        """Of the points in any order."""
+        """Return the trends of points that are in any order."""
         return cls(tuple(sorted(sweep, key=lambda point: point.torque)))
 
     @property
     def first(self) -> SweepPoint:
-        """That of the least torque."""
+        """Point of the least torque."""
         return self.points[0]
 
     @property
     def last(self) -> SweepPoint:
-        """That of the greatest torque."""
+        """Point of the greatest torque."""
         return self.points[-1]
 
     @property
@@ -207,12 +216,14 @@ class SweepTrends(NamedTuple):
         return PerGear(*known) if len(known) == len(powers) else None
 
     def _exponent(self, values: Sequence[float]) -> float | None:
-        """From the least torque to the greatest; None if they are one."""
+        """Return the power of the torque with which values grow from the least torque to the greatest; None for a single
+        torque.
+        """
         low, high = self.first.torque, self.last.torque
         return math.log(values[-1] / values[0]) / math.log(high / low) if high > low else None
 
     def to_dict(self) -> dict[str, Any]:
-        """As `check.json` has it."""
+        """Return the exponents as `check.json` has them."""
         roots = self.root_exponents
         return {
             "contact_pressure_exponent": self.pressure_exponent,
@@ -232,6 +243,6 @@ def sweep_point(cycle: Cycle) -> SweepPoint:
 
 
 def sweep_points(cycle: Cycle, torques: Iterable[float]) -> tuple[SweepPoint, ...]:
-    """Those of a cycle's model at torques (N·m)."""
+    """Return the figures of a cycle's model at each of the torques (N·m on the pinion)."""
     cycles = (type(cycle).run(cycle.model, torque, FEW_POSITIONS) for torque in torques)
     return tuple(sweep_point(each.searched(STRESSES)) for each in cycles)

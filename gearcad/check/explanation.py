@@ -34,12 +34,12 @@ class LoadShare(NamedTuple):
 
     @classmethod
     def of(cls, cycle: Cycle) -> LoadShare:
-        """Of a mesh cycle."""
+        """Return the load share over a mesh cycle."""
         places, shares = np.array(sorted((contact.place, contact.share) for _, contact in cycle.contacts)).T
         return cls(places, shares)
 
     def at(self, place: float) -> float:
-        """Between the positions solved."""
+        """Return the share of the load at a place (mm from T1), interpolated between the positions solved."""
         return float(np.interp(place, self.places, self.shares))
 
     @property
@@ -58,7 +58,7 @@ class Explanation:
     """Figures that explain a difference."""
 
     def to_dict(self) -> dict[str, Any]:
-        """As `check.json` has it."""
+        """Return the figures as `check.json` has them."""
         return {name: _plain(value) for name, value in vars(self).items()}
 
 
@@ -125,14 +125,14 @@ R = TypeVar("R", bound=Explanation)
 
 @dataclass(frozen=True, kw_only=True)
 class Explanations(Explanation, Generic[R]):
-    """Of what a standard has for every check."""
+    """Explanations of what a standard has for every check."""
 
     stiffness: StiffnessExplanation
     root_stress: PerGear[R]
 
 
 def root_compared(task: CheckTask, cycle: Cycle, summary: Summary) -> PerGear[RootCompared]:
-    """Of both gears."""
+    """Return the root stresses of both gears by finite elements beside those of the standard (MPa)."""
     width, standards, peaks = cycle.model.width, task.rating.root_stresses, root_peaks(cycle)
 
     def compared(role: Role) -> RootCompared:
@@ -151,7 +151,7 @@ def root_compared(task: CheckTask, cycle: Cycle, summary: Summary) -> PerGear[Ro
 
 
 def explain_stiffness(task: CheckTask, cycle: Cycle, summary: Summary, sweep: Sequence[SweepPoint]) -> StiffnessExplanation:
-    """The bodies, the load, and how pairs of teeth share it."""
+    """Return the explanation of the mesh stiffness: the bodies, the load, and how pairs of teeth share it."""
     standard, model = task.rating.stiffness, cycle.model
     parts = cycle.values("approach_parts").mean(axis=0)
     rims = [
@@ -203,7 +203,7 @@ def root_at_single_contact(cycle: PlaneCycle, role: Role) -> float:
 def explain_plane_roots(
     task: CheckTask, cycle: PlaneCycle, summary: PlaneSummary, load_share: LoadShare
 ) -> PerGear[PlaneRootExplanation]:
-    """Of both gears."""
+    """Return the explanations of the root stresses of both gears in the plane."""
     compared = root_compared(task, cycle, summary)
     path, supports = task.pair.path_of_contact, task.body.supports(task.pair)
     outer = PerGear(("D", path.D), ("B", path.B))
@@ -269,13 +269,13 @@ class LinesExplanation(Explanation):
 
 @dataclass(frozen=True, kw_only=True)
 class SolidExplanations(Explanations[SolidRootExplanation]):
-    """With what solid bodies have of their lines of contact."""
+    """Explanations of solid bodies, also of their lines of contact."""
 
     lines_of_contact: LinesExplanation
 
 
 def explain_solid_roots(task: CheckTask, cycle: SolidCycle, summary: SolidSummary) -> PerGear[SolidRootExplanation]:
-    """Of both gears."""
+    """Return the explanations of the root stresses of both gears as solid bodies."""
     compared = root_compared(task, cycle, summary)
 
     def explained(role: Role) -> SolidRootExplanation:
@@ -292,7 +292,7 @@ def explain_solid_roots(task: CheckTask, cycle: SolidCycle, summary: SolidSummar
 
 
 def explain_lines(task: CheckTask, cycle: SolidCycle, summary: SolidSummary) -> LinesExplanation:
-    """Of the cycle."""
+    """Return the explanation of the load along the lines of contact and along the face in a cycle."""
     rating, factors = task.rating, face_factors(task)
     length = task.pair.contact_line_lengths.mean
     across, load = cycle.load_along_face

@@ -73,7 +73,10 @@ def rim_gates(task: CheckTask) -> Iterator[Comparison]:
 
 
 def bending_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
-    """Where a rim bends, its roots are compressed more than stretched, and its bore is stretched too."""
+    """Yield the comparisons of a rim that bends: compression of its roots and tension on its bore, beside the root limit (MPa).
+
+    Where a rim bends, its roots are compressed more than stretched, and its bore is stretched too.
+    """
     for role, rim in _rims(task).items():
         material = task.materials.pick(role)
         limit = material.root_limit
@@ -89,7 +92,9 @@ def bending_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
 
 
 def bending_notes(task: CheckTask, summary: Summary) -> PerGear[str]:
-    """What the comparison of each gear's root tension with the standard's has to add where the rim bends."""
+    """Return for each gear what the comparison of its root tension with the standard's has to add; empty if its rim does not
+    bend.
+    """
 
     def note(rim: _Rim) -> str:
         factor, compression = task.rating.roots.pick(rim.role).rim_thickness_factor, summary.root_compression.pick(rim.role)
@@ -102,7 +107,7 @@ def bending_notes(task: CheckTask, summary: Summary) -> PerGear[str]:
 
 
 def rim_notices(task: CheckTask, summary: Summary) -> Iterator[Notice]:
-    """How a thin rim is taken, and what is evaluated of it."""
+    """Yield notices on how a thin rim is modelled, and which of its results are evaluated."""
     for rim in _rims(task):
         owner, hold = rim.role.value, rim.support.hold
         if rim.gear.internal:
@@ -211,7 +216,9 @@ def _mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...]
 
 
 def _sampling(summary: Summary, of_pressure: float) -> Iterator[Comparison]:
-    """What the positions may miss of the stresses that are told, against what they may (relative)."""
+    """Yield the errors that the positions may leave in stresses, beside those permitted (%): root stresses, and contact
+    pressure.
+    """
     errors = summary.sampling_error
     for words, names, limit in (("root stresses", ROOTS, _SAMPLING), ("contact pressure", (PRESSURE,), of_pressure)):
         worst = max((each.name for each in names), key=lambda name: errors.get(name, math.inf))
@@ -227,7 +234,7 @@ def _sampling(summary: Summary, of_pressure: float) -> Iterator[Comparison]:
 
 
 def _material_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
-    """What the materials give a limit for."""
+    """Yield the comparisons of stresses (MPa) with the limits that the materials have."""
     deep = f"{summary.von_mises_depth:.3g} mm deep" if summary.von_mises_depth is not None else ""
     away, missing = "the greatest away from the corners of the flanks", summary.missing.get
     every = [(f", {gear}" if gear else "", of) for gear, of in by_gear(task.material).items()]

@@ -1,4 +1,4 @@
-"""What an engineer should know before trusting a check."""
+"""Notices that an engineer should know before trusting a check."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _ABSURD = 0.03
 
 
 def common_notices(task: CheckTask, cycle: Cycle, summary: Summary) -> Iterator[Notice]:
-    """Of every model: the pair, the load, the bodies and their rims, tips whose edge touches."""
+    """Yield the notices of every model: the pair, the load, the bodies and their rims, tips whose edge touches."""
     yield from task.pair.notices
     yield from _strain(task, summary)
     yield from _elastic(task, summary)

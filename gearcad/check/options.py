@@ -1,4 +1,4 @@
-"""What a check looks at: the [check] table of a spec."""
+"""Options of a check: the [check] table of a spec."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ class FilletCurve(NamedTuple):
 
 
 class FilletCurves(NamedTuple):
-    """Those of both fillets of a tooth: under the loaded flank, and behind it."""
+    """Stress along both fillets of a tooth: under the loaded flank, and behind it."""
 
     tension: FilletCurve
     compression: FilletCurve
@@ -65,7 +65,7 @@ class StressField:
 
     @property
     def greatest(self) -> float:
-        """Von Mises stress (MPa)."""
+        """Greatest von Mises stress (MPa)."""
         return max(float(field.von_mises.max()) for field in self.fields)
 
 
@@ -79,7 +79,7 @@ class DepthProfile:
 
 
 def stress_field(cycle: PlaneCycle, shown: ShownPlane) -> StressField:
-    """The teeth in contact, and those beside them."""
+    """Return the stress field of the teeth in contact, and of those beside them."""
     (x, y), _ = contact_frame(cycle, shown.contact)
     teeth = range(shown.contact.tooth - 1, shown.contact.tooth + 2)
     fields = tuple(tooth_field(cycle, shown.position, role, tooth) for role in Role for tooth in teeth)
@@ -87,7 +87,7 @@ def stress_field(cycle: PlaneCycle, shown: ShownPlane) -> StressField:
 
 
 def fillet_curves(cycle: PlaneCycle) -> PerGear[FilletCurves]:
-    """Of the most stressed tooth of each gear when the gear's tension is greatest."""
+    """Return the stresses along the fillets of the most stressed tooth of each gear, when the gear's tension is greatest."""
     return PerGear.each(lambda role: _fillets_of(cycle, role))
 
 
@@ -105,7 +105,7 @@ def _fillets_of(cycle: PlaneCycle, role: Role) -> FilletCurves:
 
 
 def depth_profile(cycle: PlaneCycle, contact: PlanePairContact) -> DepthProfile:
-    """Of a contact, some half widths deep."""
+    """Return the stresses below the middle of a contact, some half widths deep."""
     elasticity = cycle.model.pinion.elasticity
     # In plane strain; in plane stress there is no sigma_y.
     ratio = elasticity.material.poisson_ratio if elasticity.plane is Plane.STRAIN else 0.0
@@ -172,7 +172,7 @@ class ToothStress(NamedTuple):
     end: float
 
     def write(self, path: Path) -> None:
-        """As a .vtu."""
+        """Write the field as a .vtu file."""
         write_vtu(self.field, path, self.end)
 
 
@@ -190,7 +190,7 @@ class ToothSurface:
 
 
 def loaded_cells(cycle: SolidCycle) -> Cells:
-    """All of a cycle."""
+    """Return the cells of all lines of contact of a cycle."""
     contacts = [contact for position in cycle.every for contact in position.contacts]
     lines = [contact.line for contact in contacts]
     places = PerGear.each(lambda role: np.concatenate([line.places.pick(role) for line in lines], axis=1))
@@ -207,7 +207,7 @@ def loaded_cells(cycle: SolidCycle) -> Cells:
 
 
 def tooth_stresses(cycle: SolidCycle) -> PerGear[ToothStress]:
-    """Of both gears, each where its root tension is greatest."""
+    """Return the stress fields of the most stressed teeth of both gears, each where its root tension is greatest."""
     return PerGear.each(lambda role: _tooth_stress(cycle, role))
 
 
@@ -263,11 +263,11 @@ class AlongFace(NamedTuple):
 
     @property
     def mean(self) -> float:
-        """Of the load."""
+        """Mean of the load (N/mm)."""
         return float(np.mean(self.load))
 
     def to_dict(self) -> dict[str, Any]:
-        """As `check.json` has it."""
+        """Return the curves as `check.json` has them."""
         return {
             "across": self.across.tolist(),
             "load": self.load.tolist(),
@@ -279,7 +279,7 @@ class AlongFace(NamedTuple):
 
 
 def along_face(cycle: SolidCycle) -> AlongFace:
-    """Of a cycle."""
+    """Return the load and the root stresses of a cycle along the face."""
 
     def root(role: Role) -> RootAlongFace:
         return RootAlongFace(*cycle.root_along_face(role), *cycle.model.common_heights(role))

@@ -60,7 +60,7 @@ class ReliefStart:
         return "; ".join([*of_each, *others])
 
     def to_dict(self) -> dict[str, Any]:
-        """As `check.json` has it: lengths in mm, w in µm, pressures in MPa."""
+        """Return the start as `check.json` has it: lengths in mm, w in µm, pressures in MPa."""
         reliefs = {
             of.name: {
                 "transition": of.transition.length,
@@ -90,7 +90,7 @@ def relief_starts(cycle: Cycle) -> tuple[ReliefStart, ...]:
 
 
 def _start(role: Role, reliefs: tuple[StartedRelief, ...], pressure: float, half: float, twice: float) -> ReliefStart:
-    """That of one gear, with the reason where there is no pressure."""
+    """Return the pressures (MPa) at the starts of one gear's reliefs, with the reason where there is no pressure."""
     told = [value if value > 0 else None for value in (pressure, half, twice)]
     if any(not of.transition.length for of in reliefs):
         return ReliefStart(role, reliefs, None, None, None, "unbounded: a relief with a transition of 0 starts with a kink")

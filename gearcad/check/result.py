@@ -127,37 +127,37 @@ class CheckResult(Pictured, ABC):
 
     @property
     def pair(self) -> GearPair:
-        """As mounted."""
+        """Gear pair as mounted."""
         return self.task.pair
 
     @property
     def material(self) -> Materials:
-        """Of both gears, or of each."""
+        """Material of both gears, or of each."""
         return self.task.material
 
     @property
     def load(self) -> Load:
-        """As it was given."""
+        """Load as it was given."""
         return self.task.load
 
     @property
     def mounting(self) -> Mounting:
-        """How the pair stands; its change of the centre distance is in the pair already."""
+        """Mounting of the pair; its change of the centre distance is in the pair already."""
         return self.task.mounting
 
     @property
     def options(self) -> CheckOptions:
-        """As they were given."""
+        """Options as they were given."""
         return self.task.options
 
     @property
     def torque(self) -> float:
-        """On the pinion, with the application factor (N·m)."""
+        """Torque on the pinion, with the application factor (N·m)."""
         return self.task.torque
 
     @property
     def rating(self) -> Rating:
-        """By ISO 6336 or DIN 3990, Method B: nominal stresses with K_A."""
+        """Rating by ISO 6336 or DIN 3990, Method B: nominal stresses with K_A."""
         return self.task.rating
 
     @cached_property
@@ -169,7 +169,7 @@ class CheckResult(Pictured, ABC):
 
     @property
     def single_positions(self) -> int:
-        """How many of the even positions have one pair of teeth in contact."""
+        """Number of even positions that have one pair of teeth in contact."""
         return sum(len(position.contacts) == 1 for position in self.cycle.positions)
 
     @property
@@ -185,12 +185,12 @@ class CheckResult(Pictured, ABC):
 
     @cached_property
     def load_share(self) -> LoadShare:
-        """Of one pair of teeth while it goes through the mesh."""
+        """Load share of one pair of teeth while it goes through the mesh."""
         return LoadShare.of(self.cycle)
 
     @cached_property
     def root_positions(self) -> PerGear[LoadedPosition[Any]]:
-        """Where the root tension of each gear is greatest."""
+        """Position of the greatest root tension of each gear."""
         return PerGear.each(self.cycle.worst_position)
 
     @property
@@ -200,7 +200,7 @@ class CheckResult(Pictured, ABC):
 
     @property
     def trends(self) -> SweepTrends:
-        """How the figures go with the torque."""
+        """Trends of the figures over the torque."""
         return SweepTrends.of(self.sweep)
 
     def solve_shown(self) -> None:
@@ -226,19 +226,19 @@ class CheckResult(Pictured, ABC):
 
     @property
     def own_document(self) -> dict[str, Any]:
-        """What `check.json` has of this model only."""
+        """Part of `check.json` that only this model has."""
         return {}
 
     @property
     def stress_files(self) -> Mapping[str, Callable[[Path], None]]:
-        """What writes stress fields to a path, by the names of files; there are none in the plane."""
+        """Functions that write stress fields to a path, by the names of files; there are none in the plane."""
         return {}
 
     # ------------------------------------------------------------------ the verdict
 
     @property
     def bodies(self) -> dict[str, str]:
-        """How each body is taken, in words."""
+        """Words on how each body is modelled."""
         return self.task.body.describe(self.pair)
 
     @property
@@ -260,7 +260,7 @@ class CheckResult(Pictured, ABC):
 
     @property
     def without_limit(self) -> tuple[str, ...]:
-        """What neither the material has a limit for nor the rating judges, in words."""
+        """Stresses, in words, for which the material has no limit and which the rating does not judge."""
         limits = {
             "contact pressure": ("contact_limit", Part.FLANK),
             "root stress": ("root_limit", Part.ROOT),
@@ -295,7 +295,7 @@ class CheckResult(Pictured, ABC):
 
     @property
     def _not_judged(self) -> str:
-        """Why strength was not: each reason of the rating once."""
+        """Return why strength was not judged: each reason of the rating once."""
         return "; ".join(dict.fromkeys(self.safeties.rating.not_judged.values()))
 
     # ------------------------------------------------------------------ what to know before trusting it
@@ -307,7 +307,7 @@ class CheckResult(Pictured, ABC):
 
     @property
     def all_notices(self) -> tuple[Notice, ...]:
-        """Its own, and those of the rating."""
+        """Notices of the check, and those of the rating."""
         return (*self.notices, *(notice.within("rating") for notice in self.rating.notices))
 
 
@@ -425,17 +425,17 @@ class PlaneCheck(CheckResult):
 
     @cached_property
     def stress_field(self) -> StressField:
-        """Around the contact that is shown."""
+        """Stress field around the contact that is shown."""
         return pictures.stress_field(self.cycle, self.shown)
 
     @cached_property
     def fillet_curves(self) -> PerGear[FilletCurves]:
-        """Of both gears, each where its root tension is greatest."""
+        """Fillet curves of both gears, each where its root tension is greatest."""
         return pictures.fillet_curves(self.cycle)
 
     @cached_property
     def depth_profile(self) -> DepthProfile:
-        """Below the contact that is shown."""
+        """Stresses below the contact that is shown."""
         return pictures.depth_profile(self.cycle, self.shown.contact)
 
 
@@ -516,10 +516,10 @@ class SolidCheck(CheckResult):
 
     @cached_property
     def cells(self) -> Cells:
-        """Of all lines of contact."""
+        """Cells of all lines of contact."""
         return pictures.loaded_cells(self.cycle)
 
     @cached_property
     def tooth_surfaces(self) -> PerGear[ToothSurface]:
-        """Of the most stressed teeth."""
+        """Surfaces of the most stressed tooth of each gear."""
         return PerGear(*map(pictures.tooth_surface, self.tooth_stresses, self.pair.gears))

@@ -74,7 +74,10 @@ def solid_steps(task: CheckTask) -> dict[str, float]:
 
 
 def expected_solid(task: CheckTask) -> Expected:
-    """Of the whole check: the bodies of the check's own mesh are kept, without factors, while the others are solved."""
+    """Return the seconds and the memory that the whole check is expected to take.
+
+    The bodies of the check's own mesh are kept, without factors, while the others are solved.
+    """
     own, *others = (each.memory for each in _bodies(task).values())
     return Expected(sum(solid_steps(task).values()), _PROGRAM + max(own, LEFT * own + max(others, default=0.0)))
 
@@ -182,7 +185,7 @@ def _refined(task: CheckTask, middle: PlaneCycle) -> Iterator[PlaneCycle]:
 
 
 def plane_notices(task: CheckTask) -> Iterator[Notice]:
-    """What a plane does not know of these bodies."""
+    """Yield notices on what a plane model does not know of these bodies."""
     yield from thin_faces(task.pair, task.material, task.options.plane_state)
     yield from plane_pressure(task.material, task.options.plane_state)
     yield from _wider_gears(task)
@@ -312,11 +315,11 @@ class LoadDistribution:
 
     @property
     def body_load(self) -> BodyLoad:
-        """What a rating takes of it."""
+        """Face load factor and misalignment in the form that a rating takes."""
         return BodyLoad(factor=self.face_load_factor, misalignment=abs(self.misalignment), mounted=self.mounted)
 
     def to_dict(self) -> dict[str, Any]:
-        """As documents have it."""
+        """Return the distribution as documents have it."""
         return {
             "K_Hbeta": self.face_load_factor,
             "F_betay": self.misalignment,
@@ -363,7 +366,7 @@ def _standing_off(mesh: LoadedMesh, mounting: Mounting, speed_factor: float) -> 
 
 
 def _distribution(model: SolidPair, torque: float, misalignment: float, *, mounted: bool) -> LoadDistribution:
-    """By a few positions of a mesh cycle, with another misalignment (µm)."""
+    """Return the distribution by a few positions of a mesh cycle, with another misalignment (µm)."""
     mounting = replace(model.mounting, misalignment=misalignment)
     cycle = SolidCycle.run(model.remade(model.pair, mounting), abs(torque), FEW_POSITIONS)
     across, carried = cycle.load_along_face
@@ -410,7 +413,10 @@ def expected_check(
     mounting: Mounting | None = None,
     rating: RatingOptions | None = None,
 ) -> Expected:
-    """What `check_pair` is expected to take. Raises what it raises for input that cannot be checked."""
+    """Return the seconds and the memory that `check_pair` is expected to take.
+
+    Raises what it raises for input that cannot be checked.
+    """
     task = check_task(pair, material, load, options, mounting, rating)
     if task.model is Model.PLANE:
         return Expected(sum(plane_steps(task).values()), PLANE_MEMORY)

@@ -69,7 +69,7 @@ _ABOUT = ("missing", "extremes", "mean_error")
 
 
 def by_name(values: Mapping[str, Any]) -> dict[str, Any]:
-    """As `check.json` has it: what both gears have gets a name for each, `root_tension_pinion`."""
+    """Return values by the names in `check.json`: a figure of both gears gets a name for each, `root_tension_pinion`."""
     document: dict[str, Any] = {}
     for name, value in values.items():
         if isinstance(value, PerGear):
@@ -114,7 +114,7 @@ class Summary:
 
     @property
     def bore_tension(self) -> PerGear[float | None]:
-        """Of both gears (MPa)."""
+        """Tension on the bore of both gears (MPa); None where the bore is kept round."""
         return PerGear(self.bore_tension_pinion, self.bore_tension_wheel)
 
     @property
@@ -124,12 +124,14 @@ class Summary:
 
     @property
     def sampling_error(self) -> dict[str, float]:
-        """By name, what the positions may miss: of an extreme, relative to it or to its swing, and of the mean stiffness."""
+        """Errors that the positions may leave, by name: of extremes, relative to their size or swing, and of the mean
+        stiffness.
+        """
         known = {name: of.error for name, of in self.extremes.items() if of is not None}
         return {"mesh_stiffness_mean": self.mean_error, **known}
 
     def to_dict(self) -> dict[str, Any]:
-        """As `check.json` has it; what tells about the figures is no part of it."""
+        """Return the figures as `check.json` has them, without the fields about the figures."""
         return by_name({name: value for name, value in vars(self).items() if name not in _ABOUT})
 
 
@@ -189,7 +191,7 @@ class CommonFigures(TypedDict):
 
 
 def common_figures(cycle: Cycle, extremes: Extremes, single: float, at_pitch_point: AtPitchPoint) -> CommonFigures:
-    """Those of a cycle and its extremes; `single` is the stiffness of one pair of teeth alone."""
+    """Return the figures of a cycle and its extremes; `single` is the stiffness of one pair of teeth alone."""
 
     def value(name: str) -> float | None:
         return found.value if (found := extremes[name]) is not None else None
@@ -229,7 +231,7 @@ _PRESSURES = ("contact_pressure", "von_mises", "von_mises_depth", "von_mises_hal
 
 @dataclass(frozen=True, kw_only=True)
 class PlaneSummary(Summary):
-    """That of a plane cycle; `von_mises_half_plane` is what the pressures alone would make in a half-plane."""
+    """Summary of a plane cycle; `von_mises_half_plane` is what the pressures alone would make in a half-plane."""
 
     von_mises_half_plane: float | None
 
@@ -333,12 +335,12 @@ class WorstPlace(NamedTuple):
     place: float
 
     def of(self, values: Floats) -> float:
-        """What values (n,) of the line's cells are there."""
+        """Return the value at this place, interpolated in values (n,) of the line's cells."""
         return float(self.contact.between(values, self.place))
 
 
 def worst_place(cycle: SolidCycle) -> WorstPlace | None:
-    """Where the greatest pressure is; None if no place is away from the edges."""
+    """Return the place of the greatest pressure away from the edges of the flanks; None if no place is away from them."""
     if (worst := cycle.worst_contact) is None:
         return None
     position, contact = worst

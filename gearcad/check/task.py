@@ -37,22 +37,22 @@ class CheckTask:
 
     @property
     def materials(self) -> PerGear[Material]:
-        """Those of both gears."""
+        """Materials of both gears."""
         return of_both(self.material)
 
     @property
     def torque(self) -> float:
-        """On the pinion, with the application factor (N·m)."""
+        """Torque on the pinion, with the application factor (N·m)."""
         return self.load.torque * self.load.application_factor
 
     @property
     def torques(self) -> tuple[float, ...]:
-        """Of the sweep (N·m)."""
+        """Torques of the sweep (N·m)."""
         return self.options.torques or tuple(part * abs(self.torque) for part in (0.1, 0.3, 0.55, 0.77, 1.0))
 
     @property
     def model(self) -> Model:
-        """That which the options give the pair."""
+        """Model that the options give the pair."""
         return self.options.model_for(self.pair)
 
     @property
@@ -63,7 +63,7 @@ class CheckTask:
 
     @cached_property
     def rating(self) -> Rating:
-        """By ISO 6336 or DIN 3990, Method B: nominal stresses with K_A."""
+        """Rating by ISO 6336 or DIN 3990, Method B: nominal stresses with K_A."""
         return rate(self.pair, self.material, self.load, self.rating_options)
 
     @cached_property
@@ -116,7 +116,7 @@ class ShownContact(NamedTuple, Generic[P, C]):
 
 
 def shown_contact(cycle: LoadedCycle[Any, P, C]) -> ShownContact[P, C]:
-    """That of the greatest pressure away from edges, or that of the greatest load where all are near them."""
+    """Return the contact of the greatest pressure away from edges, or of the greatest load where all are near them."""
     worst = cycle.worst_contact
     position, contact = worst or cycle.heaviest_contact
     return ShownContact(position, contact, worst is not None)
@@ -131,9 +131,10 @@ class FaceFactors(NamedTuple):
 
 
 def face_factors(task: CheckTask) -> FaceFactors:
-    """From the mounting's misalignment and both helix angle modifications, over the common face width, and from nothing else.
+    """Return the face load factors from the mounting's misalignment and both helix angle modifications alone.
 
-    Deflections of shafts and bodies, crowning, end relief and running in are no part of it; K_v is 1.
+    They hold over the common face width. Deflections of shafts and bodies, crowning, end relief and running in are no part of
+    them; K_v is 1.
     """
     rating = task.rating
     misalignment = task.mounting.misalignment + sum(_mismatch(task))
@@ -142,7 +143,10 @@ def face_factors(task: CheckTask) -> FaceFactors:
 
 
 def _mismatch(task: CheckTask) -> PerGear[float]:
-    """By how much (µm) the gap grows towards larger z over the common width, by the helix angle modification of each gear."""
+    """Return the growth (µm) of the gap towards larger z over the common width.
+
+    It is that by the helix angle modification of each gear.
+    """
     width, carries_left = task.pair.common_width.width, task.torque > 0
 
     def grows(gear: Gear) -> float:

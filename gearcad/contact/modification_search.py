@@ -59,7 +59,7 @@ class Remembered:
 
     @property
     def places(self) -> Wholes:
-        """Those places (v, n)."""
+        """Places (v, n) whose figures were worked out."""
         return np.array([np.frombuffer(key, np.int64) for key in self._known])
 
     def __call__(self, places: Wholes) -> Floats:
@@ -134,7 +134,10 @@ class Lattice:
         return places[found]
 
     def descend(self, goal: Goal, starts: Wholes) -> Wholes:
-        """Where descents from `starts` (s, n) end (s, n): at places that none nearby, by a linear model or solved, is below."""
+        """Return the places (s, n) where descents from `starts` (s, n) end.
+
+        No place nearby is below them, by a linear model or solved.
+        """
         descents = [_Descent(*each, _REACH) for each in zip(starts, goal.at(starts).tolist(), strict=True)]
         # All of them at once: the figures are remembered, and of many places cost less.
         while any(each.reach for each in descents):
@@ -257,7 +260,9 @@ the mounting.
 
 
 def conditions(torque: float) -> tuple[Condition, ...]:
-    """What a proposal should bear: parts of the torque, the wheel's axis turned either way, and a pitch error."""
+    """Return the conditions that a proposal should bear: parts of the torque (N·m), the wheel's axis turned either way, and a
+    pitch error.
+    """
     parts = [Condition(part * torque) for part in (0.25, 0.5, 0.75, 1.0)]
     turned = [Condition(torque, misalignment=sign * _MISALIGNMENT) for sign in (1, -1)]
     return (*parts, *turned, Condition(torque, pitch_error=_PITCH_ERROR))
@@ -287,7 +292,7 @@ class Found:
 
     @property
     def peak_to_peak(self) -> float:
-        """Of the transmission error (µm)."""
+        """Peak to peak of the transmission error (µm)."""
         return float(self.outcome.peak_to_peak[0])
 
 
@@ -313,7 +318,7 @@ class Search:
         return float(self.plain.transmission_errors.max())
 
     def outcomes(self, amounts: Floats, condition: Condition | None = None) -> Outcomes:
-        """What becomes of variants (v, 6)."""
+        """Return the outcomes of variants (v, 6) under a condition, or under the torque of the search without one."""
         return self.variants.outcomes(amounts, condition or Condition(self.torque))
 
     def best(self, bounds: Sequence[float]) -> Found:
@@ -362,11 +367,18 @@ class Search:
         return strict if strict.bounded and strict.edges_free and worth else found
 
     def dearest(self, peak_to_peak: float) -> float:
-        """What (µm) edges of tips out of contact may cost against a peak to peak: half of what that gains on plain flanks."""
+        """Return the greatest peak to peak (µm) permitted for a proposal with the edges of tips out of contact.
+
+        This may cost half of what `peak_to_peak` (µm) gains on plain flanks.
+        """
         return (peak_to_peak + float(self.plain.peak_to_peak[0])) / 2
 
     def scores(self, found: Outcomes, bound: float, *, edges: bool) -> Floats:
-        """What is to be least (v,): peak to peak of the transmission error in µm, and what broken bounds cost."""
+        """Return the values (v,) in µm that are to be least.
+
+        Each is the peak to peak of the transmission error, and the cost of broken bounds: pressure above `bound` (MPa), and
+        contact on edges of tips. With `edges` the latter costs little.
+        """
         on_edge = self.deflection * _ON_EDGE[0 if edges else 1] * found.edge_shares
         over = self.price(found.pressures, bound)
         return np.nan_to_num(found.peak_to_peak + over + on_edge, nan=_NEVER, posinf=_NEVER)
@@ -399,9 +411,9 @@ class Search:
         return Found(amounts, bound, self.outcomes(amounts[None]))
 
     def _robust(self, places: Wholes, scores: Floats, bound: float) -> Floats:
-        """Of the variants near the best: the one that bears parts of the torque and misalignment best.
+        """Return the amounts (6,) of the variant near the best that bears the `conditions` from half the torque up best.
 
-        Pressure counts along, else the free play would go into crowning that nothing asks for.
+        The pressure counts too. Else the free play would go into crowning that nothing asks for.
         """
         pressures = Outcomes.from_figures(self._full(places)).pressures
         within = pressures <= bound * (1 + _WITHIN)

@@ -77,7 +77,9 @@ def _on_springs(gap: Floats, lengths: Floats, force: float, stiffness: float) ->
 
 
 def _own(given: Responses, widths: Floats) -> Floats:
-    """What the ellipse of each cell adds to its own compliance (v, n) in mm/N: the diagonal of `Responses.half_space`."""
+    """Return the compliance (v, n) in mm/N that the ellipse of each cell adds to its own: the diagonal of
+    `Responses.half_space`.
+    """
     result: Floats = 2 * np.arcsinh(given.lengths / 2 / (OWN_DISTANCE * widths)) / given.lengths / (math.pi * given.modulus)
     return result
 
@@ -147,7 +149,7 @@ class Outcomes:
 
     @classmethod
     def from_figures(cls, figures: Floats) -> Outcomes:
-        """From what `figures` puts side by side."""
+        """Return the outcomes that `figures` (v, 3 positions) holds side by side."""
         return cls(*np.split(figures, 3, axis=-1))
 
     @property
@@ -157,7 +159,7 @@ class Outcomes:
 
     @property
     def peak_to_peak(self) -> Floats:
-        """Of the transmission error (v,) in µm."""
+        """Peak to peak (v,) of the transmission error in µm."""
         result: Floats = np.ptp(self.transmission_errors, axis=-1)
         return result
 
@@ -219,7 +221,7 @@ class _Flanks:
     helix: Floats
 
     def depth(self, lengths: Floats, heights: Floats) -> Floats:
-        """How far (v, n) the loaded, left flank is taken back (mm), as `FlankForm.depth`."""
+        """Return the depth (v, n) in mm by which the loaded, left flank is taken back, as `FlankForm.depth`."""
         form = self.form
         along = np.clip(heights, 0.0, form.width) / form.width
         left = form.last - np.clip(lengths, form.first, form.last)
@@ -229,7 +231,10 @@ class _Flanks:
         return result + form.depth(lengths, heights) if form.modification.present else result
 
     def taken_back(self, lengths: Floats, heights: Floats) -> Floats:
-        """How far (v, n) the flank lies behind these places (mm): what stands there comes from further down."""
+        """Return the distance (v, n) in mm by which the flank lies behind these places.
+
+        The point that stands there comes from further down the flank.
+        """
         return self.depth(lengths - self.depth(lengths, heights), heights)
 
     @property
@@ -286,7 +291,7 @@ class Variants:
 
     @cached_property
     def _roll_angles(self) -> Floats:
-        """Of the positions (deg)."""
+        """Roll angles (n,) of the positions in deg."""
         pair, pitch = self.roomy.pair, self.roomy.line.pitch
         outside = np.linspace(*_ENDS, self.at_ends) * pitch
         ends = np.concatenate([pair.path_of_contact.A - outside, pair.path_of_contact.E + outside])
@@ -310,7 +315,9 @@ class Variants:
         return self.roomy.force(torque) * self.roomy.width / math.cos(self.roomy.helix)
 
     def outcomes(self, amounts: Floats, condition: Condition) -> Outcomes:
-        """What becomes of variants (v, 6) under a condition; all infinite for one whose contact does not settle."""
+        """Return the outcomes of variants (v, 6) under a condition; all are infinite for a variant whose contact does not
+        settle.
+        """
         force, errors, pressures, edges = self.force(condition.torque), [], [], []
         for given, matrix in zip(self.positions, self._matrices, strict=True):
             gap, radii = self.gaps(given, amounts, condition)

@@ -108,28 +108,28 @@ class LoadedPairDeck:
 
 
 def number(value: float) -> str:
-    """A number as a deck has it: CalculiX reads 20 characters."""
+    """Return a number as a deck has it: CalculiX reads 20 characters."""
     return f"{value:.12e}"
 
 
 def write_heading(file: TextIO, words: Iterable[str]) -> None:
-    """What the deck is, line by line, as comments."""
+    """Write the heading of the deck, then `words` line by line as comments."""
     file.write("*HEADING\ngearcad: mm, N, MPa\n")
     file.writelines(f"** {line}\n" if line else "**\n" for line in words)
 
 
 def write_reference(file: TextIO, node: int) -> None:
-    """The node of reference, on the z axis."""
+    """Write the node of reference, on the z axis."""
     file.write(f"*NODE, NSET={REFERENCE}\n{node}, 0., 0., 0.\n")
 
 
 def write_held(file: TextIO, role: Role, nodes: Wholes) -> None:
-    """The nodes that the hub of a gear holds, as a node set."""
+    """Write the nodes that the hub of a gear holds, as a node set."""
     write_node_set(file, HELD.format(role.value), np.unique(nodes))
 
 
 def write_material(file: TextIO, material: Material, parts: Iterable[str], width: float | None = None) -> None:
-    """The elastic material of all parts; `width` (mm) is the thickness of sections."""
+    """Write the elastic material of all parts; `width` (mm) is the thickness of sections."""
     elastic = f"{number(material.youngs_modulus)}, {number(material.poisson_ratio)}"
     file.write(f"*MATERIAL, NAME={_MATERIAL}\n*ELASTIC\n{elastic}\n")
     for part in parts:
@@ -139,9 +139,10 @@ def write_material(file: TextIO, material: Material, parts: Iterable[str], width
 
 
 def write_turned(file: TextIO, nodes: Wholes, points: Floats, reference: int) -> None:
-    """Let nodes turn about the z axis by the angle (rad) that is degree of freedom 1 of the node of reference.
+    """Write equations that let nodes turn about the z axis by the angle (rad) of the node of reference.
 
-    u = -y t, v = x t, as equations: rigid bodies and couplings of CalculiX 2.20 do not take nodes of sections.
+    The angle is its degree of freedom 1. The equations are u = -y t, v = x t: rigid bodies and couplings of CalculiX 2.20 do
+    not take nodes of sections.
     """
     file.write("*EQUATION\n")
     for node in np.unique(nodes).tolist():
@@ -154,7 +155,10 @@ def write_turned(file: TextIO, nodes: Wholes, points: Floats, reference: int) ->
 
 
 def write_contact(file: TextIO, flanks: Iterable[Flanks], stiffness: float) -> None:
-    """Frictionless contact of surface to surface; each pair of flanks is one of its own, so that its force can be printed."""
+    """Write frictionless contact of surface to surface.
+
+    Each pair of flanks is one of its own, so that its force can be printed.
+    """
     file.write(f"*SURFACE INTERACTION, NAME={_INTERACTION}\n")
     file.write(f"*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{number(stiffness)}\n")
     for each in flanks:
@@ -247,7 +251,7 @@ class Deviations:
 
 
 def deviations(expected: dict[str, Any], found: dict[str, Any]) -> Deviations:
-    """What `found` differs by from `expected`, as a deck has them both."""
+    """Return the deviations of the figures `found` from those `expected`, both as a deck has them."""
     theirs = {pair["pinion"]: pair for pair in found["pairs"]}
     ours = {pair["pinion"]: pair for pair in expected["pairs"]}
     shares = [_value(theirs, name, "load_share") - _value(ours, name, "load_share") for name in theirs | ours]

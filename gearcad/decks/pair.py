@@ -67,13 +67,13 @@ lines of contact are forces on nodes of the flanks, shared as the shape function
 
 
 def pair_words(expected: Mapping[str, Any], *, distance: float, base_radius: float) -> list[str]:
-    """Those of a pair; centre distance and base radius in mm."""
+    """Return the words of a pair, line by line; centre distance and base radius in mm."""
     roots = {f"root_{gear}": stress for gear, stress in expected["root_stress"].items()}
     return _PAIR.format(**expected, **roots, distance=distance, base_radius=base_radius).splitlines()
 
 
 def tooth_words(expected: Mapping[str, Any], *, solid: bool) -> list[str]:
-    """Those of one gear."""
+    """Return the words of a deck of one gear, line by line."""
     return _TOOTH.format(**expected, laid=_LAID_ON_NODES if solid else _LAID_ON_EDGES).splitlines()
 
 
@@ -168,7 +168,9 @@ class PairDecks(ABC):
 
     @abstractmethod
     def zones(self, roll_angle: float, role: Role) -> Mapping[int, ContactZone]:
-        """Where the loaded flanks of a gear are fine, tooth by tooth. Raises ParameterError for narrow contacts."""
+        """Return the zones where the loaded flanks of a gear are fine, tooth by tooth. Raises ParameterError for narrow
+        contacts.
+        """
 
     @abstractmethod
     def mesh(self, role: Role, zones: Mapping[int, ContactZone]) -> ElementMesh:
@@ -320,7 +322,7 @@ class ToothDeck(ABC):
 
     @abstractmethod
     def write_loads(self, file: TextIO) -> None:
-        """The loads, as cards of the step."""
+        """Write the loads as cards of the step."""
 
     @property
     def expected(self) -> dict[str, Any]:

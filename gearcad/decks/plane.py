@@ -107,7 +107,10 @@ class PlaneDecks(PairDecks):
         return mesh_section(gear, teeth=teeth, held_radius=radius, sizes=self.sizes, element=Element.TRI6, contacts=zones)
 
     def root_tension(self, mesh: ElementMesh, moved: Floats, role: Role, tooth: int, turn: float) -> float:
-        """Strain along the surface times E', at Gauss points from a tangent angle on, as our check has it."""
+        """Return the greatest tension (MPa) by the strain along the surface times E', as our check has it.
+
+        It is taken at Gauss points from a tangent angle on.
+        """
         gear, modulus = self.pair.gears.pick(role), self.cycle.model.bodies.pick(role).elasticity.modulus
         edges = mesh.face_cells(self.side(role, tooth, "fillet"))[:, [0, 2, 1]]
         slopes = edge_slopes(np.array([-GAUSS, GAUSS]))
@@ -128,7 +131,7 @@ class PlaneToothDeck(ToothDeck):
     pressures: Floats
 
     def write_loads(self, file: TextIO) -> None:
-        """Pressures on edges."""
+        """Write pressures on edges."""
         file.write("*DLOAD\n")
         for element, side, pressure in zip(self.faces.elements, self.faces.sides, self.pressures, strict=True):
             file.write(f"{element + 1}, P{side + 1}, {number(pressure)}\n")

@@ -111,7 +111,10 @@ has tooth 0 there: with 5 teeth that is worth up to 2 % of the approach where ot
 
 
 def solid_task(task: CheckTask) -> CheckTask:
-    """The task with solid bodies; where it asks for rings, with so few teeth that CalculiX has done within minutes."""
+    """Return the task with solid bodies.
+
+    Where it asks for rings, they have so few teeth that CalculiX has done within minutes.
+    """
     teeth = task.options.body_teeth or max(_FEWEST_TEETH, 2 * teeth_moved(task.pair) + 1)
     return replace(task, options=replace(task.options, model=Model.SOLID.value, body_teeth=teeth))
 
@@ -138,7 +141,7 @@ class SolidDecks(PairDecks):
         return [line.tooth for line in lines if abs(line.tooth) <= self._reach]
 
     def _contacts(self, roll_angle: float) -> Sequence[SolidPairContact]:
-        """Those that carry. Raises ParameterError if not all of their teeth are on the bodies."""
+        """Return the contacts that carry. Raises ParameterError if not all of their teeth are on the bodies."""
         contacts = self.cycle.contacts_at(roll_angle)
         farthest = max(abs(contact.tooth) for contact in contacts)
         if farthest > self._reach:
@@ -195,7 +198,7 @@ class SolidDecks(PairDecks):
         )
 
     def root_tension(self, mesh: ElementMesh, moved: Floats, role: Role, tooth: int, turn: float) -> float:
-        """Of the fillet's surface, by strains, as our own check has it."""
+        """Return the greatest tension (MPa) of the fillet's surface by strains, as our own check has it."""
         gear = self.pair.gears.pick(role)
         upward, around = -1 if gear.internal else 1, turn + 2 * math.pi * tooth / gear.tooth_count
         fillet = Fillet(mesh, self.side(role, tooth, "fillet"), around, twist(gear), upward)
@@ -219,7 +222,7 @@ class SolidToothDeck(ToothDeck):
     forces: Floats
 
     def write_loads(self, file: TextIO) -> None:
-        """Forces on nodes."""
+        """Write forces on nodes."""
         file.write("*CLOAD\n")
         for node, force in zip(self.nodes.tolist(), self.forces.tolist(), strict=True):
             file.writelines(f"{node + 1}, {axis}, {number(part)}\n" for axis, part in enumerate(force, 1) if part)

@@ -209,7 +209,7 @@ def sainsot_foundation(tooth: BeamTooth, load: BeamLoad, material: Material, rim
 
 
 def sainsot_range(tooth: BeamTooth, rim: float) -> Iterator[Notice]:
-    """Where the tooth leaves the range of the series."""
+    """Yield a notice for each figure of the tooth that is outside the range of the series."""
     for name, value, (low, high) in (("theta_f", tooth.root_half_angle, _ANGLES), ("h_f", rim, _RIMS)):
         if not low <= value <= high:
             text = f"{name} = {value:.4g} is outside the {low:g} ... {high:g} of Sainsot's foundation"
@@ -275,7 +275,7 @@ class BeamMethod(SliceMethod):
 
     @property
     def tangent_less(self) -> float:
-        """By how much the tangent compliance is below the secant one, per width (mm²/N)."""
+        """Difference (mm²/N) by which the tangent compliance is below the secant one, per width."""
         return 0.0
 
 

@@ -49,15 +49,17 @@ class StiffnessComparison(Pictured):
 
     @property
     def reference(self) -> MeshCycle | None:
-        """What the others are measured by: the 3D contact, if it is there."""
+        """Mesh cycle by which the others are measured: the 3D contact, None if it is not there."""
         return next((cycle for cycle in self.cycles if cycle.method == "3d"), None)
 
     def deviation(self, cycle: MeshCycle) -> float | None:
-        """Of the mean from that of the 3D contact (1 is 100 %)."""
+        """Return the relative deviation of the mean from that of the 3D contact (1 is 100 %); None without a 3D contact."""
         return cycle.mean / self.reference.mean - 1 if self.reference is not None else None
 
     def path_position(self, roll_angle: Floats) -> Floats:
-        """Where the middle pair touches in the middle plane (n,) in mm from T1, at roll angles (n,) in degrees."""
+        """Return the places (n,) in mm from T1 where the middle pair touches in the middle plane, at roll angles (n,) in
+        degrees.
+        """
         result: Floats = self.pair.path_of_contact.C + np.radians(roll_angle) * self.pair.pinion.base_diameter / 2
         return result
 
@@ -65,12 +67,12 @@ class StiffnessComparison(Pictured):
 
     @property
     def softest(self) -> MeshCycle:
-        """Of the least mean stiffness."""
+        """Mesh cycle of the least mean stiffness."""
         return min(self.cycles, key=lambda cycle: cycle.mean)
 
     @property
     def stiffest(self) -> MeshCycle:
-        """Of the greatest mean stiffness."""
+        """Mesh cycle of the greatest mean stiffness."""
         return max(self.cycles, key=lambda cycle: cycle.mean)
 
     @property
@@ -79,7 +81,7 @@ class StiffnessComparison(Pictured):
         return [cycle for cycle in self.cycles if len(cycle.telling_parts) > 1]
 
     def divided_with(self, part: str) -> list[MeshCycle]:
-        """Those of them that know this part."""
+        """Return the cycles that know this part of their compliance, and others."""
         return [cycle for cycle in self.divided if part in cycle.compliance_parts]
 
     @property
@@ -96,7 +98,10 @@ class StiffnessComparison(Pictured):
 
     @property
     def load_rises(self) -> dict[str, float]:
-        """By how much the mean secant rises from the least to the greatest load (1 is 100 %), where it depends on it."""
+        """Relative growth of the mean secant stiffness from the least to the greatest load (1 is 100 %).
+
+        It is there for methods that depend on the load.
+        """
         over_load = self.over_load
         own = {cycle.method: over_load[cycle.method] for cycle in self.cycles if len(over_load.get(cycle.method, ())) > 1}
         return {name: points[-1].mean / points[0].mean - 1 for name, points in own.items()}
@@ -105,12 +110,12 @@ class StiffnessComparison(Pictured):
 
     @property
     def bodies(self) -> dict[str, str]:
-        """How each body is taken, in words."""
+        """Words on how each body is modelled."""
         return self.body.describe(self.pair)
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting a method with this pair."""
+        """Notices to read before trusting a method with this pair."""
         return tuple(notice.within(self.titles[cycle.method]) for cycle in self.cycles for notice in cycle.notices)
 
     @property

@@ -71,7 +71,7 @@ class StrainEnergy(SliceMethod):
 
     @property
     def elasticities(self) -> PerGear[PlaneElasticity]:
-        """Those of both sections."""
+        """Plane elasticities of both sections."""
         return self.materials.map(lambda material: PlaneElasticity(material, self.plane))
 
     def notices(self, load: Load) -> Iterator[Notice]:
@@ -162,7 +162,7 @@ def _sections(gear: Gear, inner_radius: float) -> list[tuple[float, Gear, float]
 
 
 def _bare(body: Body) -> Body:
-    """Without what is as large as the gear itself, and not as its virtual one."""
+    """Return the body without the parts that are as large as the gear itself, and not as its virtual one."""
     bored = replace(body, bore=0.0, keyway=False, keyway_width=0.0, keyway_depth=0.0)
     return replace(bored, rim_diameter=None, bolt_circle=0.0, bolt_holes=0, bolt_diameter=0.0)
 
@@ -270,7 +270,7 @@ class PlaneContact(ContactMethod):
         return self.model.single_stiffness(torque)
 
     def notices(self, load: Load) -> Iterator[Notice]:
-        """Of thin gears, and of what a section leaves out."""
+        """Yield notices on thin gears, and on what a section leaves out."""
         yield from thin_faces(self.mounted, self.material, self.plane)
         along = any(gear.modification.along_face for gear in self.mounted.gears)
         found = [

@@ -91,7 +91,7 @@ class Slices:
 
     @property
     def reach(self) -> float:
-        """How far a line of contact leans along the line of action over the common width (mm)."""
+        """Length (mm) on the line of action over which a line of contact leans across the common width."""
         return self.width * math.tan(math.radians(abs(self.pair.pinion.base_helix_angle)))
 
     @cached_property
@@ -220,7 +220,7 @@ class StiffnessMethod(ABC):
 
     @property
     def expected(self) -> Expected:
-        """What a comparison is expected to take with this method: its cycle under several loads."""
+        """Seconds and memory that a comparison is expected to take with this method: its cycle under several loads."""
         return Expected(self.seconds, 0.0)
 
     @abstractmethod
@@ -228,7 +228,7 @@ class StiffnessMethod(ABC):
 
     @property
     def materials(self) -> PerGear[Material]:
-        """Those of both gears."""
+        """Materials of both gears."""
         return of_both(self.material)
 
     @cached_property
@@ -242,7 +242,7 @@ class StiffnessMethod(ABC):
         return self.mounted.common_width.width
 
     def torque(self, load: Load) -> float:
-        """What the pinion carries, application factor included (N·m, positive)."""
+        """Return the torque that the pinion carries, application factor included (N·m, positive)."""
         return abs(load.torque) * load.application_factor
 
     def force(self, load: Load) -> float:
@@ -250,7 +250,7 @@ class StiffnessMethod(ABC):
         return 2000 * self.torque(load) / self.mounted.pinion.base_diameter
 
     def inputs(self, load: Load) -> dict[str, Any]:
-        """What a MeshCycle tells of its method, the load and the pair, under the names there."""
+        """Return the fields of a MeshCycle on its method, the load and the pair, under the names there."""
         return {
             "method": self.name,
             "holds": self.holds,
@@ -262,7 +262,7 @@ class StiffnessMethod(ABC):
         }
 
     def notices(self, load: Load) -> Iterator[Notice]:
-        """What to know before trusting the method with this pair under a load: here what nominal teeth leave out."""
+        """Yield notices to read before trusting the method with this pair under a load: here what nominal teeth leave out."""
         gears = self.mounted.gears.items()
         found = [f"the {role.value}'s flank modifications" for role, gear in gears if gear.modification.present]
         found += ["misalignment and pitch errors"] if self.mounting.tilted or self.mounting.pitch_error else []
@@ -270,7 +270,7 @@ class StiffnessMethod(ABC):
 
 
 def left_out(found: Sequence[str]) -> Iterator[Notice]:
-    """That a method does not see these features of a pair, in words."""
+    """Yield a notice that a method leaves out these features of a pair, in words, if there are any."""
     if found:
         yield Notice("left-out", f"leaves out {' and '.join(found)}")
 

@@ -133,7 +133,7 @@ def expected_methods(
     mounting: Mounting | None = None,
     positions: int = 0,
 ) -> Expected:
-    """What `compare_methods` is expected to take."""
+    """Return the seconds and the memory that `compare_methods` is expected to take."""
     refuse_halves(pair.pinion, _WHAT)
     inputs = _MethodInputs(pair, material, body or BodyModel(), mounting or Mounting(), positions)
     every = [_expected(inputs.method(name)) for name in methods]
@@ -166,7 +166,7 @@ def _name_of(method: str | StiffnessMethod) -> str:
 
 
 def _expected(method: StiffnessMethod | GearcadError) -> Expected:
-    """Nothing of a method that is left out."""
+    """Return the time and memory a method is expected to take; nothing for a method that is left out."""
     try:
         return Expected(0.0, 0.0) if isinstance(method, GearcadError) else method.expected
     except GearcadError:
@@ -174,7 +174,7 @@ def _expected(method: StiffnessMethod | GearcadError) -> Expected:
 
 
 def _over_load(method: StiffnessMethod, load: Load, at_load: MeshCycle) -> list[MeanAtTorque]:
-    """Means at parts of the load, and at the load itself."""
+    """Return means at parts of the load, and at the load itself."""
     loads = [replace(load, torque=part * load.torque) for part in _PARTS] if method.load_dependent else []
     cycles = [method(each, method.load_positions) for each in loads]
     return [MeanAtTorque(method.name, cycle.torque, cycle.mean, cycle.tangent_mean) for cycle in (*cycles, at_load)]

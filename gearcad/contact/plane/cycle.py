@@ -226,7 +226,10 @@ def _bent(model: PlanePair, loaded: list[tuple[ContactPair, Floats, float]], pla
 
 
 def _distance(model: PlanePair, pair: ContactPair, *, even: bool) -> float:
-    """How far (mm along the tangent) the nearest end of an involute - or of its even part - is; negative beyond it."""
+    """Return the distance (mm along the tangent) to the nearest end of an involute, negative beyond it.
+
+    With `even` it is the distance to the end of the even part.
+    """
     distances: list[float] = []
     for flank, length in zip(model.line.flanks, pair.lengths, strict=True):
         first, last = flank.even if even else (flank.first, flank.last)
@@ -235,7 +238,11 @@ def _distance(model: PlanePair, pair: ContactPair, *, even: bool) -> float:
 
 
 def _start_distances(model: PlanePair, pair: ContactPair) -> PerGear[float]:
-    """How far (mm along the tangent) the nearest transition of a linear relief of each gear is, as `start_distance`."""
+    """Return the distance (mm along the tangent) to the nearest transition of a linear relief of each gear, as
+    `start_distance`.
+
+    It is infinite for a gear without one.
+    """
     found = []
     for flank, length in zip(model.line.flanks, pair.lengths, strict=True):
         every = (start_distance(flank.base_radius, of, np.array(length), pair.plain_radius) for of in onsets(flank))
@@ -293,7 +300,7 @@ def thin_faces(pair: GearPair, material: Materials, plane: Plane) -> Iterator[No
 
 
 def plane_pressure(material: Materials, plane: Plane) -> Iterator[Notice]:
-    """What plane stress does to the pressure."""
+    """Yield a notice in plane stress: by how much (%) the pressure of the contact, in plane strain, is higher."""
     if plane is Plane.STRAIN:
         return
     higher = 100 * (1 / math.sqrt(1 - max(of.poisson_ratio for of in of_both(material)) ** 2) - 1)

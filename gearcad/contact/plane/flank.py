@@ -172,13 +172,13 @@ class PlaneCompliance(FlankCompliance):
 
     @property
     def hub_radius(self) -> float:
-        """Where the body is held (mm)."""
+        """Radius at which the body is held (mm)."""
         mesh = self.ring.sector.mesh
         return float(np.hypot(*mesh.points[mesh.sides[Side.HELD][0]]))
 
     @property
     def nodes(self) -> int:
-        """Of the mesh of one tooth sector."""
+        """Number of nodes in the mesh of one tooth sector."""
         return len(self.ring.sector.mesh.points)
 
     @property
@@ -209,7 +209,7 @@ class PlaneCompliance(FlankCompliance):
         return result
 
     def parts_of_loads(self, lengths: Floats) -> Floats:
-        """What of the responses to unit loads (m,) is in that to loads at roll lengths (n,): (n, m)."""
+        """Return the parts (n, m) of the responses to the unit loads (m,) in the responses to loads at roll lengths (n,)."""
         return _within(self._over_loads, self._spread(lengths))
 
     @cached_property

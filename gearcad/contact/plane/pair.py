@@ -300,7 +300,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         return 1 / (1 / self.pinion.elasticity.modulus + 1 / self.wheel.elasticity.modulus)
 
     def rigid_approach(self, roll_angle: float, *, single: bool = False) -> float:
-        """How far (mm) the gears would approach at a roll angle (deg) before the first pair of teeth touches, unloaded."""
+        """Return the approach (mm) of the unloaded gears at a roll angle (deg) until the first pair of teeth touches."""
         return rigid_approach(self.line, self.roll_length(roll_angle), single=single)
 
     def solve(self, roll_angle: float, torque: float, *, single: bool = False) -> ContactSolution:

@@ -171,9 +171,9 @@ def _joints(
     closed: bool,
     cuts: Cuts,
 ) -> list[tuple[Wholes, Floats]]:
-    """What stands beyond the sectors in full: matrices on [dofs, hub as tooth 0 sees it].
+    """Return dofs and matrices of the body beyond the sectors in full, each matrix on [dofs, hub as tooth 0 sees it].
 
-    `chain` is a sector that is held, `between` one that stands between bolts, None where there are none.
+    `chain` is a sector that is held, `between` one that stands between bolts; they are None where there are none.
     """
     if chain is None:
         return []
@@ -238,15 +238,15 @@ class SurfaceStresses(NamedTuple):
     factors: Floats
 
     def by(self, moved: Floats) -> Floats:
-        """Those (n, m) by displacements (dofs, m)."""
+        """Return the stresses (n, m) in MPa by displacements (dofs, m)."""
         result: Floats = np.einsum("nk,nkm->nm", self.factors, moved[self.dofs])
         return result
 
 
 def far_responses(ring: Ring, rows: SurfaceStresses, displacements: Floats, forces: Floats) -> list[Floats]:
-    """What `rows` tell of the displacements of every tooth that does not stand in full.
+    """Return the stresses (n, m) in MPa by `rows` of every tooth that does not stand in full.
 
-    `displacements` (sectors, 2 nodes, m) are those of the teeth that do, `forces` (3, m) the hub's. Each tooth has (n, m),
+    `displacements` (sectors, 2 nodes, m) are those of the teeth in full, `forces` (3, m) those of the hub. The teeth follow
     counter-clockwise from the last of those in full.
     """
     sector, chain = ring.sector, ring.chain
@@ -274,7 +274,10 @@ def far_responses(ring: Ring, rows: SurfaceStresses, displacements: Floats, forc
 
 
 def _from_cuts(ring: Ring, rows: SurfaceStresses) -> Floats:
-    """What `rows` tell, (n, cuts and hub), of a sector in full by the displacements of its cuts and the forces of its hub."""
+    """Return the stresses (n, cuts and hub) by `rows` of a sector in full, by displacements of its cuts and forces of its hub.
+
+    Each is for a unit displacement or force.
+    """
     sector = ring.sector
     kept = sector.condensed.kept
     cuts, hub = np.r_[sector.behind, sector.ahead], sector.hub.shape[1]

@@ -151,7 +151,7 @@ class _Dissection:
         self.fronts: list[_Front] = []
 
     def condensed(self) -> Dissected:
-        """All of it."""
+        """Condense all elements to the nodes that are kept. Raises SolverError where a matrix cannot be factorised."""
         try:
             nodes, matrix = self._eliminated(0, len(self.triangles))
         except np.linalg.LinAlgError as error:
@@ -159,7 +159,7 @@ class _Dissection:
         return Dissected(2 * self.nodes, node_dofs(nodes), matrix, self.fronts)
 
     def _eliminated(self, begin: int, end: int) -> _Left:
-        """What the elements from `begin` to before `end` leave."""
+        """Return the nodes that the elements from `begin` to before `end` leave, and the matrix on their dofs."""
         parts: list[_Left] = []
         if end - begin > _FEW:
             middle = begin + (end - begin) // 2
@@ -272,8 +272,8 @@ def element_forces(triangles: Wholes, matrices: Floats, moved: Floats) -> Floats
 
 
 def _integrated(mesh: SectorMesh, elements: Wholes | None) -> tuple[Floats, Floats]:
-    """Of elements, where they are integrated: slopes (m, 6, 2, places) of their shape functions, and weights (m, places) in
-    mm².
+    """Return slopes (m, 6, 2, places) of the shape functions of elements, and weights (m, places) in mm², at the places of
+    integration.
     """
     corners = mesh.points[mesh.triangles if elements is None else mesh.triangles[elements]]
     local = triangle_slopes(TRIANGLE_PLACES).transpose(2, 0, 1)
@@ -376,23 +376,23 @@ class CutAxes(NamedTuple):
 
     @classmethod
     def of(cls, mesh: SectorMesh) -> CutAxes:
-        """Those of a mesh."""
+        """Return the axes of the nodes at the cuts of a mesh."""
         nodes = np.union1d(mesh.behind, mesh.ahead)
         return cls.at(nodes, mesh.points[nodes])
 
     @classmethod
     def at(cls, nodes: Wholes, points: Floats) -> CutAxes:
-        """Of nodes at points (k, 2)."""
+        """Return the axes of nodes (k,) at points (k, 2)."""
         angles = np.arctan2(points[:, 1], points[:, 0])
         cosine, sine = np.cos(angles), np.sin(angles)
         return cls(nodes, np.array([[cosine, sine], [-sine, cosine]]))
 
     def polar(self, plain: Floats) -> Floats:
-        """What is along x and y (dofs, ...) with polar dofs at the cuts."""
+        """Return values (dofs, ...) with polar dofs at the cuts, from values along x and y."""
         return self._turned(plain, self.directions)
 
     def plain(self, polar: Floats) -> Floats:
-        """What has polar dofs at the cuts along x and y (dofs, ...)."""
+        """Return values (dofs, ...) along x and y, from values with polar dofs at the cuts."""
         return self._turned(polar, self.directions.swapaxes(0, 1))
 
     def _turned(self, given: Floats, directions: Floats) -> Floats:
@@ -447,7 +447,7 @@ class Sector:
         )
 
     def forces(self, moved: Floats) -> Floats:
-        """Of the sector (dofs, m) by displacements (dofs, m)."""
+        """Return the forces (dofs, m) of the sector in N per mm of width by displacements (dofs, m) in mm."""
         return self.axes.polar(element_forces(self.whole.triangles, self.stiffness, self.axes.plain(moved)))
 
     def inside(self, loads: Floats) -> Floats:
@@ -464,13 +464,13 @@ class Sector:
 
     @cached_property
     def at_cuts(self) -> CutAxes:
-        """Of the dofs to which it is condensed alone."""
+        """Axes of those dofs alone to which the sector is condensed."""
         nodes = self.condensed.kept[::2] // 2
         return CutAxes.at(np.arange(len(nodes)), self.whole.points[nodes])
 
     @cached_property
     def cut_matrix(self) -> Floats:
-        """What it is condensed to, on polar dofs."""
+        """Matrix of the condensed sector on polar dofs, in N/mm per mm of width."""
         return self.at_cuts.polar(self.at_cuts.polar(self.condensed.matrix).T).T
 
 

@@ -195,11 +195,11 @@ class Support:
 
     @property
     def words(self) -> str:
-        """How the body is held, before "diameter ..." in a sentence; not by bolts."""
+        """Words on how the body is held, before "diameter ..." in a sentence; not by bolts."""
         return _WORDS[self.hold]
 
     def describe(self, held_radius: float) -> str:
-        """How the body is held at a radius (mm)."""
+        """Return in words how the body is held at a radius (mm)."""
         if self.hold is Hold.BOLTS:
             circle = f"diameter {format_number(round(self.bolt_circle, 4))} mm"
             return f"held by {self.bolts} bolts on {circle}, the loaded tooth midway between two"
@@ -242,8 +242,9 @@ def _support_of_ring(ring: Gear, hold: Hold) -> Support:
 def support_of(
     gear: Gear, held_radius: float, hold: Hold = Hold.AUTO, shaft: Material | None = None, shaft_bore: float = 0.0
 ) -> Support:
-    """What holds a gear at `held_radius` (mm). Raises GeometryError for what is not there: a keyway, room for the
-    shaft's bore, bolts.
+    """Return the support of a gear at `held_radius` (mm).
+
+    Raises GeometryError for what is not there: a keyway, room for the shaft's bore, bolts.
     """
     if gear.internal:
         return _support_of_ring(gear, hold)
@@ -289,15 +290,15 @@ class BodyModel:
             raise ParameterError("teeth", self.teeth, "must be odd: the loaded tooth stands in the middle")
 
     def teeth_held(self, gear: Gear) -> int | None:
-        """How many teeth of a gear stand between cuts; None for the full ring."""
+        """Return the number of teeth of a gear between cuts; None for the full ring."""
         return self.teeth if self.teeth is not None and self.teeth < gear.tooth_count else None
 
     def inner_radii(self, pair: GearPair) -> PerGear[float]:
-        """Where the bodies of pinion and wheel are held (mm). Raises ParameterError and GeometryError."""
+        """Return the radii (mm) at which the bodies of pinion and wheel are held. Raises ParameterError and GeometryError."""
         return PerGear.each(lambda role: _inner_radius(pair.gears.pick(role), self.inner_diameters.pick(role)))
 
     def supports(self, pair: GearPair) -> PerGear[Support]:
-        """What holds the bodies of pinion and wheel there. Raises ParameterError and GeometryError."""
+        """Return the supports of the bodies of pinion and wheel at these radii. Raises ParameterError and GeometryError."""
         radii = self.inner_radii(pair)
         pinion, wheel = (self._support(gear, radii.pick(role), role) for role, gear in pair.gears.items())
         return PerGear(pinion, wheel)
@@ -343,7 +344,7 @@ class BodyModel:
 
 
 def _inner_radius(gear: Gear, inner_diameter: float | None) -> float:
-    """Where the body is held (mm)."""
+    """Return the radius at which the body is held (mm). Raises ParameterError and GeometryError."""
     if inner_diameter is not None:
         if gear.internal:
             raise GeometryError("inner_diameter", inner_diameter, "must be left out: a ring is held on body.rim_diameter", "mm")

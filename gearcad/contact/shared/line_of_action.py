@@ -71,17 +71,20 @@ class TransverseFlank:
 
     @property
     def first(self) -> float:
-        """Where the involute begins."""
+        """Roll length (mm) at which the involute begins."""
         return self.form.first
 
     @property
     def last(self) -> float:
-        """Where the involute ends."""
+        """Roll length (mm) at which the involute ends."""
         return self.form.last
 
     @property
     def even(self) -> tuple[float, float]:
-        """Where a parabolic root relief ends and a parabolic tip relief begins: beyond, the curvature is another."""
+        """Roll lengths (mm) where a parabolic root relief ends and a parabolic tip relief begins.
+
+        Beyond them the curvature is another.
+        """
         of = self.form.modification
         root, tip = (
             amount and form is ReliefShape.PARABOLIC
@@ -93,16 +96,18 @@ class TransverseFlank:
         )
 
     def depth(self, lengths: Floats) -> Floats:
-        """How far (mm) along the line of action the flank lies behind the points of the involute at roll lengths.
+        """Return the distance (mm) along the line of action of the flank behind the points of the involute at roll lengths.
 
-        What is there now has moved along the flank with its turn: it comes from as much nearer to the root as it lies behind.
+        The point that is there now has moved along the flank with its turn. It comes from nearer to the root by as much as it
+        lies behind.
         """
         return self.form.depth(lengths - self.form.depth(lengths, self.height), self.height)
 
     def along_tangent(self, contact: Any, length: float) -> Any:
-        """Where the flank's point at roll length `length` lies along the common tangent, if it touches at `contact` (mm).
+        """Return the place (mm) along the common tangent of the flank's point at roll length `length`, if it touches at
+        `contact` (mm).
 
-        Scalar or array, as `contact` is.
+        The place is a scalar or an array, as `contact` is.
         """
         turn = (length - contact) / self.base_radius
         return self.base_radius * np.cos(turn) + length * np.sin(turn) - self.base_radius
@@ -145,7 +150,7 @@ class LineOfAction:
         return PerGear(pinion_length, self.whole - pinion_length)
 
     def taken_back(self, tooth: int, lengths: PerGear[Floats]) -> Floats:
-        """What modifications and pitch errors add to the gap (mm) between the flanks of a pair of teeth at roll lengths."""
+        """Return the gap (mm) that modifications and pitch errors add between the flanks of a pair of teeth at roll lengths."""
         if self.exact:
             return np.zeros_like(lengths.pinion)
         pinion, wheel = (flank.depth(each) for flank, each in zip(self.flanks, lengths, strict=True))
@@ -169,10 +174,10 @@ def line_of_action(pair: GearPair, pitch_error: float = 0.0) -> LineOfAction:
 
 
 def rigid_approach(line: LineOfAction, pinion_length: float, *, single: bool = False) -> float:
-    """How far (mm) rigid gears approach along the line of action, from where exact involutes touch, until the first pair does.
+    """Return the approach (mm) of rigid gears along the line of action until the first pair of teeth touches.
 
-    The middle pair touches at `pinion_length` (mm from T1); `single` lets no other pair touch. The transmission error of an
-    unloaded pair; negative where teeth stand proud.
+    It counts from where exact involutes touch. The middle pair touches at `pinion_length` (mm from T1); `single` lets no other
+    pair touch. It is the transmission error of an unloaded pair, negative where teeth stand proud.
     """
     if line.exact:
         return 0.0

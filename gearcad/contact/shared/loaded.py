@@ -83,12 +83,12 @@ class FlankCompliance(ABC):
     @property
     @abstractmethod
     def hub_radius(self) -> float:
-        """Where the body is held (mm)."""
+        """Radius at which the body is held (mm)."""
 
     @property
     @abstractmethod
     def nodes(self) -> int:
-        """Of the mesh of one tooth sector."""
+        """Number of nodes in the mesh of one tooth sector."""
 
     @property
     def unit_loads(self) -> int:
@@ -142,7 +142,10 @@ class EngagedPair:
             raise ParameterError("torque", torque, f"{permitted}: {why}", "N·m")
 
     def roll_length(self, roll_angle: float) -> float:
-        """Where the middle pair touches in the middle of the common width (mm from T1) at a roll angle of the pinion (deg)."""
+        """Return the place (mm from T1) where the middle pair touches in the middle of the common width.
+
+        The pinion is at a roll angle (deg).
+        """
         return self.pair.path_of_contact.C + math.radians(roll_angle) * self.base_radius
 
     def roll_angle(self, length: Floats) -> Floats:
@@ -297,7 +300,7 @@ class _Sampled:
 
     @classmethod
     def from_positions(cls, pool: Sequence[tuple[float, P]], span: RollRange, quantity: Quantity[P]) -> _Sampled:
-        """That of known positions, in order."""
+        """Return the values of a quantity at known positions, which are in the order of their angles."""
         angles, positions = zip(*pool, strict=True)
         values = quantity.sign * np.array([quantity.value(each) for each in positions], float)
         return cls(np.array(angles), values, span, quantity.swing)
@@ -309,7 +312,7 @@ class _Sampled:
 
     @property
     def scale(self) -> float:
-        """What an error is measured by."""
+        """Size by which an error is measured: the swing of the values, or the size of the greatest."""
         least, most = np.nanmin(self.values), np.nanmax(self.values)
         return float(most - least if self.swing else abs(most))
 
@@ -423,7 +426,7 @@ class PairContact(ABC):
     @property
     @abstractmethod
     def place(self) -> float:
-        """Where on the line of action (mm from T1) the pair touches in the middle of the common face width."""
+        """Place on the line of action (mm from T1) where the pair touches in the middle of the common face width."""
 
     @property
     @abstractmethod
@@ -531,7 +534,7 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
 
     @property
     def interior_contacts(self) -> Iterator[tuple[Position, C]]:
-        """Those away from the edges of the flanks that carry a fair share."""
+        """Contacts away from the edges of the flanks that carry a fair share, each after its position."""
         return ((position, contact) for position in self.every for contact in position.interior_contacts)
 
     @property
@@ -583,7 +586,7 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
         return mean, np.abs(lines - mean)
 
     def searched(self, quantities: Sequence[Quantity[Position]]) -> Self:
-        """With positions between the even ones, so that the quantities' greatest values are found."""
+        """Return the cycle with positions between the even ones, so that the quantities' greatest values are found."""
         return replace(self, between=(*self.between, *add_positions(self._known, self._span, self.solve, quantities)))
 
     def extreme(self, quantity: Quantity[Position]) -> Extreme | None:

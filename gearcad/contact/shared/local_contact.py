@@ -110,7 +110,7 @@ class HollowContact(NamedTuple):
 
 
 def conformal_notices(contacts: Iterable[HollowContact]) -> Iterator[Notice]:
-    """Of the widest of contacts, if it is too wide."""
+    """Yield a notice of the widest contact, measured by the pinion's radius, if it is too wide for two cylinders."""
     worst = max(contacts, key=lambda contact: contact.half_width / contact.radius, default=None)
     if worst is not None and worst.conformal:
         text = (

@@ -135,7 +135,7 @@ class SolidSector:
 
     @property
     def hub_forward(self) -> Forward:
-        """What `backward` needs of the hub's forces."""
+        """The loads of the hub's forces, carried through the fronts as `Condensed.backward` needs them."""
         return self._made.hub_forward
 
     @property
@@ -215,7 +215,7 @@ class SolidSector:
 
     @cached_property
     def hub_turn(self) -> Floats:
-        """How the dofs of the hub move when it turns by 1 rad (mm)."""
+        """Displacements (dofs,) in mm of the dofs of the hub when it turns by 1 rad; 0 at all others."""
         x, y = self.mesh.in_section.T
         motion = np.stack([-y, x, np.zeros(len(x))], -1).ravel()
         held = np.zeros(self.dofs)
@@ -462,7 +462,7 @@ class SolidBody:
         yield from zip(teeth, sector.condensed.backward(loads, cuts, nodes), strict=True)
 
     def _with_hub(self, solved: Forward | None, hub: Floats) -> Forward | None:
-        """What `backward` needs of loads, and of the forces of the hub as the sector sees them."""
+        """Return the loads, and the forces of the hub as the sector sees them, in the form that `backward` needs."""
         if not self.sector.free:
             return solved
         even = (self.sector.hub_parities == PARITIES[0])[:, None]

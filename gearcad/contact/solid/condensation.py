@@ -35,7 +35,7 @@ class FrontTree:
     nodes: int
 
     def forward(self, loads: Floats, at: Wholes) -> tuple[Solved, Floats]:
-        """What `backward` needs of loads (3 k, m) at nodes (k,), and what is left of them on top (3 n, m)."""
+        """Return loads (3 k, m) at nodes (k,) in the form that `backward` needs, and what is left of them on top (3 n, m)."""
         given, count = loads.reshape(len(at), -1), loads.shape[1]
         owned, place = self._grouped(at), self._place[at]
         waiting: dict[int, Floats] = {}
@@ -108,7 +108,7 @@ class FrontTree:
 
     @cached_property
     def _place(self) -> Wholes:
-        """Where each node comes among its owner's."""
+        """Place (nodes,) of each node among those of its owner."""
         place = np.zeros(self.nodes, int)
         for nodes in (*(front.own for front in self.fronts), self.top):
             place[nodes] = np.arange(len(nodes))
@@ -126,7 +126,7 @@ class FrontTree:
 
     @cached_property
     def _places(self) -> list[Wholes]:
-        """Where the nodes aside of each front come among those of the one to which it hands on."""
+        """Places of the nodes aside of each front among those of the front to which it hands on."""
         found, places = [], np.zeros(self.nodes, int)
         for front, above in zip(self.fronts, self._above.tolist(), strict=True):
             every = self.top if above == len(self.fronts) else np.r_[self.fronts[above].own, self.fronts[above].aside]
@@ -170,7 +170,7 @@ class Forward(NamedTuple):
         return result[0], result[1]
 
     def times(self, even: Floats, odd: Floats) -> Forward:
-        """By factors (n, m) for the even and the odd ones of n loads."""
+        """Return the loads combined by factors (n, m) for the even and the odd ones of n loads."""
         both = (even, odd)
         half = [None if one is None else np.hstack([_of(one, p) @ both[p] for p in (0, 1)]) for one in self.half]
         return Forward(half, (self.top[0] @ even, self.top[1] @ odd))
@@ -212,7 +212,7 @@ class _Orbits:
 
     @cached_property
     def places(self) -> Wholes:
-        """Where the node that stands for each one of the mesh comes among every one of these; -1 for all others."""
+        """Places (nodes,) in `every` of the nodes that stand for those of the mesh; -1 for all others."""
         places = np.full(len(self.turn.nodes), -1)
         places[self.every] = np.arange(len(self.every))
         standing: Wholes = self.turn.nodes[self.moved]
@@ -236,7 +236,7 @@ class _Orbits:
         return spread
 
     def signs(self, parity: int) -> Floats:
-        """What all dofs (dofs,) of the mesh are of those that stand for them."""
+        """Return the signs (dofs,) of all dofs of the mesh as multiples of those that stand for them."""
         signs = np.ones((len(self.turn.nodes), 3))
         signs[self.moved] = PARITIES[parity] * TURNED
         return signs.ravel()
@@ -256,7 +256,10 @@ class Condensed:
     top: tuple[Front, Front]
 
     def forward(self, loads: Floats, nodes: Wholes) -> tuple[Forward, tuple[Floats, Floats]]:
-        """What `backward` needs of loads (3 k, m) at nodes (k,), and those (n, m) of both parities that arrive at the cut."""
+        """Return loads (3 k, m) at nodes (k,) in the form that `backward` needs, and those that arrive at the cut.
+
+        The latter are (n, m) for each of both parities.
+        """
         orbits, count = self.orbits, loads.shape[1]
         some = loads.reshape(len(nodes), -1).any(axis=1)
         nodes, half = nodes[some], loads.reshape(-1, 3, 1, count)[some] / 2

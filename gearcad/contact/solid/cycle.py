@@ -53,7 +53,7 @@ class SolidPairContact(PairContact):
 
     @property
     def place(self) -> float:
-        """Where the line crosses the middle of the common face width (mm from T1)."""
+        """Place (mm from T1) where the line crosses the middle of the common face width."""
         return self.line.middle
 
     @property
@@ -404,9 +404,10 @@ def solid_field(cycle: SolidCycle, position: SolidPosition, role: Role, tooth: i
 
 
 def shown_stress(cycle: SolidCycle, role: Role, field: SolidField) -> float:
-    """Where the colours of a picture should end (MPa): a tenth above the greatest von Mises stress of both fillets' roots.
+    """Return the stress (MPa) at which the colours of a picture should end.
 
-    The contact, which elements do not resolve, lies above.
+    It is a tenth above the greatest von Mises stress of the roots of both fillets. The contact, which elements do not resolve,
+    lies above.
     """
     mesh = cycle.model.bodies.pick(role).body.sector.mesh
     radius, stress = np.hypot(*mesh.in_section.T), field.von_mises

@@ -116,7 +116,7 @@ class SolidPart:
 
     @cached_property
     def all_flops(self) -> float:
-        """Those and the ones of its parts."""
+        """Operations of eliminating its own nodes and those of all its parts."""
         return self.flops + sum(part.all_flops for part in self.parts)
 
     def every(self) -> Iterator[SolidPart]:
@@ -201,7 +201,7 @@ class _Dissection:
     lines: dict[bytes, _Line] = field(default_factory=dict)
 
     def halves(self, turn: HalfTurn, boxes: list[Box], middle: Box | None) -> Halves:
-        """Of boxes, which are one half."""
+        """Return the halves of a sector by boxes, which are one half, and the box in the middle if there is one."""
         given = [self._divided(box) for box in boxes]
         half = given[0] if len(given) == 1 else self._joined(given)
         nodes = half.part.aside
@@ -234,7 +234,7 @@ class _Dissection:
 
     @cached_property
     def _uses(self) -> Wholes:
-        """How many hexahedra have each node; those that are kept, one more."""
+        """Number (nodes,) of hexahedra that have each node; one more for nodes that are kept."""
         quads, layers = self.mesh.section.quads, range(self.mesh.layers)
         every = np.concatenate([self.mesh.elements(quads, layer).ravel() for layer in layers])
         uses = np.bincount(every, minlength=self.mesh.nodes)
@@ -242,7 +242,10 @@ class _Dissection:
         return uses
 
     def _divided(self, box: Box) -> _Counted:
-        """What the parts of a box leave, each divided further, or what its hexahedra have, where they are few."""
+        """Return the part of a box with the counts of the nodes that it leaves.
+
+        It has parts, each divided further, or its hexahedra where they are few.
+        """
         if boxes := self._parts(box):
             return self._joined([self._divided(each) for each in boxes])
         every = box.nodes(self.mesh).ravel()

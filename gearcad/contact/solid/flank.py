@@ -219,11 +219,11 @@ class NodalForces(NamedTuple):
 
     @property
     def dofs(self) -> Floats:
-        """As dofs (3 n, loads)."""
+        """Forces as dofs (3 n, loads) in N."""
         return self.values.reshape(-1, self.values.shape[-1])
 
     def together(self, shares: Floats) -> NodalForces:
-        """Of some loads together, by shares (loads, m)."""
+        """Return the forces of loads that act together, by shares (loads, m)."""
         return NodalForces(self.nodes, self.values @ shares)
 
 
@@ -236,7 +236,7 @@ class Remaining(NamedTuple):
     taken_off: Floats
 
     def taken_off_at(self, nodes: Wholes) -> Floats:
-        """What is taken off (n, 3, loads) at some nodes: nothing at those that are not near."""
+        """Return the displacements (n, 3, loads) in mm that are taken off at some nodes: 0 at those that are not near."""
         place = np.searchsorted(self.forces.nodes, nodes) % len(self.forces.nodes)
         result: Floats = np.where((self.forces.nodes[place] == nodes)[:, None, None], self.taken_off[place], 0.0)
         return result
@@ -245,8 +245,9 @@ class Remaining(NamedTuple):
 def remaining(
     flank: SolidFlank, mesh: SweptMesh, material: Material, near: Wholes, places: Places, points: int, tell: Share
 ) -> Remaining:
-    """Of 1 N at each place, the fields taken off the hexahedra over the quadrangles `near`; `points` Gauss points each way on
-    faces close to a load. `tell` hears how much is done.
+    """Return the fields of 1 N at each place taken off the hexahedra over the quadrangles `near`, and the remaining forces.
+
+    `points` is the number of Gauss points each way on faces close to a load. `tell` hears how much is done.
     """
     at, inward = flank.points(places), flank.inward(places)
     nodes = np.unique(mesh.over(np.unique(mesh.section.quads[near])))
@@ -321,13 +322,13 @@ class SolidCompliance(FlankCompliance):
 
     @property
     def hub_radius(self) -> float:
-        """Where the body is held (mm)."""
+        """Radius at which the body is held (mm)."""
         mesh = self.body.sector.mesh
         return float(np.hypot(*mesh.section.points[mesh.side(Side.HELD)[0]]))
 
     @property
     def nodes(self) -> int:
-        """Of the mesh of one tooth sector."""
+        """Number of nodes in the mesh of one tooth sector."""
         return self.body.sector.mesh.nodes
 
     @property

@@ -102,7 +102,7 @@ class _Part(NamedTuple):
 
     @classmethod
     def of(cls, matrix: Floats) -> _Part:
-        """All of it."""
+        """Return all of a matrix as a part."""
         assert matrix.flags.f_contiguous and matrix.dtype == float
         rows, columns = matrix.shape
         return cls(matrix.ctypes.data, rows, columns, max(rows, 1))
@@ -346,7 +346,7 @@ class Reversal:
         return every[every < self.image], every[every == self.image]
 
     def part(self, values: Floats, parity: int) -> Floats:
-        """Of values (n, ...) the even or odd part in an orthonormal basis of these."""
+        """Return the even or odd part of values (n, ...) in an orthonormal basis of such values."""
         first, alone = self._pairs
         alone = alone[self.signs[alone] == PARITIES[parity]]
         turned = PARITIES[parity] * self.signs[first].reshape(-1, *[1] * (values.ndim - 1)) * values[self.image[first]]
@@ -413,7 +413,10 @@ class Span:
         )
 
     def ends(self, aside: float) -> Floats:
-        """On the cut behind and the hub of a row that begins with this one, the cut ahead held: `aside` teeth is its middle."""
+        """Return the matrix on the cut behind and the hub of a row that begins with this one.
+
+        The cut ahead is held. The row's middle is `aside` teeth away.
+        """
         n, near, turn = self.cut, self.near, self.seen(-aside)
         across = near[:, n:] @ turn
         return np.block([[near[:, :n], across], [across.T, turn.T @ self.hub @ turn]])

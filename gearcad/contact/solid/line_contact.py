@@ -62,7 +62,7 @@ class ContactLine:
 
     @property
     def middle(self) -> float:
-        """Where the line crosses the middle of the common face width (mm from T1)."""
+        """Place (mm from T1) where the line crosses the middle of the common face width."""
         return float(self.nominal[0] - self.across[0] * self.slope)
 
     @property
@@ -135,7 +135,7 @@ class _Overlap(NamedTuple):
 
 
 def overlap_of(line: LineOfAction, nominal: Floats) -> _Overlap:
-    """That of flanks that touch at places (n,) of the line of action (mm from T1)."""
+    """Return the overlap of flanks that touch at places (n,) of the line of action (mm from T1)."""
     one, other = line.flanks
     bent, touching = _bent(line), PerGear(nominal, line.whole - nominal)
     usable = (nominal > bent.pinion[0]) & (touching.wheel > bent.wheel[0])
@@ -146,9 +146,9 @@ def overlap_of(line: LineOfAction, nominal: Floats) -> _Overlap:
 
 
 def _facing(line: LineOfAction, nominal: Floats) -> tuple[Bools, tuple[Floats, Floats, Floats, Floats, Floats]]:
-    """Where flanks are usable, and their roll lengths where they are nearest, how far aside that is, and the gap (mm).
+    """Return where flanks are usable, and five values (n,) in mm for the place where they are nearest.
 
-    Last, how far inside the ends of both flanks that is.
+    These are both roll lengths, how far aside that place is, the gap, and how far inside the ends of both flanks it is.
     """
     one, other = line.flanks
     (first, second), low, high, usable = overlap_of(line, nominal)
@@ -268,8 +268,9 @@ def _sides(line: ContactLine, pair: GearPair, mounting: Mounting) -> PerGear[tup
 
 
 def _aside(line: ContactLine, pair: GearPair, mounting: Mounting) -> Floats:
-    """How far (n,) in mm along the tangent slope and curvature are taken from the line, so that no end of a flank is passed:
-    beyond it a modification goes on no more.
+    """Return the distance (n,) in mm along the tangent from the line at which slope and curvature are taken.
+
+    No end of a flank is passed: beyond it a modification goes on no more.
     """
     step, low, high = (
         BEND * pair.pinion.normal_module,
@@ -292,7 +293,7 @@ def _aside(line: ContactLine, pair: GearPair, mounting: Mounting) -> Floats:
 
 
 def _taken_back(pair: GearPair, places: PerGear[Places]) -> Floats:
-    """How far (n,) both flanks are taken back (mm) at places on them."""
+    """Return the depth (n,) in mm by which both flanks together are taken back at places on them."""
     depths = []
     for gear, (lengths, heights) in zip(gears_loaded_left(pair), places, strict=True):
         form = gear.flank_form

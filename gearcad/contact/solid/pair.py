@@ -78,12 +78,12 @@ class BodyCost(NamedTuple):
 
     @property
     def seconds(self) -> float:
-        """Of all steps."""
+        """Seconds of all steps."""
         return self.fields + self.condensation + self.solution
 
 
 def body_cost(mesh: SweptMesh, teeth: int, neighbours: int) -> BodyCost:
-    """What the bodies of a ring of `teeth` with so many `neighbours` on each side of the loaded one take."""
+    """Return the cost of the body of a ring of `teeth`, with so many `neighbours` on each side of the loaded one."""
     quads, layers, dofs = len(mesh.section.quads), mesh.layers, 3 * mesh.nodes
     loads, told = _ROWS * layers, 2 * neighbours + 1
     cut = 3 * len(mesh.over(mesh.section.ahead))
@@ -218,14 +218,14 @@ class SolidPair(FlexiblePair[SolidCompliance]):
         return reduced_modulus((pinion.youngs_modulus, wheel.youngs_modulus), (pinion.poisson_ratio, wheel.poisson_ratio))
 
     def common_heights(self, role: Role) -> tuple[float, float]:
-        """Where the common face width begins and ends on a gear: z in mm."""
+        """Return the heights z (mm) of a gear at which the common face width begins and ends."""
         aside = PerGear(0.0, self.pair.axial_offset).pick(role)
         middle = self.pair.gears.pick(role).face_width / 2 + self.pair.common_width.offset - aside
         return middle - self.width / 2, middle + self.width / 2
 
     @cached_property
     def _deviation(self) -> float:
-        """How far (mm) modifications and mounting can move a contact, at the most."""
+        """Greatest distance (mm) by which modifications and mounting can move a contact."""
         depths = []
         for gear in self.pair.gears:
             form = gear.flank_form
@@ -233,9 +233,9 @@ class SolidPair(FlexiblePair[SolidCompliance]):
         return sum(depths) + (abs(self.mounting.misalignment) + abs(self.mounting.pitch_error)) / 1000
 
     def responses(self, roll_angle: float, farthest: float, *, single: bool = False) -> Responses:
-        """What the contact at a roll angle (deg) needs of the bodies, where the exact flanks are nearer than `farthest` (mm).
+        """Return the responses of the bodies for the contact at a roll angle (deg).
 
-        Raises GeometryError where nothing can touch.
+        It has cells where the exact flanks are nearer than `farthest` (mm). Raises GeometryError where nothing can touch.
         """
         key = (round(roll_angle, 9), farthest, single)
         if (found := self.known.get(key)) is None:
@@ -338,7 +338,9 @@ def solid_pair(
 
 
 def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes, *, fields: bool = False) -> Expected:
-    """What `solid_pair` is expected to take. Raises what it does for bodies that cannot be meshed."""
+    """Return the seconds and the memory that `solid_pair` is expected to take. Raises what it does for bodies that cannot be
+    meshed.
+    """
     body = body.for_solids()
     meshes = zip(pair.gears, _meshes(pair, body, sizes), strict=True)
     costs = [body_cost(mesh, body.teeth_held(gear) or gear.tooth_count, teeth_moved(pair)) for gear, mesh in meshes]

@@ -167,7 +167,7 @@ class _Curve:
         mounting: Mounting,
         helix: float,
     ) -> _Curve:
-        """That of cells of a contact."""
+        """Return the gaps of cells (k,) of a contact."""
         lines = found.given.lines
 
         def each(values: Sequence[Floats]) -> Floats:
