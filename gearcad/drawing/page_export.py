@@ -29,9 +29,10 @@ _SHORTEST = 1e-6
 
 
 def hatch_lines(edges: Iterable[Iterable[Vertex]], angle: float, spacing: float) -> Iterator[tuple[Point, Point]]:
-    """Lines at an angle (degrees), one of them through the origin if it went so far, inside an odd number of closed edges.
+    """Yield hatch lines inside an odd number of closed edges, as start and end (mm), at an angle (degrees).
 
-    A line that passes a corner is inside one of its two sides only, so none is lost or goes astray there.
+    One of the lines would pass through the origin if it were long enough. A line through a corner counts as inside one of its
+    two sides only, so none is lost or goes astray there.
     """
     cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     turned = [
@@ -145,7 +146,7 @@ def _text(entity: DXFEntity, pen: Pen) -> Text:
 
 
 def _arc(centre: Point, radius: float, start: float, end: float) -> tuple[Vertex, ...]:
-    """An arc (degrees, counter-clockwise) by two halves."""
+    """Return an arc (degrees, counter-clockwise) as two halves."""
     turn = (end - start) % 360.0
     bulge = math.tan(math.radians(turn) / 8)
     angles = (math.radians(start + part * turn) for part in (0.0, 0.5, 1.0))
@@ -189,7 +190,7 @@ def _lines(document: Drawing) -> Iterator[str]:
 
 
 class _SvgPage:
-    """Elements of what is on paper of this height: there y is upwards, here down."""
+    """SVG elements of a page of this height (mm): y is upwards on the sheet, downwards in SVG."""
 
     def __init__(self, height: float) -> None:
         self._height = height
@@ -237,7 +238,7 @@ class _SvgPage:
 
 
 def _number(value: float) -> str:
-    """Without zeros at its end."""
+    """Return a number as a text without zeros at its end."""
     return f"{value:.{_DECIMALS}f}".rstrip("0").rstrip(".") if value else "0"
 
 
@@ -248,7 +249,8 @@ _DIGITS = ("EN", "AN")
 
 
 def set_letters(words: str) -> str:
-    """A text as its letters stand, from left to right. What the font of the sheets lacks is a small box.
+    """Return a text with its letters in visual order, from left to right. A small box replaces letters that the font of the
+    sheets lacks.
 
     Fonts of other scripts are not named in the PDF instead: without them, readers and printers leave the letters out.
 
@@ -306,7 +308,7 @@ _BRACKETS = dict(zip("()[]{}<>", ")(][}{><", strict=True))
 
 
 def _joined(words: str) -> str:
-    """Arabic letters in the forms that they have between their neighbours."""
+    """Return Arabic letters in the forms that they have between their neighbours."""
     forms = [_forms().get(letter, {}) for letter in words]
     found = ""
     for place, letter in enumerate(words):
@@ -319,7 +321,7 @@ def _joined(words: str) -> str:
 
 @cache
 def _forms() -> dict[str, dict[str, str]]:
-    """The forms of letters, as Unicode has them for programs that do not join."""
+    """Return the forms of each letter, as Unicode has them for programs that do not join letters."""
     found: dict[str, dict[str, str]] = {}
     for code in (*range(0xFB50, 0xFC00), *range(0xFE80, 0xFEF5)):
         name, _, origin = unicodedata.decomposition(chr(code)).partition("> ")
@@ -329,7 +331,7 @@ def _forms() -> dict[str, dict[str, str]]:
 
 
 def unshown(figure: Figure) -> tuple[Notice, ...]:
-    """A notice for letters that the font of the sheets lacks."""
+    """Return a notice of letters that the font of the sheets lacks; empty without such letters."""
     found = unshowable(one_line(text.words) for text in figure.texts)
     if not found:
         return ()
@@ -338,18 +340,18 @@ def unshown(figure: Figure) -> tuple[Notice, ...]:
 
 
 _POINT = 25.4 / 72
-"""In mm."""
+"""Typographic point (mm)."""
 
 _FONT = "DejaVuSans"
 
 _ROUND, _BUTT = 1, 0
 
 _MOST_OF_A_BEZIER = math.radians(45.0)
-"""So one is within 5e-6 of the radius."""
+"""Largest angle (radians) of one Bezier curve: it is then within 5e-6 of the radius."""
 
 
 def write_pdf(documents: Iterable[Drawing], path: Path) -> None:
-    """Write documents as one PDF, whose title and language are those of the first. Equal input gives equal bytes."""
+    """Write documents as one PDF with the title and language of the first. Equal input gives equal bytes."""
     from reportlab.pdfgen.canvas import Canvas
 
     sheets = list(documents)
@@ -372,7 +374,7 @@ def write_pdf(documents: Iterable[Drawing], path: Path) -> None:
 
 
 class _PdfPage:
-    """What is drawn on the page of a canvas, in mm."""
+    """A page of a PDF canvas, on which items are drawn in mm."""
 
     def __init__(self, canvas: Canvas, widths: Mapping[Pen, float]) -> None:
         self._canvas = canvas
@@ -438,7 +440,7 @@ def _width(words: str, size: float) -> float:
 
 
 def _draw_to(path: PDFPathObject, start: Vertex, end: Vertex) -> None:
-    """A line, or an arc by Bezier curves."""
+    """Draw a line, or an arc by Bezier curves."""
     if not start[2]:
         path.lineTo(*end[:2])
         return
@@ -459,7 +461,7 @@ def _draw_to(path: PDFPathObject, start: Vertex, end: Vertex) -> None:
 
 @cache
 def _font() -> str:
-    """The name of the font of the sheets, once the library knows it."""
+    """Return the name of the font of the sheets, registered with the library."""
     from reportlab.pdfbase.pdfmetrics import registerFont
     from reportlab.pdfbase.ttfonts import TTFont
 

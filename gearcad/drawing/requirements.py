@@ -1,8 +1,6 @@
 """Requirements of a part on its sheet: sizes with limits (mm), roughness and geometrical tolerances (µm).
 
-The values that a grade of accuracy asks for where none are given are ours, to be verified for each use.
-
-Roughness and deviations in µm, sizes in mm.
+Where values are not given, those for an accuracy grade are ours, to be verified for each use.
 """
 
 from __future__ import annotations

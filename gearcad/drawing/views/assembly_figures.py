@@ -1,8 +1,6 @@
 """Bodies of an assembly in section and along their axes, with balloons (ISO 6433, ISO 128-3, ISO 2203). Lengths in mm.
 
 The plane of the section has z along the axes and y across them; keyways and bolt holes are turned into it, upwards.
-
-The plane has z along the axes and y across them, the keyway and a bolt hole turned into it, upwards.
 """
 
 from __future__ import annotations
@@ -24,16 +22,16 @@ from gearcad.drawing.words import Draughting, Size
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 
 Polygon = tuple[Point, ...]
-"""Its corners in turn, the last joined to the first."""
+"""Corners of a polygon in turn, the last joined to the first."""
 
 Segment = tuple[Point, Point]
 
 _NEAR = 1e-6
-"""How near to an edge (mm) is on it."""
+"""Distance (mm) up to which a point is on an edge."""
 
 
 class Where(Enum):
-    """Where a piece of a line is."""
+    """Position of a piece of a line relative to polygons."""
 
     OUTSIDE = "outside"
     EDGE = "edge"
@@ -43,7 +41,7 @@ class Where(Enum):
 
 
 def pieces(segment: Segment, polygons: Sequence[Polygon]) -> Iterator[tuple[Segment, Where]]:
-    """The pieces of a segment from its start on, neighbours of one kind as one."""
+    """Yield the pieces of a segment from its start on with their positions, neighbours of one kind as one."""
     near = [each for each in polygons if _may_meet(segment, each)]
     stops = sorted({0.0, 1.0, *(stop for polygon in near for stop in _stops(segment, polygon))})
     begin, last = 0.0, None
@@ -58,7 +56,9 @@ def pieces(segment: Segment, polygons: Sequence[Polygon]) -> Iterator[tuple[Segm
 
 
 def visible(segments: Iterable[Segment], covers: Sequence[Polygon]) -> Iterator[Segment]:
-    """What covers leave of segments behind them; along their edges nothing: these are drawn."""
+    """Yield the pieces of segments that covers in front of them do not hide. Pieces along an edge of a cover are left out, as
+    the edge is drawn.
+    """
     for segment in segments:
         yield from (piece for piece, where in pieces(segment, covers) if where is Where.OUTSIDE)
 
@@ -73,7 +73,7 @@ def _edges(polygon: Polygon) -> Iterator[Segment]:
 
 
 def _may_meet(segment: Segment, polygon: Polygon) -> bool:
-    """Whether their boxes touch."""
+    """Return whether the boxes of a segment and a polygon touch."""
     return all(
         min(one[axis] for one in segment) <= max(one[axis] for one in polygon) + _NEAR
         and min(one[axis] for one in polygon) <= max(one[axis] for one in segment) + _NEAR
@@ -82,7 +82,7 @@ def _may_meet(segment: Segment, polygon: Polygon) -> bool:
 
 
 def _stops(segment: Segment, polygon: Polygon) -> Iterator[float]:
-    """Where along a segment (0 to 1) it crosses edges, or corners lie on it."""
+    """Yield the positions along a segment (0 to 1) where it crosses edges, or where corners lie on it."""
     (x, y), (to_x, to_y) = segment
     way = to_x - x, to_y - y
     length = math.hypot(*way)
@@ -114,7 +114,7 @@ def _where(point: Point, polygons: Sequence[Polygon]) -> Where:
 
 
 def distance(point: Point, edge: Segment) -> float:
-    """Of a point from a segment."""
+    """Return the distance (mm) of a point from a segment."""
     (x, y), (to_x, to_y) = edge
     way = to_x - x, to_y - y
     square = way[0] ** 2 + way[1] ** 2
@@ -123,7 +123,7 @@ def distance(point: Point, edge: Segment) -> float:
 
 
 def within(point: Point, polygon: Polygon) -> bool:
-    """Whether a point is in a polygon: a ray to the right crosses its edges an odd number of times."""
+    """Return whether a point is in a polygon: a ray to the right crosses its edges an odd number of times."""
     x, y = point
     crossed = [
         (to_x - from_x) * (y - from_y) / (to_y - from_y) + from_x > x
@@ -135,10 +135,10 @@ def within(point: Point, polygon: Polygon) -> bool:
 
 @dataclass(frozen=True)
 class Cut:
-    """What is cut: `areas` of material, hatched up to the roots, and `teeth` beyond them, which are not.
+    """The section of a part: `areas` of material, hatched up to the roots, and `teeth` beyond them, which are not hatched.
 
-    `edges` are lines of the part that lie behind the plane, `axes` centre lines of holes; nothing of other parts is seen
-    behind the `opening` of a bore, whose far wall is there.
+    `edges` are lines of the part behind the plane, `axes` centre lines of holes. The `opening` of a bore hides other parts,
+    because its far wall is in front of them.
     """
 
     areas: tuple[Polygon, ...]
@@ -147,21 +147,23 @@ class Cut:
     axes: tuple[Segment, ...] = ()
     opening: tuple[Polygon, ...] = ()
     broken: tuple[Segment, ...] = ()
-    """Edges of areas where a part goes on, nobody said how far: a ring without a rim."""
+    """Edges of areas beyond which a part has no given end: a ring without a rim diameter."""
 
     @property
     def covers(self) -> tuple[Polygon, ...]:
-        """Behind which nothing of other parts is seen."""
+        """Polygons that hide the parts behind them."""
         return self.areas + self.teeth + self.opening
 
 
 def cut_gear(gear: Gear, z: float = 0.0, height: float = 0.0) -> Cut:
-    """A gear whose teeth begin at `z`, its axis at a `height` (mm)."""
+    """Return the section of a gear whose teeth begin at `z`, its axis at a `height` (mm)."""
     return _placed(_cut_ring(gear) if gear.internal else _cut_disc(gear), z, height)
 
 
 def cut_rack(rack: Rack, z: float, height: float) -> Cut:
-    """A rack square to its length, teeth up, its reference line at a `height` (mm), its end face at `z`."""
+    """Return the section of a rack square to its length, teeth up, its reference line at a `height` and its end face at `z`
+    (mm).
+    """
     width, root, tip = rack.face_width, -rack.root_depth, rack.tip_height
     body = ((0.0, -rack.height), (width, -rack.height), (width, root), (0.0, root))
     return _placed(Cut((body,), (((0.0, root), (0.0, tip), (width, tip), (width, root)),)), z, height)
@@ -206,7 +208,9 @@ def _cut_ring(gear: Gear) -> Cut:
 
 
 def _tooth(roots: list[Corner], tips: list[Corner]) -> Polygon:
-    """Between the roots and the tips of a strip of teeth, either with end chamfers: one deeper than the teeth is at both."""
+    """Return the polygon between the roots and the tips of a strip of teeth, with end chamfers. A chamfer deeper than the
+    teeth cuts both.
+    """
     start, *under, end = roots
     return (under[0], *tips[1:-1], under[-1]) if under else (start, *tips, end)
 
@@ -216,7 +220,7 @@ def _same(polygon: Polygon) -> Polygon:
 
 
 def _mirrored(polygon: Iterable[Corner]) -> Polygon:
-    """Below the axis."""
+    """Return the points mirrored to the other side of the axis."""
     return tuple((z, -r) for z, r in polygon)
 
 
@@ -250,7 +254,8 @@ BEYOND_PITCH = 3.0
 
 @dataclass(frozen=True)
 class Across:
-    """From the plane of a section (mm: z along the axes, height across them) to paper, `middle` and height 0 at the origin.
+    """Transformation from the plane of a section (mm: z along the axes, height across them) to paper, `middle` and height 0 at
+    the origin.
 
     `direction` is 1 where z goes to the right, -1 to the left.
     """
@@ -268,7 +273,7 @@ class Across:
 
 @dataclass(frozen=True)
 class Sectioned:
-    """A body as a section shows it: what is cut of it, hatched at an angle (degrees; None leaves a pin or a shaft blank).
+    """A body as shown in a section: its cut, hatched at an angle (degrees; None leaves a pin or a shaft blank).
 
     `pitch` are lines (z to z at a height) where pitch surfaces are cut. Hatching lines are `spacing` (mm of paper) apart.
     """
@@ -280,12 +285,14 @@ class Sectioned:
 
 
 def pitch_lines(low: float, high: float, height: float, radius: float) -> tuple[Segment, ...]:
-    """Where a pitch cylinder about an axis at a height is cut, from one z to another."""
+    """Return the two lines in which a pitch cylinder is cut, from z = `low` to `high`; its axis is at a height (mm)."""
     return tuple(((low, height + side * radius), (high, height + side * radius)) for side in (1, -1))
 
 
 def section_figure(bodies: Sequence[Sectioned], across: Across) -> Figure:
-    """Bodies in order: the teeth of one are in front of those of all that follow, whose hidden parts are dashed."""
+    """Return the section of bodies in order: the teeth of one are in front of those of all that follow, whose hidden parts are
+    dashed.
+    """
     shapes: list[Shape] = []
     for number, body in enumerate(bodies):
         shapes += (shape for area in body.cut.areas for shape in _outlined(area, body.cut.broken, across))
@@ -301,7 +308,7 @@ def section_figure(bodies: Sequence[Sectioned], across: Across) -> Figure:
 
 
 def _outlined(area: Polygon, broken: Sequence[Segment], across: Across) -> Iterator[Polyline]:
-    """One closed line; where a part is broken off the line is open, and a freehand one closes it."""
+    """Yield the outline of an area as one closed line; where a part is broken off, an open line and a freehand one."""
     points, broken_off = across.points(area), {frozenset(each) for each in broken}
     row = [number for number, end in enumerate(area) if frozenset((area[number - 1], end)) in broken_off]
     if not row:
@@ -313,7 +320,7 @@ def _outlined(area: Polygon, broken: Sequence[Segment], across: Across) -> Itera
 
 
 def _hatched(area: Polygon, angle: float, spacing: float, across: Across) -> Hatching:
-    """Its lines are closer where it is narrow."""
+    """Return the hatching of an area; its lines are closer where the area is narrow."""
     points = across.points(area)
     box = Box.around(points)
     closer = min(spacing, max(_FINEST, min(box.width, box.height) / _STROKES))
@@ -326,7 +333,7 @@ def _line(segment: Segment, across: Across, pen: Pen = Pen.OUTLINE, beyond: floa
 
 
 def _teeth(cut: Cut, before: Sequence[Polygon], across: Across) -> Iterator[Shape]:
-    """Outlines of teeth but for the root lines, which the areas have; dashed where other teeth are before them."""
+    """Yield the outlines of teeth without the root lines, which belong to the areas; dashed behind other teeth."""
     for tooth in cut.teeth:
         shown: list[Segment] = []
         for segment in pairwise(tooth):
@@ -339,7 +346,7 @@ def _teeth(cut: Cut, before: Sequence[Polygon], across: Across) -> Iterator[Shap
 
 
 def _chained(segments: Iterable[Segment]) -> list[list[Point]]:
-    """Segments that follow each other as rows of points."""
+    """Return segments that follow each other as rows of points."""
     rows: list[list[Point]] = []
     for start, end in segments:
         if rows and rows[-1][-1] == start:
@@ -350,11 +357,11 @@ def _chained(segments: Iterable[Segment]) -> list[list[Point]]:
 
 
 _SAME = 1e-6
-"""Heights (mm) that are one line: the pitch lines of gears in mesh touch."""
+"""Difference of heights (mm) up to which lines are one: the pitch lines of gears in mesh touch."""
 
 
 def _joined(lines: Iterable[Segment]) -> list[Segment]:
-    """Level lines at one height that meet, as one."""
+    """Return the lines with level ones that meet at one height as one."""
     found: list[Segment] = []
     for line in lines:
         (low, height), (high, _) = sorted(line)
@@ -368,12 +375,12 @@ def _joined(lines: Iterable[Segment]) -> list[Segment]:
 
 
 BEYOND_AXIS = 6.0
-"""How far centre lines reach beyond what they belong to (mm of paper)."""
+"""Length of centre lines beyond their outlines (mm of paper)."""
 
 
 @dataclass(frozen=True)
 class Front:
-    """A gear seen from its upper end: where its axis is (mm of the part), and the radii of the pitch circles drawn (mm).
+    """A gear seen from its upper end: its axis `centre` (mm of the part), and the radii of the drawn pitch circles (mm).
 
     Its keyway or first bolt hole is up. `tip` is the pen of its tip circle; a `bare` one has nothing but tip and pitch circles.
     """
@@ -386,11 +393,11 @@ class Front:
 
     @property
     def reach(self) -> float:
-        """Radius of all of it (mm)."""
+        """Outer radius of the gear or ring (mm)."""
         return Meridian(self.gear, 1.0).rim if self.gear.internal else self.gear.tip_diameter / 2
 
     def figure(self, scale: float) -> Figure:
-        """Without centre lines."""
+        """Return the figure of the gear on paper, without centre lines."""
         gear, at = self.gear, (scale * self.centre[0], scale * self.centre[1])
         shapes: list[Shape] = [Circle(at, scale * gear.profile.tip_diameter / 2, self.tip)]
         shapes += (Circle(at, scale * radius, Pen.CENTRE) for radius in self.pitch_radii)
@@ -424,10 +431,10 @@ _DOT = 0.25
 """Radius of a circle whose line fills it."""
 
 _OUT = (14.0, 24.0, 36.0, 50.0, 80.0)
-"""From the outlines to the row of rings."""
+"""Distances from the outlines to the row of rings."""
 
 _MOST = 40
-"""So many ways are offered on which leaders cross."""
+"""Largest number of arrangements with crossing leaders."""
 
 _ROUNDING = 1e-6
 
@@ -441,7 +448,7 @@ _PLACES = ((0.5, 0.5), (0.25, 0.5), (0.75, 0.5), (0.5, 0.75), (0.5, 0.25), (0.1,
 
 
 def dots(areas: Sequence[Polygon], across: Across) -> tuple[Point, ...]:
-    """Points on paper in areas of a section."""
+    """Return points on paper in the areas of a section, at least one for each area."""
     found = []
     for area in areas:
         box = Box.around(area)
@@ -452,7 +459,8 @@ def dots(areas: Sequence[Polygon], across: Across) -> tuple[Point, ...]:
 
 
 def balloons(parts: Mapping[int, Sequence[Point]], around: Box) -> Iterator[Figure]:
-    """All item numbers of a view beside its outlines, in rows that clear each other; by ways that are best first.
+    """Yield all item numbers of a view beside its outlines, in rows that clear each other, in each possible arrangement, best
+    first.
 
     `parts` has points on each part by its item number, `around` is the box of the outlines.
     """
@@ -468,7 +476,7 @@ def balloons(parts: Mapping[int, Sequence[Point]], around: Box) -> Iterator[Figu
 
 
 class _Balloon(NamedTuple):
-    """An item number, the point on its part, the middle of its ring."""
+    """A balloon: the item number, the point on its part, and the middle of its ring."""
 
     number: int
     dot: Point
@@ -478,7 +486,7 @@ class _Balloon(NamedTuple):
 def _in_rows(
     parts: Mapping[int, Sequence[Point]], around: Box, out: float, sides: Sequence[Side], slant: float
 ) -> list[_Balloon]:
-    """Each number on the side that is nearest to a point of its part."""
+    """Return the balloons, each number on the side that is nearest to a point of its part."""
     rows: dict[Side, list[tuple[float, int, Point]]] = {}
     for number, points in parts.items():
         depths = [(abs(_edge(around, side) - side.out(dot)), order, dot) for order, side in enumerate(sides) for dot in points]
@@ -494,7 +502,7 @@ def _in_rows(
 
 
 def _spread(wanted: Sequence[float]) -> list[float]:
-    """Places in a row, rising as those wanted do, far enough apart, and on the mean where those are."""
+    """Return places in a row, far enough apart, in the order of the wanted ones and with the same mean (mm)."""
     places: list[float] = []
     for each in wanted:
         places.append(max(each, places[-1] + _APART) if places else each)
@@ -503,7 +511,7 @@ def _spread(wanted: Sequence[float]) -> list[float]:
 
 
 def _hit(way: Sequence[_Balloon]) -> bool:
-    """Whether a leader would run into the ring of another, or rings of two rows into each other."""
+    """Return whether a leader would run into the ring of another, or rings of two rows into each other."""
     return any(
         math.dist(one.ring, other.ring) < _APART - _ROUNDING or distance(other.ring, (one.dot, one.ring)) < _RADIUS + 1.0
         for one, other in permutations(way, 2)
@@ -511,17 +519,17 @@ def _hit(way: Sequence[_Balloon]) -> bool:
 
 
 def _crossings(way: Sequence[_Balloon]) -> int:
-    """How many leaders cross."""
+    """Return the number of leaders that cross each other."""
     return sum(_cross((one.dot, one.ring), (other.dot, other.ring)) for one, other in combinations(way, 2))
 
 
 def _cross(one: Segment, other: Segment) -> bool:
-    """Whether the ends of each are on both sides of the other."""
+    """Return whether two segments cross: the ends of each are on both sides of the other."""
     return all(_side(line, across[0]) * _side(line, across[1]) < 0 for line, across in ((one, other), (other, one)))
 
 
 def _side(line: Segment, point: Point) -> float:
-    """Positive at the left of a line."""
+    """Return the side of a line on which a point is: positive at the left."""
     (x, y), (to_x, to_y) = line
     return (to_x - x) * (point[1] - y) - (to_y - y) * (point[0] - x)
 
@@ -546,21 +554,25 @@ def _drawn_one(number: int, dot: Point, ring: Point) -> Figure:
 
 
 def overall_height(box: Box, value: float, draughting: Draughting, prefix: str = "") -> Iterator[Figure]:
-    """The height of outlines within a box on paper, at the right or at the left; the value in mm of the part."""
+    """Yield dimensions of the height of a box of outlines on paper, at the right or at the left; the value is in mm of the
+    part.
+    """
     size = Size(value=value, prefix=prefix, reference=True)
     for side, edge in ((Side.RIGHT, box.right), (Side.LEFT, box.left)):
         yield from linear_dimension((edge, box.bottom), (edge, box.top), side, size, draughting, clear=edge)
 
 
 def overall_width(box: Box, value: float, draughting: Draughting) -> Iterator[Figure]:
-    """Their width, below or above."""
+    """Yield dimensions of the width of a box of outlines on paper, below or above; the value is in mm of the part."""
     size = Size(value=value, reference=True)
     for side, edge in ((Side.BELOW, box.bottom), (Side.ABOVE, box.top)):
         yield from linear_dimension((box.left, edge), (box.right, edge), side, size, draughting, clear=edge)
 
 
 def distance_size(pair: GearPair | RackPair) -> Size:
-    """From axis to axis (mm, a magnitude), or from a pinion's axis to the reference line of a rack."""
+    """Return the size (mm) of the distance from axis to axis as a magnitude, or from a pinion's axis to the reference line of
+    a rack.
+    """
     if isinstance(pair, RackPair):
         return Size(value=pair.mounting_distance)
     if pair.centre_distance_tolerance is None:

@@ -2,8 +2,6 @@
 
 ISO 2203 shows a gear as a solid body up to the tip circle, or up to the root circle where it is cut, without teeth. Heights z
 are along the axis.
-
-As ISO 2203 sees a gear: a solid body up to the tip circle, or where it is cut up to the root circle, with no teeth on it.
 """
 
 from __future__ import annotations
@@ -26,24 +24,28 @@ Corner = tuple[float, float]
 
 
 def overall(gear: Gear) -> tuple[float, float]:
-    """Heights of the outermost end faces, those of hubs if there are any."""
+    """Return the heights (mm) of the outermost end faces, those of hubs if there are any."""
     back, front = gear.body.hub_ends
     return -back, gear.face_width + front
 
 
 def strips(gear: Gear) -> tuple[tuple[float, float], ...]:
-    """From where to where there are teeth: twice if a gap parts the halves of a double helical gear, an apex parts nothing."""
+    """Return the ranges of height (mm) that have teeth: two if a gap parts the halves of a double helical gear, else one, also
+    with an apex.
+    """
     width, half = gear.face_width, gear.half_width
     return ((0.0, half), (width - half, width)) if gear.double_helix.gap_width else ((0.0, width),)
 
 
 def opening_radius(gear: Gear) -> float:
-    """How far bore and keyway open the half plane in which the keyway lies; 0 without a bore."""
+    """Return the radius (mm) to which bore and keyway open the half plane of the keyway; 0 without a bore."""
     return gear.body.bore / 2 + (gear.body.keyway_depth if gear.body.keyway_width else 0.0)
 
 
 def contour(gear: Gear, top: float, inner: float) -> list[Corner]:
-    """From radius `inner` up the lower end face, along the teeth at radius `top`, and down the upper end face to `inner`."""
+    """Return corners from radius `inner` up the lower end face, along the teeth at radius `top`, and down the upper end face
+    to `inner`.
+    """
     low, high = overall(gear)
     hub, width = gear.body.hub_diameter / 2, gear.face_width
     back = [(low, inner), (low, hub), (0.0, hub)] if low < 0 else [(0.0, inner)]
@@ -52,7 +54,7 @@ def contour(gear: Gear, top: float, inner: float) -> list[Corner]:
 
 
 def _along_teeth(gear: Gear, top: float) -> Iterator[Corner]:
-    """Along the teeth, and the groove between two strips of them."""
+    """Yield the corners along the teeth, and along the groove between two strips of them."""
     floor, before = gear.gap_diameter / 2, None
     for low, high in strips(gear):
         if before is not None:
@@ -62,7 +64,7 @@ def _along_teeth(gear: Gear, top: float) -> Iterator[Corner]:
 
 
 def along_strip(gear: Gear, low: float, high: float, top: float) -> list[Corner]:
-    """Along the teeth at radius `top` from `low` to `high`, one of their `strips`, and their end chamfers."""
+    """Return the corners along the teeth at radius `top` from `low` to `high`, one of their `strips`, with end chamfers."""
     cone = EndCone.of(gear)
     back = float(cone.setback(top))
     flat = [(low + back, top), (high - back, top)]
@@ -70,13 +72,17 @@ def along_strip(gear: Gear, low: float, high: float, top: float) -> list[Corner]
 
 
 def root_lines(gear: Gear) -> list[tuple[float, float]]:
-    """From where to where teeth have a root that is seen in a section: a chamfer that is deeper than they are cuts it off."""
+    """Return the ranges of height (mm) in which a section shows the roots of teeth. A chamfer deeper than the teeth shortens
+    them.
+    """
     back = float(EndCone.of(gear).setback(gear.root_diameter / 2))
     return [(low + back, high - back) for low, high in strips(gear)]
 
 
 def edges(gear: Gear) -> list[Corner]:
-    """Edges round the axis between the outermost end faces, as one sees them from outside: height, and largest radius there."""
+    """Return the edges round the axis between the outermost end faces, as seen from outside: height, and largest radius
+    there.
+    """
     corners = contour(gear, gear.tip_diameter / 2, 0.0)
     largest = {z: max(radius for each, radius in corners if each == z) for z in sorted({z for z, _ in corners})}
     return list(largest.items())[1:-1]
@@ -84,10 +90,10 @@ def edges(gear: Gear) -> list[Corner]:
 
 @dataclass(frozen=True)
 class Along:
-    """The axis is horizontal, at height 0 of the paper; the height `middle` of the gear is at the origin.
+    """A horizontal axis at height 0 of the paper; the height `middle` of the gear is at the origin.
 
-    `direction` is 1 where the gear's z goes to the right, -1 to the left. The keyway, on the gear's +x, is above the axis:
-    one looks from +y where z goes to the right, from -y else.
+    `direction` is 1 where the gear's z goes to the right, -1 to the left. The keyway, on the gear's +x, is above the axis: the
+    view is from +y where z goes to the right, else from -y.
     """
 
     scale: float
@@ -96,29 +102,29 @@ class Along:
 
     @classmethod
     def of(cls, gear: Gear, scale: float, direction: int = 1) -> Self:
-        """The middle between the outermost end faces at the origin."""
+        """Return the axis with the middle between the outermost end faces at the origin."""
         return cls(scale, sum(overall(gear)) / 2, direction)
 
     def across(self, height: float) -> float:
-        """Where a height along the axis is, to the right of the origin."""
+        """Return the position on paper (mm), to the right of the origin, of a height along the axis."""
         return self.direction * self.scale * (height - self.middle)
 
     def point(self, height: float, radius: float) -> Point:
-        """A point above the axis, below it if `radius` is negative."""
+        """Return the point on paper above the axis; below it if `radius` is negative."""
         return self.across(height), self.scale * radius
 
     def points(self, corners: Iterable[Corner]) -> list[Point]:
         return [self.point(*corner) for corner in corners]
 
     def line(self, start: Corner, end: Corner, pen: Pen = Pen.OUTLINE, *, beyond: float = 0.0) -> Line:
-        """From one to another, so far (mm of paper) beyond both ends of a line along the axis."""
+        """Return a line between two corners, extended by `beyond` (mm of paper) at both ends, along the axis."""
         (x, y), (right, top) = sorted((self.point(*start), self.point(*end)))
         return Line((x - beyond, y), (right + beyond, top), pen)
 
 
 @dataclass(frozen=True)
 class Silhouette:
-    """The outline of a gear where `along` has it."""
+    """The outline of a gear, placed by `along`."""
 
     gear: Gear
     along: Along
@@ -135,13 +141,13 @@ class Silhouette:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Heights of the end faces of all at the left and at the right (mm of the part)."""
+        """Heights of the outermost end faces at the left and at the right (mm of the part)."""
         low, high = overall(self.gear)
         return (low, high) if self.along.direction > 0 else (high, low)
 
     @property
     def tooth_ends(self) -> tuple[float, float]:
-        """The same of the teeth."""
+        """Heights of the teeth's end faces at the left and at the right (mm of the part)."""
         width = self.gear.face_width
         return (0.0, width) if self.along.direction > 0 else (width, 0.0)
 
@@ -155,11 +161,11 @@ class Silhouette:
 
     @property
     def top(self) -> float:
-        """As far as the lowest point is below the axis."""
+        """Height of the highest point above the axis (mm of paper); the lowest is as far below it."""
         return self.along.scale * self.tip
 
     def end_face(self, height: float) -> tuple[Point, Point]:
-        """The flat face of the body at one of the `ends`, above the axis, from the opening outwards."""
+        """Return the ends of the body's flat face at one of the `ends`, above the axis, from the opening outwards."""
         body = self.gear.body
         on_hub = not 0.0 <= height <= self.gear.face_width
         outer = body.hub_diameter / 2 if on_hub else min(self.corner, self.gear.root_diameter / 2)
@@ -171,17 +177,17 @@ _LONGEST = 24.0
 """Distance between the lines, and length of one, mm of paper; less where there is no room."""
 
 _NEAREST, _FURTHEST = 0.1, 0.9
-"""Between which parts of the reference radius the lines are, below the axis."""
+"""Range of the lines below the axis, over the reference radius."""
 
 _SHARE = 0.7
-"""Of the width of the teeth of one hand, that the lines take at most."""
+"""Largest share of the lines in the width of the teeth of one hand."""
 
 
 def flank_directions(gear: Gear, along: Along) -> Figure:
-    """The lines of a helical gear, three V of a double helical one; nothing of a spur gear.
+    """Return the lines of a helical gear's tooth direction, three V for a double helical gear; empty for a spur gear.
 
-    A tooth on the side that one sees passes the height of the axis at mid face width: what it rises there on paper is what
-    its section turns about the axis, times the radius.
+    A tooth on the visible side passes the height of the axis at mid face width. Its rise there on paper is the turn of its
+    section about the axis, times the radius.
     """
     if not gear.helix_angle:
         return Figure()
@@ -197,7 +203,7 @@ def flank_directions(gear: Gear, along: Along) -> Figure:
 
 
 def _heights(gear: Gear, length: float) -> list[tuple[float, ...]]:
-    """Heights along the axis of the points of each line, `length` (mm) of it for each hand."""
+    """Return the heights along the axis (mm) of the points of each line, which takes `length` (mm) for each hand."""
     middle, half = gear.face_width / 2, gear.half_width
     if not gear.double_helix.present:
         return [(middle - length / 2, middle + length / 2)]
@@ -207,7 +213,7 @@ def _heights(gear: Gear, length: float) -> list[tuple[float, ...]]:
 
 
 def _row(gear: Gear, along: Along, heights: tuple[float, ...]) -> list[Point]:
-    """A line on paper, its middle at the height of the axis."""
+    """Return a line on paper, its middle at the height of the axis."""
     turned = section_turn(gear, np.array(heights)) * gear.reference_diameter / 2
     turned -= (turned.min() + turned.max()) / 2
     rise = -along.direction * along.scale * turned  # the keyway side, +x, is up, and one looks from +y or from -y
@@ -215,7 +221,7 @@ def _row(gear: Gear, along: Along, heights: tuple[float, ...]) -> list[Point]:
 
 
 BEYOND_AXIS, BEYOND_PITCH = 6.0, 3.0
-"""How far the axis and the reference line reach beyond what they belong to (mm of paper)."""
+"""Length of the axis and the reference line beyond their outlines (mm of paper)."""
 
 _THICK_APART, _LEAST_APART = 1.0, 0.4
 """Edges of chamfers nearer to others are thin, so that they do not run into them; or are left out (mm of paper; ISO 128-2)."""
@@ -225,7 +231,7 @@ _HATCH, _FINEST_HATCH, _STROKES = 2.5, 0.7, 4
 
 
 def half_section(gear: Gear, along: Along) -> Figure:
-    """Outlines, with hatching and axis: the silhouette as one closed line, teeth not hatched, no root line outside."""
+    """Return outlines, hatching and axis: the silhouette as one closed line, teeth not hatched, no root line outside."""
     tip, low, high = gear.tip_diameter / 2, *overall(gear)
     upper = contour(gear, tip, 0.0)[1:-1]
     silhouette = Polyline.straight(
@@ -262,7 +268,7 @@ def _seen_edges(gear: Gear, along: Along) -> Iterator[Line]:
 
 
 def cut_lines(gear: Gear, along: Along) -> Iterator[Line]:
-    """What one sees of the half that is cut, within its silhouette: roots, bore, keyway."""
+    """Yield the visible lines of the cut half within its silhouette: roots, bore, keyway."""
     low, high = overall(gear)
     for start, end in root_lines(gear):
         yield along.line((start, gear.root_diameter / 2), (end, gear.root_diameter / 2))
@@ -274,7 +280,7 @@ def cut_lines(gear: Gear, along: Along) -> Iterator[Line]:
 
 
 def hatching(gear: Gear, along: Along) -> Hatching:
-    """The cut face, which ends at the root circle; its lines are closer where it is narrow."""
+    """Return the hatched cut face, which ends at the root circle; its lines are closer where it is narrow."""
     corners = contour(gear, gear.root_diameter / 2, opening_radius(gear))
     edge: tuple[Vertex, ...] = tuple((x, y, 0.0) for x, y in along.points(corners))
     box = Polyline(edge, closed=True).box
@@ -283,7 +289,7 @@ def hatching(gear: Gear, along: Along) -> Hatching:
 
 
 def end_face(gear: Gear, scale: float, *, front: bool = True) -> Figure:
-    """Outlines and centre lines, the axis at the origin; the end that one sees is that at z = face width, or that at z = 0."""
+    """Return the outlines and centre lines of the end at z = face width (`front`) or z = 0, the axis at the origin."""
     body, reach = gear.body, scale * gear.tip_diameter / 2 + BEYOND_AXIS
     hub = body.hub_ends[front]
     tip, chamfered = gear.tip_diameter / 2, EndCone.of(gear).face_radius
@@ -300,7 +306,7 @@ def end_face(gear: Gear, scale: float, *, front: bool = True) -> Figure:
 
 
 def opening(body: Body, scale: float) -> Iterator[Shape]:
-    """The bore as a circle, or with its keyway as one closed line."""
+    """Yield the bore as a circle, or with its keyway as one closed line."""
     if not body.keyway_width:
         if body.bore:
             yield Circle((0.0, 0.0), scale * body.bore / 2)

@@ -33,19 +33,19 @@ from gearcad.solids.body_plan import EndCone, keyway_half_angle
 _ABOVE_FIRST, _BELOW_FIRST = (Side.ABOVE, Side.BELOW), (Side.BELOW, Side.ABOVE)
 
 _LONG_EXTENSION = 40.0
-"""Extension lines that are longer go to the other side, if there is room (mm of paper)."""
+"""Length of extension lines beyond which the other side is preferred (mm of paper)."""
 
 _BEYOND = (8.0, 16.0, 26.0, 40.0)
-"""How far beyond the outline a leader from within it may end (mm of paper)."""
+"""Distances beyond the outline at which a leader from within may end (mm of paper)."""
 
 
 _BELOW_TEETH = (7.0, 12.0, 18.0)
-"""How far below the teeth it may end."""
+"""Distances below the teeth at which a leader may end (mm of paper)."""
 
 
 @dataclass(frozen=True)
 class SectionSizes:
-    """Those that a gear has."""
+    """Marks of the sizes of an external gear in its section."""
 
     outline: Silhouette
     requirements: Requirements
@@ -53,7 +53,7 @@ class SectionSizes:
 
     @property
     def sources(self) -> tuple[Callable[[], Iterable[Figure]], ...]:
-        """All of them, those nearest to the outline first."""
+        """Sources of all marks, those nearest to the outline first."""
         lengths = (self.gap_width, self.half_width, self.hub_length, self.face_width, self.hub_width)
         return *lengths, self.hub_diameter, self.tip, self.gap_diameter, self.end_chamfer
 
@@ -63,18 +63,22 @@ class SectionSizes:
 
     @property
     def _overall(self) -> tuple[Side, ...]:
-        """Where lengths over all stand: beyond those of the halves where a gap parts them, whose leader comes from below."""
+        """Sides for overall lengths, best first: beyond the lengths of the halves if a gap parts them, as the gap's leader
+        comes from below.
+        """
         return _ABOVE_FIRST if self.requirements.gap_width else _BELOW_FIRST
 
     def hub_width(self) -> Iterator[Figure]:
-        """Over all, where hubs stand out."""
+        """Return dimensions of the overall width, where hubs stand out."""
         (low, high), width = overall(self.outline.gear), self.outline.gear.face_width
         hub, corner = self.outline.gear.body.hub_diameter / 2, self.outline.corner
         ends = (low, hub if low < 0 else corner), (high, hub if high > width else corner)
         return self._length(*ends, self._overall, self.requirements.hub_width)
 
     def hub_length(self) -> Iterator[Figure]:
-        """How far one of two hubs stands out; of a single one face width and the width over all say it."""
+        """Return dimensions of the length of one of two hubs. A single hub has none: it follows from face width and overall
+        width.
+        """
         body = self.outline.gear.body
         size = Size(value=body.hub_length) if body.hub_length and body.hub_side is HubSide.BOTH else None
         start = self.outline.tooth_ends[0]
@@ -86,7 +90,7 @@ class SectionSizes:
         return self._length(start, end, _ABOVE_FIRST, self.requirements.gap_width)
 
     def half_width(self) -> Iterator[Figure]:
-        """Of one half: where the gap is."""
+        """Yield dimensions of the width of one half, if there is a gap."""
         gear, corner = self.outline.gear, self.outline.corner
         size = Size(value=gear.half_width) if self.requirements.gap_width else None
         lower, upper = (0.0, gear.half_width), (gear.face_width - gear.half_width, gear.face_width)
@@ -95,7 +99,7 @@ class SectionSizes:
                 yield from self._length((start, corner), (end, corner), (side,), size)
 
     def _length(self, start: Corner, end: Corner, sides: tuple[Side, ...], size: Size | None) -> Iterator[Figure]:
-        """A size along the axis, above or below the outline."""
+        """Yield dimensions along the axis, above or below the outline."""
         if size is None:
             return
         for side in sides:
@@ -103,7 +107,7 @@ class SectionSizes:
             yield from linear_dimension(first, second, side, size, self.draughting, clear=self.outline.top * side.outwards)
 
     def hub_diameter(self) -> Iterable[Figure]:
-        """On the side where it stands out."""
+        """Return dimensions of the hub diameter, on the side where the hub stands out."""
         left, right = self.outline.ends
         at_left = left != self.outline.tooth_ends[0]
         radius = self.outline.gear.body.hub_diameter / 2
@@ -120,7 +124,7 @@ class SectionSizes:
         return chain.from_iterable(self._diameter(z, self.outline.tip, side, self.requirements.tip) for side, z in ordered)
 
     def _diameter(self, height: float, radius: float, side: Side, size: Size | None) -> Iterable[Figure]:
-        """One whose edges are at a height along the axis, at the left or at the right."""
+        """Return dimensions of a diameter whose edges are at a height along the axis, at the left or at the right."""
         if size is None:
             return ()
         clear = self.outline.left if side is Side.LEFT else self.outline.right
@@ -128,7 +132,7 @@ class SectionSizes:
         return linear_dimension(low, high, side, size, self.draughting, clear=clear)
 
     def gap_diameter(self) -> Iterator[Figure]:
-        """A leader to the floor of the groove that is seen from outside: out of the groove, else across the teeth."""
+        """Yield leaders to the visible floor of the groove: out of the groove, then across the teeth."""
         size = self.requirements.gap_diameter
         if size is None:
             return
@@ -149,7 +153,7 @@ class SectionSizes:
                 )
 
     def end_chamfer(self) -> Iterator[Figure]:
-        """A leader to one of the chamfers, from outside."""
+        """Yield leaders to one of the chamfers, from outside."""
         size = self.requirements.end_chamfer
         if size is None:
             return
@@ -170,7 +174,7 @@ _ALONG_FACE = (0.75, 0.9, 0.25, 0.5)
 """Where along an edge a leader may end, over its length."""
 
 _STANDING = 18.0
-"""Length of a face at the left on which a symbol has room to stand (mm of paper); else it is led to that at the right."""
+"""Least length of the left face for a symbol on it (mm of paper); else the right face is tried first."""
 
 _EXTENSIONS = (3.0, 12.0, 20.0, 28.0)
 """How far from the outline a symbol may stand on the reference line."""
@@ -178,7 +182,7 @@ _EXTENSIONS = (3.0, 12.0, 20.0, 28.0)
 
 @dataclass(frozen=True)
 class SectionDemands:
-    """Those of a gear."""
+    """Marks of run-outs and roughness of an external gear in its section."""
 
     outline: Silhouette
     requirements: Requirements
@@ -186,11 +190,11 @@ class SectionDemands:
 
     @property
     def sources(self) -> tuple[Callable[[], Iterable[Figure]], ...]:
-        """All of them."""
+        """Sources of all marks."""
         return self.face_runout, self.flank_roughness, self.tip_runout, self.face_roughness
 
     def tip_runout(self) -> Iterator[Figure]:
-        """To the datum axis A."""
+        """Yield frames of the run-out of the tip cylinder to the datum axis A."""
         low, high = strips(self.outline.gear)[-1]
         for side in (Side.ABOVE, Side.BELOW):
             for part in _ALONG_TIP:
@@ -198,7 +202,7 @@ class SectionDemands:
                 yield from self._frame(self.requirements.tip_runout, tip, side, self.outline.top * side.outwards)
 
     def face_runout(self) -> Iterator[Figure]:
-        """Of both outermost faces, to the datum axis A."""
+        """Yield frames of the run-out of both outermost faces to the datum axis A."""
         outline, deviation = self.outline, self.requirements.face_runout
         faces = ((Side.RIGHT, outline.ends[1], outline.right), (Side.LEFT, outline.ends[0], outline.left))
         for side, height, clear in faces:
@@ -217,7 +221,7 @@ class SectionDemands:
         return frame_leader(tip, side, frame, clear=clear)
 
     def flank_roughness(self) -> Iterator[Figure]:
-        """On the reference line, made longer for it (ISO 1302)."""
+        """Yield the roughness of the flanks on the extended reference line (ISO 1302)."""
         flanks = self.requirements.flanks
         symbol = roughness_symbol(flanks.text(self.draughting.words.shortest(flanks.value)))
         pitch = self.outline.along.scale * self.outline.gear.reference_diameter / 2
@@ -230,7 +234,7 @@ class SectionDemands:
                 yield Figure.of(Line((at_left.box.left, up), (left, up), Pen.DIMENSION), at_left)
 
     def face_roughness(self) -> Iterator[Figure]:
-        """Of both outermost faces, where it is not that of the rest."""
+        """Yield the roughness of both outermost faces, if it is not the general one."""
         if self.requirements.face_roughness == self.requirements.rest_roughness:
             return
         value = f"Ra {self.draughting.words.shortest(self.requirements.face_roughness)}"
@@ -251,7 +255,7 @@ _WAYS = (45.0, 135.0, -45.0, -135.0, 30.0, 150.0, -30.0, -150.0, 60.0, 120.0, -6
 
 @dataclass(frozen=True)
 class FaceMarks:
-    """Those of one gear, whose outline is `figure`."""
+    """Marks of the face view of an external gear, whose outline is `figure`."""
 
     gear: Gear
     figure: Figure
@@ -260,11 +264,11 @@ class FaceMarks:
 
     @property
     def sources(self) -> tuple[Callable[[], Iterable[Figure]], ...]:
-        """All of them, the smallest first."""
+        """Sources of all marks, the smallest first."""
         return self.keyway_width, self.keyway_depth, self.bore
 
     def keyway_width(self) -> Iterable[Figure]:
-        """With its symmetry to the datum axis A."""
+        """Return dimensions of the keyway width, with its symmetry to the datum axis A."""
         body = self.gear.body
         half, floor = body.keyway_width / 2, body.bore / 2 + body.keyway_depth
         frame = None
@@ -274,7 +278,7 @@ class FaceMarks:
         return self._between((-half, floor), (half, floor), (Side.ABOVE,), self.requirements.keyway_width, frame)
 
     def keyway_depth(self) -> Iterable[Figure]:
-        """Across bore and keyway, d + t2."""
+        """Return dimensions of the depth across bore and keyway, d + t2."""
         body = self.gear.body
         ends = (0.0, -body.bore / 2), (0.0, body.bore / 2 + body.keyway_depth)
         return self._between(*ends, (Side.RIGHT, Side.LEFT), self.requirements.keyway_depth)
@@ -287,7 +291,7 @@ class FaceMarks:
         size: Size | None,
         frame: Figure | None = None,
     ) -> Iterable[Figure]:
-        """A size between two points of the part, where there is room within the outline, else beyond it."""
+        """Yield dimensions between two points of the part, first within the outline, then beyond it."""
         if size is None:
             return
         start, end = ((self.draughting.paper(x), self.draughting.paper(y)) for x, y in (first, second))
@@ -298,17 +302,19 @@ class FaceMarks:
 
     @property
     def _within(self) -> tuple[float, ...]:
-        """Radii (mm of the part) of what is about the opening."""
+        """Radii (mm of the part) of the opening and the hub."""
         body = self.gear.body
         return body.opening_diameter / 2, body.hub_diameter / 2
 
     @property
     def _reach(self) -> float:
-        """Of the tip circle on paper."""
+        """Radius of the tip circle (mm of paper)."""
         return self.draughting.paper(self.gear.tip_diameter / 2)
 
     def bore(self) -> Iterator[Figure]:
-        """Its diameter, roughness and cylindricity; datum A where run-outs are to it (ISO 5459: at a size it is the axis)."""
+        """Yield the bore's diameter, roughness and cylindricity. It is datum A if tolerances refer to it (ISO 5459: at a size
+        the datum is the axis).
+        """
         size = self.requirements.bore
         if size is None:
             return
@@ -331,13 +337,15 @@ class FaceMarks:
             yield led + figure.moved(*end)
 
     def _growth(self, box: Box) -> float:
-        """How much more room the view takes with a box: that across counts more, as views stand beside each other."""
+        """Return the growth of the view (mm) with a box. Width counts twice as much as height, as views stand beside each
+        other.
+        """
         wider = max(0.0, box.right - self._reach) + max(0.0, -box.left - self._reach)
         taller = max(0.0, box.top - self._reach) + max(0.0, -box.bottom - self._reach)
         return wider + 0.5 * taller
 
     def _of_bore(self, to_right: bool) -> Figure:
-        """What stands on and below the line under the diameter, whose end, the one away from the arrow, is at (0, 0)."""
+        """Return the marks on and below the line under the diameter, whose end away from the arrow is at (0, 0)."""
         symbol = roughness_symbol(f"Ra {self.draughting.words.shortest(self.requirements.bore_roughness)}")
         symbol = symbol.moved(_AIR - symbol.box.left if to_right else -_AIR - symbol.box.right, 0.0)
         end = symbol.box.right if to_right else symbol.box.left
@@ -352,7 +360,7 @@ class FaceMarks:
         return Figure.of(*marks)
 
     def _is_free(self, box: Box) -> bool:
-        """Whether no circle and no centre line of the outline passes through a box, and no hub is under it."""
+        """Return whether no circle and no centre line of the outline passes through a box, and no hub is under it."""
         across, up = max(box.left, -box.right, 0.0), max(box.bottom, -box.top, 0.0)
         nearest = math.hypot(across, up)
         furthest = math.hypot(max(-box.left, box.right), max(-box.bottom, box.top))
@@ -363,7 +371,7 @@ class FaceMarks:
 
 
 def section_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View:
-    """The half section: cut above the axis, through the keyway; the end that `face_view` shows is at its left."""
+    """Return the half section: cut above the axis, through the keyway; the end shown by `face_view` is at its left."""
     gear = _external(drawn)
     along = Along.of(gear, draughting.scale, drawn.direction)
     outline = Silhouette(gear, along)
@@ -373,7 +381,7 @@ def section_view(drawn: DrawnGear, requirements: Requirements, draughting: Draug
 
 
 def face_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View:
-    """What one sees from the left of the section, the keyway up: the end with the hub, of one with two hubs the front."""
+    """Return the view from the left of the section, the keyway up: the end with the hub; with two hubs, the front."""
     gear = _external(drawn)
     figure = end_face(gear, draughting.scale, front=drawn.direction < 0)
     return View("face", figure, FaceMarks(gear, figure, requirements, draughting).sources)

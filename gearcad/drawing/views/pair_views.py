@@ -1,8 +1,6 @@
 """Views of a gear pair: the section through both axes, and both parts along their axes (ISO 2203). Lengths in mm of paper.
 
 Heights are in mm over the axis of the wheel or the reference line of a rack; z is that of `wheel_pose` and `rack_pose`.
-
-Heights in mm over the axis of the wheel, or over the reference line of a rack; z as `wheel_pose` and `rack_pose` have it.
 """
 
 from __future__ import annotations
@@ -35,17 +33,18 @@ from gearcad.drawing.words import Draughting
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 
 _ANGLES = 45.0, 135.0
-"""Of the hatching: pinion, mate."""
+"""Angles of the hatching (degrees): pinion, mate."""
 
 _BESIDE, _WORTH = 1.5, 1.6
-"""Of a long rack so much is shown on either side, over the pinion's tip diameter; it is long from so many times that on."""
+"""Shown length of a long rack on either side, over the pinion's tip diameter; and the multiple from which a rack is long."""
 
 
 @dataclass(frozen=True)
 class Placed:
-    """A part, the height of its axis, where its teeth begin along the axis, and the radius of the pitch circle that is drawn.
+    """A part with the height of its axis, the start of its teeth along the axis, and the radius of its drawn pitch circle
+    (mm).
 
-    Of a rack the height is that of its reference line, and the radius how far the pitch line is above that.
+    For a rack the height is that of its reference line, and the radius is the height of the pitch line above it.
     """
 
     part: Gear | Rack
@@ -56,14 +55,14 @@ class Placed:
 
     @property
     def cut(self) -> Cut:
-        """Its section."""
+        """Section of the part."""
         if isinstance(self.part, Rack):
             return cut_rack(self.part, self.z, self.height)
         return cut_gear(self.part, self.z, self.height)
 
     @property
     def sectioned(self) -> Sectioned:
-        """Its section with hatching and pitch lines."""
+        """Section of the part with hatching and pitch lines."""
         low, high = self.z, self.z + self.part.face_width
         if isinstance(self.part, Rack):
             level = self.height + self.pitch
@@ -72,22 +71,22 @@ class Placed:
 
     @property
     def extent(self) -> Box:
-        """What it takes of the plane of the section (z, height)."""
+        """Box of the part in the plane of the section (z, height; mm)."""
         return Box.around(point for polygon in self.cut.covers for point in polygon)
 
 
 @dataclass(frozen=True)
 class PairPlaces:
-    """Pinion and mate."""
+    """The places of pinion and mate."""
 
     pinion: Placed
     mate: Placed
     rack_start: float = 0.0
-    """Where the left end of a rack is, from the pinion's axis to the right (mm)."""
+    """Position of a rack's left end, from the pinion's axis to the right (mm)."""
 
     @classmethod
     def of(cls, pair: GearPair | RackPair) -> PairPlaces:
-        """Those in mesh; the pitch circles are the working ones, which touch."""
+        """Return the places of pinion and mate in mesh. The pitch circles are the working ones, which touch."""
         if isinstance(pair, RackPair):
             pose = pair.rack_pose()
             pinion = Placed(pair.pinion, pair.mounting_distance, 0.0, pair.pitch_radius, _ANGLES[0])
@@ -102,16 +101,16 @@ class PairPlaces:
 
     @property
     def extent(self) -> Box:
-        """What both take of the plane of the section (z, height)."""
+        """Box of both parts in the plane of the section (z, height; mm)."""
         return Box.of_all(part.extent for part in self.parts)
 
     @property
     def front(self) -> Box:
-        """What both take as one sees them along their axes (to the right, height)."""
+        """Box of both parts as seen along their axes (to the right, height; mm)."""
         return Box.of_all(self.front_of(part) for part in self.parts)
 
     def front_of(self, part: Placed) -> Box:
-        """What one of them takes."""
+        """Return the box of one part as seen along the axes (to the right, height; mm)."""
         if isinstance(part.part, Rack):
             left, right = self.shown
             return Box(left, -part.part.height, right, part.part.tip_height)
@@ -119,7 +118,9 @@ class PairPlaces:
 
     @property
     def shown(self) -> tuple[float, float]:
-        """From where to where a rack is shown: all of it, or of a long one what is beside the pinion."""
+        """Range of a rack that is shown (mm, from the pinion's axis to the right): all of it, or for a long one the part
+        beside the pinion.
+        """
         assert isinstance(self.mate.part, Rack) and isinstance(self.pinion.part, Gear)
         left, right = self.rack_start, self.rack_start + self.mate.part.length
         beside = _BESIDE * self.pinion.part.tip_diameter
@@ -127,14 +128,16 @@ class PairPlaces:
 
     @property
     def broken(self) -> tuple[bool, bool]:
-        """Whether a rack goes on beyond what is shown, at the left and at the right."""
+        """Return whether a rack continues beyond the shown range, at the left and at the right."""
         assert isinstance(self.mate.part, Rack)
         left, right = self.shown
         return left > self.rack_start, right < self.rack_start + self.mate.part.length
 
 
 def pair_section(pair: GearPair | RackPair, draughting: Draughting, direction: int = 1) -> View:
-    """The axis of the wheel, or a rack's reference line, at height 0; z to the right, or to the left if `direction` is -1."""
+    """Return the section, with the axis of the wheel or a rack's reference line at height 0. z is to the right, or to the left
+    if `direction` is -1.
+    """
     places = PairPlaces.of(pair)
     extent = places.extent
     across = Across(draughting.scale, (extent.left + extent.right) / 2, direction)
@@ -154,11 +157,11 @@ def _axes(places: PairPlaces, across: Across) -> Iterator[Line]:
 
 
 _BEYOND_BREAK = 2.0
-"""How far lines where a rack is broken reach beyond it (mm of paper)."""
+"""Length of break lines beyond a rack (mm of paper)."""
 
 
 def pair_face(pair: GearPair | RackPair, draughting: Draughting) -> View:
-    """Seen from the upper ends, the pinion above; dimensioned with the distance of the axes and the sizes over all."""
+    """Return the view from the upper ends, the pinion above, with the centre distance and the overall sizes."""
     places, scale = PairPlaces.of(pair), draughting.scale
     outlines = Figure.of(*(_drawn(places, part, scale) for part in places.parts))
     whole, box = places.front, _paper(places.front, scale)
@@ -177,7 +180,7 @@ def _paper(box: Box, scale: float) -> Box:
 
 
 def _drawn(places: PairPlaces, part: Placed, scale: float) -> Figure:
-    """A gear; or the body of a rack up to the tips, broken where it goes on."""
+    """Return a gear, or the body of a rack up to the tips, broken where it continues."""
     if not isinstance(part.part, Rack):
         return Front(part.part, (0.0, part.height), (part.pitch,)).figure(scale)
     left, bottom, right, top = _paper(places.front_of(part), scale)
@@ -191,7 +194,7 @@ def _drawn(places: PairPlaces, part: Placed, scale: float) -> Figure:
 
 
 def _centre_lines(places: PairPlaces, scale: float) -> Iterator[Shape]:
-    """One through both axes, one across each; the pitch line of a rack."""
+    """Yield a centre line through both axes and one across each; for a rack its pitch line."""
     whole = _paper(places.front, scale)
     racked = isinstance(places.mate.part, Rack)
     bottom = 0.0 if racked else whole.bottom
@@ -205,7 +208,9 @@ def _centre_lines(places: PairPlaces, scale: float) -> Iterator[Shape]:
 
 
 def _distance(pair: GearPair | RackPair, places: PairPlaces, draughting: Draughting) -> Iterable[Figure]:
-    """From axis to axis, or from the pinion's axis to the rack's reference line, at the ends of the centre lines."""
+    """Yield dimensions of the centre distance, or of the pinion's axis from the rack's reference line, at the ends of the
+    centre lines.
+    """
     scale = draughting.scale
     whole = _paper(places.front, scale)
     for side, edge in ((Side.RIGHT, whole.right), (Side.LEFT, whole.left)):

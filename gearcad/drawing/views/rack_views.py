@@ -22,51 +22,53 @@ _SHOWN = 6.0
 """Greatest length that is shown, over the larger of height and face width."""
 
 _PITCHES = 7
-"""So many pitches are shown at least."""
+"""Least number of pitches that are shown."""
 
 _WORTH = 1.6
-"""A rack is broken only where it is that much longer than what would be shown of it."""
+"""Least ratio of a broken rack's length to the length that is shown."""
 
 _GAP = 3.0
-"""Between the two parts (mm of paper)."""
+"""Distance between the two shown parts (mm of paper)."""
 
 _END_TEETH = 2
-"""So many whole teeth are drawn at each end."""
+"""Number of whole teeth drawn at each end."""
 
 _ROUNDING = 1e-9
-"""Share of a pitch that is nothing."""
+"""Share of a pitch that counts as rounding."""
 
 
 @dataclass(frozen=True)
 class Span:
-    """One looks at the end face at z = face width, x to the right; the middle of what is shown is at the origin."""
+    """The shown range of a rack, seen from the end face at z = face width, x to the right; its middle is at the origin."""
 
     rack: Rack
     scale: float
 
     @cached_property
     def kept(self) -> float | None:
-        """What is shown at each end (mm of the part); None of a rack that is shown whole."""
+        """Length shown at each end (mm of the part); None for a rack that is shown whole."""
         rack = self.rack
         shown = max(_SHOWN * max(rack.total_height, rack.face_width), _PITCHES * rack.transverse_pitch)
         return shown / 2 if rack.length > _WORTH * shown else None
 
     @property
     def right(self) -> float:
-        """Where the right end is on paper; the left one is as far to the left."""
+        """Position of the right end (mm of paper); the left end is as far to the left."""
         if self.kept is None:
             return self.scale * self.rack.length / 2
         return self.scale * self.kept + _GAP / 2
 
     def across(self, place: float) -> float:
-        """Of a place along the rack; of those between the ends that are shown, the nearest of them."""
+        """Return the position on paper (mm) of a place along the rack (mm). A place that is not shown has the position of the
+        nearest one shown.
+        """
         if self.kept is None or place <= self.rack.length / 2:
             return -self.right + self.scale * (place if self.kept is None else min(place, self.kept))
         return self.right - self.scale * min(self.rack.length - place, self.kept)
 
     @property
     def parts(self) -> tuple[tuple[float, float], ...]:
-        """From where to where the rack is shown: all of it, or both ends."""
+        """Shown ranges of the rack (mm from its left end): all of it, or both ends."""
         length = self.rack.length
         return ((0.0, length),) if self.kept is None else ((0.0, self.kept), (length - self.kept, length))
 
@@ -74,7 +76,7 @@ class Span:
 
     @property
     def first_middle(self) -> float:
-        """The middle of the first whole tooth at the end face that one sees."""
+        """Middle of the first whole tooth at the visible end face (mm from the left end)."""
         pitch = self.rack.transverse_pitch
         shift = (self.rack.drift * self.rack.face_width) % pitch
         near = _ROUNDING * pitch
@@ -82,13 +84,13 @@ class Span:
 
     @property
     def whole_teeth(self) -> int:
-        """How many are whole at that end face."""
+        """Number of whole teeth at the visible end face."""
         pitch = self.rack.transverse_pitch
         return math.floor((self.rack.length - self.first_middle) / pitch + 0.5 + _ROUNDING)
 
     @property
     def toothed(self) -> tuple[tuple[float, float], ...]:
-        """From where to where teeth are drawn: at both ends, or all along a rack of few."""
+        """Ranges with drawn teeth (mm from the left end): both ends, or the whole of a rack with few teeth."""
         pitch = self.rack.transverse_pitch
         low = self.first_middle + (_END_TEETH - 0.5) * pitch
         high = self.first_middle + (self.whole_teeth - _END_TEETH - 0.5) * pitch
@@ -101,7 +103,7 @@ _NOTHING = 1e-9
 
 
 def teeth_between(rack: Rack, low: float, high: float, middle: float) -> tuple[Vertex, ...]:
-    """From left to right, cut off at both places; `middle` is that of any tooth."""
+    """Return the outline of teeth from left to right, cut off at both places (mm); `middle` is the middle of any tooth."""
     pitch, tooth = rack.transverse_pitch, tooth_outline(rack)
     first, last = (math.floor((place - middle) / pitch + 0.5) for place in (low, high))
     row: list[Vertex] = []
@@ -119,7 +121,7 @@ def teeth_between(rack: Rack, low: float, high: float, middle: float) -> tuple[V
 
 
 def _cut(start: Vertex, end: Vertex, low: float, high: float) -> tuple[Vertex, Vertex]:
-    """What of a line or an arc, x rising along it, is between two places."""
+    """Return the piece of a line or an arc between two places; x rises along it."""
     (x, y, bulge), (to_x, to_y, _) = start, end
     if not bulge:
         heights = [y + (to_y - y) * (place - x) / (to_x - x) for place in (low, high)]
@@ -141,20 +143,22 @@ SECTION = "B"
 """The letter of the end section: A is the datum."""
 
 _LABEL = 6.0
-"""From the outline to the name of the section."""
+"""Distance from the outline to the name of the section."""
 
 _HATCH, _FINEST_HATCH, _STROKES = 2.5, 0.7, 4
 """Distance of hatching lines, the least of it, and how many lines a narrow part should have at least."""
 
 _SPACING, _LONGEST, _SHARE = 3.0, 24.0, 0.7
-"""Of the lines for the direction of the teeth: their distance, greatest length, and the most of the face width they take."""
+"""Lines for the direction of the teeth: distance, greatest length, and greatest share of the face width."""
 
 
 # ---------------------------------------------------------------------- front
 
 
 def front_figure(span: Span) -> Figure:
-    """Teeth at both ends, between them the line of the tips, and a thin one of the roots; the reference line at height 0."""
+    """Return the front view: teeth at both ends, between them the tip line and a thin root line. The reference line is at
+    height 0.
+    """
     rack, scale = span.rack, span.scale
     tip, root, back = scale * rack.tip_height, -scale * rack.root_depth, -scale * rack.height
     middles = [(x, 0.0) for x in tooth_middles(span)]
@@ -174,13 +178,13 @@ def front_figure(span: Span) -> Figure:
 
 
 def tooth_middles(span: Span) -> list[float]:
-    """Of the first two whole teeth, on paper."""
+    """Return the middles of the first two whole teeth (mm of paper)."""
     pitch = span.rack.transverse_pitch
     return [span.across(span.first_middle + number * pitch) for number in range(min(span.whole_teeth, 2))]
 
 
 def _placed(span: Span, outline: tuple[Vertex, ...], back: float) -> Polyline:
-    """On paper, with the end face where it begins or ends at one."""
+    """Return an outline of teeth on paper, with the end face where it begins or ends at one."""
     place = span.across(outline[0][0]) - span.scale * outline[0][0]
     row: list[Vertex] = [(span.scale * x + place, span.scale * y, bulge) for x, y, bulge in outline]
     if outline[0][0] <= 0.0:
@@ -191,7 +195,7 @@ def _placed(span: Span, outline: tuple[Vertex, ...], back: float) -> Polyline:
 
 
 def _between(span: Span) -> Iterator[tuple[float, float]]:
-    """From where to where on paper no teeth are drawn, of each part that is shown."""
+    """Yield the ranges without drawn teeth (mm of paper), one for each shown part."""
     if len(span.toothed) == 1:
         return
     (_, low), (high, _) = span.toothed
@@ -200,7 +204,7 @@ def _between(span: Span) -> Iterator[tuple[float, float]]:
 
 
 def _breaks(span: Span, low: float, high: float) -> Iterator[Shape]:
-    """Lines with zigzags where the rack is broken."""
+    """Yield lines with zigzags where the rack is broken."""
     if span.kept is not None:
         for place in (span.kept, span.rack.length - span.kept):
             x = span.across(place)
@@ -211,7 +215,7 @@ def _breaks(span: Span, low: float, high: float) -> Iterator[Shape]:
 
 
 def end_figure(rack: Rack, scale: float) -> Figure:
-    """The section square to the length, as one looks along +x; teeth are not hatched, their root is a thick line."""
+    """Return the section square to the length, seen along +x. Teeth are not hatched, their root is a thick line."""
     half, tip, root, back = (scale * each for each in (rack.face_width / 2, rack.tip_height, -rack.root_depth, -rack.height))
     body: list[Point] = [(-half, back), (half, back), (half, root), (-half, root)]
     spacing = min(_HATCH, max(_FINEST_HATCH, min(2 * half, root - back) / _STROKES))
@@ -228,7 +232,7 @@ def end_figure(rack: Rack, scale: float) -> Figure:
 
 
 def plan_figure(span: Span) -> Figure:
-    """The rectangle of length and face width, z downwards, and three thin lines for the direction of helical teeth."""
+    """Return the rectangle of length and face width, z downwards, and three thin lines for the direction of helical teeth."""
     half = span.scale * span.rack.face_width / 2
     shapes: list[Shape] = []
     for low, high in span.parts:
@@ -242,7 +246,9 @@ def plan_figure(span: Span) -> Figure:
 
 
 def _tooth_directions(span: Span) -> Iterator[Shape]:
-    """In the middle of the first part; a tooth moves by `drift` along +x where z, downwards, grows by 1."""
+    """Yield the lines of the tooth direction, in the middle of the first part. A tooth moves by `drift` along +x where z,
+    downwards, grows by 1.
+    """
     rack = span.rack
     if not rack.helix_angle:
         return
@@ -261,27 +267,27 @@ _EXTENSIONS = (4.0, 12.0, 20.0, 28.0)
 """How far from the outline a symbol may stand on the reference line (mm of paper)."""
 
 _PAST = 2.0
-"""How far such a line goes past it."""
+"""Length of the extended line past the symbol (mm of paper)."""
 
 _CUT_OFF = (2.0, 10.0, 18.0, 27.0, 37.0, 50.0, 65.0, 80.0)
-"""How far from the outline the ends of the cutting line may be (mm of paper)."""
+"""Distances of the cutting line's ends from the outline (mm of paper)."""
 
 _ALONG_BACK = (0.1, 0.25, 0.4, 0.55, 0.7, 0.05)
 _ALONG_TIP = (0.75, 0.9, 0.25, 0.1)
 """Where along an edge a leader may end, over its length."""
 
 _CUT_AT = (0.6, 0.75, 0.45, 0.9, 0.3, 0.97)
-"""Where along a part that is shown it may be, over its length."""
+"""Positions of the cutting line along a shown part, over its length."""
 
 _PLACE_DECIMALS = 2
-"""Of the place of the first tooth, for which general tolerances hold."""
+"""Decimals of the first tooth's place, for which general tolerances hold."""
 
 _Sources = tuple[Callable[[], Iterable[Figure]], ...]
 
 
 @dataclass(frozen=True)
 class FrontMarks:
-    """Those of the front view."""
+    """Marks of the front view of a rack."""
 
     span: Span
     requirements: Requirements
@@ -289,11 +295,13 @@ class FrontMarks:
 
     @property
     def sources(self) -> _Sources:
-        """All of them, those nearest to the outline first."""
+        """Sources of all marks, those nearest to the outline first."""
         return self.first_tooth, self.pitch, self.back, self.cutting_line, self.length
 
     def length(self) -> Iterator[Figure]:
-        """All of it, however much is shown: a program that draws it anew measures at a scale of its own."""
+        """Yield dimensions of the whole length, even if only parts are shown; they have a scale of their own for programs that
+        redraw them.
+        """
         size, back = self.requirements.length, -self.span.scale * self.span.rack.height
         if size is not None:
             left, right = (-self.span.right, back), (self.span.right, back)
@@ -301,19 +309,19 @@ class FrontMarks:
             yield from linear_dimension(left, right, Side.BELOW, size, draughting, clear=back)
 
     def pitch(self) -> Iterable[Figure]:
-        """Between the first two teeth, in brackets: it follows from module and helix angle."""
+        """Return dimensions of the pitch between the first two teeth, in brackets as it follows from module and helix angle."""
         middles = tooth_middles(self.span)
         size = Size(value=self.span.rack.transverse_pitch, reference=True)
         return self._above(middles[0], middles[1], size) if len(middles) > 1 else ()
 
     def first_tooth(self) -> Iterable[Figure]:
-        """From the end to the middle of the first tooth."""
+        """Return dimensions from the end to the middle of the first tooth."""
         middles = tooth_middles(self.span)
         size = Size(value=self.span.first_middle, decimals=_PLACE_DECIMALS)
         return self._above(-self.span.right, middles[0], size) if middles else ()
 
     def back(self) -> Iterator[Figure]:
-        """How flat it is; it is datum A."""
+        """Yield frames of the flatness of the back, which is datum A."""
         if (deviation := self.requirements.back_flatness) is None:
             return
         frame = tolerance_frame(Characteristic.FLATNESS, self.draughting.words.shortest(deviation / 1000, 4))
@@ -324,7 +332,9 @@ class FrontMarks:
                 yield from frame_leader((left + part * (right - left), back), Side.BELOW, frame, datum_letter="A")
 
     def cutting_line(self) -> Iterator[Figure]:
-        """Of the end section, somewhere along the rack, as near to it as other marks let it be; the length stands below it."""
+        """Yield cutting lines of the end section along the rack, as near to it as other marks permit; the length stands below
+        it.
+        """
         tip, back = self.span.scale * self.span.rack.tip_height, -self.span.scale * self.span.rack.height
         ends = [(self.span.across(low), self.span.across(high)) for low, high in reversed(self.span.parts)]
         for off in _CUT_OFF:
@@ -340,7 +350,7 @@ class FrontMarks:
 
 @dataclass(frozen=True)
 class EndMarks:
-    """Those of the end section."""
+    """Marks of the end section of a rack."""
 
     requirements: Requirements
     draughting: Draughting
@@ -353,7 +363,7 @@ class EndMarks:
 
     @property
     def sources(self) -> _Sources:
-        """All of them, those nearest to the outline first."""
+        """Sources of all marks, those nearest to the outline first."""
         sizes = self.face_width, self.reference_height, self.height
         return *sizes, self.parallelism, self.flank_roughness, self.back_roughness
 
@@ -362,11 +372,11 @@ class EndMarks:
         yield from linear_dimension(left, right, Side.BELOW, self.requirements.face_width, self.draughting, clear=self.back)
 
     def reference_height(self) -> Iterable[Figure]:
-        """From the back to the reference line."""
+        """Return dimensions of the height from the back to the reference line."""
         return self._upright(0.0, self.requirements.reference_height)
 
     def height(self) -> Iterable[Figure]:
-        """From the back to the tips."""
+        """Return dimensions of the height from the back to the tips."""
         return self._upright(self.tip, self.requirements.height)
 
     def _upright(self, top: float, size: Size | None) -> Iterator[Figure]:
@@ -377,7 +387,7 @@ class EndMarks:
             yield from linear_dimension((out, self.back), (out, top), side, size, self.draughting, clear=out)
 
     def parallelism(self) -> Iterator[Figure]:
-        """Of the tips to the back, which is datum A; where there is no room on their line made longer."""
+        """Yield frames of the parallelism of the tips to the back, which is datum A: on the tip line, then on its extension."""
         if (deviation := self.requirements.back_parallelism) is None:
             return
         frame = tolerance_frame(Characteristic.PARALLELISM, self.draughting.words.shortest(deviation / 1000, 4), "A")
@@ -391,7 +401,7 @@ class EndMarks:
                     yield from (Figure.of(line) + each for each in frame_leader((end, self.tip), side, frame))
 
     def flank_roughness(self) -> Iterator[Figure]:
-        """On the reference line, made longer for it (ISO 1302)."""
+        """Yield the roughness of the flanks on the extended reference line (ISO 1302)."""
         flanks = self.requirements.flanks
         symbol = roughness_symbol(flanks.text(self.draughting.words.shortest(flanks.value)))
         box = symbol.box
@@ -401,7 +411,7 @@ class EndMarks:
                 yield Figure.of(Line((start, 0.0), (end, 0.0), Pen.DIMENSION), symbol.moved(left - box.left, 0.0))
 
     def back_roughness(self) -> Iterator[Figure]:
-        """Of the back, on which it stands, where it is not that of the rest."""
+        """Yield the roughness of the back, if it is not the general one."""
         value = self.requirements.face_roughness
         if value != self.requirements.rest_roughness:
             ends: tuple[Point, Point] = ((-self.half, self.back), (self.half, self.back))
@@ -409,13 +419,13 @@ class EndMarks:
 
 
 def front_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View:
-    """One looks at the end faces at z = face width; the reference line is at height 0."""
+    """Return the view of the end faces at z = face width; the reference line is at height 0."""
     span = Span(_rack(drawn), draughting.scale)
     return View("front", front_figure(span), FrontMarks(span, requirements, draughting).sources)
 
 
 def end_section(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View:
-    """What one sees from the left of the front view, cut; the reference line is at height 0."""
+    """Return the section seen from the left of the front view; the reference line is at height 0."""
     rack = _rack(drawn)
     half, tip, back = (draughting.paper(each) for each in (rack.face_width / 2, rack.tip_height, -rack.height))
     marks = EndMarks(requirements, draughting, half, tip, back)
@@ -423,7 +433,7 @@ def end_section(drawn: DrawnGear, requirements: Requirements, draughting: Draugh
 
 
 def plan_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View | None:
-    """What one sees from above, for the direction of the teeth; None of a spur rack, of which it would say nothing."""
+    """Return the view from above, which shows the direction of the teeth; None for a spur rack."""
     rack = _rack(drawn)
     return View("plan", plan_figure(Span(rack, draughting.scale))) if rack.helix_angle else None
 

@@ -1,8 +1,6 @@
 """Views of a ring gear, with dimensions, run-outs and roughness (ISO 2203). Lengths of the part and of paper in mm.
 
 The section is a full one: a half seen from outside would show nothing more.
-
-It is a full one: of a half that is seen from outside one would learn nothing.
 """
 
 from __future__ import annotations
@@ -36,12 +34,12 @@ from gearcad.rating.tooth_stiffness import outer_diameter
 from gearcad.solids.body_plan import EndCone
 
 Corner = tuple[float, float]
-"""Height z and radius."""
+"""Height z and radius (mm of the part)."""
 
 
 @dataclass(frozen=True)
 class Meridian:
-    """The axis is horizontal, at height 0 of the paper, mid face width at the origin. All radii are magnitudes.
+    """A ring with a horizontal axis at height 0 of the paper, mid face width at the origin. All radii are magnitudes (mm).
 
     `direction` is 1 where z goes to the right, -1 to the left. A bolt hole, on +x, is above the axis.
     """
@@ -51,11 +49,11 @@ class Meridian:
     direction: int = 1
 
     def point(self, height: float, radius: float) -> Point:
-        """Above the axis, below it if `radius` is negative."""
+        """Return the point on paper above the axis; below it if `radius` is negative."""
         return self.direction * self.scale * (height - self.gear.face_width / 2), self.scale * radius
 
     def points(self, corners: Iterable[Corner], side: int = 1) -> list[Point]:
-        """Those above the axis, or (-1) their mirror images."""
+        """Return corners as points on paper above the axis, or (`side` -1) their mirror images."""
         return [self.point(height, side * radius) for height, radius in corners]
 
     # ------------------------------------------------------------------ radii
@@ -74,22 +72,22 @@ class Meridian:
 
     @cached_property
     def cone(self) -> EndCone:
-        """Of the end chamfers."""
+        """Cone of the end chamfers."""
         return EndCone.of(self.gear)
 
     @property
     def corner(self) -> float:
-        """Where the teeth's end faces begin: at the tips, or outside a chamfer."""
+        """Inner radius of the teeth's end faces (mm): at the tips, or outside a chamfer."""
         return self.cone.face_radius if self.cone.present else self.tip
 
     @property
     def is_open(self) -> bool:
-        """Whether nobody said where the ring ends."""
+        """Return whether the ring has no given outside diameter."""
         return self.gear.body.rim_diameter is None
 
     @property
     def rim(self) -> float:
-        """Where the ring ends, or the view does: there is then enough to carry the teeth, and the bolt holes."""
+        """Outer radius (mm) of the ring. Without a given one the view ends where teeth and bolt holes have enough material."""
         holes = self.gear.body.bolt_circle + 2 * self.gear.body.bolt_diameter
         return max(outer_diameter(self.gear), holes if self.is_open else 0.0) / 2
 
@@ -104,14 +102,14 @@ class Meridian:
     # ------------------------------------------------------------------ outlines
 
     def along_teeth(self, radius: float) -> list[Corner]:
-        """From z = 0 on along the teeth at a radius, and their end chamfers."""
+        """Return the corners from z = 0 along the teeth at a radius, with their end chamfers."""
         width, back = self.gear.face_width, float(self.cone.setback(radius))
         flat = [(back, radius), (width - back, radius)]
         return [(0.0, self.corner), *flat, (width, self.corner)] if back else flat
 
     @property
     def edges(self) -> list[Corner]:
-        """Circles of the teeth that one sees behind the section, where they begin and end."""
+        """Visible circles of the teeth behind the section: their ends."""
         return list(dict.fromkeys(self.along_teeth(self.tip)))
 
 
@@ -120,17 +118,17 @@ _LONGEST = 24.0
 """Distance between the lines, and length of one, mm of paper; less where there is no room."""
 
 _SHARE = 0.7
-"""Of the face width, that the lines take at most."""
+"""Largest share of the lines in the face width."""
 
 _MIDDLE, _ROOM = -0.5, 0.7
-"""Where the lines are, and the height that they take at most, over the tip radius."""
+"""Height of the lines, and the greatest height that they take, over the tip radius."""
 
 
 def flank_directions(ring: Meridian) -> Figure:
-    """The lines of a helical ring; nothing of a spur ring.
+    """Return the lines of a helical ring's tooth direction; empty for a spur ring.
 
-    One looks at the far side: what a tooth there rises on paper is what its section turns about the axis, times the radius,
-    to the other side than that of a tooth on the near side of an external gear.
+    The view is of the far side. The rise of a tooth on paper is the turn of its section about the axis, times the radius. It
+    has the opposite sign of the rise on the near side of an external gear.
     """
     gear = ring.gear
     if not gear.helix_angle:
@@ -145,7 +143,7 @@ def flank_directions(ring: Meridian) -> Figure:
 
 
 def _row(ring: Meridian, length: float) -> list[Point]:
-    """A line on paper about mid face width, `length` (mm of the part) of the axis."""
+    """Return a line on paper about mid face width, `length` (mm of the part) along the axis."""
     middle = ring.gear.face_width / 2
     heights = np.array([middle - length / 2, middle + length / 2])
     turned = section_turn(ring.gear, heights) * ring.reference
@@ -154,14 +152,14 @@ def _row(ring: Meridian, length: float) -> list[Point]:
 
 
 BEYOND_AXIS, _BEYOND_PITCH, _BEYOND_HOLE = 6.0, 3.0, 2.0
-"""How far the axis, the reference line and that of a hole reach beyond what they belong to (mm of paper)."""
+"""Length of the axis, the reference line and a hole's centre line beyond their outlines (mm of paper)."""
 
 _HATCH, _FINEST_HATCH, _STROKES = 2.5, 0.7, 4
 """Distance of hatching lines, the least of it, and how many lines a narrow part should have at least."""
 
 
 def full_section(ring: Meridian) -> Figure:
-    """Outlines, with hatching and axis; teeth are not hatched, bolt holes are turned into the plane of the section."""
+    """Return outlines with hatching and axis. Teeth are not hatched, bolt holes are turned into the plane of the section."""
     width = ring.gear.face_width
     shapes: list[Shape] = []
     for side in (1, -1):
@@ -180,7 +178,7 @@ def _outline(ring: Meridian, side: int) -> Iterator[Shape]:
 
 
 def _lines(ring: Meridian, side: int) -> Iterator[Shape]:
-    """Roots, bolt holes, centre lines."""
+    """Yield roots, bolt holes and centre lines on one side."""
     width = ring.gear.face_width
     back = float(ring.cone.setback(ring.root))  # a chamfer may be deeper than the teeth
     yield Line(ring.point(back, side * ring.root), ring.point(width - back, side * ring.root))
@@ -197,7 +195,7 @@ def _centre(ring: Meridian, low: float, high: float, radius: float, beyond: floa
 
 
 def _hatching(ring: Meridian, side: int) -> Iterator[Hatching]:
-    """The cut faces outside the roots, apart where a hole is between them; lines are closer where they are narrow."""
+    """Yield the cut faces outside the roots, two if a hole is between them; lines are closer where they are narrow."""
     width = ring.gear.face_width
     outer = [(0.0, ring.rim), (width, ring.rim)]
     areas = [[*ring.along_teeth(ring.root), *reversed(outer)]]
@@ -226,7 +224,7 @@ _SIDES = 90
 
 
 def end_face(ring: Meridian) -> Figure:
-    """Outlines and centre lines, the axis at the origin."""
+    """Return outlines and centre lines of the end face, the axis at the origin."""
     seen = [ring.tip, *([ring.corner] if ring.cone.present else [])]
     shapes: list[Shape] = [
         *(Circle((0.0, 0.0), ring.scale * radius) for radius in seen),
@@ -239,7 +237,7 @@ def end_face(ring: Meridian) -> Figure:
 
 
 def hole_places(ring: Meridian) -> list[Point]:
-    """Where the bolt holes are on paper, the first one above the axis."""
+    """Return the centres of the bolt holes on paper (mm), the first one above the axis."""
     radius, count = ring.scale * ring.gear.body.bolt_circle / 2, ring.gear.body.bolt_holes
     angles = [math.pi / 2 + 2 * math.pi * number / count for number in range(count)]
     return [(radius * math.cos(angle), radius * math.sin(angle)) for angle in angles]
@@ -255,7 +253,7 @@ def _rim(ring: Meridian) -> Shape:
 
 
 def _centre_lines(ring: Meridian) -> Figure:
-    """Of the ring and its bolt holes, with their circle."""
+    """Return the centre lines of the ring and its bolt holes, with the bolt circle."""
     reach, body = ring.scale * ring.rim + BEYOND_AXIS, ring.gear.body
     places = hole_places(ring)
     star = centre_star(Box(-reach, -reach, reach, reach), places, ring.scale * body.bolt_diameter / 2 + _FACE_BEYOND_HOLE)
@@ -266,12 +264,12 @@ _ALONG = (0.5, 0.3, 0.7, 0.15, 0.85)
 """Where along an edge a leader may end, over its length."""
 
 _EXTENSIONS = (5.0, 12.0, 20.0, 28.0, 38.0)
-"""How far from the outline a mark may stand on a line that goes on (mm of paper)."""
+"""Distances of a mark on an extended line from the outline (mm of paper)."""
 
 
 @dataclass(frozen=True)
 class SectionMarks:
-    """Those of a ring."""
+    """Marks of a ring in its section."""
 
     ring: Meridian
     requirements: Requirements
@@ -279,14 +277,14 @@ class SectionMarks:
 
     @property
     def sources(self) -> tuple[Callable[[], Iterable[Figure]], ...]:
-        """All of them, those nearest to the outline first."""
+        """Sources of all marks, those nearest to the outline first."""
         sizes = self.face_width, self.tip, self.rim, self.end_chamfer
         demands = self.face_runout, self.cylindricity, self.flank_roughness, self.tip_runout
         return *sizes, *demands, self.rim_roughness, self.face_roughness, self.open_rim
 
     @property
     def _right(self) -> float:
-        """Of the outline; the left is as far."""
+        """Right end of the outline (mm of paper); the left end is as far to the left."""
         return self.ring.scale * self.ring.gear.face_width / 2
 
     @property
@@ -306,11 +304,13 @@ class SectionMarks:
         return self._diameter(self.ring.tip, self._right - chamfer, self.requirements.tip)
 
     def rim(self) -> Iterable[Figure]:
-        """With datum A, which is its axis."""
+        """Return dimensions of the outside diameter, with datum A, which is its axis."""
         return self._diameter(self.ring.rim, self._right, self.requirements.rim, datum_letter="A")
 
     def _diameter(self, radius: float, out: float, size: Size | None, datum_letter: str = "") -> Iterator[Figure]:
-        """One whose edges (mm of the part) are so far (mm of paper) from mid face width."""
+        """Yield dimensions of a diameter; `radius` is in mm of the part, `out` is the edges' distance from mid face width (mm
+        of paper).
+        """
         if size is None:
             return
         up = self.ring.scale * radius
@@ -320,7 +320,7 @@ class SectionMarks:
             yield from linear_dimension(low, high, side, size, self.draughting, clear=clear, datum_letter=datum_letter)
 
     def end_chamfer(self) -> Iterator[Figure]:
-        """A leader to one of the chamfers, from the opening."""
+        """Yield leaders to one of the chamfers, from the opening."""
         size = self.requirements.end_chamfer
         if size is None:
             return
@@ -332,7 +332,7 @@ class SectionMarks:
                 yield from leader(at, size, self.draughting, ways if across > 0 else tuple(180.0 - way for way in ways))
 
     def open_rim(self) -> Iterator[Figure]:
-        """That nobody said where the ring ends."""
+        """Yield notes that the outside diameter of the ring is not given."""
         if self.ring.is_open:
             words = self.draughting.words["rings.open_rim"]
             for up in (1, -1):
@@ -341,12 +341,12 @@ class SectionMarks:
     # ------------------------------------------------------------------ demands
 
     def cylindricity(self) -> Iterator[Figure]:
-        """Of the rim, which is the datum."""
+        """Yield frames of the cylindricity of the rim, which is the datum."""
         for tip, side in self._on_rim():
             yield from self._frame(Characteristic.CYLINDRICITY, self.requirements.cylindricity, tip, side)
 
     def tip_runout(self) -> Iterator[Figure]:
-        """Of the tip cylinder, where its line goes on beyond the outline; from the opening."""
+        """Yield frames of the run-out of the tip cylinder, on its line extended beyond the outline; from the opening."""
         tip = self.ring.scale * self.ring.tip
         for out in _EXTENSIONS:
             for along in (Side.RIGHT, Side.LEFT):
@@ -361,7 +361,7 @@ class SectionMarks:
                     )
 
     def face_runout(self) -> Iterator[Figure]:
-        """Of both end faces."""
+        """Yield frames of the run-out of both end faces."""
         low, high = self.ring.scale * max(self.ring.root, self.ring.corner), self._top
         for side in (Side.RIGHT, Side.LEFT):
             for up in (1, -1):
@@ -387,7 +387,7 @@ class SectionMarks:
                 yield ((2 * part - 1) * self._right, side.outwards * self._top), side
 
     def flank_roughness(self) -> Iterator[Figure]:
-        """On the reference line, made longer for it (ISO 1302)."""
+        """Yield the roughness of the flanks on the extended reference line (ISO 1302)."""
         flanks = self.requirements.flanks
         symbol = roughness_symbol(flanks.text(self.draughting.words.shortest(flanks.value)))
         pitch, box = self.ring.scale * self.ring.reference, symbol.box
@@ -398,7 +398,7 @@ class SectionMarks:
                     yield Figure.of(Line((start, up), (end, up), Pen.DIMENSION), symbol.moved(left - box.left, up))
 
     def rim_roughness(self) -> Iterator[Figure]:
-        """Of the rim, where it is a datum and not as the rest."""
+        """Yield the roughness of the rim, if it is a datum and its roughness is not the general one."""
         if self.requirements.rim is None:
             return
         for side in (Side.ABOVE, Side.BELOW):
@@ -406,7 +406,7 @@ class SectionMarks:
             yield from self._roughness(self.requirements.bore_roughness, (-self._right, up), (self._right, up), side)
 
     def face_roughness(self) -> Iterator[Figure]:
-        """Of both end faces."""
+        """Yield the roughness of both end faces, if it is not the general one."""
         low, high = self.ring.scale * max(self.ring.root, self.ring.corner), self._top
         for side in (Side.LEFT, Side.RIGHT):
             for up in (1, -1):
@@ -420,15 +420,15 @@ class SectionMarks:
 
 
 _BEYOND = (6.0, 12.0, 20.0, 30.0)
-"""How far outside the rim a text may be (mm of paper)."""
+"""Distances of a text from the rim (mm of paper)."""
 
 _OFF_AXIS = 0.15
-"""Least sine and cosine of the direction of a leader: not along a centre line."""
+"""Least sine and cosine of a leader's direction, so that it is not along a centre line."""
 
 
 @dataclass(frozen=True)
 class FaceMarks:
-    """Those of a ring."""
+    """Marks of a ring in its face view."""
 
     ring: Meridian
     requirements: Requirements
@@ -436,11 +436,11 @@ class FaceMarks:
 
     @property
     def sources(self) -> tuple[Callable[[], Iterable[Figure]], ...]:
-        """All of them."""
+        """Sources of all marks."""
         return self.bolt_circle, self.bolts
 
     def bolts(self) -> Iterator[Figure]:
-        """To one of the holes, from outside the rim: their number and diameter, and where they are."""
+        """Yield leaders from outside the rim to one of the holes: number, diameter and position tolerance."""
         size = self.requirements.bolts
         if size is None:
             return
@@ -458,7 +458,7 @@ class FaceMarks:
 
     @property
     def _position(self) -> Figure | None:
-        """The frame for where the holes are, to the datum axis A."""
+        """Frame of the holes' position tolerance to the datum axis A; None without one."""
         deviation = self.requirements.bolt_position
         if deviation is None:
             return None
@@ -466,7 +466,7 @@ class FaceMarks:
         return tolerance_frame(Characteristic.POSITION, f"⌀{value}", "A")
 
     def bolt_circle(self) -> Iterator[Figure]:
-        """Between holes, its text outside the rim."""
+        """Yield dimensions of the bolt circle, preferably between holes, the text outside the rim."""
         size = self.requirements.bolt_circle
         if size is None:
             return
@@ -482,13 +482,13 @@ class FaceMarks:
 
 
 def section_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View:
-    """The full section, through a bolt hole; the end that `face_view` shows is at its left."""
+    """Return the full section, through a bolt hole; the end shown by `face_view` is at its left."""
     ring = _meridian(drawn, draughting)
     return View("section", full_section(ring), SectionMarks(ring, requirements, draughting).sources)
 
 
 def face_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View:
-    """What one sees from the left of the section, a bolt hole up."""
+    """Return the view from the left of the section, a bolt hole up."""
     ring = _meridian(drawn, draughting)
     return View("face", end_face(ring), FaceMarks(ring, requirements, draughting).sources)
 

@@ -1,13 +1,9 @@
-"""Enlarged detail of a tooth: outline, circles, tooth thickness, tip chamfer (ISO 128-3). Lengths in mm.
+"""Enlarged detail of a tooth: outline, circles, tooth thickness, tip chamfer (ISO 128-3). Lengths of the part and of paper in
+mm.
 
 The outline is about the axis of a gear, or the middle of a rack's tooth on its reference line. A place has a height - a
-radius, or a height over a rack's reference line - and a distance to the right of the middle of the tooth: an angle in
-radians, or a length. The reference line is at height 0 of the paper.
-
-Lengths in mm of the part, about the axis of a gear or the middle of a rack's tooth on its reference line.
-
-A place is a height - a radius, or a height over a rack's reference line - and how far it is to the right of the middle of the
-tooth: an angle in radians, or a length. Lengths of the part and of paper in mm; the reference line is at height 0 of the paper.
+radius, or a height over a rack's reference line - and a distance to the right of the middle of the tooth: an angle in radians,
+or a length. The reference line is at height 0 of the paper.
 """
 
 from __future__ import annotations
@@ -37,11 +33,13 @@ ACCURACY = 0.0005
 """Greatest distance (mm of the part) of the outline from the exact curve."""
 
 _NOTHING = 1e-9
-"""Length (mm) of a curve that is but a point."""
+"""Length (mm) up to which a curve counts as a point."""
 
 
 def tooth_outline(gear: Gear | Rack) -> tuple[Vertex, ...]:
-    """From the middle of the space on the left to that on the right: the exact profile, without modifications, as arcs."""
+    """Return the outline from the middle of the left space to that of the right one, as arcs (mm). It is the exact profile
+    without modifications.
+    """
     half = _half_of_rack(gear) if isinstance(gear, Rack) else _half_of_gear(gear)
     x, y = half.vertices.T
     vertices = np.concatenate([half.vertices, np.stack([-x, y], -1)[-2::-1]])
@@ -50,7 +48,7 @@ def tooth_outline(gear: Gear | Rack) -> tuple[Vertex, ...]:
 
 
 def _half_of_gear(gear: Gear) -> Arcs:
-    """What stands on +x in the profile is turned to +y: the flank with y > 0 is then that on the left."""
+    """Return the half tooth of a gear, turned from +x in the profile to +y. The flank with y > 0 is then the left one."""
     half = _arcs(gear.profile.curves)
     x, y = half.vertices.T
     return Arcs(np.stack([-y, x], -1), half.bulges)
@@ -61,7 +59,7 @@ def _half_of_rack(rack: Rack) -> Arcs:
 
 
 def _arcs(curves: Iterable[PlaneCurve]) -> Arcs:
-    """Curves in a row; lands are whole arcs."""
+    """Return curves in a row as arcs; lands are whole arcs."""
     return joined([_arc(curve) for curve in curves if _length(curve) > _NOTHING])
 
 
@@ -71,7 +69,7 @@ def _length(curve: PlaneCurve) -> float:
 
 
 def _arc(curve: PlaneCurve) -> Arcs:
-    """One arc where the curve is one, or a line; pairs of them of involute and trochoid."""
+    """Return a curve as one arc if it is an arc or a line, and involutes and trochoids as pairs of arcs."""
     ends = np.array([0.0, 1.0])
     heading: Floats = curve.direction(ends)
     if _turns_evenly(curve):
@@ -80,22 +78,22 @@ def _arc(curve: PlaneCurve) -> Arcs:
 
 
 def _turns_evenly(curve: PlaneCurve) -> bool:
-    """Whether a curve is a line or an arc of a circle: lands, chamfers, flanks of racks, fillets of spur racks."""
+    """Return whether a curve is a line or an arc of a circle: lands, chamfers, flanks of racks, fillets of spur racks."""
     if isinstance(curve, FilletArc):
         return curve.stretch == 1
     return curve.kind.value not in ("trochoid", "involute")
 
 
 _DEEPEST = 0.6
-"""A base circle further below the root circle (tooth depths) is left out: nothing of the tooth is there."""
+"""Greatest distance (tooth depths) of a circle from the tooth; a base circle further below the root circle is left out."""
 
 _FORM_DECIMALS = 2
-"""Of where a rack's flank ends: no third one is true, as the root radii of ISO 53 have two."""
+"""Decimals of the end of a rack's flank: a third one would be false, as the root radii of ISO 53 have two."""
 
 
 @dataclass(frozen=True)
 class Level:
-    """A radius, or a height over a rack's reference line, with its symbol, the value that is written beside it, and its pen.
+    """A radius, or a height over a rack's reference line, with its symbol, its written value and its pen.
 
     A `reference` value stands elsewhere on the sheet, so it is in brackets here.
     """
@@ -109,7 +107,7 @@ class Level:
 
 
 def levels_of(gear: Gear | Rack) -> tuple[Level, ...]:
-    """From the lowest to the highest on paper: those that are on the tooth or near it."""
+    """Return the levels on the tooth or near it, from the lowest to the highest on paper."""
     found = _rack_levels(gear) if isinstance(gear, Rack) else _gear_levels(gear)
     return tuple(sorted(found, key=lambda level: level.height))
 
@@ -145,20 +143,20 @@ def _rack_levels(rack: Rack) -> list[Level]:
 
 
 _BODY = 0.5
-"""How much of the body is shown below the roots, over the depth of the teeth."""
+"""Depth of the body shown below the roots, over the depth of the teeth."""
 
 _WALL = 0.8
-"""At most so much of what there is of it."""
+"""Largest share of the body's own depth that is shown."""
 
 
 class Placing(ABC):
-    """Of a tooth at a scale."""
+    """The placing of a tooth on paper at a scale."""
 
     def __init__(self, scale: float) -> None:
         self.scale = scale
 
     middle_of_space: float
-    """How far the middles of both spaces are from that of the tooth."""
+    """Distance of the middles of both spaces from that of the tooth."""
 
     root: float
     """Height of the root."""
@@ -168,27 +166,27 @@ class Placing(ABC):
 
     @abstractmethod
     def point(self, height: float, aside: float) -> Point:
-        """A place on paper."""
+        """Return a place as a point on paper."""
 
     @abstractmethod
     def level(self, height: float, start: float, end: float, pen: Pen) -> Arc | Line:
-        """A part of a circle or line from left to right."""
+        """Return a part of a circle or line from left to right."""
 
     @abstractmethod
     def further(self, aside: float, paper: float) -> float:
-        """A place so much (mm of paper) further to the right on the reference line."""
+        """Return the place that is `paper` (mm of paper) further to the right on the reference line."""
 
     @abstractmethod
     def flank(self, height: float) -> float | None:
-        """Where the flank on the right, or its fillet, is at a height; None below the root and above the tip."""
+        """Return the place of the right flank, or its fillet, at a height; None below the root and above the tip."""
 
     @abstractmethod
     def outline(self) -> Polyline:
-        """The tooth and half a space on both sides."""
+        """Return the outline of the tooth and half a space on both sides."""
 
     @property
     def limit(self) -> list[Point]:
-        """Along the end of what is shown of the body, from the left end of the outline to the right one."""
+        """Points along the end of the shown body, from the left end of the outline to the right one."""
         steps = [self.middle_of_space * step / 8 for step in range(-8, 9)]
         low = [self.point(self.end, aside) for aside in steps]
         return [self.point(self.root, steps[0]), *low, self.point(self.root, steps[-1])]
@@ -254,12 +252,12 @@ class OnLines(Placing):
 
 
 def placing(gear: Gear | Rack, scale: float) -> Placing:
-    """As its kind asks for."""
+    """Return the placing of a gear's or a rack's tooth."""
     return OnLines(gear, scale) if isinstance(gear, Rack) else OnCircles(gear, scale)
 
 
 def spread(wanted: Sequence[float], gap: float) -> list[float]:
-    """Places at least `gap` apart, with the least sum of squares of their distances from the rising places that are wanted.
+    """Return places at least `gap` apart, with the least sum of squares of their distances from the wanted, rising places.
 
     Those that would be too near each other make a block around their mean (pool adjacent violators).
 
@@ -278,18 +276,20 @@ def spread(wanted: Sequence[float], gap: float) -> list[float]:
 
 
 _BEYOND = 4.0
-"""How far a level goes on behind the middle of the space."""
+"""Length of a level behind the middle of the space (mm of paper)."""
 
 _KNEE, _SLANT = 1.0, 4.0
-"""Length of the level part of what leads to a name, and width of the slanting one."""
+"""Length of the level part of the line to a name, and width of the slanting part."""
 
 _NAME_AIR = 1.0
 _NAME_TEXT, _NAME_LINE = 2.5, 4.2
-"""Height of names, and from line to line."""
+"""Height of names, and distance from line to line."""
 
 
 def named_levels(levels: tuple[Level, ...], place: Placing, draughting: Draughting) -> Figure:
-    """Each from the right flank on, the reference circle and those not on the tooth all across."""
+    """Return the levels with names, each from the right flank on; the reference circle and levels off the tooth go across the
+    whole tooth.
+    """
     right = place.further(place.middle_of_space, _BEYOND)
     ends = [place.point(level.height, right) for level in levels]
     knee = max(x for x, _ in ends) + _KNEE
@@ -308,7 +308,7 @@ def _start(level: Level, place: Placing) -> float:
 
 
 def _name(level: Level, draughting: Draughting) -> Written:
-    """Its symbol and value, the value in brackets where it stands elsewhere."""
+    """Return the symbol and value of a level, in brackets if the value stands elsewhere on the sheet."""
     value = draughting.words.number(level.value, level.decimals)
     prefix = "⌀" if level.symbol.startswith("d") else ""
     text = f"({prefix}{value})" if level.reference else prefix + value
@@ -317,16 +317,16 @@ def _name(level: Level, draughting: Draughting) -> Written:
 
 _SIZE_TEXT = 2.5
 _SIZE_AIR = 1.2
-"""Between text and lines."""
+"""Distance between text and lines."""
 
 _BELOW, _ABOVE = 6.0, 3.0
-"""How far the dimension line is from the reference circle, towards the root: the text stands above the line."""
+"""Distances of the dimension line from the reference circle, towards the root: the text stands above the line."""
 
 _SIZE_LIFT = 0.9
-"""From the dimension line to the text above it."""
+"""Distance from the dimension line to the text above it."""
 
 _OVER = 1.5
-"""How far its extension lines go on."""
+"""Length of extension lines past the dimension line."""
 
 _TAIL = 7.0
 """Length of the lines behind arrows that stand outside."""
@@ -344,7 +344,7 @@ class _Line:
         return self.place.point(self.height, aside)
 
     def arrow(self, end: float, tail: float) -> Figure:
-        """An arrow that points from `tail` to `end`."""
+        """Return an arrow that points from `tail` to `end`."""
         tip, back = self.point(end), self.point(tail)
         return Figure.of(arrow(tip, (tip[0] - back[0], tip[1] - back[1])))
 
@@ -353,9 +353,10 @@ class _Line:
 
 
 def thickness_dimension(gear: Gear | Rack, place: Placing, draughting: Draughting) -> Figure:
-    """Between the flanks where there is room for its text, else to the left of them.
+    """Return the dimension of the transverse tooth thickness: between the flanks if its text has room, else to the left of
+    them.
 
-    In brackets, as its limits are in the gear data. Nothing where the reference circle is not on the tooth.
+    It is in brackets, because its limits are in the gear data. It is empty if the reference circle is not on the tooth.
     """
     reference = 0.0 if isinstance(gear, Rack) else gear.profile.reference_diameter / 2
     half = place.flank(reference)
@@ -378,7 +379,7 @@ def _between(line: _Line, text: Written) -> Figure:
 
 
 def _aside(line: _Line, text: Written, room: float) -> Figure:
-    """The text to the left of the half space."""
+    """Return the dimension with its text to the left of the half space."""
     end = line.place.further(-max(line.place.middle_of_space, line.half), -_SIZE_AIR)
     x, y = line.point(end)
     outline = (*line.place.outline().points, *line.place.limit)
@@ -400,7 +401,7 @@ _DETAIL_AIR = 1.2
 
 
 def detail_scale(drawn: DrawnGear) -> float:
-    """The largest scale of ISO 5455 at which a tooth has room."""
+    """Return the largest scale of ISO 5455 at which a tooth has room."""
     place = placing(drawn.gear, 1.0)
     box = _shown(place)
     most = min(_ROOM[0] / box.width, _ROOM[1] / box.height)
@@ -408,7 +409,7 @@ def detail_scale(drawn: DrawnGear) -> float:
 
 
 def tooth_figure(drawn: DrawnGear, draughting: Draughting, letter: str = "Z") -> Figure:
-    """The detail at the scale of `draughting`, its reference circle at the origin, named by a letter and its scale."""
+    """Return the detail at the scale of `draughting`, its reference circle at the origin, named by a letter and its scale."""
     place = placing(drawn.gear, draughting.scale)
     tooth = Figure.of(
         place.outline(),
@@ -425,7 +426,7 @@ def _shown(place: Placing) -> Box:
 
 
 def _chamfer(gear: Gear | Rack, place: Placing, draughting: Draughting) -> Figure:
-    """A leader to the chamfer on the left, with its height in brackets: the gear data has it; nothing where there is none."""
+    """Return a leader to the left chamfer, its height in brackets because the gear data has it; empty without a chamfer."""
     size = gear.tip_chamfer if isinstance(gear, Rack) else gear.body.tip_chamfer
     if not size:
         return Figure()
@@ -445,7 +446,7 @@ def _chamfer(gear: Gear | Rack, place: Placing, draughting: Draughting) -> Figur
 
 
 def _title(letter: str, scale: float, box: Box) -> Figure:
-    """Letter and scale in brackets above what they name."""
+    """Return the letter and the scale in brackets, above the detail."""
     ratio = next((name for name, value in SCALES.items() if math.isclose(value, scale)), f"{scale:g}:1")
     return view_label(f"{letter} ({ratio})", (box.middle[0], box.top + _TITLE_GAP))
 
@@ -464,8 +465,11 @@ _BESIDE = (60.0, -60.0, -90.0, 90.0, 120.0, -120.0, 0.0, 180.0)
 
 
 def detail_mark(drawn: DrawnGear, view: Figure, scale: float, letter: str = DETAIL) -> Iterator[Figure]:
-    """On the `view` along the axis, the axis at the origin; of a rack on that from its front, whose reference line is at
-    height 0."""
+    """Yield the ring and letter that mark the detail's place on a `view`, in each possible place.
+
+    The view is along the axis, with the axis at the origin; for a rack it is the front view, with its reference line at height
+    0.
+    """
     gear = drawn.gear
     places = _rack_rings(gear, view, scale) if isinstance(gear, Rack) else _gear_rings(gear, scale)
     for centre, radius, (across, up) in places:
@@ -475,7 +479,7 @@ def detail_mark(drawn: DrawnGear, view: Figure, scale: float, letter: str = DETA
 
 
 def _gear_rings(gear: Gear, scale: float) -> Iterator[tuple[Point, float, Point]]:
-    """Middle and radius of rings, and the way from there to the letter: off the teeth."""
+    """Yield the middle and radius of rings (mm of paper), and the direction from there to the letter: off the teeth."""
     tip, root = (scale * abs(diameter) / 2 for diameter in (gear.tip_diameter, gear.root_diameter))
     side = -1.0 if gear.internal else 1.0
     for way in _ways(gear, (tip + root) / 2, _ring(tip, root) + scale * gear.body.bolt_diameter / 2, scale):
@@ -500,7 +504,9 @@ def _ways(gear: Gear, middle: float, reach: float, scale: float) -> list[float]:
 
 
 def _rack_rings(rack: Rack, view: Figure, scale: float) -> Iterator[tuple[Point, float, Point]]:
-    """A tooth with an upright centre line, of which there are some; the letter above it, or in the body below."""
+    """Yield the middle, radius and letter direction of rings on teeth with an upright centre line. The letter is beside, above
+    or below.
+    """
     top, root = scale * rack.tip_height, -scale * rack.root_depth
     centres = [each for each in view.shapes if isinstance(each, Line) and each.pen is Pen.CENTRE]
     middles = list(dict.fromkeys(each.start[0] for each in centres if each.start[0] == each.end[0]))

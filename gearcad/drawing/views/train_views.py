@@ -1,13 +1,8 @@
 """Views of a planetary train: the section through its axis, and its gear set along the axis (ISO 2203). Lengths in mm.
 
 The section runs from the axis up through the first planet, and down through the planet that is nearest opposite (ISO 128-3,
-aligned section); gears of stages are turned into it about the axis beside them. Heights decide which of two circles on one
-axis is hidden; gears in mesh do not hide each other (ISO 2203).
-
-The plane goes from the axis up through the first planet, and down through the planet that is nearest opposite (ISO 128-3, an
-aligned section); gears of stages are turned into it about the axis that they are next to. z and heights in mm of the part.
-
-Which of two circles on one axis is hidden follows from heights; gears in mesh do not hide each other (ISO 2203).
+aligned section). Gears of stages are turned into it about the axis beside them. Heights decide which of two circles on one
+axis is hidden; gears in mesh do not hide each other (ISO 2203). z and heights are in mm of the part.
 """
 
 from __future__ import annotations
@@ -46,17 +41,17 @@ from gearcad.planetary import PairStage, PlanetaryTrain
 from gearcad.solids.train_plan import CarrierPlan, Standing, TrainLayout, carrier_plan, require_room, stage_keys
 
 _OPPOSITE = 90.0
-"""A planet so far (degrees) from opposite the first one is not turned into the plane below the axis."""
+"""Angle (degrees) from opposite the first planet at which another one is no longer turned into the plane below the axis."""
 
 _STRAIGHT = 1.0
-"""Degrees by which a planet may be off a plane that is not bent: nobody sees that."""
+"""Angle (degrees) up to which a planet counts as in the plane, because the difference is not visible."""
 
 _TOUCHING = 1e-9
 
 
 @dataclass(frozen=True)
 class InPlane:
-    """A body of the train with the height of its axis over that of the train."""
+    """A body of the train with the height of its axis over that of the train (mm)."""
 
     standing: Standing
     height: float
@@ -70,30 +65,30 @@ class TrainPlan:
 
     @cached_property
     def layout(self) -> TrainLayout:
-        """Every body in its place."""
+        """Layout of the train, with every body in its place."""
         return TrainLayout(self.train, self.train.pose())
 
     @property
     def distance(self) -> float:
-        """Of the planets' axes from that of the train."""
+        """Distance of the planets' axes from that of the train (mm)."""
         return float(self.train.centre_distance)
 
     @cached_property
     def turns(self) -> tuple[float, ...]:
-        """Where each planet is on paper: degrees from the first one, which is up, counter-clockwise as seen from +z."""
+        """Angles of the planets on paper (degrees) from the first one, which is up, counter-clockwise as seen from +z."""
         first, *_ = planets = self.layout.pose.planets
         return tuple((planet.angle - first.angle) % 360 for planet in planets)
 
     @cached_property
     def below(self) -> int | None:
-        """The planet that is shown below the axis; None if none is near to opposite."""
+        """Number of the planet that is shown below the axis; None if none is near to opposite."""
         off = [abs(turn - 180) for turn in self.turns]
         nearest = min(range(len(off)), key=off.__getitem__)
         return nearest if nearest and off[nearest] < _OPPOSITE else None
 
     @property
     def bent(self) -> bool:
-        """Whether the plane of the section changes its direction at the axis."""
+        """Return whether the plane of the section changes its direction at the axis."""
         return self.below is not None and abs(self.turns[self.below] - 180) > _STRAIGHT
 
     @cached_property
@@ -102,13 +97,13 @@ class TrainPlan:
 
     @cached_property
     def planets(self) -> tuple[InPlane, ...]:
-        """The rims of the planets that are shown."""
+        """Rims of the planets that are shown."""
         shown = [(0, self.distance)] + ([] if self.below is None else [(self.below, -self.distance)])
         return tuple(InPlane(rim, height) for number, height in shown for rim in self.layout.planets[number])
 
     @cached_property
     def carrier(self) -> CarrierPlan | None:
-        """A plain carrier; None where planets have no bores, or stages leave no room for one."""
+        """Plan of a plain carrier; None where planets have no bores, or stages leave no room for one."""
         try:
             return carrier_plan(self.layout)
         except GeometryError:
@@ -116,7 +111,9 @@ class TrainPlan:
 
     @cached_property
     def room(self) -> str:
-        """Why the bodies cannot stand beside each other; "" where they can, or a ring without a rim leaves it open."""
+        """Reason why the bodies cannot stand beside each other; "" if they can, or if a ring without a rim diameter leaves it
+        open.
+        """
         if any(body.gear.internal and body.gear.body.rim_diameter is None for body in self.layout.bodies.values()):
             return ""
         try:
@@ -127,14 +124,14 @@ class TrainPlan:
 
     @property
     def reach(self) -> float:
-        """How far from the axis of the train its set reaches."""
+        """Outer radius of the gear set about the axis of the train (mm)."""
         planets = (self.distance + rim.gear.tip_diameter / 2 for rim in self.train.rims)
         rings = (Meridian(central.gear, 1.0).rim for central in self.train.centrals if central.gear.internal)
         return max((*planets, *rings))
 
     @property
     def largest(self) -> float:
-        """The largest size of it: across, or along its axis."""
+        """Largest size of the train (mm): across, or along its axis."""
         ends = [end for each in self.layout.standing for end in each.extent]
         return max(2 * self.reach, max(ends) - min(ends))
 
@@ -142,16 +139,16 @@ class TrainPlan:
 
     @cached_property
     def stages(self) -> tuple[InPlane, ...]:
-        """Gears of the stages that have room in the plane, above or below the axis that they are next to."""
+        """Gears of the stages that have room in the plane, above or below the axis beside them."""
         return tuple(chain.from_iterable(self._stages.values()))
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """Stages that have none."""
+        """Names of the stages that have no room in the plane."""
         return tuple(stage.name for stage in self.train.stages if stage.name not in self._stages)
 
     def stage(self, name: str) -> tuple[InPlane, InPlane]:
-        """Pinion and wheel of one that is shown."""
+        """Return pinion and wheel of a stage that is shown."""
         return self._stages[name]
 
     @cached_property
@@ -171,7 +168,7 @@ class TrainPlan:
     def _placed(
         self, stage: PairStage, gears: tuple[Standing, Standing], heights: dict[str, float], others: tuple[InPlane, ...]
     ) -> tuple[InPlane, InPlane] | None:
-        """Pinion and wheel on the side where they are, on the other side if there is no room; None if there is none either."""
+        """Return pinion and wheel on their own side, else on the other side; None if neither has room."""
         side = 1.0 if math.cos(math.radians(stage.angle - self.layout.pose.planets[0].angle)) >= 0 else -1.0
         distance = abs(stage.pair.centre_distance)
         for way in (side, -side):
@@ -187,7 +184,7 @@ class TrainPlan:
 
 
 def _collide(one: InPlane, other: InPlane) -> bool:
-    """Whether two bodies that do not mesh would be drawn over each other."""
+    """Return whether two bodies that do not mesh would be drawn over each other."""
     (low, high), (bottom, top) = one.standing.extent, other.standing.extent
     if low >= top - _TOUCHING or bottom >= high - _TOUCHING:
         return False
@@ -197,7 +194,7 @@ def _collide(one: InPlane, other: InPlane) -> bool:
 
 
 def _reach(body: InPlane) -> Iterator[tuple[float, float]]:
-    """Heights over which a body is cut; of a ring those of its two sides."""
+    """Yield the ranges of height over which a body is cut (mm); a ring has two, one for each side."""
     gear = body.standing.body.gear
     if not gear.internal:
         yield body.height - gear.tip_diameter / 2, body.height + gear.tip_diameter / 2
@@ -211,13 +208,15 @@ _DIGITS = 9
 
 
 def pitch_radii(train: PlanetaryTrain, key: str) -> tuple[float, ...]:
-    """Radii (mm) of the working pitch circles of a gear; a planet has one with each of its mates, unless they are one."""
+    """Return the radii (mm) of a gear's working pitch circles. A planet has one with each of its mates; equal ones stand
+    once.
+    """
     radii = [abs(pair.working_pitch_diameters.pick(role)) / 2 for pair, role in meshes_of(train, key)]
     return tuple(dict.fromkeys(round(radius, _DIGITS) for radius in radii))
 
 
 def meshes_of(train: PlanetaryTrain, key: str) -> Iterator[tuple[GearPair, Role]]:
-    """The pairs that a gear is part of, and as which of the two."""
+    """Yield the pairs that a gear is part of, each with its role in the pair."""
     for mesh in train.meshes:
         if key == mesh.central.name:
             yield mesh.pair, mesh.central_role
@@ -229,14 +228,14 @@ def meshes_of(train: PlanetaryTrain, key: str) -> Iterator[tuple[GearPair, Role]
 
 _ONE_WAY, _OTHER_WAY = 45.0, 135.0
 _CARRIER_SPACING = 4.0
-"""Of the hatching: what lies side by side differs."""
+"""Hatching: angles (degrees) and spacing differ between neighbours."""
 
 _Interval = tuple[float, float]
 _Rectangle = tuple[tuple[float, float], ...]
 
 
 def bodies_of(plan: TrainPlan) -> list[tuple[str, Sectioned]]:
-    """Each with the key of its item, in order from the teeth in front on: suns, planets, rings, stages, carrier."""
+    """Return the bodies, each with the key of its item, from the front teeth on: suns, planets, rings, stages, carrier."""
     suns = [each for each in plan.centrals if not each.standing.body.gear.internal]
     rings = [each for each in plan.centrals if each.standing.body.gear.internal]
     rows: tuple[tuple[Sequence[InPlane], float], ...] = (
@@ -258,7 +257,7 @@ def _gear(train: PlanetaryTrain, body: InPlane, angle: float) -> Sectioned:
 
 
 def _carrier(plan: TrainPlan) -> Iterator[Sectioned]:
-    """Pins, which are not hatched, and plates."""
+    """Yield the pins of the carrier, which are not hatched, and its plates."""
     carrier = plan.carrier
     if carrier is None:
         return
@@ -271,7 +270,7 @@ def _carrier(plan: TrainPlan) -> Iterator[Sectioned]:
 
 
 def _plate(carrier: CarrierPlan, plate: _Interval, pins: Sequence[_Interval]) -> Iterator[_Rectangle]:
-    """What the plane cuts of a plate, between its pins."""
+    """Return the cut areas of a plate between its pins."""
     inner, outer = carrier.inner, carrier.outer
     solid = [(inner, outer), (-outer, -inner)] if inner else [(-outer, outer)]
     for low, high in pins:
@@ -295,10 +294,11 @@ _STROKE, _CORNER, _STEM = 8.0, 4.0, 9.0
 
 
 def cutting_line(turn: float, distance: float, reach: float, looking: int) -> Figure:
-    """Thick ends at `reach` from the axis: above it, and in the direction `turn` (radians); a thick corner at the axis.
+    """Return the cutting line: thick ends at `reach` (mm of paper) from the axis, and a thick corner at the axis.
 
-    At a `distance` along that direction is the axis of a planet, whose centre line this is too. `looking` is -1 to the left,
-    1 to the right: where one looks at the upper half, the other one being turned into its plane.
+    One end is above the axis, the other in the direction `turn` (radians). The axis of a planet is at a `distance` in that
+    direction; the line is its centre line too. `looking` is the viewing direction on the upper half, -1 to the left, 1 to the
+    right; the other half is turned into its plane.
     """
     shapes: list[Shape] = []
     for angle, side in ((math.pi / 2, 1.0), (turn, -1.0)):
@@ -312,7 +312,7 @@ def cutting_line(turn: float, distance: float, reach: float, looking: int) -> Fi
 
 
 def _end(way: Point, across: Point, reach: float) -> list[Shape]:
-    """A thick end, the arrow at it, and the letter beside the arrow."""
+    """Return a thick end, the arrow at it, and the letter beside the arrow."""
     tip = _along(way, reach + _STROKE / 2)
     foot = tip[0] - _STEM * across[0], tip[1] - _STEM * across[1]
     place = foot[0] + 5.0 * way[0], foot[1] + 5.0 * way[1]
@@ -329,11 +329,13 @@ def _along(way: Point, by: float) -> Point:
 
 
 _ABOVE, _BESIDE = (8.0, 14.0, 22.0, 30.0, 40.0), (0.0, 12.0, -12.0)
-"""Where the name of the section may stand."""
+"""Positions of the name of the section, above the outlines and aside (mm of paper)."""
 
 
 def train_section(plan: TrainPlan, items: Mapping[str, int], draughting: Draughting, direction: int = 1) -> View:
-    """The axis of the train at height 0, z to the right, or to the left if `direction` is -1; `items` are numbers by keys."""
+    """Return the section, with the axis of the train at height 0. z is to the right, or to the left if `direction` is -1;
+    `items` are item numbers by keys.
+    """
     bodies = bodies_of(plan)
     extent = Box.around(point for _, body in bodies for polygon in body.cut.covers for point in polygon)
     across = Across(draughting.scale, (extent.left + extent.right) / 2, direction)
@@ -350,7 +352,7 @@ def train_section(plan: TrainPlan, items: Mapping[str, int], draughting: Draught
 
 
 def _axes(plan: TrainPlan, across: Across) -> Iterator[Line]:
-    """The axis of the train, and those of planets and stages."""
+    """Yield the axes of the train, its planets and its stages."""
     bodies = (*plan.centrals, *plan.planets, *plan.stages)
     for height in dict.fromkeys(body.height for body in bodies):
         ends = [end for body in bodies if body.height == height for end in body.standing.extent]
@@ -361,7 +363,7 @@ def _axes(plan: TrainPlan, across: Across) -> Iterator[Line]:
 
 
 def _stage_distances(plan: TrainPlan, box: Box, across: Across, draughting: Draughting) -> Iterator[Candidates]:
-    """The centre distance of each stage that is shown."""
+    """Yield the centre distance of each stage that is shown."""
     for stage in plan.train.stages:
         if stage.name in plan.left_out:
             continue
@@ -372,7 +374,7 @@ def _stage_distances(plan: TrainPlan, box: Box, across: Across, draughting: Drau
 def _stage_distance(
     gears: Sequence[InPlane], pair: GearPair, box: Box, across: Across, draughting: Draughting
 ) -> Iterator[Figure]:
-    """Outside, on the side where the axes' ends are nearer."""
+    """Yield dimensions of a stage's centre distance, outside the outlines, at the right, then at the left."""
     size = distance_size(pair)
     ends = [sorted(across.points((z, each.height) for z in each.standing.extent)) for each in gears]
     for side, edge, end, way in ((Side.RIGHT, box.right, 1, 1.0), (Side.LEFT, box.left, 0, -1.0)):
@@ -381,20 +383,21 @@ def _stage_distance(
 
 
 def _name(box: Box) -> Iterator[Figure]:
-    """The letters of a section that is not in one plane, above it."""
+    """Yield the name of a section that is not in one plane, above it."""
     for up in _ABOVE:
         for across in _BESIDE:
             yield view_label(f"{LETTER}–{LETTER}", (box.middle[0] + across, box.top + up))
 
 
 _ON_AXIS = 1e-6
-"""mm from an axis of the train that are none."""
+"""Distance (mm) up to which a point is on an axis of the train."""
 
 
 def train_face(plan: TrainPlan, draughting: Draughting, looking: int = -1) -> View:
-    """The axis of the train at the origin, the first planet above it, seen from +z; with centre distance and sizes over all.
+    """Return the view from +z: the axis of the train at the origin, the first planet above it, with centre distance and
+    overall sizes.
 
-    `looking` is which way one looks at a bent section: -1 to the left, 1 to the right.
+    `looking` is the viewing direction of a bent section: -1 to the left, 1 to the right.
     """
     fronts, scale = list(_fronts(plan)), draughting.scale
     whole = Box.of_all(Box(*front.centre, *front.centre).grown(front.reach) for front in fronts)
@@ -414,7 +417,7 @@ def train_face(plan: TrainPlan, draughting: Draughting, looking: int = -1) -> Vi
 
 
 def _distance(plan: TrainPlan, box: Box, draughting: Draughting) -> Iterator[Figure]:
-    """From the axis of the train to that of the first planet."""
+    """Yield dimensions from the axis of the train to that of the first planet."""
     scale, size = draughting.scale, Size(value=plan.distance)
     half = scale * max(rim.body.gear.tip_diameter for rim in plan.layout.planets[0]) / 2
     for side, edge in ((Side.RIGHT, box.right), (Side.LEFT, box.left)):
@@ -423,7 +426,7 @@ def _distance(plan: TrainPlan, box: Box, draughting: Draughting) -> Iterator[Fig
 
 
 def planet_centres(plan: TrainPlan) -> list[Point]:
-    """Their axes (mm)."""
+    """Return the axes of the planets (mm of the part), the axis of the train at the origin."""
     turns = [math.radians(90 + turn) for turn in plan.turns]
     return [(plan.distance * math.cos(turn), plan.distance * math.sin(turn)) for turn in turns]
 
@@ -444,7 +447,9 @@ def _fronts(plan: TrainPlan) -> Iterator[Front]:
 
 
 def _tip(one: Standing, others: Sequence[Standing]) -> Pen:
-    """The pen of a tip circle: dashed behind a body on the same axis that is nearer and larger, of rings smaller inside."""
+    """Return the pen of a tip circle: dashed behind a nearer and larger body on the same axis; for rings, one that is smaller
+    inside.
+    """
     own = one.body.gear
     for other in others:
         gear = other.body.gear
@@ -454,7 +459,9 @@ def _tip(one: Standing, others: Sequence[Standing]) -> Pen:
 
 
 def _centre_lines(plan: TrainPlan, fronts: Sequence[Front], box: Box, scale: float) -> Figure:
-    """Of all axes, but of the planet through which a bent section goes; with the circle on which those of planets are."""
+    """Return the centre lines of all axes, except that of the planet through which a bent section goes. The circle of the
+    planets' axes is included.
+    """
     centres = [(scale * x, scale * y) for x, y in planet_centres(plan)]
     half = scale * max(rim.body.gear.tip_diameter for rim in plan.layout.planets[0]) / 2
     (x, y), *others = centres
@@ -470,12 +477,12 @@ def _centre_lines(plan: TrainPlan, fronts: Sequence[Front], box: Box, scale: flo
 
 
 def _paper(front: Front, scale: float) -> Point:
-    """Its centre."""
+    """Return the centre of a gear on paper."""
     return scale * front.centre[0], scale * front.centre[1]
 
 
 def _stage_lines(centre: Point, reach: float) -> Figure:
-    """A cross, without what would lie on a centre line of the train."""
+    """Return a centre cross, without lines that would lie on a centre line of the train."""
     (x, y), figure = centre, Figure()
     if abs(y) > _ON_AXIS:
         figure += centre_line((x - reach, y), centre, (x + reach, y))
