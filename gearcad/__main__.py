@@ -19,7 +19,7 @@ _MINDS_ITSELF = ("batch", "open")
 
 
 def run() -> None:
-    """Do what the command line says, and end this process."""
+    """Run the command line, and end this process."""
     _open_standard_streams()
     command = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
     if CAN_GUARD and command not in _MINDS_ITSELF:
@@ -51,7 +51,7 @@ def _work() -> None:
 
 
 def _terminate(number: int, _frame: object) -> NoReturn:
-    """Leave by way of all that clears up."""
+    """End the process through SystemExit, so that everything is cleaned up."""
     sys.exit(128 + number)
 
 

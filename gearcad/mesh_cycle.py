@@ -172,14 +172,14 @@ class MeshCycle(Pictured):
 
     @property
     def backwards(self) -> MeshCycle:
-        """The same as it is met where the wheel drives: contact moves from tip to root of the pinion."""
+        """Return the cycle for a driving wheel: contact moves from tip to root of the pinion."""
         curves = {name: getattr(self, name)[::-1] for name in ("mesh_stiffness", "tangent_stiffness", "transmission_error")}
         parts = {name: part[::-1] for name, part in self.compliance_parts.items()}
         shares = self.load_share[::-1]
         return replace(self, roll_angle=-self.roll_angle[::-1], load_share=shares, compliance_parts=parts, **curves)
 
     def stiffness_at(self, roll_angle: ArrayLike, *, tangent: bool = False) -> Floats:
-        """Secant (or tangent) stiffness (N/µm) at any roll angles (deg): the curve goes on from base pitch to base pitch."""
+        """Return the secant (or tangent) stiffness (N/µm) at any roll angles (degrees); the curve is periodic."""
         values = self.tangent_stiffness if tangent else self.mesh_stiffness
         start = self.roll_angle[0]
         within = np.mod(np.asarray(roll_angle, float) - start, self.pitch_angle) + start

@@ -29,7 +29,7 @@ LONGEST_VALUE = 120
 
 
 def printable(text: str) -> str:
-    """The text in one line, with what cannot be printed escaped."""
+    """Return the text in one line, with unprintable characters escaped."""
     return text if text.isprintable() else repr(text)[1:-1]
 
 
@@ -99,7 +99,7 @@ class InputError(GearcadError, ValueError):
         return f"{shown(self.parameter)} = {format_number(self.value)}{unit}: {self.permitted}"
 
     def within(self, owner: str) -> Self:
-        """The same error seen from the owner of the parameter: `body` turns `bore` into `body.bore`."""
+        """Return the same error seen from the owner of the parameter: `body` turns `bore` into `body.bore`."""
         return type(self)(f"{owner}.{self.parameter}", self.value, self.permitted, self.unit)
 
 

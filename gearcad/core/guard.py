@@ -89,7 +89,7 @@ def guarded(work: Callable[[], None]) -> None:
 
 
 def _is_heard(number: signal.Signals) -> bool:
-    """False where the caller wants it ignored, as nohup does, and a shell for what it starts in the background."""
+    """Return False if the caller ignores the signal, as nohup does, and a shell for background commands."""
     return signal.getsignal(number) is not signal.SIG_IGN
 
 
@@ -148,7 +148,7 @@ def _keep(worker: int, heard: int, listened: int) -> NoReturn:
 
 
 def _is_divided(notes: bytes) -> bool:
-    """True while some of the renames that belong together are yet to come."""
+    """Return whether some of the renames that belong together are yet to come."""
     told = notes.split(b"\0")
     return told.count(_BEGIN) > told.count(_END)
 

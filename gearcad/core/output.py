@@ -236,7 +236,7 @@ def _is_there(folder: Path, fd: int) -> bool:
 
 
 def _move_files(staging: Path, folder: Path, sometimes: Collection[str]) -> None:
-    """Rename all or none: what cannot be replaced is found before the first file moves."""
+    """Rename all files or none: files that cannot be replaced are found before the first file moves."""
     files = [file for file in sorted(staging.iterdir()) if file.name != MARK]
     gone = set(sometimes).difference(file.name for file in files)
     for name in (*(file.name for file in files), *gone):

@@ -57,7 +57,7 @@ class Role(Enum):
 
     @property
     def mate(self) -> Role:
-        """The other gear."""
+        """Role of the other gear."""
         return Role.WHEEL if self is Role.PINION else Role.PINION
 
 
@@ -128,7 +128,7 @@ class Notice:
         return f"{self.where}: {self.text}" if self.where else self.text
 
     def within(self, owner: str) -> Notice:
-        """The same, seen from what holds its subject."""
+        """Return the notice with `owner` in front of its place."""
         return replace(self, where=f"{owner}: {self.where}" if self.where else owner)
 
     def to_dict(self) -> dict[str, str]:

@@ -194,7 +194,7 @@ _LEAST_FIT = 0.002
 
 @dataclass(frozen=True, kw_only=True)
 class Deciding:
-    """Something else to measure, what each candidate would have there, and how far apart that is.
+    """A further measurement, the predicted value of each candidate, and how far apart the predictions are.
 
     With `less` it is two readings, of which the difference counts. `apart` is the distance of each other candidate from the
     first, in units of what a reading of `place.uncertainty` and the fits leave open.

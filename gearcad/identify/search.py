@@ -59,7 +59,7 @@ _DIAMETERS = (
 
 
 def fits(measured: Measured) -> list[Fit]:
-    """All hypotheses that readings leave worth a fit, the most probable first."""
+    """Return the fits of all hypotheses that the readings do not rule out, the most probable first."""
     found: list[Fit] = []
     nearest: dict[tuple[float, bool], tuple[float, Hypothesis]] = {}
     for hypothesis in hypotheses(measured.spur):
@@ -77,7 +77,7 @@ def fits(measured: Measured) -> list[Fit]:
 
 
 def _free(measured: Measured, near: Iterable[Hypothesis]) -> Iterator[Fit]:
-    """Sizes of no series near the standard one that comes nearest, at each pressure angle and at any other."""
+    """Yield fits of sizes of no series near the nearest standard one, at each pressure angle and at any other."""
     for hypothesis in near:
         for any_angle in (False, True) if hypothesis.pressure_angle == 20.0 else (False,):
             free = replace(hypothesis, size=replace(hypothesis.size, pitch=None, series=FREE), free_angle=any_angle)

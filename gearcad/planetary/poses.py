@@ -315,7 +315,7 @@ _HARMONICS_ROUNDING = 1e-9
 
 
 class Excited(NamedTuple):
-    """Which modes of a set a harmonic shakes: rotational ones, by a torque, and translational ones, by a force.
+    """Modes of a set that a harmonic excites: rotational ones, by a torque, and translational ones, by a force.
 
     Neither: the forces of the planets balance, and only modes in which the members rest are shaken.
     """

@@ -255,7 +255,7 @@ def _balance(
 
 
 def _ends(train: TrainData, shafts: Mapping[str, Shaft], given: Mapping[str, float]) -> dict[str, Shaft]:
-    """The shaft of each member that the world holds or drives: one of a role, of a given speed, or the member itself."""
+    """Return the shaft through which each member is held or driven: one of a role, of a given speed, or the member itself."""
     spoken = [train.input, train.output, train.fixed, *given, *train.members]
     ends: dict[str, Shaft] = {}
     for name in spoken:
@@ -265,7 +265,7 @@ def _ends(train: TrainData, shafts: Mapping[str, Shaft], given: Mapping[str, flo
 
 
 def _losses(train: TrainData, found: Balance, members: Mapping[str, float], eta: float) -> dict[str, float]:
-    """Power that each mesh of the set and each stage turns into heat (W)."""
+    """Return the power (W) that each mesh of the set and each stage turns into heat."""
     rolling = rolling_power(train, found.members, members)
     first, second = train.centrals
     entering = rolling if rolling > 0 else -rolling * eta**-2
@@ -388,7 +388,7 @@ def _force(pair: GearPair, torque: float, radius: float, helix_angle: float) -> 
 
 
 def _on_pin(train: TrainData, flow: PowerFlow) -> PinForce:
-    """Sums over both meshes: of a sun at the near side of the planet, of a ring at its far side."""
+    """Return the force on the pin, summed over both meshes: a sun's at the near side of the planet, a ring's at its far side."""
     bottom = min(rim.axial_position for rim in train.rims)
     top = max(rim.axial_position + rim.gear.face_width for rim in train.rims)
     radial = tangential = axial = about_radial = about_tangential = 0.0

@@ -253,7 +253,7 @@ def _near_ratio(task: SearchTask, kind: SetType) -> Iterator[tuple[ManySets, int
 
 
 def _with_planets(task: SearchTask, kind: SetType, near: list[TeethGrid], numbers: Wholes) -> ManySets:
-    """Every set with every number of planets."""
+    """Return every set with every number of planets."""
     teeth = TeethGrid(*(np.repeat(np.concatenate(parts), len(numbers)) for parts in zip(*near, strict=True)))
     return ManySets(task, kind, teeth, np.tile(numbers, len(teeth.a) // len(numbers)))
 
@@ -263,7 +263,7 @@ ROUNDING = 1e-12
 
 
 def _ranked(kept: list[ManySets]) -> Iterator[Candidate]:
-    """The sets of all types, best first."""
+    """Yield the sets of all types, best first."""
     keys = [np.concatenate(parts) for parts in zip(*(_keys(sets) for sets in kept), strict=True)]
     starts = np.cumsum([0, *(len(sets.planets) for sets in kept)])
     for place in np.lexsort(keys[::-1]):

@@ -295,14 +295,14 @@ def _either(values: tuple[int, ...] | list[str]) -> str:
 
 
 def fitting_planets(train: TrainData) -> tuple[int, ...]:
-    """Numbers of planets next below and above, from 2 on, that have room and fit at equal angles."""
+    """Return the numbers of planets next below and above, from 2 on, that have room and fit at equal angles."""
     fitting = with_room(train)[1:]
     below = [number for number in fitting if number < train.planets][-1:]
     return (*below, *[number for number in fitting if number > train.planets][:1])
 
 
 def fitting_teeth(train: TrainData) -> tuple[tuple[str, int], ...]:
-    """One gear each with other teeth, nearest to its own, with which the planets fit at equal angles."""
+    """Return tooth numbers of one gear each, nearest to its own, with which the planets fit at equal angles."""
     a, b = train.meshes
     names = (a.central.name, a.rim.name, b.rim.name, b.central.name)
     found = []
@@ -453,7 +453,7 @@ class PlanetaryTrain(TrainData):
             raise ParameterError("output", self.output, "must be another member than input and fixed")
 
     def pose(self, carrier_angle: float = 0.0, central_turn: float = 0.0) -> TrainPose:
-        """All gears in mesh, with the carrier at an angle and the fixed central (or else the second) turned (deg)."""
+        """Return all gears in mesh, with the carrier at an angle and the fixed central (or else the second) turned (degrees)."""
         return train_pose(self, carrier_angle, central_turn)
 
     @cached_property

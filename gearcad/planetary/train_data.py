@@ -53,7 +53,7 @@ class Fit(NamedTuple):
     misfits: tuple[float, ...]
 
     def adjusted(self, teeth: SetTeeth) -> Fit:
-        """The same with rim 2 of each planet turned against its rim 2' until it fits."""
+        """Return the fit with rim 2 of each planet turned against its rim 2' until it fits."""
         turned = (rim + misfit * TURN / teeth.rim_a for rim, misfit in zip(self.rims_a, self.misfits, strict=True))
         return self._replace(rims_a=tuple(turned), misfits=(0.0,) * len(self.misfits))
 
@@ -326,7 +326,9 @@ class Speeds:
 
 
 def speeds(train: TrainData, given: Mapping[str, float]) -> Speeds:
-    """All speeds (rpm) from those `given` by names of members or shafts: one where a member is fixed, two of a differential.
+    """Return all speeds (rpm) from those `given` by names of members or shafts.
+
+    One speed is needed where a member is fixed, two of a differential.
 
     Raises ParameterError where a speed is missing, or follows from the others.
     """
@@ -423,7 +425,7 @@ def _settle_stages(train: TrainData, low: float, high: float, room: float) -> No
 
 
 def _way(train: TrainData, shaft: str, gone: tuple[PairStage, ...] = ()) -> tuple[PairStage, ...] | None:
-    """The stages between a shaft and the set; None where they do not lead to it."""
+    """Return the stages between a shaft and the set; None if they do not lead to it."""
     if shaft in train.members:
         return gone
     for stage in train.stages:

@@ -158,7 +158,7 @@ class DynamicFactor:
         return stiffness * left[0], stiffness * left[1], abs(1 - stiffness * self.tip_relief)
 
     def allowances(self, speed: ArrayLike) -> tuple[Floats, Floats]:
-        """y_p and y_f (µm): what running in takes off f_pb and f_falpha at speeds of the pinion in rpm."""
+        """Return y_p and y_f (µm), the running-in allowances of f_pb and f_falpha at speeds of the pinion in rpm."""
         rpm = np.asarray(speed, float)
         if self.running_in is None:
             return np.zeros_like(rpm), np.zeros_like(rpm)
@@ -208,7 +208,7 @@ def _running_in(material: Material, flank_limit: float | None) -> RunningIn:
 
 
 def _tip_relief(pair: GearPair, limits: PerGear[EnduranceLimits], grade: int) -> float:
-    """C_a: 0 for coarse grades; else what both gears have by design, or else what running in makes, if that is known."""
+    """Return C_a (µm): 0 for coarse grades, else the designed relief of both gears, or else the relief by running-in, if known."""
     if grade > _FINE:
         return 0.0
     designed = min(gear.modification.tip_relief for gear in pair.gears)

@@ -31,11 +31,11 @@ class Edition(StrEnum):
     """DIN 3990-1, -2, -3:1987 (Z_beta = sqrt(cos beta), Z_X of large modules; no rim thickness or deep tooth factor)."""
 
     def part(self, number: int) -> str:
-        """One of its parts, such as ISO 6336-3."""
+        """Return the name of a part, such as ISO 6336-3."""
         return f"{self.partition(':')[0]}-{number}"
 
     def dated_part(self, number: int) -> str:
-        """The same with its year, such as ISO 6336-3:2006."""
+        """Return the name of a part with its year, such as ISO 6336-3:2006."""
         return f"{self.part(number)}:{self.partition(':')[2]}"
 
 
@@ -44,7 +44,7 @@ Values = TypeVar("Values", float, float | Floats)
 
 
 def bounded(values: Values, least: float, most: float) -> Values:
-    """Values, none below `least` and none above `most`."""
+    """Return the values, limited to the range from `least` to `most`."""
     return number_or_array(values, np.clip(values, least, most))
 
 
@@ -54,7 +54,10 @@ def chosen(condition: bool | Bools, values: Values, others: Values) -> Values:
 
 
 def power(base: Values, exponent: Values) -> Values:
-    """Base, positive, to the exponent: `**` of two numbers could be complex to a type checker."""
+    """Return a positive base raised to the exponent.
+
+    To a type checker `**` of two numbers could be complex.
+    """
     return number_or_array(base, np.power(base, exponent))
 
 
@@ -64,29 +67,32 @@ def magnitude(values: Values) -> Values:
 
 
 def root(values: Values) -> Values:
-    """Square root."""
+    """Return the square root."""
     return number_or_array(values, np.sqrt(values))
 
 
 def interpolated(values: Values, points: Sequence[tuple[float, float]]) -> Values:
-    """Straight lines through points (x, y) with rising x, level beyond them."""
+    """Return values interpolated linearly between points (x, y) with rising x, constant beyond them."""
     x, y = zip(*points, strict=True)
     return number_or_array(values, np.interp(values, x, y))
 
 
 def interpolated_over_log(values: Values, points: Sequence[tuple[float, float]]) -> Values:
-    """Straight lines over the logarithm of x, of points with rising x, level beyond them; 0 and less are before the first."""
+    """Return values interpolated linearly over the logarithm of x, between points (x, y) with rising x, constant beyond them.
+
+    0 and less count as before the first point.
+    """
     x, y = zip(*points, strict=True)
     return number_or_array(values, np.interp(np.log(np.maximum(values, x[0])), np.log(x), y))
 
 
 def interpolated_in_logs(values: Values, points: Sequence[tuple[float, float]]) -> Values:
-    """The same over logarithms of both x and y."""
+    """Return values interpolated linearly over the logarithms of both x and y, as `interpolated_over_log`."""
     return number_or_array(values, np.exp(interpolated_over_log(values, [(x, math.log(y)) for x, y in points])))
 
 
 def number_or_array(_: Values, found: NDArray[Any]) -> Values:
-    """Found values as the type of those they come from: one alone is a number, not an array."""
+    """Return found values in the type of the values that they come from: a number for a number, else an array."""
     return cast(Values, found if found.ndim else found.item())
 
 
@@ -105,7 +111,10 @@ def graded(fifth: Values, grade: int) -> Values:
 
 
 def mean_of_range(values: Values, limits: Sequence[float]) -> Values:
-    """Geometric mean of the range that holds a value, whose upper limit belongs to it; beyond the last one it stays."""
+    """Return the geometric mean of the range that holds a value; a value beyond the last range is returned unchanged.
+
+    The upper limit of a range belongs to it.
+    """
     upper = np.searchsorted(limits[1:], values) + 1
     table = np.asarray(limits, dtype=float)
     middle = np.sqrt(table[upper - 1] * table[np.minimum(upper, len(table) - 1)])
@@ -138,7 +147,7 @@ _UNMODIFIED = FlankModification()
 
 
 def load_distribution_factor(virtual_contact_ratio: Values, overlap_ratio: Values) -> Values:
-    """f_eps of Y_F: what one tooth has of the load, by eps_alphan and eps_beta.
+    """f_eps of Y_F: share of the load on one tooth, by eps_alphan and eps_beta.
 
     Without overlap 1, and 0.7 from eps_alphan = 2 on. With it sqrt(1 - eps_beta + eps_beta/eps_alphan), from eps_alphan = 2 on
     sqrt((1 - eps_beta)/2 + eps_beta/eps_alphan), and sqrt(1/eps_alphan) from eps_beta = 1 on.

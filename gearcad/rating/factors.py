@@ -88,7 +88,10 @@ def citations(edition: Edition) -> dict[str, str]:
 def to_verify(
     edition: Edition, *, internal: bool = False, limited_flank: bool = False, limited_root: bool = False
 ) -> dict[str, str]:
-    """Why, by symbol. `limited_flank`: load cycles of a flank are fewer than its endurance limit asks; of a root likewise."""
+    """Return the reason why a factor is to be verified, by symbol.
+
+    `limited_flank`: load cycles of a flank are fewer than its endurance limit asks for; `limited_root` is the same for a root.
+    """
     found = {"Z_D": "that of a ring is as remembered of ISO 6336-2:2006"} if internal else {}
     if edition is Edition.ISO_2019:
         found |= {
@@ -176,7 +179,7 @@ def endurance_cycles(points: Points) -> float:
 
 
 def cycles_at(factor: Values, points: Points) -> Values:
-    """The most load cycles that have a factor: the inverse of the life factor.
+    """Return the greatest number of load cycles that has a factor: the inverse of the life factor.
 
     0 for more than the static factor, infinite for that of long life and less.
     """
@@ -191,7 +194,7 @@ def _to_long_life(points: Points, long_life: float) -> Points:
 
 
 def transition(cycles: Values, static: Values, endurance: Values, points: Points) -> Values:
-    """A factor after so many load cycles, from its values of static strength and of the endurance limit.
+    """Return a factor after a number of load cycles, from its values for static strength and for the endurance limit.
 
     endurance (static/endurance)^w, w = ln Z_NT(N)/ln Z_NT,stat by the `points` of Z_NT or Y_NT, 0 for long life: so sigma_G
     follows straight lines in log-log with the corners of the life factor (ISO 6336-2 and -3, 5.3; to be verified). So go Z_L,

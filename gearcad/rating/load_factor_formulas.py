@@ -139,7 +139,7 @@ _SLOW, _FAST = 5.0, 10.0
 
 
 class RunningIn(Enum):
-    """How flanks wear to fit each other."""
+    """Kinds of running-in of flanks."""
 
     THROUGH_HARDENED = "through hardened"
     """Structural and through-hardened steel, cast steel, perlitic and bainitic nodular iron: St, V, GGG, GTS."""
@@ -159,7 +159,7 @@ class RunningIn(Enum):
 
     @property
     def needs_flank_limit(self) -> bool:
-        """True if the allowance depends on sigma_H_lim."""
+        """Whether the allowance depends on sigma_H_lim."""
         return self is RunningIn.THROUGH_HARDENED
 
 
@@ -228,7 +228,7 @@ def running_in_relief(flank_limit: Values) -> Values:
 
 
 class FlankWear(NamedTuple):
-    """How the flanks of both gears run in, and their limits sigma_Hlim (MPa): of two materials the mean of both counts."""
+    """Running-in of the flanks of both gears, and their limits sigma_Hlim (MPa); of two materials the mean of both counts."""
 
     kinds: PerGear[RunningIn]
     flank_limits: PerGear[float | Floats | None]
@@ -267,12 +267,12 @@ _K2_SPUR, _K2_HELICAL = 0.0193, 0.0087
 
 
 def speed_measure(speed: Values, teeth: Values, gear_ratio: Values) -> Values:
-    """v z_1/100 sqrt(u^2/(1 + u^2)) in m/s: what K_v rises with. Of a ring u is negative."""
+    """v z_1/100 sqrt(u^2/(1 + u^2)) in m/s: the speed on which K_v of Method C depends. For a ring u is negative."""
     return speed * teeth / 100 * root(gear_ratio**2 / (1 + gear_ratio**2))
 
 
 def speed_measure_limit(overlap_ratio: float) -> float:
-    """Up to where Method C is stated: 3 m/s, and 10 m/s for helical gears with an overlap ratio of at least 1."""
+    """Return the limit of Method C: 3 m/s, and 10 m/s for helical gears with an overlap ratio of at least 1."""
     return 10.0 if overlap_ratio >= 1 else STATED
 
 
@@ -342,7 +342,7 @@ _ARRANGEMENTS = {
 
 
 class HelixFactors(NamedTuple):
-    """B_1 and B_2 of what is left of f_sh and f_ma, and how far (µm) a pinion gives way per load (57)."""
+    """B_1 and B_2, the remaining shares of f_sh and f_ma, and the compliance of the pinion (µm per N/mm) (57)."""
 
     deflection: float
     manufacture: float

@@ -90,7 +90,7 @@ class Finding:
 
 @dataclass(frozen=True, kw_only=True)
 class LoadedMesh:
-    """What is rated, and what follows from it at once. Loads in N and N/mm, lengths in mm, speed in m/s."""
+    """A mesh to be rated, and quantities that follow from it. Loads in N and N/mm, lengths in mm, speed in m/s."""
 
     pair: GearPair
     materials: PerGear[Material]
@@ -129,7 +129,10 @@ class LoadedMesh:
         return max(accuracy_grades(self.pair, self.options))
 
     def cited(self, clause: str, method: str) -> str:
-        """A clause of ISO 6336-1:2006, which later editions share as far as is known; DIN 3990-1 is cited without."""
+        """Return the citation of a clause of ISO 6336-1:2006, or of DIN 3990-1 without its clause.
+
+        Later editions of ISO 6336-1 share the clauses as far as is known.
+        """
         edition = self.options.standard
         if edition is Edition.DIN_1987:
             return f"{edition.dated_part(1)} ({method})"
@@ -200,7 +203,7 @@ def face_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
 
 
 class Misalignment(NamedTuple):
-    """F_beta_x, and what it is of: f_sh, f_Hbeta of both gears, f_ma, B_1 and B_2, and the least that is taken. In µm."""
+    """F_beta_x and its parts in µm: f_sh, f_Hbeta of both gears, f_ma, B_1 and B_2, and the least value."""
 
     deflection: float
     slopes: PerGear[float]
@@ -211,7 +214,7 @@ class Misalignment(NamedTuple):
 
     @classmethod
     def of(cls, mesh: LoadedMesh, mean_load: float) -> Misalignment:
-        """Under F_m/b (N/mm), by (52) or, with a proven contact pattern, (53). Raises ParameterError."""
+        """Return the misalignment under F_m/b (N/mm), by (52) or, with a proven contact pattern, (53). Raises ParameterError."""
         options = mesh.options
         slopes = helix_slope_deviations(mesh.pair, options)
         deflection = _shaft_deflection(mesh, mean_load)
@@ -259,7 +262,10 @@ def _method_c(mesh: LoadedMesh, mean_load: float) -> Finding:
 
 
 def _recalled(mesh: LoadedMesh) -> bool:
-    """Whether figure 13, (53) or what DIN 3990-1 has of modified flanks is in K_Hbeta: each by one source, or from memory."""
+    """Return whether K_Hbeta rests on figure 13, (53) or DIN 3990-1's values for modified flanks.
+
+    Each of them is known by one source, or from memory.
+    """
     options = mesh.options
     of_shaft = bool(options.pinion_offset) and options.shaft_deflection is None
     modified = options.helix_modification is not HelixModification.NONE
@@ -268,7 +274,7 @@ def _recalled(mesh: LoadedMesh) -> bool:
 
 
 def _shaft_deflection(mesh: LoadedMesh, mean_load: float) -> float:
-    """f_sh (µm): as given, or by (57)."""
+    """Return f_sh (µm): as given, or by (57)."""
     if mesh.options.shaft_deflection is not None:
         return mesh.options.shaft_deflection
     compliance = helix_factors(mesh.options.helix_modification, mesh.options.standard).compliance
@@ -294,7 +300,10 @@ def _notices(mesh: LoadedMesh, effective: float, mean_load: float) -> Iterator[N
 
 
 def _notices_of_given(factor: float) -> Iterator[Notice]:
-    """Above 2 a load that falls off evenly does not reach the other end: b_cal/b = 2/K_Hbeta (ISO 6336-1:2006, 7.5)."""
+    """Yield a notice if a given K_Hbeta is above 2: then the load does not reach the other end of the teeth.
+
+    For a load that falls off evenly, b_cal/b = 2/K_Hbeta (ISO 6336-1:2006, 7.5).
+    """
     if factor > 2:
         text = f"a load that falls off evenly so much would be carried by {2 / factor:.0%} of the face width"
         yield Notice("narrow-bearing", f"K_Hbeta = {factor:.4g}: {text}")
@@ -524,7 +533,7 @@ class LoadFactors:
         return replace(self, sources={**self.sources, "K_Hbeta": _OF_BODIES}, assumed=(*self.assumed, found.said))
 
     def to_dict(self) -> dict[str, float | None]:
-        """Values under their symbols; None of those that are not known."""
+        """Return the values under their symbols; None for those that are not known."""
         values = {
             "K_A": self.application,
             "K_gamma": self.mesh_load,

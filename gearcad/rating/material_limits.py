@@ -89,7 +89,7 @@ class _Line(NamedTuple):
     flat: float | None = None
 
     def at(self, hardness: float | None) -> float:
-        """The limit at a hardness that is in the range, or of any where it has no say."""
+        """Return the limit (MPa) at a hardness that is in the range; a constant limit needs no hardness."""
         if hardness is None:
             return self.constant
         return self.slope * min(hardness, self.most if self.flat is None else self.flat) + self.constant
@@ -228,13 +228,13 @@ class EnduranceLimits:
 
     @property
     def verify(self) -> tuple[str, ...]:
-        """Symbols of what is from the table of the standard, which was not at hand."""
+        """Symbols of limits from the table of the standard, which was not at hand."""
         sources = {"sigma_Hlim": self.contact_source, "sigma_Flim": self.root_source}
         return tuple(symbol for symbol, source in sources.items() if source.startswith(STANDARD))
 
 
 def hardness_scale(group: MaterialGroup) -> str:
-    """HBW or HV: what hardness is measured in where the standard has limits of a group."""
+    """Return the hardness scale, HBW or HV, in which the standard has limits of a group."""
     return "HBW" if group in _BRINELL else "HV"
 
 
@@ -260,7 +260,7 @@ def endurance_limits_of(materials: PerGear[Material]) -> PerGear[EnduranceLimits
 
 
 def _limit(material: Material, given: float | None, *, root: bool) -> tuple[float | None, str]:
-    """A limit of contact or root, and where it is from."""
+    """Return a limit (MPa) of contact or root and its source; None and the reason if it is not known."""
     if given is not None:
         return given, _GIVEN
     if (grade := material.grade) is None:

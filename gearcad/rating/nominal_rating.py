@@ -59,7 +59,7 @@ from gearcad.rating.tooth_stiffness import (
 
 @dataclass(frozen=True, kw_only=True)
 class Rating:
-    """All of ISO 6336, Method B, that geometry, material and torque decide. Forces in N, stresses in MPa, widths in mm.
+    """Values of ISO 6336, Method B, that depend on geometry, material and torque. Forces in N, stresses in MPa, widths in mm.
 
     sigma_H0, sigma_F0 and the Hertz contact at the pitch point are nominal: of the torque itself, without load factors.
     sigma_H and sigma_F include the application factor K_A, and take K_v, K_Hbeta, K_Halpha, K_Fbeta and K_Falpha as 1.
@@ -97,7 +97,7 @@ class Rating:
         return self.roots.map(lambda root: root.nominal_stress * self.application_factor)
 
     def to_dict(self) -> dict[str, Any]:
-        """Values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.RATING` has the words."""
+        """Return the values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.RATING` has the words."""
         contact, flanks, bending = self.pitch_point, self.contact_stresses, self.root_stresses
         gears = {
             self.names.pick(role): {**root.to_dict(), "sigma_H": flanks.pick(role), "sigma_F": bending.pick(role)}
@@ -172,7 +172,7 @@ def _recalled(pair: GearPair, edition: Edition, wheel: RootRating) -> tuple[str,
 
 
 def _as_cut(gear: Gear, options: RatingOptions) -> Gear:
-    """The gear whose root is rated: as it is thinned, or with the nominal thickness of its teeth."""
+    """Return the gear whose root is rated: as it is thinned, or with the nominal thickness of its teeth."""
     if options.root_shift is RootShift.GENERATING:
         return gear
     return replace(gear, tooth_thinning=0.0, tooth_allowance=None)
@@ -209,7 +209,7 @@ def _ring_notices(pair: GearPair) -> Iterator[Notice]:
 
 
 def fillet_notices(pair: GearPair | RackPair, felt: float = 1e-9) -> Iterator[Notice]:
-    """Whether the fillets do not let the pair have its contact ratio, by more than is `felt`."""
+    """Yield a notice if the fillets take away more than `felt` of the pair's contact ratio."""
     usable, whole = pair.usable_contact_ratio, pair.transverse_contact_ratio
     if usable < whole - felt:
         text = f"the tips reach {whole:.4f}, which the rating uses, but the fillets leave {usable:.4f} of involute"
@@ -222,7 +222,7 @@ _FELT = 1e-4
 
 @dataclass(frozen=True, kw_only=True)
 class RackRating(Rating):
-    """The rating of a pinion and a rack; what a wheel has elsewhere is the rack's."""
+    """The rating of a pinion and a rack; values of a wheel are those of the rack."""
 
     names: ClassVar[PerGear[str]] = PerGear("pinion", "rack")
 
@@ -291,7 +291,7 @@ def rack_contact_at(
 
 
 def _loaded_width(pair: RackPair, face_width: float) -> float:
-    """b (mm) of a root: the common width, and what stands over at both ends, at most m_n at each."""
+    """Return b (mm) of a root: the common width, and at each end the overhang, at most m_n."""
     return pair.common_width + 2 * min((face_width - pair.common_width) / 2, pair.pinion.normal_module)
 
 

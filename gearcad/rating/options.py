@@ -160,7 +160,7 @@ class BearingArrangement(StrEnum):
 
 
 class AlphaDeviation(StrEnum):
-    """Which deviation y_alpha is taken from, where K_Halpha goes by f_falpha because it is larger than f_pb."""
+    """The deviation from which y_alpha is taken, if K_Halpha depends on f_falpha because it is larger than f_pb."""
 
     LITERAL = "literal"
     """From the same one."""
@@ -249,7 +249,7 @@ _OF_OIL = ("oil_viscosity_100", "oil_temperature", "oil_density", "oil_type", "s
 
 @dataclass(frozen=True, kw_only=True)
 class LubricantOptions:
-    """The oil, and what it stands in the FZG test A/8.3/90 (`scuffing_stage`). Nothing of it given: a rating assumes one."""
+    """The oil, and its load stage in the FZG test A/8.3/90 (`scuffing_stage`). If nothing is given, a rating assumes an oil."""
 
     oil_viscosity_40: Annotated[float | None, _VISCOSITY, Words("viscosity of the oil at 40 °C", "ν_40")] = None
     oil_viscosity_100: Annotated[float | None, _VISCOSITY, Words("viscosity of the oil at 100 °C", "ν_100")] = None
@@ -320,7 +320,7 @@ class RatingOptions(LubricantOptions, LoadFactorOptions, DutyOptions, _Standards
 
     @property
     def given_compensation(self) -> float | None:
-        """Return what a proven contact pattern takes off the deflection (µm): a given f_ma by DIN 3990-1:1987; else None.
+        """Compensation of the deflection (µm) by a proven contact pattern: a given f_ma by DIN 3990-1:1987; else None.
 
         ISO 6336-1 takes the helix slope deviation of grade 5 (53), and so does DIN 3990-1 here where no f_ma is given.
         """
@@ -335,7 +335,7 @@ _FIFTH = 5
 
 
 def accuracy_grades(pair: GearPair, options: RatingOptions) -> PerGear[int]:
-    """Each gear's own grade, else that of the options."""
+    """Return each gear's own accuracy grade, else that of the options."""
     return pair.gears.map(options.grade_of)
 
 

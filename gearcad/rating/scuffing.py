@@ -119,7 +119,7 @@ class Scuffing:
         return min(known, key=list(Risk).index) if known else None
 
     def to_dict(self) -> dict[str, Any]:
-        """Values under their symbols, by method; what is not known is left out."""
+        """Return the values under their symbols, by method; unknown values are left out."""
         return {
             "oil": self._oil(),
             **({} if self.integral is None else {"integral": self._integral(self.integral)}),
@@ -215,7 +215,7 @@ FINE = 6
 def scuffing_notices(
     pair: GearPair, options: RatingOptions, integral: IntegralTemperature, flash: FlashTemperature | None
 ) -> Iterator[Notice]:
-    """Limits of validity, and what was done at them."""
+    """Yield a notice for each limit of validity that is passed, and what the rating does there."""
     load, speed = float(integral.specific_load), float(integral.speed)
     if load < LEAST_LOAD:
         text = f"friction is that of {LEAST_LOAD:g} N/mm in the integral temperature, the load is {load:.4g} N/mm"
@@ -243,7 +243,7 @@ def scuffing_notices(
 
 
 def uncertain(pair: GearPair, options: RatingOptions, integral: IntegralTemperature) -> Iterator[str]:
-    """Symbols of what stands in one source only, or is remembered."""
+    """Yield the symbols of values that stand in one source only, or are remembered."""
     yield from ("X_J", "X_Gamma")
     if float(integral.helical_load) > 1:
         yield "K_Bgamma"
@@ -281,7 +281,7 @@ class FlankFactors(Protocol):
 
 
 class _Reliefs(NamedTuple):
-    """Tip relief: what counts over what the load asks for (part 2), and what the driven tip lacks (µm, part 1)."""
+    """Tip reliefs: the effective one over the required one (part 2), and the lack at the driven tip (µm, part 1)."""
 
     counted: float
     wanting: float
@@ -383,7 +383,7 @@ def _reliefs(pair: GearPair, mesh: SlidingMesh, specific_load: float, stiffness:
 
 
 def _not_covered(pair: GearPair, load: Load) -> str:
-    """Why there are no temperatures; "" where there are."""
+    """Return the reason why there are no temperatures; "" if there are."""
     path, whole = pair.path_of_contact, pair.base_tangent.length
     if load.speed == 0:
         return "the speed is 0 rpm: nothing slides"

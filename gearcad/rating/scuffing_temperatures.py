@@ -317,7 +317,7 @@ def buttressing(places: Floats, pair: GearPair) -> Floats:
 
 @dataclass(frozen=True, kw_only=True)
 class FlashTemperature:
-    """The flash temperature along a path, and what it is made of.
+    """The flash temperature along a path, and the quantities it is computed from.
 
     `specific_load` w_Bt in N/mm, all load factors in it; `speed` v_t at the working pitch circle in m/s, above 0; `roughness`
     the mean Ra of both flanks (µm), `lubricant` X_L with the viscosity in it, `relief_wanting` the tip relief (µm) that the
@@ -453,7 +453,7 @@ def integral_scuffing_temperature(test_torque: float, viscosity_40: float, lubri
 
 @dataclass(frozen=True, kw_only=True)
 class IntegralTemperature:
-    """The integral temperature of a mesh, and what it is made of. Numbers, or arrays of one shape.
+    """The integral temperature of a mesh, and the quantities it is computed from. Numbers, or arrays of one shape.
 
     `specific_load` w_Bt in N/mm, all load factors in it; `speed` at the reference circle in m/s, above 0; `roughness` the mean
     Ra of both flanks as run in (µm; X_E = 1), `viscosity` eta of the oil in the sump (mPa·s), `relief` C_a/C_eff of the gear

@@ -239,7 +239,9 @@ class GearTolerances(Generic[Values]):
     # ------------------------------------------------------------------ all of them
 
     def to_dict(self, total_contact_ratio: Values | None = None) -> dict[str, Any]:
-        """Under the standard's symbols in ASCII, in µm; None for those that it does not cover, and `not_covered` says why.
+        """Return the tolerances (µm) under the standard's symbols in ASCII.
+
+        Those that it does not cover are None, and `not_covered` says why.
 
         `verify` names those that rest on a text that was not at hand.
         With a contact ratio a grade of 1995 also has f_i1 and F_i1, which are f_i' and F_i' (as F_i2 is F_i'').
@@ -289,7 +291,10 @@ class GearTolerances(Generic[Values]):
 
 
 def _within(name: str, values: Values, permitted: Range | Whole) -> Values:
-    """Values, nan for elements of an array that are not permitted. Raises ParameterError for a number that is not."""
+    """Return the values, nan for elements of an array that are not permitted.
+
+    Raises ParameterError for a number that is not permitted.
+    """
     if not isinstance(values, np.ndarray):
         permitted.require(name, values)
         return values
@@ -329,7 +334,10 @@ _ANY_TEETH, _ANY_WIDTH = 20, 10.0
 def flank_tolerances(
     accuracy_grade: int, reference_diameter: float, normal_module: float, accuracy: Accuracy = Accuracy.ISO_1995
 ) -> FlankTolerances:
-    """For d from 5 to 10,000 mm (15,000 mm in 2013) and m_n from 0.5 to 70 mm. Raises ParameterError beyond."""
+    """Return the flank tolerances (µm) for d from 5 to 10,000 mm (15,000 mm in 2013) and m_n from 0.5 to 70 mm.
+
+    Raises ParameterError beyond.
+    """
     of = GearTolerances[float](
         accuracy=accuracy,
         grade=accuracy_grade,

@@ -78,7 +78,7 @@ class Rim(ABC):
 
     @abstractmethod
     def not_covered(self) -> str:
-        """Why the standard has no Y_B for it; "" where it has."""
+        """Return the reason why the standard has no Y_B for the rim; "" if it has."""
 
 
 class ExternalRim(Rim):
@@ -172,7 +172,7 @@ class MeshStiffness:
 
     @property
     def single(self) -> float:
-        """c' of the load: (90) takes off part of it below 100 N/mm."""
+        """c' under the load: (90) reduces it below 100 N/mm."""
         return self.high_load_single * self.low_load_factor
 
     @property
@@ -186,7 +186,10 @@ class MeshStiffness:
         return mesh_stiffness_beta(self.mesh_alpha)
 
     def to_dict(self) -> dict[str, float]:
-        """Values under their symbols; those for the load itself end in `_lowload` (equal where the load is not low)."""
+        """Return the values under their symbols.
+
+        Those for the load itself end in `_lowload` (equal where the load is not low).
+        """
         high_alpha = mesh_stiffness_alpha(self.high_load_single, self.transverse_contact_ratio)
         return {
             "q_prime": self.flexibility,
@@ -364,7 +367,7 @@ def _ring_notices(gear: Gear) -> Iterator[Notice]:
 
 
 def _virtual_teeth(gear: Gear) -> float:
-    """z_n as q' has it."""
+    """Return z_n as the formula of q' takes it."""
     return math.inf if gear.internal else gear.virtual_teeth
 
 

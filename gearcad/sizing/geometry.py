@@ -45,7 +45,7 @@ class Columns:
 
     @classmethod
     def joined(cls, parts: list[Self]) -> Self:
-        """Several after each other; what holds for all is that of the first."""
+        """Return several columns joined one after another; values that hold for all variants are those of the first."""
         return cls(**{each.name: _joined([getattr(part, each.name) for part in parts]) for each in fields(parts[0])})
 
 
@@ -97,7 +97,7 @@ def tip_thickness(
 
 @dataclass(frozen=True, kw_only=True)
 class ManyTeeth:
-    """Gears by what one gives of them: numbers, or arrays that go together; helix angles in degrees, thinning in mm.
+    """Gears by their given values: numbers, or arrays that go together; helix angles in degrees, thinning in mm.
 
     `given_tip` and `given_root` are diameters (mm) that do not follow from the profile shift.
     """
@@ -191,7 +191,7 @@ class ManyTeeth:
 
 @dataclass(frozen=True, kw_only=True)
 class ManyPairs(Columns):
-    """Pairs by what one gives of them, arrays of one shape; all that follows has that shape.
+    """Pairs by their given values, arrays of one shape; all derived values have that shape.
 
     `key` is the place of a variant in the whole search, which does not depend on the order in which anything was given.
     """
@@ -455,14 +455,17 @@ class ShiftMap:
 
 
 def gear_map(gear: Gear, teeth: Floats, shifts: Floats) -> ShiftMap:
-    """Numbers of teeth across, as if they were not whole, profile shifts up. Raises ParameterError for what no hob cuts."""
+    """Return the limits of gears over numbers of teeth (across, as if not whole) and profile shifts (up).
+
+    Raises ParameterError for gears that no hob cuts.
+    """
     across, up = np.meshgrid(teeth, shifts)
     many = _teeth(gear, across, abs(gear.helix_angle), up, gear.tip_alteration)
     return ShiftMap(Axis(Free.TEETH, teeth), Axis(Free.FIRST, shifts), tuple(_of_teeth(many, None)))
 
 
 def pair_map(pair: GearPair, across: Axis, up: Axis, *, rest: Role | None, distance: bool, auto_tips: bool) -> ShiftMap:
-    """The limits of pairs like one, whose inputs are varied.
+    """Return the limits of pairs like a given one, over two varied inputs.
 
     With `distance` the centre distance stays, else it is that without backlash; the gear `rest` takes what is left of the shift
     sum at that distance. With `auto_tips` tips are altered to keep the clearance. Raises ParameterError for what no hob cuts,

@@ -51,7 +51,7 @@ def transmission_error(pair: GearPair, material: Materials, torque: float) -> fl
 
 @dataclass(frozen=True, kw_only=True)
 class SizedPair:
-    """A pair by what one writes on a drawing, and what it is ranked by. Lengths in mm, helix angle in degrees, mass in kg.
+    """A pair by the values of its drawing, and the values of its ranking. Lengths in mm, helix angle in degrees, mass in kg.
 
     At `least_width`, unrounded, the least safety is just the one required, None where it was not sought; `margin` is the
     least of S_H/S_Hmin and S_F/S_Fmin.
@@ -259,7 +259,7 @@ def front_pairs(task: SizeTask, rated: Rated | None) -> tuple[SizedPair, ...]:
 
 
 def unjudged_scuffing(options: RatingOptions) -> str | None:
-    """Why no proposal is judged against scuffing; None where all are."""
+    """Return the reason why no proposal is judged against scuffing; None if all are."""
     if options.required_safety_scuffing is not None:
         return None
     lacking = ["required_safety_scuffing", *([] if options.scuffing_stage is not None else ["scuffing_stage"])]

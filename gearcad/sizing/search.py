@@ -115,7 +115,7 @@ def distances_within(
 
 
 def rounded_width(width: Floats) -> Floats:
-    """To whole mm; to tenths below 10 mm."""
+    """Return face widths rounded to whole mm, to tenths below 10 mm."""
     return np.where(width < 10, np.maximum(np.round(width, 1), 0.1), np.round(width))
 
 
@@ -460,7 +460,7 @@ def _first(task: SizeTask, parts: list[Rated], most: int) -> Rated:
 
 
 def _dense(task: SizeTask, cells: Rated) -> ManyPairs:
-    """All pairs of cells that are within limits; their key is the number of their cell."""
+    """Return all pairs of cells that are within limits; their key is the number of their cell."""
     angles = [_angles(task, float(angle)) for angle in cells.pairs.helix_angle]
     number = np.repeat(np.arange(len(angles)), list(map(len, angles)))
     many = replace(cells.pairs.picked(number), key=number, helix_angle=np.concatenate(angles))
@@ -473,7 +473,7 @@ def _dense(task: SizeTask, cells: Rated) -> ManyPairs:
 
 
 def _shifted(task: SizeTask, cells: Rated) -> ManyPairs:
-    """The pairs of cells with all shifts, finely, that are within limits; their key is the number of their cell."""
+    """Return the pairs of cells with all shifts, in fine steps, within limits; their key is the number of their cell."""
     return _with_shifts(task, replace(cells.pairs, key=np.arange(len(cells.order))), _FINE_SHIFT_STEP)
 
 
@@ -515,7 +515,7 @@ def _best_of(task: SizeTask, cells: Rated, pairs: ManyPairs, most_mass: Floats) 
 
 
 def _ends(task: SizeTask, pairs: ManyPairs, most_mass: Floats) -> tuple[Floats, Floats]:
-    """The least and the most face width of each pair (mm)."""
+    """Return the least and the greatest face width (mm) of each pair."""
     ratios, d = (task.width_ratios[0], task.width_ratios[-1]), pairs.diameters.pinion
     low, most = (rounded_width(ratio * d) for ratio in ratios)
     by_mass = most_mass[pairs.key] / _mass_of_width(task, pairs)
@@ -539,7 +539,7 @@ def _step(width: Floats) -> Floats:
 
 
 def _widest(task: SizeTask, pairs: ManyPairs, most_mass: Floats) -> Iterator[Rated]:
-    """Pairs with widths from the least to the most that are safe."""
+    """Yield the safe pairs with widths from the least to the greatest."""
     low, high = _ends(task, pairs, most_mass)
     width = rounded_width(np.linspace(low, high, _MOST_WIDTHS, axis=1))
     yield _safe(task, pairs, width, (width >= low[:, None]) & (width <= high[:, None]))

@@ -41,7 +41,7 @@ class Resistance:
     endurance: Mapping[str, float]
 
     def factors(self, cycles: float | None) -> dict[str, float]:
-        """All factors after so many load cycles; None stands for the endurance limit, where the life factor is 1."""
+        """Return all factors after a number of load cycles; None means the endurance limit, where the life factor is 1."""
         count = endurance_cycles(self.points) if cycles is None else cycles
         others = {
             symbol: transition(count, self.static[symbol], value, self.points) for symbol, value in self.endurance.items()
@@ -54,7 +54,7 @@ class Resistance:
 
     @cached_property
     def curve(self) -> Points:
-        """The same as straight lines in log-log: load cycles and stress (MPa) at the corners, cycles rising."""
+        """Corners of the S-N line, straight in log-log: load cycles, rising, and stress (MPa)."""
         return tuple((cycles, self.stress(cycles)) for cycles, _ in self.points)
 
 

@@ -122,7 +122,7 @@ class WorkHardening:
 
 
 def work_hardening(materials: PerGear[Material], conditions: Conditions) -> WorkHardening:
-    """Clause 13: of a soft steel wheel whose pinion is hard (13.2) or harder (13.3). Of a pinion it is 1."""
+    """Return Z_W by clause 13: for a soft steel wheel whose pinion is hard (13.2) or harder (13.3). Of a pinion it is 1."""
     pinion, wheel = materials
     if pinion.group is None or wheel.group is None or not is_soft(wheel.group):
         return WorkHardening()

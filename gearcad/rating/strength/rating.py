@@ -230,7 +230,7 @@ _OF_ROOTS = ("Y_F", "Y_S", "Y_beta", "Y_B", "Y_DT")
 
 
 def strength_document(of: StrengthRating) -> dict[str, Any]:
-    """Everything of a rating but its kind and name; what is not known is null."""
+    """Return everything of a rating but its kind and name; unknown values are null."""
     factors, stresses = _factors(of), _stresses(of)
     return {
         "standard": of.options.standard.value,
@@ -363,7 +363,7 @@ def _governing(of: StrengthRating) -> dict[str, Any] | None:
 
 
 def _spectrum(of: StrengthRating) -> list[dict[str, Any]] | None:
-    """Each load of a spectrum: shares, its load factors, stresses of both gears."""
+    """Return each load of a spectrum: shares, its load factors, stresses of both gears."""
     if not of.options.bins:
         return None
     return [

@@ -135,7 +135,7 @@ class Reasons:
 
 @dataclass(frozen=True, kw_only=True)
 class StrengthTask:
-    """What is to be rated, and each step of it, found when it is first asked for."""
+    """The inputs of a rating, and each step of it, computed at the first access."""
 
     pair: GearPair | RackPair
     materials: PerGear[Material]
@@ -221,7 +221,7 @@ class StrengthTask:
 
     @cached_property
     def reasons(self) -> Reasons:
-        """Why parts are not judged."""
+        """Reasons why parts are not judged."""
         error = self.load_factors if isinstance(self.load_factors, InputError) else None
         return Reasons(self.rated, self.materials, self.load, self.options, self.limits, self.nominal.roots, error)
 
@@ -231,7 +231,7 @@ class StrengthTask:
         return work_hardening(self.materials, self.conditions)
 
     def part(self, part: Part, role: Role) -> PartStrength:
-        """One flank or root: judged, or what is known of it and why it is not."""
+        """Return one flank or root: judged, or its known values with the reason why it is not judged."""
         options, reason = self.options, self.reasons.of(part, role)
         required = options.required_safety_flank if part is Part.FLANK else options.required_safety_root
         resistance = self.resistance(part, role)
@@ -349,7 +349,7 @@ def _counts(task: StrengthTask, key: str) -> bool:
 
 
 def verify_of(task: StrengthTask) -> Iterator[str]:
-    """Symbols of what is to be verified."""
+    """Yield the symbols of values to be verified."""
     yield from task.nominal.verify
     for each in task.limits:
         yield from each.verify
