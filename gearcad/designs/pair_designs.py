@@ -212,7 +212,7 @@ class PairSpec(Spec):
                 raise GeometryError("wheel.tip_diameter", gear["tip_diameter"], permitted, "mm")
 
     def _inputs(self, role: Role) -> dict[str, Any]:
-        """Return the inputs of a gear as written in the spec. The name is its role unless the spec gives one. Raises SpecError."""
+        """Return the inputs of a gear as written; its name is its role unless the spec gives one. Raises SpecError."""
         with self.blame(role.value):
             return {"name": role.value} | self.gear_inputs(role.value)
 

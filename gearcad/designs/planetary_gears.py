@@ -184,7 +184,7 @@ def _meshed(centrals: list[str], stepped: bool, where: Where) -> dict[str, str]:
 
 
 def _lists(listed: Mapping[str, list[Mapping[str, Any]]], where: Where) -> tuple[dict[str, str], dict[str, str]]:
-    """Return the written name of each table of the set, and the centrals, each with the rim that it meshes. Raises SpecError."""
+    """Return the written name of each table of the set, and the rim that each central meshes. Raises SpecError."""
     centrals, rims = listed["central"], listed["rim"]
     for key, found, counts in (("central", centrals, (2,)), ("rim", rims, (1, 2))):
         if len(found) not in counts:

@@ -366,7 +366,7 @@ class Spec:
         return f"; its profile_shift is {round(shift.value, _DIGITS_TOLD) + 0.0:.6g} ({shift.note})"
 
     def _unwritten(self, owner: str, field: str) -> Given:
-        """Return the origin of a value that the user did not write: a named rack, a derivation, the file's name or a default."""
+        """Return the origin of a value that is not written: a named rack, a derivation, the file's name or a default."""
         named = self.values.get(f"{owner}.rack")
         if named and field.startswith("rack."):
             return named._replace(key=self._written(owner, field), note=f"of {named.value}")

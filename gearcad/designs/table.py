@@ -276,7 +276,7 @@ class Row:
             raise SpecError(f"{self.where('name')}: {error}", "name") from error
 
     def _kind(self) -> DesignKind:
-        """Return the kind that the table makes; if it holds gears and pairs, the kind of this row's values. Raises SpecError."""
+        """Return the kind that the table makes; if it has several, the kind of this row's values. Raises SpecError."""
         kinds = kinds_of(self.columns)
         if len(kinds) > 1:
             filled = (*self.values, *self.unread)

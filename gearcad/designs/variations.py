@@ -183,7 +183,7 @@ def _of_part(heading: str) -> tuple[str, Symbol] | None:
 
 
 class SpecValues(NamedTuple):
-    """The content of a spec: its kind and name, and its other values under their keys, each with the key that the user wrote."""
+    """The content of a spec: kind, name, and its other values under their keys, each with the key that the user wrote."""
 
     kind: DesignKind
     name: str

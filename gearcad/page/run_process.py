@@ -230,7 +230,7 @@ def _listen() -> None:
 
 
 def _bound() -> None:
-    """Set the limits that the system can enforce: the size of a file, low priority, and being ended first if memory runs out."""
+    """Set the limits that the system can enforce: size of a file, low priority, and ending first if memory runs out."""
     with suppress(AttributeError, OSError):
         os.nice(_NICENESS)
     with suppress(ImportError, ValueError, OSError):  # Windows has no limits

@@ -115,7 +115,7 @@ def plot_sliding(pair: GearPair | RackPair, ax: Axes | None = None) -> Axes:
 
 
 def _helix_turn(pair: GearPair) -> float:
-    """Return the turn (degrees) of a helical pinion's section at the wheel's lower end, which `wheel_pose` takes into account."""
+    """Return the turn (degrees) of a helical pinion's section at the wheel's lower end, as `wheel_pose` has it."""
     return math.degrees(twist(pair.pinion, pair.wheel_pose().z))
 
 

@@ -88,7 +88,7 @@ def plot_stiffness(comparison: StiffnessComparison, ax: Axes | None = None) -> A
 
 
 def plot_parts(comparison: StiffnessComparison, cycle: MeshCycle, ax: Axes | None = None) -> Axes:
-    """Draw the compliance (µm/N) of pinion, wheel and contact, stacked, by one method while the middle pair goes from A to E."""
+    """Draw the compliance (µm/N) of pinion, wheel and contact, stacked, by one method, over the line of action from A to E."""
     axes = prepared(ax, _PLACE, "compliance in µm/N")
     _stack(axes, comparison, cycle)
     axes.set_ylim(0, _HEADROOM / cycle.minimum)

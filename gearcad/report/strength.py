@@ -111,7 +111,7 @@ def spectrum_rows(rating: StrengthRating) -> list[tuple[str, ...]]:
 
 
 def tolerance_rows(document: Mapping[str, Any], names: PerGear[str]) -> list[Row]:
-    """Return the rows of the tolerances of the flanks by accuracy grade, and of the limits of dimensions for tooth thickness."""
+    """Return the rows of flank tolerances by accuracy grade, and of limits of dimensions by tooth thickness allowance."""
     both = names.map(lambda name: document["tolerances"][name] or {})
     thickness = PerGear(*(values.get("thickness_limits", {}) for values in both))
     flanks = {"grade": Symbol("", "", "ISO 1328-1", "accuracy grade")} | symbols.TOLERANCES

@@ -14,7 +14,7 @@ from gearcad.page.words import Words
 
 
 class BarView(Element, component="gear_bar.js"):
-    """Bar with the list of keys and a switch for light or dark. The browser remembers the choice; at first the system decides."""
+    """Bar with the list of keys and a switch for light or dark. The browser remembers the choice, else the system decides."""
 
     def __init__(self, words: Words) -> None:
         super().__init__()
