@@ -1,20 +1,12 @@
 """Kernel of error samples: many samples of a train at one speed, step by step and side by side, with different tooth errors.
 
-Every mode z'' + d z' + s z = g is propagated in closed form over a step over which its force g runs in a straight line; the
-forces of the meshes at the end of a step are those that the motion there asks for. At one speed all samples meet the same
-places of their teeth at once, and each tooth period is like the next: springs and gaps are known before, and a few operations
-are left for each sample, which processors do four at a time.
+Every mode z'' + d z' + s z = g is propagated in closed form over a step in which its force g is a straight line. The forces of
+the meshes at the end of a step are those that the motion there requires. At one speed all samples meet the same places of their
+teeth at once, and each tooth period is like the next. So springs and gaps are known before, and only a few operations are left
+for each sample, which processors do four at a time.
 
-Compiled by numba: import this module inside functions only. Loops instead of whole arrays: these take numba seconds each to
-compile. Arrays have the samples last. SI units.
-
-Every mode z'' + d z' + s z = g is propagated in closed form over a step over which its force g runs in a straight line; the
-forces of the meshes at the end of a step are those that the motion there asks for. At one speed all samples meet the same
-places of their teeth at once, and each tooth period is like the next: what springs and gaps are there is known before, and
-what is left to be done for a sample is a few operations that processors do four at a time.
-
-Compiled by numba: import this room inside functions only. Loops instead of whole arrays: these take numba seconds each to
-compile. Arrays have the samples last. SI units.
+Compiled by numba: import this module inside functions only. Loops are used instead of whole arrays, each of which takes numba
+seconds to compile. Arrays have the samples last. SI units.
 """
 
 from __future__ import annotations
@@ -34,10 +26,11 @@ _HALVINGS = 200
 
 
 class Pattern(NamedTuple):
-    """What comes again every t steps: `stiffness`, `gap` and `place` (t, m, p) of pairs side by side, none where K is 0.
+    """Springs and gaps that repeat every t steps: `stiffness`, `gap` and `place` (t, m, p) of pairs side by side.
 
-    `tooth` (t, m) is the pair that the first of them is, and `teeth` (m,) how many pass before it comes again. `error` (t, m)
-    is what all flanks must approach first, at a `rate` (t, m) that the damper feels.
+    There is no pair where the stiffness is 0. `tooth` (t, m) is the number of the first pair; `teeth` (m,) is the number of
+    teeth that pass before the pattern repeats. `error` (t, m) is the approach that all flanks must make first, at a `rate`
+    (t, m) that the damper feels.
     """
 
     stiffness: Floats
@@ -50,9 +43,10 @@ class Pattern(NamedTuple):
 
 
 class Steps(NamedTuple):
-    """Of `time` each: `modes` (n, 8) as `in_time.kernel.propagators` has them, `mesh` (n, m) as the load presses it, `load`.
+    """Steps of `time` (s) each: `modes` (n, 8) as `motion_kernel.propagators` returns them, `mesh` (n, m) and `load` (n,).
 
-    `damping` and `backlash` (m,), nan where flanks never part.
+    `mesh` is taken in the direction in which the load presses the flanks. `damping` (m,); `backlash` (m,), nan where flanks
+    never part.
     """
 
     time: float
@@ -64,11 +58,12 @@ class Steps(NamedTuple):
 
 
 class Samples(NamedTuple):
-    """Errors of pairs `position`, `slope` (m, z, s), of which mesh j has `counts[j]`; z, v, push (n, s) and force (m, s);
-    forces of the springs one and two steps `before` and `earlier` (m, s).
+    """Errors of pairs of teeth, `position` and `slope` (m, z, s), and the motion of s samples. Mesh j has `counts[j]` pairs.
 
-    `shift` (m, x, s) is what all flanks of a mesh must approach besides, `per_tooth` values to each of `counts[j]` teeth; x
-    is 0 where there is none.
+    `z`, `v` and `push` (n, s) are coordinates, speeds and forces of the modes; `force` (m, s) are the forces of the meshes.
+    `before` and `earlier` (m, s) are the forces of the springs one and two steps before. `shift` (m, x, s) is the additional
+    approach that all flanks of a mesh must make, with `per_tooth` values for each of `counts[j]` teeth. x is 0 where there is
+    none.
     """
 
     position: Floats
@@ -86,7 +81,7 @@ class Samples(NamedTuple):
 
 @compiled
 def _bracketed(k: Floats, g: Floats, right: float, part: float, backlash: float, sample: int) -> float:
-    """The approach x with x + part f(x) = right, flanks at the back included: f never falls, so there is just one."""
+    """Return the approach x with x + part f(x) = right, back flanks included; f never falls, so there is just one."""
     low, high, x = -np.inf, np.inf, right
     for _ in range(_HALVINGS):
         force, slope = 0.0, 0.0
@@ -116,9 +111,9 @@ def _bracketed(k: Floats, g: Floats, right: float, part: float, backlash: float,
 def _solve(
     k: Floats, g: Floats, right: Floats, part: float, backlash: float, x: Floats, active: Floats, closed: Floats
 ) -> None:
-    """Approaches x (s,) with x + part sum k max(x - g, 0) = right: Newton's steps from above, each drops pairs that part.
+    """Fill `x` (s,) with approaches that satisfy x + part sum k max(x - g, 0) = right, by Newton's steps from above.
 
-    The sum is convex, so there are at most as many steps as pairs and one.
+    Each step drops pairs that part. The sum is convex, so the number of steps is at most the number of pairs plus one.
     """
     bonded, pairs = math.isnan(backlash), 0
     for p in range(k.size):
@@ -154,7 +149,7 @@ def _solve(
 
 @compiled
 def _shifted(samples: Samples, j: int, turns: float, shift: Floats) -> None:
-    """Fill in what all flanks of mesh j must approach first after so many of its tooth periods."""
+    """Fill `shift` (s,) with the approach that all flanks of mesh j must make first, after `turns` of its tooth periods."""
     cells = samples.counts[j] * samples.per_tooth
     along = turns * samples.per_tooth
     cell = math.floor(along)
@@ -166,7 +161,7 @@ def _shifted(samples: Samples, j: int, turns: float, shift: Floats) -> None:
 
 @inlined
 def _coast(steps: Steps, i: int, z: Floats, v: Floats, push: Floats, y: Floats, w: Floats) -> None:
-    """Mode i over a step, without the forces at its end; add what it makes of approaches and their rates."""
+    """Advance mode i by a step without the forces at its end; add its part to the approaches y and their rates w (m, s)."""
     a, b, c, d, e, f, g, h = steps.modes[i]
     load = steps.load[i]
     for s in range(z.size):
@@ -182,7 +177,7 @@ def _coast(steps: Steps, i: int, z: Floats, v: Floats, push: Floats, y: Floats, 
 
 @inlined
 def _gaps(position: Floats, slope: Floats, gap: float, place: float, gaps: Floats) -> None:
-    """Fill in the gaps of a pair of teeth."""
+    """Fill `gaps` (s,) with the gaps of a pair of teeth."""
     for s in range(gaps.size):
         gaps[s] = gap + position[s] + slope[s] * place
 
@@ -191,7 +186,7 @@ def _gaps(position: Floats, slope: Floats, gap: float, place: float, gaps: Float
 def _carried(
     right: Floats, x: Floats, speed: Floats, part: float, damping: float, over: float, spring: Floats, force: Floats
 ) -> None:
-    """Fill in what springs carry at an approach, and with the damper."""
+    """Fill `spring` (s,) with the forces of the springs at an approach, and `force` (s,) with those of springs and damper."""
     for s in range(x.size):
         spring[s] = (right[s] - x[s]) / part
         force[s] = (spring[s] + damping * speed[s]) * over
@@ -199,7 +194,7 @@ def _carried(
 
 @inlined
 def _raise_to(spring: Floats, before: Floats, earlier: Floats, most: Floats) -> None:
-    """Raise what is greatest to the crest of the parabola through the last three steps, and go on by one."""
+    """Raise `most` (s,) to the crest of the parabola through the last three steps, then store the step."""
     for s in range(spring.size):
         middle = before[s]
         bend, rise = 2.0 * middle - earlier[s] - spring[s], spring[s] - earlier[s]
@@ -211,7 +206,7 @@ def _raise_to(spring: Floats, before: Floats, earlier: Floats, most: Floats) -> 
 
 @inlined
 def _push(steps: Steps, i: int, force: Floats, z: Floats, v: Floats, push: Floats) -> None:
-    """Take the forces at the end of a step into mode i."""
+    """Apply the forces at the end of a step to mode i."""
     for s in range(z.size):
         push[s] = 0.0
     for j in range(force.shape[0]):
@@ -227,9 +222,10 @@ def _push(steps: Steps, i: int, force: Floats, z: Floats, v: Floats, push: Float
 
 @compiled
 def advance(steps: Steps, pattern: Pattern, samples: Samples, turns: Floats, begin: int, count: int, crests: Floats) -> None:
-    """Steps `begin` + 1 to `begin` + `count` of all samples, in place; `turns` (m,) are tooth periods of each mesh in a step.
+    """Advance all samples in place by the steps `begin` + 1 to `begin` + `count`.
 
-    `crests` (m, s) gain the most that the springs of a mesh carry.
+    `turns` (m,) are the tooth periods of each mesh in a step. `crests` (m, s) are raised to the greatest force of the springs
+    of each mesh.
     """
     n, m = steps.mesh.shape
     size, pairs, length = samples.z.shape[1], pattern.stiffness.shape[2], pattern.stiffness.shape[0]

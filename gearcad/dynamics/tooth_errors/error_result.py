@@ -31,14 +31,17 @@ class ToothLaw(Enum):
 
 
 class Ranks(NamedTuple):
-    """Between which of the rising values of a sample a quantile lies, counted from 1; None where no value bounds it."""
+    """Ranks of the rising values of a sample between which a quantile lies, counted from 1; None where no value bounds it."""
 
     low: int | None
     high: int | None
 
 
 def quantile_ranks(count: int, quantile: float) -> Ranks:
-    """With a probability of 90 %, both sides alike, of so many independent values: by the binomial distribution."""
+    """Return the ranks between which a quantile of `count` independent values lies with a probability of 90 %.
+
+    The quantile is equally probable below and above them. The ranks follow from the binomial distribution.
+    """
     from scipy.stats import binom
 
     side = (1 - _SURE) / 2
@@ -49,7 +52,7 @@ def quantile_ranks(count: int, quantile: float) -> Ranks:
 
 
 class GreatestWithErrors(NamedTuple):
-    """The greatest K_v of a mesh over speed: of the `median`, of the upper quantile, of all samples, and their speeds (rpm)."""
+    """Greatest K_v of a mesh over speed: of the `median`, the upper quantile and all samples, each with its speed (rpm)."""
 
     mesh: str
     median: float
@@ -64,8 +67,8 @@ class GreatestWithErrors(NamedTuple):
 class ErrorStudy:
     """K_v `factors` (n, s, m) of n samples of teeth at `speeds` (s,) in rpm of the first pinion, running up.
 
-    `nominal` (s, m) is that of teeth without errors by the same law. `settled` (n, s): whether the greatest force came again in
-    the next period; `teeth` of the first mesh are looked at at every speed: the `whole` period, or what of it could be.
+    `nominal` (s, m) is K_v of teeth without errors by the same law. `settled` (n, s): whether the greatest force repeated in
+    the next period. At every speed `teeth` teeth of the first mesh are evaluated; `whole`: whether they are the whole period.
     """
 
     law: ToothLaw
@@ -90,34 +93,34 @@ class ErrorStudy:
 
     @property
     def samples(self) -> int:
-        """How many there are."""
+        """Number of samples."""
         return len(self.factors)
 
     # ------------------------------------------------------------------ over all samples
 
     def quantile(self, quantile: float) -> Floats:
-        """Of K_v (s, m), between neighbouring samples by a straight line."""
+        """Return a quantile of K_v (s, m), by a straight line between neighbouring samples."""
         return np.asarray(np.quantile(self.factors, quantile, axis=0), float)
 
     @cached_property
     def median(self) -> Floats:
-        """(s, m)."""
+        """Median of K_v (s, m)."""
         return self.quantile(0.5)
 
     @cached_property
     def band(self) -> tuple[Floats, Floats]:
-        """The quantiles that are drawn, (s, m) each."""
+        """Quantiles of K_v that are drawn, lower and upper, (s, m) each."""
         lower, upper = (self.quantile(each) for each in BAND)
         return lower, upper
 
     @property
     def least(self) -> Floats:
-        """(s, m) of all samples."""
+        """Least K_v of all samples (s, m)."""
         return np.asarray(self.factors.min(axis=0), float)
 
     @property
     def most(self) -> Floats:
-        """(s, m) of all samples."""
+        """Greatest K_v of all samples (s, m)."""
         return np.asarray(self.factors.max(axis=0), float)
 
     @property
@@ -132,7 +135,7 @@ class ErrorStudy:
 
     @cached_property
     def greatest(self) -> tuple[GreatestWithErrors, ...]:
-        """Mesh by mesh."""
+        """Greatest K_v over speed of each mesh."""
         found = []
         for mesh, name in enumerate(self.mesh_names):
             values: list[float] = []
@@ -144,14 +147,14 @@ class ErrorStudy:
 
     @property
     def ranks(self) -> Ranks:
-        """Between which samples the upper quantile lies."""
+        """Ranks of the samples between which the upper quantile lies."""
         return quantile_ranks(self.samples, BAND[1])
 
     # ------------------------------------------------------------------ documents
 
     @property
     def _curves(self) -> dict[str, Floats]:
-        """(s, m) over speed, as documents name them."""
+        """Curves of K_v over speed (s, m), by their names in documents."""
         lower, upper = self.band
         return {
             "median": self.median,
@@ -164,7 +167,7 @@ class ErrorStudy:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it."""
+        """Notices to read before the study is used: what is assumed, and motions that are not settled or not complete."""
         return (*self.assumed, *self._of_motions())
 
     def _of_motions(self) -> Iterator[Notice]:
@@ -188,7 +191,7 @@ class ErrorStudy:
             yield Notice("few-samples", text)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it: curves over speed of each mesh."""
+        """Return the study as a dictionary for `dynamics.json`: curves over speed of each mesh."""
         return {
             "law": self.law.value,
             "samples": self.samples,
@@ -210,7 +213,7 @@ class ErrorStudy:
         }
 
     def columns(self) -> dict[str, Floats]:
-        """As the CSV file has them: curves over speed, and after them every sample."""
+        """Return the columns of the CSV file by their headings: curves over speed, and after them every sample."""
         found = {"speed (rpm)": self.speeds}
         for mesh, name in enumerate(self.mesh_names):
             found |= {f"kv_{key}.{name}": curve[:, mesh] for key, curve in self._curves.items()}
@@ -220,7 +223,7 @@ class ErrorStudy:
         return found
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by their names."""
         return {
             "errors_speed": self.speeds,
             "errors_kv": self.factors,

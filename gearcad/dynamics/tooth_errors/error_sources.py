@@ -43,11 +43,11 @@ if TYPE_CHECKING:
 _MICRO = 1e-6
 
 _HARMONICS = 12
-"""Of the tooth frequency, of errors that are smooth: as those of a chart have."""
+"""Harmonics of the tooth frequency in smooth errors, as in the errors of a chart."""
 
 
 class Draw(NamedTuple):
-    """What is drawn: gear k of a distribution, by a seed. Gear 0 is the one of a single chart."""
+    """A draw of errors: gear number `sample` of a distribution, by a seed. Gear 0 is the one of a single chart."""
 
     distribution: ErrorDistribution
     seed: int
@@ -58,10 +58,9 @@ class Draw(NamedTuple):
 class MeshTeeth:
     """The teeth of mesh `number` of a train: of pinion and wheel (a ring's above 0 as well), and the tolerances (µm) of both.
 
-    Without tolerances teeth have no errors, but for those `given` of the pinion's. `spring` is a pair of them, where
-    pairs are known one by one. Errors of the
-    wheel are drawn if it is `wheel_drawn`: they come again only when the same teeth meet. `source` names what told the
-    stiffness of the pair, if anything did.
+    Without tolerances teeth have no errors, except those `given` for the pinion. `spring` is that of a pair of teeth, where
+    pairs are known one by one. The wheel's errors are drawn if `wheel_drawn`: the errors then repeat only when the same teeth
+    meet. `source` names the method that gave the stiffness of the pair, if there was one.
     """
 
     name: str
@@ -82,13 +81,13 @@ class MeshTeeth:
 
     @property
     def period(self) -> int:
-        """Teeth after which the errors come again."""
+        """Number of teeth after which the errors repeat."""
         if self.tolerances is not None and self.wheel_drawn:
             return math.lcm(*self.teeth)
         return 1 if self.exact else self.teeth.pinion
 
     def _drawn(self, draw: Draw, role: Role) -> ToothDeviations | None:
-        """Deviations of a gear, None where it has none."""
+        """Return the deviations (µm) of a gear, None where it has none."""
         if role is Role.PINION and self.given is not None:
             return self.given
         if self.tolerances is None or (role is Role.WHEEL and not self.wheel_drawn) or self.teeth.pick(role) < 2:
@@ -100,7 +99,7 @@ class MeshTeeth:
         return random_deviations(self.teeth.pick(role), tolerances, seed, distribution=draw.distribution, gear=gear)
 
     def pair_errors(self, draw: Draw) -> PairErrors:
-        """Of every pair of teeth until the errors come again."""
+        """Return the errors (m) of every pair of teeth over one period, until the errors repeat."""
         position, slope = np.zeros(self.period), np.zeros(self.period)
         for role in Role:
             if (found := self._drawn(draw, role)) is not None:
@@ -110,7 +109,7 @@ class MeshTeeth:
         return PairErrors(_MICRO * position, _MICRO / self.contact_ratio * slope)
 
     def smooth_errors(self, draw: Draw) -> TransmissionError:
-        """What they make of the transmission error where pairs take over gradually."""
+        """Return the transmission error (µm) that the tooth errors cause where pairs take over the load gradually."""
         pinion, wheel = (self._drawn(draw, role) for role in Role)
         if pinion is None:
             return TransmissionError()
@@ -122,9 +121,10 @@ _WITHIN = 16
 
 
 def repeated_teeth(ratios: Sequence[Fraction], periods: Sequence[int] | None = None) -> int:
-    """Teeth of the first mesh until all meshes come again, of these tooth frequencies over that of the first.
+    """Return the number of teeth of the first mesh that pass until all meshes repeat.
 
-    `periods` are those of their own teeth, 1 each if not given.
+    `ratios` are the tooth frequencies over that of the first mesh. `periods` are the periods of the meshes in teeth of their
+    own, 1 each if not given.
     """
     own = [Fraction(period) / ratio for period, ratio in zip(periods or [1] * len(ratios), ratios, strict=True)]
     common = Fraction(math.lcm(*(each.numerator for each in own)), math.gcd(*(each.denominator for each in own)))
@@ -132,7 +132,7 @@ def repeated_teeth(ratios: Sequence[Fraction], periods: Sequence[int] | None = N
 
 
 def single_pattern(springs: Sequence[ToothSpring], ratios: Sequence[Fraction], per_tooth: int) -> Pattern:
-    """Of pairs one by one, in so many steps to a tooth of the first mesh."""
+    """Return the pattern of single pairs of teeth, in `per_tooth` steps to a tooth of the first mesh."""
     from gearcad.dynamics.tooth_errors.error_kernel import Pattern
 
     again = repeated_teeth(ratios)
@@ -156,7 +156,11 @@ def single_pattern(springs: Sequence[ToothSpring], ratios: Sequence[Fraction], p
 def smooth_pattern(
     meshes: Sequence[MeshExcitation], stiffness: Floats, senses: Floats, per_tooth: int, frequency: float
 ) -> Pattern:
-    """Of meshes as one spring each, of mean `stiffness` (m,); `frequency` is that of the first mesh's teeth (Hz)."""
+    """Return the pattern of meshes as one spring each, of mean `stiffness` (m,) in N/m.
+
+    `senses` (m,) say which flanks the load presses; `per_tooth` is the number of steps to a tooth of the first mesh.
+    `frequency` is the tooth frequency of the first mesh (Hz).
+    """
     from gearcad.dynamics.tooth_errors.error_kernel import Pattern
 
     ratios = [mesh.frequency_ratio for mesh in meshes]
@@ -178,30 +182,30 @@ def smooth_pattern(
 
 
 _DEPTH = 12.0
-"""Deflections of a pair of teeth that carries all of the static load, up to which gaps matter."""
+"""Greatest gap that matters, in deflections of a pair of teeth that carries all of the static load."""
 
 _BY_ERRORS = 4.0
-"""Cumulative pitch tolerances more."""
+"""Part of that gap for errors, in sums of both gears' cumulative pitch and profile slope tolerances."""
 
 _TURNS = 512
 """Places over a tooth, for means at rest."""
 
 _ROUNDS = 40
-"""Of the stiffness of a pair and how many of them carry, each of which makes the other."""
+"""Rounds of the iteration between the stiffness of a pair and the number of pairs that carry."""
 
 _LONGEST = 10
 """Turns of the pinion after which the same teeth must meet again for the wheel's errors to be drawn as well."""
 
 _LONGEST_TRAIN = 1500
-"""Teeth of the first mesh after which all errors of a train must come again, for the same."""
+"""Teeth of the first mesh after which all errors of a train must repeat for the wheels' errors to be drawn as well."""
 
 
 def mesh_teeth(mesh: Mesh, number: int, force: float, grade: int | None, *, single: bool) -> MeshTeeth:
-    """Of a mesh of which a train tells base radii, numbers of teeth and a mean stiffness, under a static force (N).
+    """Return the teeth of a mesh that has only base radii, numbers of teeth and a mean stiffness, under a static force (N).
 
-    With errors of an accuracy `grade` if one is given, of gears that run at their reference circles with a pressure angle of
-    20 degrees. `single` pairs of teeth are springs, equally stiff all along their way, so that under the force the mean
-    stiffness is that of the mesh.
+    They have errors of an accuracy `grade` if one is given; the gears then run at their reference circles with a pressure angle
+    of 20 degrees. With `single`, pairs of teeth are springs, equally stiff all along their path. Under the force their mean
+    stiffness is then that of the mesh.
     """
     ratio = max(mesh.contact_ratio or CONTACT_RATIO, 1.001)
     teeth = PerGear(mesh.teeth, wheel_teeth(mesh))
@@ -236,13 +240,13 @@ def _standard_spring(mesh: Mesh, ratio: float, force: float, tolerances: PerGear
 
 
 def _depth(force: float, stiffness: float, tolerances: PerGear[FlankTolerances] | None) -> float:
-    """Gap (µm) beyond which teeth never meet, with a pair stiffness in N/µm."""
+    """Return the gap (µm) beyond which teeth never meet, with a pair stiffness in N/µm and a force in N."""
     errors = 0.0 if tolerances is None else sum(each.cumulative_pitch + each.profile_slope for each in tolerances)
     return _DEPTH * force / stiffness + _BY_ERRORS * errors
 
 
 def _lead(mesh: Mesh, ratio: float) -> float:
-    """Place of pair 0 at phase 0: where the wave of the mesh has its least, or begins with one pair more."""
+    """Return the place of pair 0 at phase 0: where the wave of the mesh has its least value, or begins with one pair more."""
     if mesh.shape is StiffnessWave.SQUARE:
         start = -ratio / 2
     else:
@@ -263,9 +267,10 @@ def pair_teeth(
     backwards: bool = False,
     pitch_deviations: tuple[float, ...] = (),
 ) -> MeshTeeth:
-    """Of a pair as mounted, under the load of its mesh cycle; with errors by a rating's grade if one is given.
+    """Return the teeth of a pair as mounted, under the load of its mesh cycle.
 
-    `phase` delays the teeth, in tooth periods; `backwards`: the wheel drives, and teeth go their way from its root to its tip.
+    They have errors by the grade of `rating`, if one is given. `phase` delays the teeth, in tooth periods. `backwards`: the
+    wheel drives, and teeth go through the mesh from its root to its tip.
     """
     tolerances = (
         None
@@ -297,7 +302,10 @@ def pair_teeth(
 
 
 def engaged_teeth(mesh: EngagedMesh, number: int, *, errors: bool, single: bool) -> MeshTeeth:
-    """Of a mesh of a pair under what the train gives it; with errors by the grade of the pair's rating, if they are wanted."""
+    """Return the teeth of a mesh that has a pair, under the load that the train gives it.
+
+    With `errors` they have errors by the grade of the pair's rating.
+    """
     of = mesh.teeth_of
     return pair_teeth(
         of.mounted,
@@ -314,7 +322,10 @@ def engaged_teeth(mesh: EngagedMesh, number: int, *, errors: bool, single: bool)
 
 
 def with_short_period(teeth: Sequence[MeshTeeth], ratios: Sequence[Fraction]) -> tuple[MeshTeeth, ...]:
-    """The same, without the errors of wheels whose teeth meet the same teeth again only after a long time."""
+    """Return the same teeth without the errors of wheels whose teeth meet the same teeth again only after a long time.
+
+    No wheel has errors where those of the train would still repeat too late.
+    """
     kept = tuple(replace(each, wheel_drawn=math.lcm(*each.teeth) <= _LONGEST * each.teeth.pinion) for each in teeth)
     if repeated_teeth(ratios, [each.period for each in kept]) <= _LONGEST_TRAIN:
         return kept
@@ -325,7 +336,10 @@ def with_short_period(teeth: Sequence[MeshTeeth], ratios: Sequence[Fraction]) ->
 
 
 def assumptions(teeth: Sequence[MeshTeeth], forces: Floats, backlashes: Floats) -> Iterator[Notice]:
-    """What is taken for granted, mesh by mesh, with forces (m,) at rest and backlashes (m,), nan where flanks never part."""
+    """Yield a notice for each assumption, mesh by mesh.
+
+    `forces` (m,) in N are those at rest; `backlashes` (m,) are nan where flanks never part.
+    """
     for each, force, backlash in zip(teeth, forces.tolist(), backlashes.tolist(), strict=True):
         if each.tolerances is not None and not each.wheel_drawn:
             turns = math.lcm(*each.teeth) // each.teeth.pinion

@@ -67,7 +67,7 @@ _PER_SMOOTH_TOOTH = 64
 
 
 class Run(NamedTuple):
-    """K_v (s, n, m) at s speeds of n samples, and whether (s, n) it came again."""
+    """K_v `factors` (s, n, m) at s speeds of n samples, and whether the greatest force repeated, `settled` (s, n)."""
 
     factors: Floats
     settled: Bools
@@ -75,7 +75,7 @@ class Run(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Sampling:
-    """A System, the teeth of its meshes, and how they carry. `excitation` is that of nominal teeth."""
+    """A System, the teeth of its meshes, and the law by which they carry. `excitation` is that of nominal teeth."""
 
     system: System
     excitation: Excitation
@@ -91,22 +91,22 @@ class Sampling:
 
     @cached_property
     def static(self) -> StaticState:
-        """At rest. Raises GeometryError and SolverError."""
+        """State at rest. Raises GeometryError and SolverError."""
         return static_state(self.system)
 
     @cached_property
     def pressed(self) -> Floats:
-        """(n, m) of the System, as the mean load presses the flanks."""
+        """Mesh matrix (n, m) of the System, in the direction in which the mean load presses the flanks."""
         return np.ascontiguousarray(self.system.mesh * senses(self.system))
 
     @cached_property
     def forces(self) -> Floats:
-        """(m,) at rest."""
+        """Mesh forces at rest (m,) in N."""
         return np.abs(self.system.stiffness * self.static.approach)
 
     @cached_property
     def _vibrations(self) -> tuple[Floats, Floats, Floats]:
-        """(r,): circular natural frequencies, rates of decay, and shares of the meshes in the potential energy."""
+        """Circular natural frequencies, rates of decay (1/s), and shares of the meshes in the potential energy, (r,) each."""
         squares, shapes = np.linalg.eigh(self.system.stiffness_matrix())
         elastic = squares > 1e-11 * squares.max()
         squares, shapes = squares[elastic], shapes[:, elastic]
@@ -116,7 +116,7 @@ class Sampling:
 
     @cached_property
     def quickest(self) -> float:
-        """Circular frequency of the quickest vibration of the teeth."""
+        """Circular frequency (1/s) of the quickest vibration of the teeth."""
         omega, _, share = self._vibrations
         return float(omega[share > _FELT].max(initial=omega[share.argmax()]))
 
@@ -128,40 +128,41 @@ class Sampling:
 
     @cached_property
     def period(self) -> int:
-        """Teeth of the first mesh until all errors come again."""
+        """Number of teeth of the first mesh that pass until all errors repeat."""
         return repeated_teeth(self.ratios, [each.period for each in self.teeth])
 
     @property
     def looked_at(self) -> int:
-        """Teeth of the first mesh that are looked at."""
+        """Number of teeth of the first mesh that are evaluated."""
         return min(self.period, _MOST_TEETH)
 
     @property
     def whole(self) -> bool:
-        """Whether that is all of the period."""
+        """Whether the evaluated teeth are the whole period."""
         return self.period <= _MOST_TEETH
 
     @property
     def hardly_damped(self) -> bool:
-        """Whether vibrations outlast what can be waited for at the highest natural frequency of the teeth."""
+        """Whether vibrations outlast the longest settling time at the highest natural frequency of the teeth."""
         return self.decay * _MOST_SETTLING * 2 * math.pi < _DECAYS * self.quickest
 
     def per_tooth(self, frequency: float) -> int:
-        """Steps to a tooth of the first mesh, at its tooth frequency (Hz)."""
+        """Return the number of steps to a tooth of the first mesh, at its tooth frequency (Hz)."""
         quickest = _PER_VIBRATION * self.quickest / (2 * math.pi * frequency)
         return math.ceil(max(_PER_TOOTH * float(max(self.ratios)), quickest))
 
     @property
     def lowest(self) -> float:
-        """The lowest tooth frequency of the first mesh (Hz) that is looked at."""
+        """Lowest tooth frequency of the first mesh (Hz) that is evaluated."""
         return _PER_VIBRATION * self.quickest / (2 * math.pi * _MOST_STEPS)
 
     # ------------------------------------------------------------------ samples
 
     def run(self, frequencies: Floats, draws: Sequence[Draw | None], tell: Callable[[float], None]) -> Run:
-        """At rising tooth frequencies (Hz) of the first mesh, from the lowest on; None draws no errors at all.
+        """Run all samples up through rising tooth frequencies (Hz) of the first mesh, and return their K_v.
 
-        Every sample runs up by itself: what comes of it does not depend on the others. `tell` hears of the part that is done.
+        A draw of None has no errors at all. Every sample runs up by itself: its result does not depend on the others. `tell` is
+        called with the part of the work that is done.
         """
         width = min(_WIDEST, math.ceil(len(draws) / cores()))
         blocks = [draws[i : i + width] for i in range(0, len(draws), width)]
@@ -177,7 +178,7 @@ class Sampling:
         return Run(*(np.concatenate(each, axis=1) for each in zip(*found, strict=True)))
 
     def _block(self, frequencies: Floats, draws: Sequence[Draw | None], stop: Event, done: list[int], place: int) -> Run:
-        """Some samples side by side."""
+        """Run some samples side by side and return their K_v."""
         samples, factors, settled = self._samples(draws), [], []
         for number, frequency in enumerate(frequencies.tolist()):
             if stop.is_set():
@@ -189,7 +190,7 @@ class Sampling:
         return Run(np.array(factors), np.array(settled))
 
     def _lengths(self, frequency: float, decays: float) -> tuple[int, int, int]:
-        """Steps before loads are counted, steps of the first part of the period, and those of the period."""
+        """Return the numbers of steps before loads are counted, of the first part of the period, and of the period."""
         per_tooth = self.per_tooth(frequency)
         period = self.looked_at * per_tooth
         wait_for = min(math.ceil(decays * frequency / max(self.decay, 1e-9)), _MOST_SETTLING) * per_tooth
@@ -201,7 +202,7 @@ class Sampling:
         return steps * samples * (_STEP + _TERM * self.system.mesh.size)
 
     def _speed(self, samples: Samples, frequency: float, decays: float, stop: Event) -> tuple[Floats, Bools]:
-        """Greatest forces (m, n) over the period, and whether (n,) those of its first part come again in the next."""
+        """Return the greatest forces (m, n) in N over the period, and whether (n,) those of its first part repeat in the next."""
         per_tooth = self.per_tooth(frequency)
         wait_for, length, period = self._lengths(frequency, decays)
         steps, pattern = self._steps(frequency, per_tooth), self._pattern(per_tooth, frequency)
@@ -219,7 +220,7 @@ class Sampling:
     def _part(
         self, steps: Steps, pattern: Pattern, samples: Samples, turns: Floats, ends: tuple[int, int], stop: Event
     ) -> Floats:
-        """Greatest forces (m, n) over some steps."""
+        """Advance the samples over some steps and return the greatest forces (m, n) in N."""
         from gearcad.dynamics.tooth_errors.error_kernel import advance
 
         crests = np.full(samples.force.shape, -math.inf)
@@ -249,7 +250,7 @@ class Sampling:
         return smooth_pattern(self.excitation.meshes, self.system.stiffness, senses(self.system), per_tooth, frequency)
 
     def _samples(self, draws: Sequence[Draw | None]) -> Samples:
-        """At rest, their errors drawn."""
+        """Return the samples at rest, with their errors drawn."""
         from gearcad.dynamics.tooth_errors.error_kernel import Samples
 
         n, width, smooth = self.system.size, len(draws), self.law is ToothLaw.SMOOTH
@@ -275,7 +276,7 @@ class Sampling:
         return Samples(position, slope, count, shift, _PER_SMOOTH_TOOTH, *motion)
 
     def _shift(self, j: int, draw: Draw) -> Floats:
-        """The smooth error of mesh j (x,) in m, as the load presses its flanks."""
+        """Return the smooth error of mesh j (x,) in m, in the direction in which the load presses its flanks."""
         error, count = self.teeth[j].smooth_errors(draw), _PER_SMOOTH_TOOTH * self.teeth[j].period
         spectrum = np.zeros(count // 2 + 1, complex)
         own = error.coefficients * np.exp(
@@ -309,9 +310,10 @@ def study_errors(
     plan: ErrorPlan,
     tell: Callable[[float], None] = lambda _part: None,
 ) -> ErrorStudy:
-    """At rising speeds (s,) in rpm of the first pinion, which has so many teeth; `excitation` is that of nominal teeth.
+    """Return the study of K_v at rising speeds (s,) in rpm of the first pinion, which has `pinion_teeth` teeth.
 
-    Raises ParameterError where all speeds are too low, GeometryError and SolverError.
+    `excitation` is that of nominal teeth. `tell` is called with the part of the work that is done. Raises ParameterError where
+    all speeds are too low, GeometryError and SolverError.
     """
     sampling, samples = _sampling(system, excitation, teeth, plan)
     draws: list[Draw | None] = [Draw(plan.distribution, plan.seed, number) for number in range(samples)]
@@ -337,7 +339,7 @@ def errors_seconds(
 
 
 def _sampling(system: System, excitation: Excitation, teeth: Sequence[MeshTeeth], plan: ErrorPlan) -> tuple[Sampling, int]:
-    """What is run, and how many samples: teeth that have no errors are all alike."""
+    """Return the sampling and the number of samples: 1 where no teeth have errors, as all would be alike."""
     kept = with_short_period(teeth, [mesh.frequency_ratio for mesh in excitation.meshes])
     sampling = Sampling(system=system, excitation=excitation, teeth=kept, law=plan.law)
     return sampling, plan.samples if any(not each.exact for each in teeth) else 1
@@ -349,7 +351,7 @@ def _assumed(sampling: Sampling) -> tuple[Notice, ...]:
 
 
 def _study(sampling: Sampling, plan: ErrorPlan, speeds: Floats, found: Run, assumed: tuple[Notice, ...]) -> ErrorStudy:
-    """The first sample is that without errors."""
+    """Return the study of a run, whose first sample is the one without errors."""
     return ErrorStudy(
         law=plan.law,
         speeds=speeds,

@@ -1,16 +1,10 @@
 """Pairs of teeth as springs along their way through the mesh, and the gaps between them before and behind it.
 
-Transverse section; lengths in mm from T1 on the line of action; stiffness in N/µm and gaps in µm up to the ToothSpring, which
-is in SI units, its places in base pitches from the middle of the path of contact. Of a ring roll lengths and base radius are
-negative. A gap is counted as a transmission error is: the turn of the wheel that closes it while the pinion stays, times its
-base radius.
-
-Transverse section; lengths in mm, as the line of action has them: of a ring roll lengths and base radius are negative. A gap is
-counted as a transmission error is: the turn of the wheel that closes it while the pinion stays, times its base radius.
+Transverse section; lengths in mm from T1 on the line of action, as the line of action has them. Of a ring roll lengths and base
+radius are negative. Stiffness is in N/µm and gaps in µm up to the ToothSpring, which is in SI units. A gap is counted as a
+transmission error is: the turn of the wheel that closes it while the pinion stays, times its base radius.
 
 Places are in base pitches from the middle of the path of contact, and rise as teeth go through the mesh.
-
-Lengths in mm from T1 on the line of action; stiffness in N/µm, gaps in µm up to the ToothSpring, which is in SI units.
 """
 
 from __future__ import annotations
@@ -33,10 +27,10 @@ _SAMPLES = 401
 """Places on a modified flank among which the nearest is sought: 0.04 mm apart on teeth of module 5, 0.01 µm of the gap."""
 
 _ROUNDING = 1e-11
-"""Of a gap (mm): less is none."""
+"""Gap (mm) below which there is none."""
 
 _HALVINGS = 60
-"""A double has room for fewer."""
+"""Steps of bisection, more than a double has room for."""
 
 
 def _unmodified(lengths: Floats) -> Floats:
@@ -44,7 +38,7 @@ def _unmodified(lengths: Floats) -> Floats:
 
 
 class TurnedFlank(NamedTuple):
-    """An involute about its axis: base radius, first and last roll length, and how far it is taken back at roll lengths."""
+    """An involute about its axis: base radius, first and last roll length, and the modification `depth` at roll lengths (mm)."""
 
     base_radius: float
     first: float
@@ -53,10 +47,11 @@ class TurnedFlank(NamedTuple):
 
 
 def _turned_gap(flanks: PerGear[TurnedFlank], whole: float, contact: Floats, length: Floats) -> tuple[Floats, Floats]:
-    """Gap between points of the pinion's involute and the whole involute of the wheel, and where they meet on the wheel's.
+    """Return the gap (mm) between points of the pinion's involute and the whole involute of the wheel, and where they meet
+    there.
 
-    The points are at roll lengths of a flank that, were it long enough, would touch at `contact` on the line of action. Nan
-    where a point lies inside the wheel's base circle.
+    The latter is a roll length on the wheel's involute (mm). The points are at roll lengths of a flank that, were it long
+    enough, would touch at `contact` on the line of action. Nan where a point lies inside the wheel's base circle.
     """
     own, other = flanks.pinion.base_radius, flanks.wheel.base_radius
     turn = (length - contact) / own
@@ -71,7 +66,7 @@ def _turned_gap(flanks: PerGear[TurnedFlank], whole: float, contact: Floats, len
 
 
 def tooth_gaps(flanks: PerGear[TurnedFlank], whole: float, places: Floats) -> Floats:
-    """Least gap (n,) in mm between the flanks of two teeth that would touch at `places` (n,) from T1 on the line of action.
+    """Return the least gap (n,) in mm between flanks of two teeth that would touch at `places` (n,) from T1 (mm).
 
     Infinite where neither flank reaches over to the other. Where exact involutes touch it is 0.
     """
@@ -92,7 +87,10 @@ def tooth_gaps(flanks: PerGear[TurnedFlank], whole: float, places: Floats) -> Fl
 
 
 def _facing(flanks: PerGear[TurnedFlank], whole: float, contact: Floats, end: float) -> Floats:
-    """Roll lengths (n, 1) of the pinion's flank at the radius of an end of the wheel's; its own end where it has none."""
+    """Return roll lengths (n, 1) of the pinion's flank (mm) at the radius of an end of the wheel's flank.
+
+    Where the pinion's flank has no such point, its own end is returned.
+    """
     low, high = (np.full_like(contact, each) for each in flanks.pinion[1:3])
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
@@ -104,8 +102,10 @@ def _facing(flanks: PerGear[TurnedFlank], whole: float, contact: Floats, end: fl
 
 @dataclass(frozen=True, eq=False)
 class PairErrors:
-    """What is missing from the flanks of pair i of teeth, i modulo their number: `position` (n,) in the middle of the path, and
-    `slope` (n,) for each base pitch further on, in m."""
+    """Errors of pair i of teeth, i modulo their number n, as metal that is missing from the flanks.
+
+    `position` (n,) in m is the error in the middle of the path, and `slope` (n,) in m the change for each base pitch further.
+    """
 
     position: Floats = field(default_factory=lambda: np.zeros(1))
     slope: Floats = field(default_factory=lambda: np.zeros(1))
@@ -114,23 +114,23 @@ class PairErrors:
         freeze(self)
 
     def times(self, factor: float) -> PairErrors:
-        """The same, so many times as large."""
+        """Return the same errors, `factor` times as large."""
         return PairErrors(factor * self.position, factor * self.slope)
 
     def at(self, tooth: Floats, place: Floats) -> Floats:
-        """Of pairs (...) at places (...)."""
+        """Return the errors (...) in m of pairs `tooth` (...) at places (...) in base pitches from the middle of the path."""
         which = np.mod(tooth, len(self.position)).astype(np.intp)
         return np.asarray(self.position[which] + self.slope[which] * place, float)
 
     @property
     def greatest(self) -> float:
-        """The most that is missing anywhere on the path, or stands out (m), at a place of 1 on both sides."""
+        """Greatest error (m), missing or standing out, at places from -1 to 1."""
         return float((np.abs(self.position) + np.abs(self.slope)).max())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ToothSpring:
-    """A pair of teeth over its way: `stiffness` (n,) in N/m and `gap` (n,) in m at even places from `first` to `last`.
+    """A pair of teeth along its path: `stiffness` (n,) in N/m and `gap` (n,) in m at even places from `first` to `last`.
 
     Straight lines between these; beyond them teeth never meet. `lead` is the place of pair 0 at phase 0 of the mesh;
     `contact_ratio` is the length of the path of contact.
@@ -152,17 +152,17 @@ class ToothSpring:
 
     @property
     def places(self) -> Floats:
-        """(n,) of both tables."""
+        """Places (n,) of both tables, in base pitches."""
         return np.linspace(self.first, self.last, len(self.gap))
 
     @property
     def pairs(self) -> int:
-        """How many can be on their way at once."""
+        """Greatest number of pairs that can be on their path at once."""
         return math.floor(self.last - self.first) + 1
 
     @property
     def backwards(self) -> ToothSpring:
-        """For teeth that go their way the other way round."""
+        """The same spring for teeth that go through the mesh in the opposite direction."""
         return ToothSpring(
             first=-self.last,
             last=-self.first,
@@ -173,7 +173,10 @@ class ToothSpring:
         )
 
     def engaged(self, turns: Floats, errors: PairErrors) -> tuple[Floats, Floats]:
-        """Stiffness (t, p) of the pairs on their way after so many tooth periods (t,) and their gaps with errors (t, p)."""
+        """Return stiffness (t, p) in N/m and gaps with errors (t, p) in m of the pairs after `turns` (t,) tooth periods.
+
+        A pair that is not on its path has a stiffness of 0 and an infinite gap.
+        """
         nearest = np.ceil(turns + self.lead - self.last)
         tooth = nearest[:, None] + np.arange(float(self.pairs))
         place = (turns + self.lead)[:, None] - tooth
@@ -186,7 +189,7 @@ class ToothSpring:
 class AtRest(NamedTuple):
     """A mesh at rest after some tooth periods (t,): `approach` (t,) in m, `forces` (t, p) in N of the pairs side by side.
 
-    `stiffness` (N/m) is the mean of all pairs that carry.
+    `stiffness` (N/m) is the mean over the periods of the sum of all pairs that carry.
     """
 
     approach: Floats
@@ -195,14 +198,14 @@ class AtRest(NamedTuple):
 
     @property
     def contact_ratio(self) -> float:
-        """How many pairs carry on the mean."""
+        """Mean number of pairs that carry."""
         return float((self.forces > 0).sum(axis=1).mean())
 
 
 def at_rest(spring: ToothSpring, force: float, turns: Floats, errors: PairErrors | None = None) -> AtRest:
-    """The approach at which all pairs together carry a force (N): sum K max(y - gap, 0) = F, which has one root.
+    """Return the mesh at rest where all pairs together carry a force (N): sum K max(y - gap, 0) = F, which has one root.
 
-    The pairs touch in the order of their gaps; with so many of them the root is that of a straight line.
+    The pairs touch in the order of their gaps; for a known number of pairs the root is that of a straight line.
     """
     stiffness, gap = spring.engaged(np.asarray(turns, float), errors or PairErrors())
     order = np.argsort(gap, axis=1)
@@ -220,10 +223,10 @@ def at_rest(spring: ToothSpring, force: float, turns: Floats, errors: PairErrors
 
 
 PRESSURE_ANGLE = 20.0
-"""Of teeth of which a train tells only base radii and numbers (deg)."""
+"""Pressure angle (deg) of teeth for which a train has only base radii and numbers of teeth."""
 
 _STEPS = 256
-"""Places on a base pitch."""
+"""Places per base pitch."""
 
 _FARTHEST = 0.6
 """Base pitches before and behind the path of contact at which a gap is looked for: teeth that bend so far have been lost."""
@@ -237,7 +240,7 @@ _FAIR = 0.02
 
 @dataclass(frozen=True)
 class ToothPath:
-    """Where a pair of teeth is on its way: flanks, T1T2 and base pitch, first and last contact, and the pitch point."""
+    """Path of a pair of teeth (mm): flanks, T1T2 (`whole`) and base pitch, first and last contact, and the pitch point."""
 
     flanks: PerGear[TurnedFlank]
     whole: float
@@ -252,16 +255,18 @@ class ToothPath:
 
     @property
     def middle(self) -> float:
-        """Of the path, from T1."""
+        """Middle of the path (mm from T1)."""
         return (self.first + self.last) / 2
 
     def gaps(self, places: Floats) -> Floats:
-        """In µm at places in base pitches from the middle."""
+        """Return the gaps (n,) in µm at places (n,) in base pitches from the middle."""
         return 1000 * tooth_gaps(self.flanks, self.whole, self.middle + self.pitch * places)
 
     def reach(self, depth: float) -> Floats:
-        """Even places (n,) in base pitches from the middle, at which the teeth are no farther apart than `depth` (µm), and one
-        more at each end, if flanks face each other there; the ends of the path are among them."""
+        """Return even places (n,), in base pitches from the middle, at which the teeth are at most `depth` (µm) apart.
+
+        There is one more at each end, if flanks face each other there. The ends of the path are among the places.
+        """
         even = _even(self.contact_ratio)
         step, half = even[1] - even[0], self.contact_ratio / 2
         beyond = step * np.arange(1, math.ceil(_FARTHEST / step) + 1)
@@ -274,10 +279,10 @@ class ToothPath:
 
 
 def standard_path(base_radii: PerGear[float], teeth: int, contact_ratio: float) -> ToothPath | None:
-    """Of teeth of 20 degrees that run at their reference circles; addenda, alike on both gears, give the contact ratio.
+    """Return the path of teeth of 20 degrees that run at their reference circles; None where there is no path so long.
 
-    The base radius of a ring is negative. Where tips would reach beyond the base circle of the mate, the path is moved, and as
-    long. None where there is no path so long.
+    Equal addenda on both gears give the contact ratio. The base radius (mm) of a ring is negative. Where tips would reach
+    beyond the base circle of the mate, the path is moved and keeps its length.
     """
     one, other = base_radii
     tangent = math.tan(math.radians(PRESSURE_ANGLE))
@@ -295,7 +300,10 @@ def standard_path(base_radii: PerGear[float], teeth: int, contact_ratio: float) 
 
 
 def _first(base_radii: PerGear[float], whole: float, length: float) -> float:
-    """Where a path of a length begins (mm from T1) whose ends lie on tips that stand alike over the reference circles."""
+    """Return the start (mm from T1) of a path of a given `length` (mm) whose ends lie on the tips.
+
+    Both gears have the same addendum over their reference circles.
+    """
     one, other = base_radii
     stretch = 1 / math.cos(math.radians(PRESSURE_ANGLE))
 
@@ -308,7 +316,10 @@ def _first(base_radii: PerGear[float], whole: float, length: float) -> float:
 
 
 def pair_path(pair: GearPair) -> ToothPath:
-    """Of a pair as mounted, its flanks in the middle of the common face width; of helical teeth the whole way of their line."""
+    """Return the path of a pair as mounted, with the flanks in the middle of the common face width.
+
+    The path of helical teeth is the whole way of their line of contact.
+    """
     line = line_of_action(pair)
     first, last = pair.usable_path
     lean = pair.common_width.width * math.tan(math.radians(abs(pair.pinion.base_helix_angle))) / 2
@@ -324,9 +335,9 @@ def _turned_flank(flank: TransverseFlank) -> TurnedFlank:
 
 
 def even_spring(path: ToothPath | None, contact_ratio: float, mean: float, depth: float, lead: float) -> ToothSpring:
-    """Pairs that are equally stiff all along the path, of a `mean` mesh stiffness (N/µm); gaps reach up to a `depth` (µm).
+    """Return the spring of pairs that are equally stiff all along the path, for a `mean` mesh stiffness (N/µm).
 
-    Without a path they meet only between its ends, a contact ratio apart.
+    Gaps reach up to a `depth` (µm). Without a path pairs meet only between its ends, which are a contact ratio apart.
     """
     places = _even(contact_ratio) if path is None else path.reach(depth)
     gaps = np.zeros(len(places)) if path is None else path.gaps(places)
@@ -334,9 +345,10 @@ def even_spring(path: ToothPath | None, contact_ratio: float, mean: float, depth
 
 
 def cycle_spring(path: ToothPath, cycle: MeshCycle, depth: float, *, helical: bool) -> ToothSpring:
-    """The pair stiffness that a mesh cycle tells, tangent, at the ends of the path what it is there.
+    """Return the spring with the tangent pair stiffness of a mesh cycle; beyond the path the stiffness is that at its ends.
 
-    Helical teeth come and go by and by: before and behind their way nothing carries, and their stiffness at its ends is none.
+    Helical teeth come into mesh and leave it gradually: beyond their path nothing carries, and their stiffness at its ends is
+    0. A cycle of which only the mean is known gives the same stiffness everywhere.
     """
     lead = (path.pitch_point - path.middle) / path.pitch
     places = _even(path.contact_ratio) if helical else path.reach(depth)
@@ -349,7 +361,7 @@ def cycle_spring(path: ToothPath, cycle: MeshCycle, depth: float, *, helical: bo
 
 
 def _even(contact_ratio: float) -> Floats:
-    """Places (n,) along the path, both ends among them."""
+    """Return even places (n,) along the path in base pitches from its middle, both ends among them."""
     return np.linspace(-contact_ratio / 2, contact_ratio / 2, math.ceil(contact_ratio * _STEPS) + 1)
 
 
@@ -365,9 +377,9 @@ def _spring(places: Floats, stiffness: Floats, gaps: Floats, lead: float, contac
 
 
 def _pair_stiffness(path: ToothPath, cycle: MeshCycle, *, helical: bool) -> tuple[Floats, Floats]:
-    """Places (n,) in base pitches from the middle of the path, and the tangent stiffness (n,) of a pair there, in N/µm.
+    """Return places (n,) in base pitches from the middle of the path, and the tangent stiffness (n,) of a pair there, in N/µm.
 
-    Each pair carries its share of the load by what the approach leaves of its own gap.
+    Each pair carries its share of the load by the approach less its own gap.
     """
     roll = np.radians(cycle.roll_angle) * abs(path.flanks.pinion.base_radius) / path.pitch
     lead = (path.pitch_point - path.middle) / path.pitch
