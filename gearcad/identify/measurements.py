@@ -186,8 +186,9 @@ class Measured:
 
     @property
     def _across_tips_less(self) -> float:
-        """Shortfall (mm) of parallel jaws across pointed tips against the tip diameter, d_a (1 - cos(pi/z))/2 for odd z; else
-        0.
+        """Shortfall (mm) of parallel jaws across the pointed tips of an odd number of teeth; 0 for all other gears.
+
+        Against the tip diameter they read d_a (1 - cos(pi/z))/2 less.
         """
         tip = self.find(Gauge.TIP_DIAMETER)
         if tip is None or self.ring or self.teeth % 2 == 0:
