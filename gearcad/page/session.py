@@ -108,7 +108,7 @@ One = TypeVar("One", bound=Panel[Any])
 
 
 class Following:
-    """Updates the panels for the last design; results for an older one are dropped. A panel that fails shows it, others go on."""
+    """Updates the panels for the last design and drops results for older ones. A panel that fails shows it; others go on."""
 
     def __init__(self, design: Callable[[], Design], failed: str) -> None:
         self._design, self._failed = design, failed
@@ -130,7 +130,7 @@ class Following:
         self._order = order
 
     def follow(self) -> None:
-        """The design is another one."""
+        """Bring the panels up to date because the design has changed."""
         self._change += 1
         if self._task is None or self._task.done():
             self._task = background_tasks.create(self._find())
@@ -352,7 +352,7 @@ class Session:
 
     @classmethod
     def leave_all(cls) -> None:
-        """The server ends."""
+        """Close all sessions because the server ends."""
         for each in tuple(cls.open):
             each.leave()
 

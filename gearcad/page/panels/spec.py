@@ -174,7 +174,7 @@ class FilesPanel:
             self._task = background_tasks.create(self._link(self._bench.text))
 
     def close(self) -> None:
-        """The tab was closed."""
+        """Stop because the tab was closed."""
         await_files(self._key, None)
         self._runs.close()
         if self._task is not None:
