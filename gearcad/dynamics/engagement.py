@@ -45,14 +45,13 @@ _OTHER = 1e-3
 
 
 def engaged(train: Train, options: DynamicsOptions | None = None) -> Train:
-    """Return the train with its pairs under their static loads: each mesh of a pair becomes an EngagedMesh with its stiffness
-    course.
+    """Return the train with its pairs under static loads: each mesh of a pair becomes an EngagedMesh with its stiffness course.
 
     The options give the stiffness method, the damping ratio of meshes that have none and, if set, the accuracy grade. If static
     forces depend on the stiffness, as in a train held at several places, both are found in turns until the forces settle.
     Without a speed the first pinion turns the way in which it drives.
 
-    Raises ParameterError if a mesh of a pair carries no force, SolverError if the forces do not settle, and the errors of the
+    Raises ParameterError if a mesh of a pair carries no force, SolverError if the forces do not settle, and errors of the
     methods.
     """
     places = [j for j, mesh in enumerate(train.meshes) if mesh.pair is not None and not isinstance(mesh, EngagedMesh)]
@@ -186,9 +185,7 @@ def pair_notices(train: Train) -> tuple[Notice, ...]:
 
 
 def _notices(train: Train, mesh: EngagedMesh) -> Iterator[Notice]:
-    """Yield the notices of the stiffness method, and of a pair's own load that differs from the train's or has an application
-    factor.
-    """
+    """Yield notices of the stiffness method, and of a pair's own load that is not the train's or has an application factor."""
     yield from mesh.course.cycle.notices
     own, torque = mesh.teeth_of.load, abs(mesh.course.torque)
     if own is None:

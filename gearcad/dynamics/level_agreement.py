@@ -68,9 +68,7 @@ class Doubt(NamedTuple):
 
 
 class NotJudged(NamedTuple):
-    """A range of speeds from `first` to `last` (rpm) that is not judged, with the reason and the labels of the charts
-    concerned.
-    """
+    """A range of speeds from `first` to `last` (rpm) that is not judged, the reason, and the labels of its charts."""
 
     first: float
     last: float
@@ -83,9 +81,7 @@ class NotJudged(NamedTuple):
 
 
 class Difference(NamedTuple):
-    """A load of one of two models at a `speed` (rpm), `greater` by `excess` than the greatest load `other` of the other model
-    nearby.
-    """
+    """A load `greater` of one of two models at a `speed` (rpm), and the greatest load `other` of the other model nearby."""
 
     curve: CurveName
     speed: float
@@ -150,7 +146,7 @@ class Agreement:
         )
 
     def under_at(self, mesh: str, speed: float) -> Difference | None:
-        """Return the loads of the reference at one of the speeds and of the level near it; None where that speed is not judged."""
+        """Return the load of the reference at one of the speeds and of the level near it; None where that is not judged."""
         row, column = int(np.abs(self.speeds - speed).argmin()), self.curves.index(CurveName("mesh", mesh))
         if not self.judged[row]:
             return None
@@ -231,9 +227,7 @@ def _common(reference: TrainStudy, level: TrainStudy) -> tuple[list[CurveName], 
 
 
 def _curves(study: TrainStudy, reference: TrainStudy, names: list[CurveName]) -> _Curves:
-    """Return the loads of a study in parts of the reference's loads at rest, with the speeds at which they are not to be
-    compared.
-    """
+    """Return the loads of a study in parts of the reference's at rest, and the speeds at which they are not to be compared."""
     charts = [chart for _, chart in study.charts.directions()]
     loads = [np.max([_load(chart, name) for chart in charts], axis=0) / _rest(reference.up, name) for name in names]
     stuck = np.array([mesh.backlash is None for mesh in study.excitation.meshes]) | (study.down is None)

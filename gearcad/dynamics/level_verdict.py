@@ -148,8 +148,7 @@ class _Shaken(NamedTuple):
 def _shaken(study: TrainStudy, curve: CurveName, speed: float) -> list[_Shaken]:
     """Return the modes that load a curve, without those that hardly do.
 
-    The forces are those of the changing stiffness and the tooth errors on a train that does not vibrate. Their load at rest is
-    left out.
+    The forces are those of changing stiffness and tooth errors on a train that does not vibrate, without their load at rest.
     """
     system, excitation = study.system, study.excitation.bonded
     squares, shapes = np.linalg.eigh(system.stiffness_matrix())
@@ -490,9 +489,7 @@ class LevelStudy(SideBySide):
         return tuple({(each.first, each.last): each for each in found}.values())
 
     def _said(self, verdicts: Iterable[str]) -> tuple[str, ...]:
-        """Return a sentence on the whole study with what is not judged, the given ones on each model, and one on shafts not
-        judged.
-        """
+        """Return a sentence on the whole study with what is not judged, those on each model, and one on shafts not judged."""
         finest = f'"{self.models[self.reference].value}"'
         found = f"no model coarser than {finest} is shown to be enough"
         if self.enough is not None:

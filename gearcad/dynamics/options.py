@@ -183,8 +183,8 @@ class DynamicsOptions:
 
     @property
     def slowest(self) -> float:
-        """Part of its highest speed at which a chart begins if `speed_from` is not given; a small number of speeds does not
-        raise it.
+        """Part of its highest speed at which a chart begins without `speed_from`; a small number of speeds
+        does not raise it.
         """
         return 1 / max(self.chart_speeds, _CHART)
 
@@ -271,9 +271,7 @@ def idle_without_levels(options: DynamicsOptions) -> tuple[Notice, ...]:
 
 
 def idle_in_contact(options: DynamicsOptions) -> tuple[Notice, ...]:
-    """Return notices of options without effect in the contact model: those of the model "mesh" and of several models of a
-    train.
-    """
+    """Return notices of options without effect in the contact model: those of the model "mesh" and of several models."""
     found = _idle(options, (*_OF_CONTACT, *_OF_CHARTS, *_OF_BEARINGS), f'the model "{PairModel.MESH.value}" of a pair')
     return (*found, *idle_without_levels(options))
 

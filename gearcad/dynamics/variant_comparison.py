@@ -118,8 +118,7 @@ def _matched(of: TrainStudy, other: TrainStudy) -> dict[int, int]:
 
 
 def _alikeness(of: TrainStudy, other: TrainStudy) -> Floats:
-    """Return the squares (n, k) of the cosine between modes, by kinetic energy; a part that one train lacks stands still there.
-    """
+    """Return the squares (n, k) of the cosine between modes, by kinetic energy; what one train lacks stands still there."""
     products = [
         _product(a, b, of.train) for a, b in ((of.modes, other.modes), (of.modes, of.modes), (other.modes, other.modes))
     ]
@@ -285,7 +284,7 @@ class SideBySide(Pictured):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Notices to read before using the results: those of all studies first, then those of some studies with their labels."""
+        """Notices to read before using the results: those of all studies, then those of some studies with their labels."""
         every = [notice for notice in self.studies[0].notices if all(notice in study.notices for study in self.studies)]
         some = [
             notice.within(label)

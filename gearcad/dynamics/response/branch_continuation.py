@@ -1,13 +1,8 @@
 """Continuation of the branch of periodic motions over speed where flanks part, and the jumps of a run up or down.
 
-The branch is followed by its arc length: it turns where vibration jumps, and holds the unstable part between the two jumps.
-The damping of a mesh acts also where its flanks have parted (the oil stays). Tooth forces are computed in time and taken back
-to orders by FFT, their derivative likewise, so the Jacobian is exact. SI units, frequencies circular (1/s).
-
-What the teeth carry is found in time and taken back to orders by FFT, its derivative likewise, so the Jacobian is exact.
-
-The branch is followed by its arc length: it turns where vibration jumps, and holds the unstable part between the two jumps.
-The damping of a mesh acts also where its flanks have parted (the oil stays). SI units, frequencies circular (1/s).
+The branch is followed by its arc length: it turns where vibration jumps, and holds the unstable part between the two jumps. The
+damping of a mesh acts also where its flanks have parted (the oil stays). Tooth forces are computed in time and taken back to
+orders by FFT, their derivative likewise, so the Jacobian is exact. SI units, frequencies circular (1/s).
 """
 
 from __future__ import annotations
@@ -47,23 +42,23 @@ TOLERANCE = 1e-10
 
 @dataclass(frozen=True, eq=False)
 class Balance(Driven):
-    """The equations y - y_static - G (K y - N(y) + c e') = 0 of all orders, N what the teeth carry. Orders are signed here."""
+    """Equations y - y_static - G (K y - N(y) + c e') = 0 of all orders, N the forces of the teeth. Orders are signed here."""
 
     orders: Indices
 
     @cached_property
     def signed(self) -> Indices:
-        """(2q - 1,): the orders on both sides of 0."""
+        """Orders (2q - 1,) on both sides of 0."""
         return np.concatenate([-self.orders[:0:-1], self.orders])
 
     @cached_property
     def count(self) -> int:
-        """Samples in time: products of the highest orders must not be mistaken for lower ones."""
+        """Number of samples in time, so that products of the highest orders are not mistaken for lower ones."""
         return int(max(256, 2 ** int(np.ceil(np.log2(8 * max(int(self.orders[-1]), 1))))))
 
     @cached_property
     def stiffness(self) -> Floats:
-        """(t, m) in N/m, without the orders that the samples cannot tell."""
+        """Mesh stiffness (t, m) in N/m, without the orders that the samples cannot resolve."""
         coefficients = self.excitation.ratio_coefficients(self.count // 2 - 1) * self.system.stiffness
         return np.asarray(np.fft.irfft(coefficients * self.count, self.count, axis=0), float)
 
@@ -74,31 +69,31 @@ class Balance(Driven):
 
     @cached_property
     def error_rates(self) -> Complexes:
-        """(q, m): coefficients of c de/dtheta."""
+        """Coefficients (q, m) of c de/dtheta."""
         half = self.excitation.error_coefficients(int(self.orders[-1]))[self.orders]
         return np.asarray(both_sides(half[None])[0] * 1j * self.signed[:, None] * self.system.mesh_damping, complex)
 
     def gaps(self, approach: Complexes) -> Floats:
-        """y - e (..., t, m) in m."""
+        """Return y - e (..., t, m) in m."""
         spectrum = np.zeros((*approach.shape[:-2], self.count, approach.shape[-1]), complex)
         spectrum[..., self.signed, :] = approach
         return np.asarray(np.fft.ifft(spectrum, axis=-2).real * self.count - self.errors, float)
 
     def slopes(self, approach: Complexes) -> Floats:
-        """k(t) g'(y - e) (..., t, m) in N/m."""
+        """Return k(t) g'(y - e) (..., t, m) in N/m."""
         gap, backlash = self.senses * self.gaps(approach), self.excitation.backlashes
         apart = (gap <= 0) & ~(gap <= -backlash) & ~np.isnan(backlash)
         return np.asarray(np.where(apart, 0.0, self.stiffness), float)
 
     def forces(self, approach: Complexes, omega: Floats | float) -> tuple[Complexes, Complexes]:
-        """K y - N(y) + c e' (..., q, m), and its derivative with respect to omega."""
+        """Return K y - N(y) + c e' (..., q, m), and its derivative with respect to omega."""
         carried = self.stiffness * pressed(self.gaps(approach), self.excitation.backlashes, self.senses)
         spectrum = np.fft.fft(carried, axis=-2)[..., self.signed, :] / self.count
         rate = self.error_rates
         return approach * self.system.stiffness - spectrum + np.asarray(omega)[..., None, None] * rate, rate
 
     def equations(self, approach: Complexes, omega: float) -> tuple[Complexes, Complexes, Complexes]:
-        """Residual (qm,), its derivatives (qm, qm) with respect to the approach and (qm,) to omega."""
+        """Return the residual (qm,) and its derivatives (qm, qm) with respect to the approach and (qm,) to omega."""
         residual, jacobian, forces, mesh = self._linearised(approach[None], np.array([omega]))
         step = 1e-6 * omega
         beside = both_sides(at_orders(self.system, self.static, omega + np.array([step, -step]), self.orders).mesh)
@@ -107,7 +102,9 @@ class Balance(Driven):
         return residual[0], jacobian[0], with_omega.ravel()
 
     def _linearised(self, approach: Complexes, omega: Floats) -> tuple[Complexes, Complexes, Complexes, Complexes]:
-        """Of motions (s, q, m): residuals (s, qm), derivatives (s, qm, qm), forces (s, q, m), flexibilities (s, q, m, m)."""
+        """Return of motions (s, q, m) residuals (s, qm), derivatives (s, qm, qm), forces (s, q, m),
+        flexibilities (s, q, m, m).
+        """
         mesh = both_sides(at_orders(self.system, self.static, omega, self.orders).mesh)
         forces = self.forces(approach, omega)[0]
         residual = approach - np.einsum("shij,shj->shi", mesh, forces)
@@ -120,7 +117,9 @@ class Balance(Driven):
         return residual.reshape(-1, size), jacobian, forces, mesh
 
     def solve(self, approach: Complexes, omega: Floats) -> tuple[Complexes, Bools]:
-        """The motions (s, q, m) at frequencies (s,), by Newton's method from near ones; and for which of them it converges."""
+        """Return motions (s, q, m) at frequencies (s,), by Newton's method from near ones, and whether each
+        of them converges.
+        """
         approach, found = np.array(approach), np.zeros(len(omega), bool)
         block = max(1, _BLOCK // approach[0].size ** 2) if len(omega) else 1
         for i in range(0, len(omega), block):
@@ -142,7 +141,7 @@ class Balance(Driven):
 
 
 def real_course(approach: Complexes) -> Complexes:
-    """Coefficients (..., q, m) of signed orders without what rounding adds and no real motion has: it would grow."""
+    """Return coefficients (..., q, m) of signed orders without what rounding adds and no real motion has: it would grow."""
     return np.asarray((approach + approach[..., ::-1, :].conj()) / 2, complex)
 
 
@@ -162,13 +161,13 @@ class Arc:
 
     @cached_property
     def folds(self) -> Floats:
-        """Where (1/s, of the common period) the branch turns back."""
+        """Frequencies (1/s, of the common period) at which the branch turns back."""
         omega = np.array([omega for _, omega in self.points])
         turns = np.diff(omega)[1:] * np.diff(omega)[:-1] < 0
         return omega[1:-1][turns]
 
     def crossings(self, omegas: Floats) -> tuple[Indices, Indices, Complexes]:
-        """Which of rising omegas (s,) it crosses (c,), after how many turns (c,), and the motions (c, q, m) there."""
+        """Return which of rising omegas (s,) it crosses (c,), after how many turns (c,), and the motions (c, q, m) there."""
         first = int(omegas[0] == self.points[0][1])
         index, runs, guesses, run, rising = [0] * first, [0] * first, [self.points[0][0]] * first, 0, True
         for (start, low), (end, high) in pairwise(self.points):
@@ -185,7 +184,10 @@ class Arc:
 
 
 def follow(balance: Balance, approach: Complexes, low: float, high: float, share: Share = unheard) -> Arc:
-    """The branch from the motion near `approach` (q, m) at `low` to beyond `high`. Raises SolverError where it ends before."""
+    """Return the branch from the motion near `approach` (q, m) at `low` to beyond `high`.
+
+    Raises SolverError if the branch ends before.
+    """
     (started,), (found,) = balance.solve(approach[None], np.array([low]))
     if not found:
         raise SolverError(f"no periodic motion found at {low / balance.excitation.fundamental:g} 1/s: begin at another speed")
@@ -215,7 +217,7 @@ def follow(balance: Balance, approach: Complexes, low: float, high: float, share
 
 
 def _with_folds(balance: Balance, points: list[tuple[Complexes, float]], scales: Floats) -> list[tuple[Complexes, float]]:
-    """The points, and between them those where the frequency turns."""
+    """Return the points, with those between them at which the frequency turns."""
     result = points[:1]
     for before, here, after in zip(points, points[1:], points[2:], strict=False):
         result.append(here)
@@ -227,7 +229,7 @@ def _with_folds(balance: Balance, points: list[tuple[Complexes, float]], scales:
 
 
 def _fold(balance: Balance, three: list[tuple[Complexes, float]], scales: Floats) -> tuple[tuple[Complexes, float], int]:
-    """Where the branch turns near the middle one of three points, and whether that is before (-1) or behind (1) it."""
+    """Return the point where the branch turns near the middle one of three, and its place: before (-1) or behind (1) that."""
     states = [np.append(approach.ravel(), omega) / scales for approach, omega in three]
     along = (states[2] - states[0]) / np.linalg.norm(states[2] - states[0])
     places = [float(np.vdot(along, state - states[1]).real) for state in states]
@@ -253,7 +255,7 @@ def _fold(balance: Balance, three: list[tuple[Complexes, float]], scales: Floats
 
 
 def _bordered(balance: Balance, state: Complexes, scales: Floats, direction: Complexes) -> tuple[Complexes, Complexes]:
-    """Residual, and the scaled Jacobian with the direction as last row."""
+    """Return the residual, and the scaled Jacobian with the direction as last row."""
     values = state * scales
     residual, jacobian, with_omega = balance.equations(values[:-1].reshape(len(balance.signed), -1), float(values[-1].real))
     whole = np.zeros((len(state), len(state)), complex)
@@ -264,7 +266,7 @@ def _bordered(balance: Balance, state: Complexes, scales: Floats, direction: Com
 
 
 def _tangent(balance: Balance, state: Complexes, scales: Floats, before: Complexes) -> Complexes:
-    """Unit vector along the branch, onwards."""
+    """Return the unit vector along the branch, onwards."""
     _, whole = _bordered(balance, state, scales, before)
     right = np.zeros(len(state), complex)
     right[-1] = 1
@@ -273,7 +275,9 @@ def _tangent(balance: Balance, state: Complexes, scales: Floats, before: Complex
 
 
 def _correct(balance: Balance, guess: Complexes, scales: Floats, direction: Complexes) -> tuple[Complexes, int] | None:
-    """The point of the branch square to the direction from a guess, and the Newton steps it took."""
+    """Return the point of the branch square to the direction from a guess, and the number of Newton steps;
+    None if not found.
+    """
     state = guess
     for count in range(1, 11):
         if state[-1].real <= 0:
@@ -310,12 +314,12 @@ class Branch:
     stable: Bools
 
     def sweep(self, direction: Direction = Direction.UP) -> PeriodicResponse:
-        """What is seen while the speed slowly rises or falls: a motion is kept as long as it lasts, then another is taken."""
+        """Return the response to a slowly rising or falling speed: a motion is kept while it lasts, then another is taken."""
         chosen, jumps = self.seen(direction)
         return self.response(chosen, jumps)
 
     def seen(self, direction: Direction) -> tuple[Indices, Floats]:
-        """Which motions (s,) a sweep shows, and the frequencies at which it goes over to another run of the branch."""
+        """Return which motions (s,) a sweep shows, and the frequencies (1/s) at which it goes to another run of the branch."""
         direction = as_choice("direction", direction, Direction)
         rising = direction is Direction.UP
         order = range(len(self.frequencies)) if rising else range(len(self.frequencies) - 1, -1, -1)
@@ -340,11 +344,11 @@ class Branch:
         return np.sort(self.arc.folds) / self.excitation.fundamental
 
     def at(self, frequencies: Floats) -> Branch:
-        """The same branch at other rising frequencies (1/s), within its own; at those where a motion is found."""
+        """Return the same branch at other rising frequencies (1/s) within its own, at those where a motion is found."""
         return _crossed(self.arc, frequencies)
 
     def with_motions(self, others: Branch) -> Branch:
-        """With those at other frequencies; its own motions come first."""
+        """Return the branch with its own motions first, then those of `others` at other frequencies."""
         frequencies = np.union1d(self.frequencies, others.frequencies)
         index = [np.searchsorted(frequencies, each.frequencies[each.index]) for each in (self, others)]
         return replace(
@@ -357,13 +361,13 @@ class Branch:
         )
 
     def coefficients(self) -> Complexes:
-        """(c, q, m) of all orders from 0 on."""
+        """Return Fourier coefficients (c, q, m) of all orders from 0 on."""
         result = np.zeros((len(self.index), int(self.harmonics[-1]) + 1, self.approach.shape[2]), complex)
         result[:, self.harmonics] = self.approach
         return result
 
     def response(self, chosen: Indices, jumps: Floats | None = None) -> PeriodicResponse:
-        """Some of the motions, in this order."""
+        """Return the response of some of the motions, in this order."""
         frequencies = self.frequencies[self.index[chosen]]
         balance = Balance(self.system, self.excitation, self.harmonics)
         approach, stable = self.approach[chosen], self.stable[chosen]
@@ -393,17 +397,17 @@ def sweep(
     *,
     harmonics: int = 16,
 ) -> PeriodicResponse:
-    """The run up (or down) through circular tooth frequencies of the first mesh (1/s), flanks parting; see `trace`."""
+    """Return the run up (or down) through circular tooth frequencies of the first mesh (1/s), flanks parting; see `trace`."""
     return trace(system, excitation, frequencies, harmonics=harmonics).sweep(direction)
 
 
 def trace(
     system: System, excitation: Excitation, frequencies: ArrayLike, *, harmonics: int = 16, share: Share = unheard
 ) -> Branch:
-    """The branch of periodic motions over rising frequencies (1/s), from the lowest to the highest.
+    """Return the branch of periodic motions over rising frequencies (1/s), from the lowest to the highest.
 
-    Motions of twice the period, and branches that do not hang together with the one at the lowest frequency, are not looked
-    for; where none of those found is stable, the response of a sweep says so. Raises SolverError where the branch ends.
+    Motions of twice the period, and branches not connected to the one at the lowest frequency, are not looked for. Where no
+    motion found is stable, the response of a sweep says so. Raises SolverError if the branch ends.
     """
     excitation.fits(system)
     speeds = checked_frequencies(frequencies)
@@ -421,7 +425,7 @@ def trace(
 
 
 def _crossed(arc: Arc, speeds: Floats) -> Branch:
-    """The motions of a branch at frequencies that rise."""
+    """Return the motions of a branch at frequencies that rise."""
     balance = arc.balance
     fundamental = balance.excitation.fundamental
     index, run, approach = arc.crossings(speeds * fundamental)

@@ -34,11 +34,11 @@ class Charts(NamedTuple):
     ratios: tuple[float, ...]
 
     def directions(self) -> list[tuple[Direction, KvChart]]:
-        """Each chart with the direction in which it was run through."""
+        """Return each chart with the direction in which it was run through."""
         return [(Direction.UP, self.up), *([] if self.down is None else [(Direction.DOWN, self.down)])]
 
     def speed(self, frequency: float) -> float:
-        """At one of the charts' circular tooth frequencies of the first mesh (1/s)."""
+        """Return the speed (rpm) at one of the charts' circular tooth frequencies of the first mesh (1/s)."""
         return float(self.speeds[self.up.frequencies == frequency][0])
 
 
@@ -52,7 +52,7 @@ class GreatestFactor(NamedTuple):
     stable: bool
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the factor in `dynamics.json`."""
         return {**self._asdict(), "direction": None if self.direction is None else self.direction.value}
 
 
@@ -83,7 +83,7 @@ class ChartResonance(NamedTuple):
     damped: float
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the resonance in `dynamics.json`."""
         plain = {
             "directions": [each.value for each in self.directions],
             "met": None if self.met is None else self.met._asdict(),
@@ -110,7 +110,10 @@ class ModeSpeed(NamedTuple):
 
 
 def greatest_factor(charts: Charts, rows: Bools | None = None) -> GreatestFactor:
-    """Return that of all meshes and directions, of some `rows` (s,) of the charts if given."""
+    """Return the greatest K_v of all meshes and directions, in some `rows` (s,) of the charts if given.
+
+    All rows count if none of those given has a value.
+    """
     inside = np.ones(len(charts.speeds), bool) if rows is None else rows
     if not any(np.isfinite(chart.factors[inside]).any() for _, chart in charts.directions()):
         inside = np.ones(len(charts.speeds), bool)
@@ -127,7 +130,10 @@ def greatest_factor(charts: Charts, rows: Bools | None = None) -> GreatestFactor
 
 
 def chart_resonances(charts: Charts, natural: Floats) -> tuple[ChartResonance, ...]:
-    """Mesh by mesh, those running up first; `natural` (n,) are the circular natural frequencies (1/s), 0 for free turning."""
+    """Return the resonances mesh by mesh, those running up first.
+
+    `natural` (n,) are the circular natural frequencies (1/s), 0 for free turning.
+    """
     found = []
     for mesh, name in enumerate(charts.up.mesh_names):
         shown: dict[tuple[float, float], list[Direction]] = {}
@@ -157,7 +163,7 @@ def chart_resonances(charts: Charts, natural: Floats) -> tuple[ChartResonance, .
 
 
 def _met(charts: Charts, natural: Floats, mesh: int, frequency: float) -> MetMode | None:
-    """The natural frequency that the lowest harmonic of a tooth frequency (1/s of the first mesh) meets there, if any."""
+    """Return the natural frequency met there by the lowest harmonic of a tooth frequency (1/s of the first mesh), if any."""
     found = [
         (harmonic, abs(harmonic * ratio * frequency / circular - 1), mode, other)
         for other, ratio in enumerate(charts.ratios)
@@ -175,7 +181,7 @@ def _met(charts: Charts, natural: Floats, mesh: int, frequency: float) -> MetMod
 
 
 def shaft_overloads(charts: Charts) -> tuple[ShaftOverload, ...]:
-    """Of the shafts that carry something at rest, running up."""
+    """Return the greatest overloads of the shafts that carry a torque at rest, running up."""
     chart, found = charts.up, []
     for shaft in chart.referred_shafts:
         row = int(np.nanargmax(chart.shaft_factors[:, shaft]))
@@ -185,7 +191,10 @@ def shaft_overloads(charts: Charts) -> tuple[ShaftOverload, ...]:
 
 
 def mode_speeds(modes: NaturalModes, teeth: int, others: Sequence[float] = ()) -> tuple[ModeSpeed, ...]:
-    """Of elastic modes, and of halves of those that bend teeth; of `others` (Hz) instead, met by a pinion of so many teeth."""
+    """Return the speeds that meet elastic modes, and those that meet half the frequency of modes that bend teeth.
+
+    If `others` (Hz) are given, they and their halves are used instead, met by a pinion with that number of `teeth`.
+    """
     if others:
         elastic = [(mode, hertz) for mode, hertz in enumerate(others, 1) if hertz]
         return tuple(ModeSpeed(mode, part, 0, 60 * hertz / teeth / part) for mode, hertz in elastic for part in (1, 2))
@@ -209,7 +218,7 @@ _NOISE = 1e-9
 
 
 class GreatestAmplitude(NamedTuple):
-    """Half of peak to peak of what `quantity` of an inertia, a mesh or a gear says, in `unit`, where it is greatest.
+    """The greatest amplitude, half of peak to peak, of a `quantity` of an inertia, a mesh or a gear, in `unit`.
 
     `speed` in rpm and `frequency`, that of the teeth of the first mesh, in 1/s; no direction where up and down are the same.
     """
@@ -223,12 +232,12 @@ class GreatestAmplitude(NamedTuple):
     direction: Direction | None
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the amplitude in `dynamics.json`."""
         return {**self._asdict(), "direction": None if self.direction is None else self.direction.value}
 
 
 class GreatestBearingForce(NamedTuple):
-    """The greatest force on the bearings of a `gear` (N), beside that at rest, which is the mean too."""
+    """The greatest force on the bearings of a `gear` (N), and the `static` one at rest (N), which is the mean too."""
 
     gear: str
     force: float
@@ -238,12 +247,12 @@ class GreatestBearingForce(NamedTuple):
     direction: Direction | None
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it."""
+        """Return the entry of the force in `dynamics.json`."""
         return {**self._asdict(), "direction": None if self.direction is None else self.direction.value}
 
 
 def greatest_amplitudes(charts: Charts) -> tuple[GreatestAmplitude, ...]:
-    """Of every inertia, mesh, and axis on bearings, over all speeds and both directions."""
+    """Return the greatest amplitude of every inertia, mesh, and axis on bearings, over all speeds and both directions."""
     courses = [(direction, _amplitudes(chart)) for direction, chart in charts.directions()]
     found = []
     for quantity, unit, name in courses[0][1]:
@@ -254,7 +263,7 @@ def greatest_amplitudes(charts: Charts) -> tuple[GreatestAmplitude, ...]:
 
 
 def greatest_bearing_forces(charts: Charts) -> tuple[GreatestBearingForce, ...]:
-    """Of every gear on bearings, over all speeds and both directions."""
+    """Return the greatest bearing force of every gear on bearings, over all speeds and both directions."""
     loads = [(direction, chart.bearings) for direction, chart in charts.directions() if chart.bearings is not None]
     found = []
     for i, gear in enumerate(loads[0][1].gears if loads else ()):
@@ -264,7 +273,7 @@ def greatest_bearing_forces(charts: Charts) -> tuple[GreatestBearingForce, ...]:
 
 
 def _amplitudes(chart: KvChart) -> dict[tuple[str, str, str], Floats]:
-    """Over speed (s,), by quantity, unit, and name of what moves."""
+    """Return amplitudes over speed (s,), by quantity, unit, and name of the moving part."""
     moved, bearings = chart.displacements, chart.bearings
     found = {("turn", "arcsec", name): turn for name, turn in zip(moved.inertia_names, moved.turns.T, strict=True)}
     found |= {("approach", _MICROMETRES, name): each for name, each in zip(moved.mesh_names, moved.approaches.T, strict=True)}
@@ -276,7 +285,7 @@ def _amplitudes(chart: KvChart) -> dict[tuple[str, str, str], Floats]:
 
 
 def _most(charts: Charts, courses: list[tuple[Direction, Floats]]) -> tuple[float, float, float, Direction | None]:
-    """The greatest value over speed, its speed (rpm), tooth frequency (1/s) and direction."""
+    """Return the greatest value over speed, its speed (rpm), tooth frequency (1/s) and direction."""
     direction, course = max(courses, key=lambda each: float(np.nanmax(each[1])))
     row = int(np.nanargmax(course))
     sense = None if charts.down is None else direction

@@ -2,14 +2,8 @@
 
 Stiffness and forces are multiplied in time, flexibilities by orders, so hundreds of orders cost little; a start near the
 quasi-static motion needs few steps at low speed. GMRES: Y. Saad, M. H. Schultz, GMRES: a generalized minimal residual
-algorithm, SIAM J. Sci. Stat. Comput. 7 (1986). SciPy's solves one equation at a time, which for the thousand small equations
-of a chart over speed takes ten times as long. SI units, frequencies circular (1/s).
-
-Y. Saad, M. H. Schultz, GMRES: a generalized minimal residual algorithm, SIAM J. Sci. Stat. Comput. 7 (1986). SciPy's solves
-one equation at a time, which for the thousand small ones of a chart over speed takes ten times as long.
-
-Stiffness and forces are multiplied in time, flexibilities by orders, so hundreds of orders cost little; what begins near the
-quasi-static motion needs few steps at low speed, where that is nearly all. SI units, frequencies circular (1/s).
+algorithm, SIAM J. Sci. Stat. Comput. 7 (1986). SciPy's solves one equation at a time, which for the thousand small equations of
+a chart over speed takes ten times as long. SI units, frequencies circular (1/s).
 """
 
 from __future__ import annotations
@@ -29,9 +23,10 @@ _LOOK = 5
 
 
 def solve_all(apply: Callable[[Floats], Floats], right: Floats, tolerance: float, most: int) -> tuple[Floats, Floats]:
-    """x (s, d) with apply(x) = right (s, d), and the norms (s,) of what is left, below `tolerance` unless `most` steps end it.
+    """Return x (s, d) with apply(x) = right (s, d), and the norms (s,) of the residuals.
 
-    `apply` takes and gives (s, d), row by row a linear map of its own.
+    These are below `tolerance` unless `most` steps end the iteration. `apply` takes and returns (s, d): each row is a linear
+    map of its own.
     """
     count, size = right.shape
     norms = np.linalg.norm(right, axis=1)
@@ -67,7 +62,7 @@ def _unit(vectors: Floats, norms: Floats) -> Floats:
 
 
 def _least_squares(hessenberg: Floats, norms: Floats) -> tuple[Floats, Floats]:
-    """Weights (s, j) of the basis, and the norms (s,) of what they leave."""
+    """Return weights (s, j) of the basis, and the norms (s,) of their residuals."""
     q, r = np.linalg.qr(hessenberg)
     right = q[:, 0] * norms[:, None]
     diagonal = np.diagonal(r, axis1=1, axis2=2)
@@ -98,7 +93,8 @@ _NUMBERS = 12_000_000
 
 @dataclass(frozen=True, eq=False)
 class Motions:
-    """Of one number of orders at frequencies of the common period `omega` (s,): coefficients of the orders 0 ... 2 `orders`.
+    """Motions with one number of orders at frequencies of the common period `omega` (s,): coefficients of orders 0 ... 2
+    `orders`.
 
     `approach` (s, q, m), and the `forces` (s, q, m) at the mean system that make it by its `flexible`. Orders up to `orders`
     are in balance, those beyond follow from the forces of these. `solved` (s,): whether the balance was found.
@@ -112,7 +108,7 @@ class Motions:
     solved: NDArray[np.bool_]
 
     def only(self, kept: NDArray[np.bool_]) -> Motions:
-        """Those that are marked (s,)."""
+        """Return the motions that are marked (s,)."""
         if kept.all():
             return self
         flexible = Flexibility(self.flexible.mesh[kept], self.flexible.others[kept])
@@ -128,17 +124,17 @@ class Resolution(Driven):
 
     @property
     def samples(self) -> int:
-        """In time: so many that no product of stiffness and motion is mistaken for one of lower order."""
+        """Number of samples in time, so that no product of stiffness and motion is mistaken for one of lower order."""
         return 4 * self.orders * (2 if self.excitation.parting else 1)
 
     @cached_property
     def stiffness(self) -> Floats:
-        """(t, m) in N/m, of the orders that the samples can tell."""
+        """Mesh stiffness (t, m) in N/m, of the orders that the samples can resolve."""
         return self._course(self.excitation.ratio_coefficients(2 * self.orders - 1) * self.system.stiffness)
 
     @cached_property
     def driving(self) -> Floats:
-        """k e (t, m) in N: the product of both as they are, then its orders."""
+        """Driving force k e (t, m) in N: the product of both as they are, then its orders."""
         fine = 2 ** int(np.ceil(np.log2(max(4 * self.samples, 1024 * max(self.excitation.orders)))))
         theta = 2 * np.pi * np.arange(fine) / fine
         product = self.excitation.ratios(theta) * self.system.stiffness * self.excitation.error_course(fine)
@@ -146,13 +142,13 @@ class Resolution(Driven):
 
     @cached_property
     def rates(self) -> Complexes:
-        """(q, m): coefficients of c de/dtheta."""
+        """Coefficients (q, m) of c de/dtheta."""
         orders = np.arange(2 * self.orders + 1)[:, None]
         return self.excitation.error_coefficients(2 * self.orders) * 1j * orders * self.system.mesh_damping
 
     @cached_property
     def settled(self) -> Complexes:
-        """(q, m): coefficients of the quasi-static motion, in contact, with which every search begins."""
+        """Coefficients (q, m) of the quasi-static motion, in contact, with which every search begins."""
         static, varying = self.static, self.stiffness - self.system.stiffness
         matrix = np.eye(varying.shape[1]) + static.unit_mesh * varying[:, None, :]
         right = static.approach + self.driving @ static.unit_mesh.T
@@ -160,7 +156,7 @@ class Resolution(Driven):
         return self._spectrum(course)[: self.orders + 1]
 
     def solve(self, omega: Floats, start: Complexes | None = None) -> Iterator[Motions]:
-        """At frequencies of the common period (s,), from coefficients (s, q, m) if given; block by block."""
+        """Yield the motions at frequencies of the common period (s,), from coefficients (s, q, m) if given, block by block."""
         count, size = self.system.mesh.shape[1], self.system.size
         rows = count + self.system.inertias.shape[1] + self.system.shaft_torques.shape[1]
         block = max(1, _NUMBERS // (2 * (self.orders + 1) * (count * (60 + 2 * rows) + 2 * size)))
@@ -192,7 +188,7 @@ class Resolution(Driven):
         return self._beyond(omega, flexible, own, solved)
 
     def motions(self, omega: Floats, approach: Complexes) -> Motions:
-        """Motions of coefficients (s, q, m) that are known otherwise, with the forces that belong to them; none is solved."""
+        """Return motions of coefficients (s, q, m) known otherwise, with the forces that belong to them; none is solved."""
         flexible = at_orders(self.system, self.static, omega, np.arange(2 * self.orders + 1))
         own = np.zeros((len(omega), self.orders + 1, approach.shape[2]), complex)
         known = min(approach.shape[1], self.orders + 1)
@@ -200,7 +196,7 @@ class Resolution(Driven):
         return self._beyond(omega, flexible, own, np.zeros(len(omega), bool))
 
     def _correction(self, mesh: Complexes, slopes: Floats, residual: Complexes) -> Complexes:
-        """Newton's step: (1 + G (slopes - K)) step = residual."""
+        """Return Newton's step: (1 + G (slopes - K)) step = residual."""
         varying, shape = slopes - self.system.stiffness, residual.shape
 
         def apply(vectors: Floats) -> Floats:
@@ -218,7 +214,7 @@ class Resolution(Driven):
         return Motions(omega, self.orders, approach, forces, flexible, solved)
 
     def _forces(self, own: Complexes, omega: Floats) -> tuple[Complexes, Floats]:
-        """K y - N(y) + c e' (s, 2q - 1, m) at the mean system, and the slopes (..., t, m) of what the teeth carry, N."""
+        """Return K y - N(y) + c e' (s, 2q - 1, m) at the mean system, and the slopes (..., t, m) of the tooth forces in N."""
         course = self._course(own)
         slopes = self.stiffness
         carried = self.stiffness * course - self.driving
@@ -233,7 +229,7 @@ class Resolution(Driven):
         return forces + omega[:, None, None] * self.rates, slopes
 
     def _course(self, coefficients: Complexes) -> Floats:
-        """(..., t, m) of coefficients (..., q, m)."""
+        """Return courses (..., t, m) of coefficients (..., q, m)."""
         padded = np.zeros((*coefficients.shape[:-2], self.samples // 2 + 1, coefficients.shape[-1]), complex)
         padded[..., : coefficients.shape[-2], :] = coefficients
         return np.asarray(np.fft.irfft(padded, self.samples, axis=-2, norm="forward"), float)
@@ -243,12 +239,12 @@ class Resolution(Driven):
 
 
 def _real(coefficients: Complexes) -> Floats:
-    """(s, 2qm) of coefficients (s, q, m), so that the norm is the root mean square of the course."""
+    """Return coefficients (s, q, m) as real vectors (s, 2qm), whose norm is the root mean square of the course."""
     weighted = coefficients * np.where(np.arange(coefficients.shape[1]) == 0, 1.0, np.sqrt(2))[:, None]
     return np.asarray(weighted.reshape(len(coefficients), -1).view(float), float)
 
 
 def _coefficients(vectors: Floats, shape: tuple[int, ...]) -> Complexes:
-    """The coefficients (s, q, m) of which `_real` makes these vectors (s, 2qm)."""
+    """Return the coefficients (s, q, m) of which `_real` makes these vectors (s, 2qm)."""
     weighted = np.ascontiguousarray(vectors).view(complex).reshape(shape)
     return np.asarray(weighted / np.where(np.arange(shape[1]) == 0, 1.0, np.sqrt(2))[:, None], complex)

@@ -44,16 +44,19 @@ class Extremes:
 
     @classmethod
     def joined(cls, *parts: Self) -> Self:
-        """All parts, one after the other."""
+        """Return all parts, one after the other."""
         return cls(**{each.name: np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(cls)})
 
     def at(self, rows: Indices) -> Self:
-        """Some of them, in this order."""
+        """Return the values of some `rows`, in this order."""
         return type(self)(**{each.name: getattr(self, each.name)[rows] for each in fields(self)})
 
 
 def extremes(response: PeriodicResponse, signs: Floats, orders: Indices, samples: int | None = None) -> Extremes:
-    """Of a response, block by block of speeds: torques in the sense of `signs` (n,), lines at `orders` (k,) from 1 on."""
+    """Return the extremes of a response, block by block of speeds.
+
+    Torques are in the sense of `signs` (n,), lines at `orders` (k,) from 1 on.
+    """
     count = samples or response.samples
     wide = count * max(response.approach_coefficients.shape[2], response.torque_coefficients.shape[2])
     block = max(1, _BLOCK // wide)
@@ -81,12 +84,12 @@ def _blocks(response: PeriodicResponse, signs: Floats, orders: Indices, count: i
 
 
 def _both(course: Floats) -> Floats:
-    """(s, 2, c): greatest and least of courses (s, t, c)."""
+    """Return the greatest and least (s, 2, c) of courses (s, t, c)."""
     return np.stack([course.max(axis=1), course.min(axis=1)], axis=1)
 
 
 def _lines(response: PeriodicResponse, which: slice, orders: Indices) -> Floats:
-    """(s, k, m): 0 where the response has no such order."""
+    """Return amplitudes (s, k, m) of the approach (m) at the orders; 0 where the response has no such order."""
     result = np.zeros((len(response.frequencies[which]), len(orders), response.approach_coefficients.shape[2]))
     _, own, wanted = np.intersect1d(response.harmonics, orders, assume_unique=True, return_indices=True)
     result[:, wanted] = 2 * np.abs(response.approach_coefficients[which, own])
@@ -102,11 +105,11 @@ _FREE = 1e-9
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Displacements:
-    """Over the speeds (s,) of a chart; an amplitude is half of peak to peak over a period, about the mean.
+    """Displacements over the speeds (s,) of a chart; an amplitude is half of peak to peak over a period, about the mean.
 
     `turns` (s, i) are amplitudes of the inertias and `farthest` (s, i) their greatest turns out of the unloaded place, in
-    arcsec, nan for those that nothing holds. `approaches` (s, m) are amplitudes of the approach of the flanks and `deepest`
-    (s, m) the greatest of it, in µm.
+    arcsec, nan for those that nothing holds. `approaches` (s, m) are amplitudes of the approach of the flanks and `deepest` (s,
+    m) the greatest of it, in µm.
     """
 
     turns: Floats
@@ -117,11 +120,11 @@ class Displacements:
     mesh_names: tuple[str, ...]
 
     def of_meshes(self, columns: Indices, names: tuple[str, ...]) -> Displacements:
-        """With other meshes, each of which does what one of these does."""
+        """Return the displacements with other meshes, each of which moves as the mesh given in `columns`."""
         return replace(self, approaches=self.approaches[:, columns], deepest=self.deepest[:, columns], mesh_names=names)
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by name."""
         return {
             "turn_amplitude": self.turns,
             "turn_greatest": self.farthest,
@@ -130,7 +133,7 @@ class Displacements:
         }
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it: arcsec and µm, null where nothing holds an inertia."""
+        """Return the entry of the displacements in `dynamics.json`: arcsec and µm, null where nothing holds an inertia."""
         return {
             "turn_amplitude": columns(self.inertia_names, self.turns),
             "turn_greatest": columns(self.inertia_names, self.farthest),
@@ -140,7 +143,7 @@ class Displacements:
 
 
 def displacements(system: System, found: Extremes) -> Displacements:
-    """Of what was found over speed."""
+    """Return the displacements of extremes over speed."""
     farthest = np.abs(found.turns).max(axis=1)
     return Displacements(
         turns=_ARCSEC * _amplitudes(found.turns),
@@ -153,7 +156,7 @@ def displacements(system: System, found: Extremes) -> Displacements:
 
 
 def _unheld(system: System) -> Bools:
-    """Which inertias (i,) turn where no spring is bent: how far they are turned means nothing."""
+    """Return whether (i,) inertias turn where no spring is bent: how far they are turned means nothing."""
     squares, modes = np.linalg.eigh(system.stiffness_matrix())
     free = np.abs(system.inertias.T @ modes[:, squares <= _FREE * squares.max()])
     return np.asarray((free > _FREE * free.max(initial=0.0)).any(axis=1), bool)
@@ -161,7 +164,8 @@ def _unheld(system: System) -> Bools:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BearingLoads:
-    """What the axes of `gears` (g) press their bearings with over the speeds (s,) of a chart (N), their damping with it.
+    """Forces (N) of the axes of `gears` (g) on their bearings over the speeds (s,) of a chart, with the damping of the
+    bearings.
 
     `static` (g,) at rest, which is the mean at any speed too; `greatest` (s, g) of the resultant. `along` (s, 2, g) are the
     greatest and the least along the line of action, as the static one points, `across` (s, 2, g) square to it. `travels_along`
@@ -188,17 +192,17 @@ class BearingLoads:
         }
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by name."""
         return {"bearing_static_force": self.static, **{f"bearing_{name}": each for name, each in self._over_speed().items()}}
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it: N and µm."""
+        """Return the entry of the bearing loads in `dynamics.json`: N and µm."""
         static = dict(zip(self.gears, self.static.tolist(), strict=True))
         return {"static_force": static, **{name: columns(self.gears, each) for name, each in self._over_speed().items()}}
 
 
 def bearing_loads(system: System, static: StaticState, found: Extremes) -> BearingLoads | None:
-    """Of what was found over speed; None of axes that stay where they are."""
+    """Return the bearing loads of extremes over speed; None for axes that do not travel."""
     bearings = system.bearings
     if bearings is None:
         return None
@@ -219,17 +223,17 @@ def bearing_loads(system: System, static: StaticState, found: Extremes) -> Beari
 
 
 def _but_rounding(across: Floats, along: Floats) -> Floats:
-    """0 where bearings are alike in all directions: nothing drives what is across the line of action."""
+    """Return the values across, or 0 where bearings are alike in all directions: nothing drives travel across the line."""
     return np.where(np.nanmax(np.abs(across)) > _FREE * np.nanmax(np.abs(along)), across, 0.0)
 
 
 def _amplitudes(both: Floats) -> Floats:
-    """(s, c) of greatest and least (s, 2, c)."""
+    """Return amplitudes (s, c) of greatest and least values (s, 2, c)."""
     return np.asarray((both[:, 0] - both[:, 1]) / 2, float)
 
 
 def columns(names: tuple[str, ...], values: Floats) -> dict[str, list[float | None]]:
-    """Of values (s, c), no value (null) for nan."""
+    """Return the values (s, c) as a list for each name, None for nan."""
     plain = np.where(np.isnan(values), None, values)  # type: ignore[call-overload]
     return dict(zip(names, plain.T.tolist(), strict=True))
 
@@ -253,22 +257,27 @@ class TransmissionErrors:
     amplitudes: Floats
 
     def of_meshes(self, columns: Indices) -> TransmissionErrors:
-        """With other meshes, each of which does what one of these does."""
+        """Return the amplitudes of other meshes, each of which moves as the mesh given in `columns`."""
         return replace(self, amplitudes=self.amplitudes[:, :, columns])
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by name."""
         return {"transmission_error_order": self.orders, "transmission_error": self.amplitudes}
 
 
 def transmission_errors(orders: Floats, lines: Floats) -> TransmissionErrors:
-    """Of lines (s, k, m) in m at orders (k,): those that are a thousandth of the greatest line of a mesh at some speed."""
+    """Return the transmission errors (µm) of lines (s, k, m) in m at orders (k,).
+
+    Lines are kept that exceed a thousandth of the greatest line of a mesh at some speed.
+    """
     kept = lines_that_matter(np.nan_to_num(lines).max(axis=0, initial=0.0), _FLOOR, _MOST)
     return TransmissionErrors(orders=orders[kept], amplitudes=lines[:, kept] / _MICRO)
 
 
 def lines_that_matter(sizes: Floats, floor: float, most: int) -> Indices:
-    """Which of sizes (k, m) are above so much of the greatest of their mesh: so many at most, in rising order."""
+    """Return the rows of `sizes` (k, m) above the share `floor` of the greatest of their mesh: at most
+    `most`, in rising order.
+    """
     greatest = sizes.max(axis=0, initial=0.0)
     shares = np.divide(sizes, greatest, out=np.zeros_like(sizes), where=greatest > 0).max(axis=1)
     highest = np.argsort(-shares, kind="stable")[:most]
@@ -280,7 +289,7 @@ _PROMINENCE = 0.005
 
 
 class ForceDefinition(Enum):
-    """Which force between the teeth K_v compares with the static one."""
+    """Force between the teeth that K_v compares with the static one."""
 
     SPRING = "spring"
     """k(t) (y - e): (2.3) of J. Osinski's paper."""
@@ -325,38 +334,38 @@ class KvChart:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What to know before trusting it, in words."""
+        """The notices in words."""
         return texts(self.notices)
 
     def peaks(self, mesh: int = 0) -> list[FactorPeak]:
-        """Resonances of a mesh, in order of frequency: maxima of K_v that stand out from both sides."""
+        """Return the resonances of a mesh in order of frequency: maxima of K_v that stand out from both sides."""
         known = np.flatnonzero(np.isfinite(self.factors[:, mesh]))
         found = known[outstanding(self.factors[known, mesh], _PROMINENCE)]
         return [FactorPeak(float(self.frequencies[i]), float(self.factors[i, mesh])) for i in found]
 
     @property
     def known(self) -> NDArray[np.bool_]:
-        """Where (s,) there are loads: none where a motion with parted flanks was not found."""
+        """Marks (s,) of the frequencies with known loads; there are none where a motion with parted flanks was not found."""
         return np.asarray(np.isfinite(self.factors).all(axis=1), bool)
 
     @property
     def apart(self) -> NDArray[np.bool_]:
-        """Where (s,) flanks part at some time, or would if they could."""
+        """Marks (s,) of the frequencies at which flanks part at some time, or would if they could."""
         return np.asarray(np.any(~(self.least > 0), axis=1), bool)
 
     @property
     def referred_shafts(self) -> list[int]:
-        """Shafts that have an overload: the others carry nothing at rest."""
+        """Indices of the shafts that have an overload: the others carry nothing at rest."""
         return [shaft for shaft, column in enumerate(self.shaft_factors.T) if np.isfinite(column[self.known]).all()]
 
     @property
     def idle_shafts(self) -> list[str]:
-        """Names of those without an overload."""
+        """Names of the shafts without an overload."""
         kept = self.referred_shafts
         return [name for shaft, name in enumerate(self.shaft_names) if shaft not in kept]
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by name."""
         return {
             "kv": self.factors,
             "kv_with_damping": self.damped,
@@ -367,7 +376,7 @@ class KvChart:
         }
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it: 1/s, N, N·m; no value (null) where a shaft has no factor."""
+        """Return the entry of the chart in `dynamics.json`: 1/s, N, N·m; null where a shaft has no factor."""
         shafts = [[None if np.isnan(value) else float(value) for value in row] for row in self.shaft_factors.T]
         return {
             "frequency": self.frequencies.tolist(),
@@ -398,7 +407,7 @@ def kv_chart(
     shaft_references: Sequence[float | None] | None = None,
     method_b: DynamicFactor | None = None,
 ) -> KvChart:
-    """The chart of a response over speed, linear or of a sweep.
+    """Return the chart of a response over speed, linear or of a sweep.
 
     `shaft_references` (N·m), one per shaft, replace the static torque where given: for shafts that carry none. `method_b` are
     the data of the pair of the first mesh. Raises GeometryError where a mesh carries no static load that K_v could refer to.
@@ -432,7 +441,7 @@ def chart_of(
     stable: NDArray[np.bool_],
     notices: tuple[Notice, ...],
 ) -> KvChart:
-    """The chart of `extremes` that were found somehow, their lines at `orders` (k,), so many of them for a tooth frequency.
+    """Return the chart of extremes `found`, with their lines at `orders` (k,), `orders_per_tooth` of them to a tooth frequency.
 
     Raises GeometryError for a mesh without static force, to which K_v could not refer.
     """
@@ -464,7 +473,7 @@ def chart_of(
 
 
 def idle_shafts(torques: Floats, references: Floats) -> NDArray[np.bool_]:
-    """Which shafts (n,) have greatest torques (s, n) over speed that have little to do with those at rest (n,)."""
+    """Return whether shafts (n,) have greatest torques (s, n) over speed that have little to do with those at rest (n,)."""
     if not torques.size:
         return np.zeros(len(references), bool)
     torques = torques[np.isfinite(torques).all(axis=1)]
@@ -473,7 +482,7 @@ def idle_shafts(torques: Floats, references: Floats) -> NDArray[np.bool_]:
 
 
 def torque_references(means: Floats, given: Sequence[float | None] | None = None) -> tuple[Floats, Floats]:
-    """Reference torques (n,), and the sense (n,) in which they act: 0 where it is unknown.
+    """Return reference torques (n,) in N·m, and the sense (n,) in which they act: 0 where it is unknown.
 
     Raises ParameterError unless as many are `given` as shafts, each above 0 N·m or None.
     """

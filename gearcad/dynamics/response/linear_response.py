@@ -52,10 +52,10 @@ _BLOCK = 4_000_000
 
 
 def growth(system: System, excitation: Excitation, frequencies: Floats, slopes: Floats | None = None) -> Floats:
-    """Largest multiplier (s,) over one period at many frequencies: by splitting each step, of second order.
+    """Return the largest multiplier (s,) over one period at many frequencies, by splitting each step, of second order.
 
     `slopes` (s, t, m) are stiffnesses (N/m) over the common period where they are not those of the excitation: those of flanks
-    that part. Between two half steps of the mean system, solved exactly, what differs from the mean gives a push. Only modes
+    that part. Between two half steps of the mean system, solved exactly, the difference from the mean gives a push. Only modes
     are looked at that have at least a thousandth of their energy in the meshes: no other can be driven there.
     """
     order = int(np.gcd.reduce(excitation.orders)) if slopes is None else 1
@@ -80,7 +80,7 @@ def growth(system: System, excitation: Excitation, frequencies: Floats, slopes: 
 
 
 def _driven_modes(system: System) -> tuple[Floats, Floats, Floats]:
-    """Squares (r,), damping (r, r) and approaches (r, m) of the mean system's modes that move the meshes."""
+    """Return squares (r,), damping (r, r) and approaches (r, m) of the mean system's modes that move the meshes."""
     squares, modes = np.linalg.eigh(system.stiffness_matrix())
     mesh = modes.T @ system.mesh
     energy = (mesh**2 * system.stiffness).sum(axis=1)
@@ -104,7 +104,10 @@ def _growth(squares: Floats, damping: Floats, mesh: Floats, excess: Floats, peri
 
 
 def _propagators(squares: Floats, damping: Floats, times: Floats) -> Floats:
-    """(s, 2n, 2n): exp(A t) of the mean system at all times (s,) at once, by Taylor's series of halved times, squared again."""
+    """Return exp(A t) (s, 2n, 2n) of the mean system at all times (s,) at once.
+
+    It is found by Taylor's series of halved times, squared again.
+    """
     n, rate = len(squares), float(np.sqrt(squares.max())) or 1.0
     # Rates over the quickest frequency: both halves of a state are then alike in size.
     generator = np.block([[np.zeros((n, n)), rate * np.eye(n)], [-np.diag(squares) / rate, -damping]])
@@ -121,7 +124,7 @@ def _propagators(squares: Floats, damping: Floats, times: Floats) -> Floats:
 
 
 def checked_frequencies(frequencies: ArrayLike) -> Floats:
-    """Frequencies (s,) as floats; raises ParameterError unless all are above 0."""
+    """Return frequencies (s,) as floats. Raises ParameterError unless all are above 0."""
     values = np.atleast_1d(np.array(frequencies, float))
     if values.ndim != 1 or not values.size or not np.isfinite(values).all() or values.min() <= 0:
         raise ParameterError("frequencies", f"{values.size} values", "must be finite numbers above 0 1/s")
@@ -129,10 +132,10 @@ def checked_frequencies(frequencies: ArrayLike) -> Floats:
 
 
 def harmonic_orders(excitation: Excitation, harmonics: int) -> Indices:
-    """Orders (q,) of the common period, from 0 on, that the excitation drives up to `harmonics` of each tooth frequency.
+    """Return orders (q,) of the common period, from 0 on, that the excitation drives up to `harmonics` of each tooth frequency.
 
-    Those of several tooth frequencies combine; transmission errors of a longer period bring all orders with them.
-    Raises ParameterError for more of them than can be solved.
+    Those of several tooth frequencies combine; transmission errors of a longer period bring all orders with them. Raises
+    ParameterError for more of them than can be solved.
     """
     require_whole("harmonics", harmonics, at_least=1, at_most=200)
     orders = sorted(set(excitation.orders))
@@ -154,7 +157,7 @@ def harmonic_orders(excitation: Excitation, harmonics: int) -> Indices:
 def periodic_response(
     system: System, excitation: Excitation, frequencies: ArrayLike, *, harmonics: int = 6, stability: bool = True
 ) -> PeriodicResponse:
-    """Steady vibration at circular tooth frequencies of the first mesh (1/s), flanks always in contact.
+    """Return the steady vibration at circular tooth frequencies of the first mesh (1/s), flanks always in contact.
 
     With `stability` the Floquet multipliers at every frequency are found too, and growth is told in the notices. Raises
     GeometryError for torques that do not balance, SolverError where no finite response exists.
@@ -188,7 +191,7 @@ def periodic_response(
 def _solve(
     system: System, excitation: Excitation, static: StaticState, speeds: Floats, orders: Indices
 ) -> tuple[Complexes, Outputs]:
-    """Coefficients (s, q, ...) of approaches, and of all else."""
+    """Return coefficients (s, q, ...) of the approaches, and those of all other outputs."""
     omega = excitation.fundamental * speeds
     flexible = at_orders(system, static, omega, orders)
     signed = np.concatenate([-orders[:0:-1], orders])
@@ -204,7 +207,7 @@ def _solve(
 
 
 def _driving(system: System, excitation: Excitation, omega: Floats, signed: Indices) -> Complexes:
-    """(s, q, m): coefficients of k e + c e'."""
+    """Return coefficients (s, q, m) of k e + c e'."""
     highest = int(signed[-1])
     errors = excitation.error_coefficients(highest)
     result = np.zeros((len(omega), len(signed), errors.shape[1]), complex)
@@ -222,8 +225,10 @@ def _driving(system: System, excitation: Excitation, omega: Floats, signed: Indi
 def _approaches(
     system: System, excitation: Excitation, static: StaticState, mesh: Complexes, driving: Complexes, signed: Indices
 ) -> tuple[Complexes, Complexes]:
-    """Approaches and forces (s, q, m). Orders that differ by no multiple of those of the stiffness know nothing of each other:
-    each class of them is solved alone."""
+    """Return approaches and forces (s, q, m).
+
+    Orders whose difference is no multiple of the orders of the stiffness do not interact: each class of them is solved alone.
+    """
     reach = int(signed[-1] - signed[0])
     half = excitation.ratio_coefficients(reach) * system.stiffness
     half[0] = 0
@@ -244,7 +249,7 @@ def _approaches(
 
 
 def _with_parting(result: PeriodicResponse) -> PeriodicResponse:
-    """With a notice where the linear response has flanks that pull."""
+    """Return the response, or the same with bonded flanks and a notice where its flanks would pull."""
     per = max(1, _BLOCK // (result.samples * result.approach_coefficients.shape[2]))
     starts = range(0, len(result.frequencies), per)
     linear = replace(result, excitation=result.excitation.bonded)

@@ -1,8 +1,6 @@
 """Run up and run down of a train whose flanks part, integrated in time: the greatest loads over speed.
 
 SI units; frequencies are circular tooth frequencies of the first mesh (1/s).
-
-SI units, frequencies are circular tooth frequencies of the first mesh (1/s).
 """
 
 from __future__ import annotations
@@ -57,7 +55,7 @@ _ROUNDS, _MOST_SECONDS = 5, 25.0
 
 
 class _State(NamedTuple):
-    """Where a run stands: `frequency` in 1/s, coordinates, and turns of the common period."""
+    """State of a run: `frequency` in 1/s, coordinates, and turns of the common period."""
 
     frequency: float
     start: Start
@@ -106,7 +104,7 @@ class TimeRuns:
         return told, self.parts(told)
 
     def parts(self, told: Told) -> Bools:
-        """Whether (s,) flanks would part in linear motions, or these do not last or were not found."""
+        """Return whether (s,) flanks would part in linear motions, or these do not last or were not found."""
         found = np.asarray((told.least <= 0).any(axis=1) | ~np.isfinite(told.left_out), bool)
         rest = np.flatnonzero(~found)
         found[rest] = growth(self.linear.system, self.linear.excitation, told.frequencies[rest]) > UNSTABLE
@@ -123,7 +121,7 @@ class TimeRuns:
         return settling_time(self.linear.system)
 
     def reason(self, more: int) -> str:
-        """Why there is no run, "" if there is; `more` speeds are those between the rungs."""
+        """Return why there is no run, "" if there is one; `more` is the number of speeds between the rungs."""
         if not math.isfinite(self.settling):
             return "without damping no motion settles"
         flagged = self.rungs[self.contact[1]]
@@ -179,7 +177,7 @@ class TimeRuns:
         return (Told.joined(contact, *parts).at(rows) if parts else contact), in_time, repeats
 
     def _place(self, run: TimeRun, frequency: float) -> int:
-        """The rung that the run passes last before a frequency, or at it."""
+        """Return the index of the rung that the run passes last before a frequency (1/s), or at it."""
         if run.direction is Direction.UP:
             return max(int(np.searchsorted(self.rungs, frequency, side="right")) - 1, 0)
         return min(int(np.searchsorted(self.rungs, frequency, side="left")), len(self.rungs) - 1)
@@ -188,12 +186,12 @@ class TimeRuns:
         return run.states[self._place(run, frequency)]
 
     def _beside(self, run: TimeRun, frequency: float) -> tuple[float, bool]:
-        """The frequency of that rung, and whether flanks would part there."""
+        """Return the frequency (1/s) of the rung passed last, and whether flanks would part there."""
         place = self._place(run, frequency)
         return float(self.rungs[place]), bool(self.contact[1][place])
 
     def _in_contact(self, frequency: float, flagged: bool = False) -> _State:
-        """The linear motion at a frequency; at rest where that is none to begin with."""
+        """Return the state of the linear motion at a frequency (1/s), or at rest if the frequency is `flagged`."""
         if flagged:
             return _State(frequency, self.moving.at_rest(), 0.0)
         omega = self.linear.excitation.fundamental * frequency
@@ -202,13 +200,13 @@ class TimeRuns:
         return _State(frequency, _start(self.linear, motion), 0.0)
 
     def _counts(self, frequency: float) -> tuple[int, int]:
-        """Steps until a motion has settled, and those over which loads are counted."""
+        """Return the number of steps until a motion has settled, and of those over which loads are counted."""
         per, periods = self._steps(frequency)
         period = 2 * math.pi / (self.excitation.fundamental * frequency)
         return math.ceil(_SETTLES * self.settling / period) * per, periods * per
 
     def _steps(self, frequency: float) -> tuple[int, int]:
-        """Steps to a common period, and common periods over which loads are counted."""
+        """Return the number of steps to a common period, and of common periods over which loads are counted."""
         most = max(self.excitation.orders)
         per_wave = max(_PER_WAVE, _PHASE / math.sqrt(max(float(self.linear.modes.ratio.min(initial=1.0)), 1e-6)))
         waves = shaken_frequency(self.linear.system) / (self.excitation.fundamental * frequency)
@@ -216,7 +214,10 @@ class TimeRuns:
         return per, max(_LEAST_PERIODS, math.ceil(_TEETH / most))
 
     def _go(self, begin: _State, frequency: float, *, sampled: bool) -> _Stay:
-        """From a state to a frequency (1/s), settled there if it does; a longer stretch of it if it does not."""
+        """Return the motion at a frequency (1/s) that a run reaches from a state and that has settled if it does.
+
+        If it is `sampled` and does not settle, a longer stretch of it is returned.
+        """
         per, _ = self._steps(frequency)
         settle, hold = self._counts(frequency)
         common = [self.excitation.fundamental * each / (2 * math.pi) for each in (begin.frequency, frequency)]
@@ -249,9 +250,10 @@ class TimeRuns:
         return _Stay(_State(frequency, motion.end, turns), motion, per, repeats)
 
     def response(self, frequency: float, orders: int) -> PeriodicResponse:
-        """What the run up shows at one frequency (1/s), by its orders of the common period.
+        """Return the motion that the run up shows at one frequency (1/s), by its orders of the common period.
 
-        Where its motion does not repeat, the periodic motion next to it, which is not stable."""
+        If the motion does not repeat, the periodic motion next to it is returned, which is not stable.
+        """
         run = self.both[0]
         begin = self._before(run, frequency) or self._in_contact(*self._beside(run, frequency))
         end, motion, per, repeats = self._go(begin, frequency, sampled=True)
@@ -266,7 +268,7 @@ class TimeRuns:
         return replace(response, stable=np.array([repeats]))
 
     def _extremes(self, motion: Motion, frequency: float, per: int) -> Told:
-        """Of the samples of a motion that has settled."""
+        """Return the extremes of the samples of a settled motion."""
         system, senses = self.linear.system, self.moving.senses
         signs = self.linear.references[1]
         torque, count = motion.shaft_torque[1:], len(motion.approach) - 1
@@ -294,12 +296,12 @@ class TimeRuns:
 
 
 def _both(course: Floats) -> Floats:
-    """Greatest and least (1, 2, c) of a course (t, c)."""
+    """Return the greatest and least (1, 2, c) of a course (t, c)."""
     return np.stack([course.max(axis=0), course.min(axis=0)])[None]
 
 
 def without_values(told: Told, rows: Indices) -> Told:
-    """The loads with nan in some of the rows (x,)."""
+    """Return the loads with nan in some of the rows (x,)."""
     values = {name: np.array(value) for name, value in vars(told).items()}
     for name, value in values.items():
         if name not in ("frequencies", "left_out"):
@@ -310,7 +312,7 @@ def without_values(told: Told, rows: Indices) -> Told:
 
 
 def _start(curves: SpeedCurves, motion: Motions) -> Start:
-    """Coordinates and rates (n,) at phase 0 of one linear motion."""
+    """Return the coordinates and rates (n,) at phase 0 of one linear motion."""
     system, omega = curves.system, float(motion.omega[0])
     forces = motion.forces[0] @ system.mesh.T
     orders = omega * np.arange(1, len(forces))

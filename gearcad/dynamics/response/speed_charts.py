@@ -1,8 +1,6 @@
 """Charts of a System over speed: linear, or running up and down where flanks part, with every maximum between the speeds.
 
 SI units; frequencies are circular tooth frequencies of the first mesh (1/s).
-
-SI units, frequencies are circular tooth frequencies of the first mesh (1/s).
 """
 
 from __future__ import annotations
@@ -34,7 +32,7 @@ from gearcad.rating.dynamic_factor import DynamicFactor
 
 
 def left_out(curves: SpeedCurves, told: Told) -> tuple[Notice, ...]:
-    """Where there are fewer harmonics than a hundredth asks for."""
+    """Return a notice where more harmonics would be needed to leave out at most a hundredth of the load."""
     short = told.left_out > LEFT_OUT
     if not short.any():
         return ()
@@ -47,7 +45,7 @@ def left_out(curves: SpeedCurves, told: Told) -> tuple[Notice, ...]:
 
 
 def standstill(curves: SpeedCurves) -> tuple[Notice, ...]:
-    """Where loads do not come down to those at rest, however slowly gears turn."""
+    """Return a notice if loads do not come down to those at rest, however slowly gears turn."""
     factor = curves.standstill
     if factor < 1 + LEFT_OUT:
         return ()
@@ -59,7 +57,7 @@ def standstill(curves: SpeedCurves) -> tuple[Notice, ...]:
 
 
 def not_looked_for(frequencies: Floats) -> tuple[Notice, ...]:
-    """Low speeds, between which there is one resonance after the other."""
+    """Return a notice of low speeds, between which one resonance follows another."""
     if not len(frequencies):
         return ()
     text = (
@@ -70,7 +68,7 @@ def not_looked_for(frequencies: Floats) -> tuple[Notice, ...]:
 
 
 def hardly_damped(curves: SpeedCurves, frequencies: Floats) -> tuple[Notice, ...]:
-    """Resonances that are narrower than is looked for."""
+    """Return a notice of resonances that are narrower than those looked for."""
     sharp = curves.sharp(frequencies)
     if not len(sharp):
         return ()
@@ -82,7 +80,7 @@ def hardly_damped(curves: SpeedCurves, frequencies: Floats) -> tuple[Notice, ...
 
 
 def in_time(frequencies: Floats, marked: Bools) -> tuple[Notice, ...]:
-    """Where loads are those of motions that were integrated in time."""
+    """Return a notice of the frequencies (1/s) at which loads are those of motions integrated in time."""
     if not marked.any():
         return ()
     text = (
@@ -93,7 +91,7 @@ def in_time(frequencies: Floats, marked: Bools) -> tuple[Notice, ...]:
 
 
 def no_value(frequencies: Floats, marked: Bools, reason: str) -> Notice:
-    """Where no loads are given, and why."""
+    """Return the notice of the frequencies (1/s) at which no loads are given, and why."""
     places = frequencies[marked]
     text = (
         f"no loads at {len(places)} speeds between tooth frequencies of {places[0]:g} and {places[-1]:g} 1/s, where flanks "
@@ -104,7 +102,7 @@ def no_value(frequencies: Floats, marked: Bools, reason: str) -> Notice:
 
 
 def fixed_harmonics(period: int, harmonics: int) -> Notice:
-    """That all comes again too late to have all its orders."""
+    """Return the notice that the common period is too long to have all its orders."""
     text = (
         f"the teeth of all meshes come again after {period} teeth only: K_v holds {harmonics} harmonics of the "
         "tooth frequencies, and what is left out, and resonances between the speeds, are not looked for"
@@ -143,12 +141,12 @@ class Parted:
     curves: SpeedCurves
 
     def seen(self, direction: Direction) -> tuple[Told, Bools, Floats]:
-        """Loads (s,) over the branch's frequencies, whether they last, and the frequencies of jumps."""
+        """Return loads (s,) over the branch's frequencies, whether they last, and the frequencies (1/s) of jumps."""
         chosen, jumps = self._chosen(direction)
         return self.told.at(chosen), self.branch.stable[chosen], jumps
 
     def refined(self, share: Share) -> Parted:
-        """With speeds between, until both directions show every maximum."""
+        """Return the branch with speeds between added, until both directions show every maximum or `MOST_ROUNDS` are done."""
         of = self._with(_beside(self.branch))
         for number in range(MOST_ROUNDS):
             share(1 - 0.5**number)
@@ -174,26 +172,26 @@ class Parted:
         return self._with(np.array([each for each in frequencies.tolist() if self.holds(each)]))
 
     def holds(self, frequency: float) -> bool:
-        """Whether the branch goes through a frequency."""
+        """Return whether the branch goes through a frequency (1/s)."""
         return bool(self.branch.frequencies[0] <= frequency <= self.branch.frequencies[-1])
 
     def running_up(self, frequency: float) -> tuple[Branch, Indices]:
-        """A branch and which (1,) of its motions is seen running up to a frequency."""
+        """Return a branch and which (1,) of its motions is seen running up to a frequency (1/s)."""
         of = self._with(np.array([frequency]))
         chosen = of._chosen(Direction.UP)[0]
         return of.branch, chosen[of.branch.frequencies == frequency]
 
     def _chosen(self, direction: Direction) -> tuple[Indices, Floats]:
-        """Which motions (s,) are seen, and the frequencies of jumps."""
+        """Return which motions (s,) are seen, and the frequencies (1/s) of jumps."""
         # Near a fold more harmonics may find no motion where fewer did: the fold is a little before.
         found = np.isfinite(self.told.left_out)
         return replace(self.branch, stable=self.branch.stable & found).seen(direction)
 
 
 def parted(curves: SpeedCurves, frequencies: Floats, apart: Floats, *, share: Share = unheard) -> Parted:
-    """Over rising frequencies (s,), through all at which flanks are `apart` (x,) in the linear motion, or that does not last.
+    """Return the branch over rising frequencies (s,) through all at which flanks are `apart` (x,) in the linear motion.
 
-    Raises SolverError where there is no such branch.
+    `apart` are also frequencies at which the linear motion does not last. Raises SolverError if there is no such branch.
     """
     ends = np.array([_MARGIN * apart[0], apart[-1] / _MARGIN])
     places = np.searchsorted(frequencies, ends) + np.array([-1, 0])
@@ -215,7 +213,7 @@ def parted(curves: SpeedCurves, frequencies: Floats, apart: Floats, *, share: Sh
 
 
 def _harmonics(curves: SpeedCurves, frequency: float) -> int:
-    """Of the tooth frequencies; raises SolverError where these are too many unknowns."""
+    """Return the number of harmonics of the tooth frequencies. Raises SolverError if these are too many unknowns."""
     meshes = len(curves.system.stiffness)
     wanted = float(curves.felt_orders(np.array([frequency]))[0]) / max(curves.excitation.orders)
     wanted = min(wanted, _MOST_UNKNOWNS)
@@ -229,7 +227,7 @@ def _harmonics(curves: SpeedCurves, frequency: float) -> int:
 
 
 def loads(branch: Branch, curves: SpeedCurves, share: Share = unheard) -> Told:
-    """Of every motion of a branch, with as many harmonics as it needs; with its own where these lead astray."""
+    """Return the loads of every motion of a branch, with as many harmonics as it needs, or its own where these lead astray."""
     start, frequencies = branch.coefficients(), branch.frequencies[branch.index]
     told = curves.told(frequencies, start, share)[0]
     astray = np.flatnonzero(np.isinf(told.left_out))
@@ -243,7 +241,7 @@ def loads(branch: Branch, curves: SpeedCurves, share: Share = unheard) -> Told:
 
 
 def _beside(branch: Branch) -> Floats:
-    """Frequencies close to both sides of the folds."""
+    """Return frequencies (1/s) close to both sides of the folds."""
     near = np.concatenate([branch.folds * (1 - _FOLD_DISTANCE), branch.folds * (1 + _FOLD_DISTANCE)])
     return np.unique(near[(near > branch.frequencies[0]) & (near < branch.frequencies[-1])])
 
@@ -266,8 +264,10 @@ _CLOSE = 0.01
 
 @dataclass(frozen=True, eq=False)
 class OverSpeed:
-    """Charts `up` and, where flanks part, `down`; frequencies of the jumps of both; what to know; and how it was found:
-    by `curves` of flanks that stick to each other, and a `branch` where those of the `excitation` part."""
+    """Charts `up` and, where flanks part, `down`, with the frequencies (1/s) of the `jumps` of both, and notices.
+
+    They were found by `curves` of flanks that stick to each other, and a `branch` where those of the `excitation` part.
+    """
 
     excitation: Excitation
     up: KvChart
@@ -280,7 +280,7 @@ class OverSpeed:
     """Runs in time, where the charts are those of these."""
 
     def response(self, frequency: float) -> PeriodicResponse:
-        """What is seen running up to any one frequency, with so many harmonics that it can be drawn over time.
+        """Return the response seen running up to any one frequency (1/s), with enough harmonics to draw it over time.
 
         It is as stable as the same motion is in the chart.
         """
@@ -300,7 +300,7 @@ class OverSpeed:
         return replace(self.branch.curves.response(motion), stable=branch.stable[row])
 
     def _motion(self, curves: SpeedCurves, frequency: float, start: Complexes | None = None) -> Motions:
-        """With the harmonics of a drawing."""
+        """Return the motion at a frequency (1/s) with the harmonics needed to draw it."""
         places = np.array([frequency])
         wanted = max(int(curves.orders(places)[0]), _DRAWN * max(curves.excitation.orders))
         balance = curves.balance(min(wanted, curves.most_orders))
@@ -317,10 +317,10 @@ def over_speed(
     method_b: DynamicFactor | None = None,
     share: Share = unheard,
 ) -> OverSpeed:
-    """Charts that hold rising `frequencies` and as many between them as their curves need.
+    """Return charts at rising `frequencies` and as many between them as their curves need.
 
-    `harmonics` of the tooth frequencies at most; else as many as leave out less than a hundredth of the load at rest.
-    `share` hears how much is done.
+    `harmonics` of the tooth frequencies at most; else as many as leave out less than a hundredth of the load at rest. `share`
+    receives how much is done.
     """
     share = onwards(share)
     excitation.fits(system)
@@ -367,7 +367,7 @@ _Side = tuple[Told, Bools, Floats]
 def _by_runs(
     linear: SpeedCurves, excitation: Excitation, frequencies: Floats, told: Told, stable: Bools, branch: Parted | None
 ) -> tuple[list[_Side], TimeRuns | None, tuple[Notice, ...]]:
-    """Charts by runs in time unless the branch shows the same; without values where runs take too long."""
+    """Return charts by runs in time unless the branch shows the same; without values where runs take too long."""
     runs = TimeRuns(linear, excitation, float(frequencies[-1]))
     flagged = runs.parts(told)
     reason = runs.reason(int(np.isin(frequencies, told.frequencies[flagged]).sum()))
@@ -395,7 +395,7 @@ def _by_runs(
 
 
 def _speeds_of(runs: TimeRuns, both: tuple[TimeRun, TimeRun], frequencies: Floats, contact: Floats) -> Floats:
-    """Return those asked for, those of motions in `contact` and the rungs at which flanks part in a run (1/s)."""
+    """Return the frequencies (1/s) asked for, those of motions in `contact`, and the rungs at which flanks part in a run."""
     nonlinear = np.any([run.nonlinear for run in both], axis=0)
     near = runs.rungs[nonlinear & (runs.rungs > frequencies[0]) & (runs.rungs < frequencies[-1])]
     place = np.clip(np.searchsorted(runs.rungs, contact) - 1, 0, len(runs.rungs) - 2)
@@ -424,7 +424,7 @@ def _same(runs: TimeRuns, run: TimeRun, branch: Parted, asked: Floats) -> bool:
 
 
 def _run_jumps(runs: TimeRuns, run: TimeRun) -> Floats:
-    """Frequencies at which loads of a run jump, in its order."""
+    """Return the frequencies (1/s) at which loads of a run jump, in its order."""
     order = slice(None) if run.direction is Direction.UP else slice(None, None, -1)
     most, rungs = run.most[order], runs.rungs[order]
     nonlinear = run.nonlinear[order]
@@ -433,7 +433,7 @@ def _run_jumps(runs: TimeRuns, run: TimeRun) -> Floats:
 
 
 def _curves(system: System, excitation: Excitation, frequencies: Floats, harmonics: int | None) -> SpeedCurves:
-    """With the shafts that some of the frequencies show to be idle."""
+    """Return the curves, with the shafts that some of the frequencies show to be idle."""
     curves = SpeedCurves(system, excitation, harmonics)
     if not curves.resolvable or np.isnan(curves.references[0]).all():
         return curves
@@ -444,9 +444,9 @@ def _curves(system: System, excitation: Excitation, frequencies: Floats, harmoni
 
 
 def _refined(curves: SpeedCurves, frequencies: Floats, share: Share) -> tuple[Told, Floats]:
-    """At the frequencies, where resonances are narrower than their distance, and where maxima are sharper.
+    """Return loads at the frequencies, where resonances are narrower than their distance, and where maxima are sharper.
 
-    Also frequencies (x,) at which there might be sharper ones, but that are too low to look for them.
+    Returns also the frequencies (x,) at which there might be sharper maxima, but that are too low to look for them.
     """
     told, narrow = curves.told(frequencies, share=part(share, 0.0, _ASKED))
     skipped, more = np.zeros(0), narrow
@@ -461,12 +461,12 @@ def _refined(curves: SpeedCurves, frequencies: Floats, share: Share) -> tuple[To
 
 
 def _round_of(share: Share, number: int) -> Share:
-    """The share of a round of speeds between: each takes half of what is left."""
+    """Return the share of a round of speeds between: each round takes half of the rest."""
     return part(share, 1 - (1 - _ASKED) / 2**number, 1 - (1 - _ASKED) / 2 ** (number + 1))
 
 
 def _near(frequencies: Floats, places: Floats) -> Bools:
-    """Which of the frequencies (s,) lie close to any of the places (p,)."""
+    """Return whether (s,) the frequencies lie close to any of the places (p,)."""
     known = np.sort(places)
     after = np.searchsorted(known, frequencies)
     beside = np.stack([np.concatenate([[-np.inf], known, [np.inf]])[after + side] for side in (0, 1)])
@@ -474,7 +474,7 @@ def _near(frequencies: Floats, places: Floats) -> Bools:
 
 
 def _together(told: Told, stable: Bools, branch: Parted, direction: Direction) -> tuple[Told, Bools, Floats]:
-    """Linear motions outside the branch, those of the branch within."""
+    """Return the linear motions outside the branch together with the motions of the branch."""
     inside, lasting, jumps = branch.seen(direction)
     outside = (told.frequencies < inside.frequencies[0]) | (told.frequencies > inside.frequencies[-1])
     joined = Told.joined(told.at(np.flatnonzero(outside)), inside)
@@ -497,7 +497,7 @@ def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFact
 
 
 def _few(curves: SpeedCurves, excitation: Excitation, frequencies: Floats, method_b: DynamicFactor | None) -> OverSpeed:
-    """With a fixed number of harmonics, at these frequencies only."""
+    """Return charts with a fixed number of harmonics, at these frequencies only."""
     found = periodic_response(curves.system, curves.excitation, frequencies, harmonics=curves.few)
     notice = fixed_harmonics(max(curves.excitation.orders), curves.few)
     return OverSpeed(excitation, kv_chart(found, method_b=method_b), None, (np.zeros(0), np.zeros(0)), (notice,), curves, None)

@@ -2,10 +2,6 @@
 
 SI units; frequencies are circular tooth frequencies of the first mesh (1/s), omega those of the common period. Resonances are
 found from the modes at the mean stiffness of the meshes; damping couples these little where resonances are narrow.
-
-SI units. The modes are those at the mean stiffness of the meshes; damping couples them little, where resonances are narrow.
-
-SI units, frequencies are circular tooth frequencies of the first mesh (1/s) unless they are called omega: of the common period.
 """
 
 from __future__ import annotations
@@ -36,9 +32,11 @@ _SAMPLES = 4096
 
 @dataclass(frozen=True, eq=False)
 class Resonances:
-    """Of each elastic mode its natural frequency `omega` (r,) in 1/s, damping ratio `ratio` (r,), and the shares `mesh` (r, m)
-    that forces at the meshes (N) have in it; `told` (r,) is the greatest part of its load at rest by which a mesh or a shaft
-    is loaded when the mode's coordinate is 1."""
+    """Resonances of the elastic modes: natural frequencies `omega` (r,) in 1/s and damping ratios `ratio` (r,).
+
+    `mesh` (r, m) are the shares that forces at the meshes (N) have in each mode. `told` (r,) is the greatest part of its load
+    at rest by which a mesh or a shaft is loaded when the mode's coordinate is 1.
+    """
 
     omega: Floats
     ratio: Floats
@@ -49,7 +47,10 @@ class Resonances:
 
 
 def resonances(system: System, static: StaticState, references: Floats) -> Resonances:
-    """`references` (s,) in N·m are the torques that shafts are held against, nan where there is none."""
+    """Return the resonances of a System.
+
+    `references` (s,) in N·m are the torques with which those of shafts are compared, nan where there is none.
+    """
     squares, modes = np.linalg.eigh(system.stiffness_matrix())
     kept = squares > 1e-9 * squares.max()
     squares, modes = squares[kept], modes[:, kept]
@@ -64,14 +65,14 @@ def resonances(system: System, static: StaticState, references: Floats) -> Reson
 
 
 def settled(system: System, static: StaticState, stiffness: Floats, errors: Floats) -> Floats:
-    """Approaches (t, m) at rest, in contact, with stiffnesses (t, m) in N/m and errors (t, m), both in m."""
+    """Return approaches (t, m) at rest, in contact, with stiffnesses (t, m) in N/m and errors (t, m), both in m."""
     matrix = np.eye(stiffness.shape[1]) + static.unit_mesh * (stiffness - system.stiffness)[:, None, :]
     right = static.approach + (stiffness * errors) @ static.unit_mesh.T
     return np.asarray(np.linalg.solve(matrix, right[:, :, None])[:, :, 0], float)
 
 
 def quasi_static_spectrum(system: System, excitation: Excitation, static: StaticState) -> Complexes:
-    """(q, m) in N: amplitudes of what drives vibrations of each order of the common period at the least speeds."""
+    """Return the amplitudes (q, m) in N that drive vibrations of each order of the common period at the least speeds."""
     count = _SAMPLES * max(excitation.orders)
     stiffness, errors = (
         excitation.ratios(2 * np.pi * np.arange(count) / count) * system.stiffness,
@@ -85,7 +86,7 @@ def quasi_static_spectrum(system: System, excitation: Excitation, static: Static
 
 
 def quasi_static_forces(system: System, excitation: Excitation, static: StaticState) -> Floats:
-    """(q, m) in N: what drives vibrations of each order of the common period, or any higher one, at the least speeds."""
+    """Return the amplitudes (q, m) in N that drive each order of the common period, or any higher one, at the least speeds."""
     spectrum = np.abs(quasi_static_spectrum(system, excitation, static))
     return np.asarray(np.maximum.accumulate(spectrum[::-1], axis=0)[::-1], float)
 
@@ -104,9 +105,10 @@ NARROWEST = 1e-4
 
 
 def speeds_between(speeds: Floats, curves: Floats, narrowest: float = NARROWEST) -> Floats:
-    """Where curves (s, c), all positive, over rising speeds (s,) may hide more than a hundredth of a maximum: (x,), or none.
+    """Return speeds (x,) at which curves (s, c) over rising speeds (s,) may hide more than a hundredth of a maximum.
 
-    Over less than `narrowest` of a speed curves may jump: what is beyond tells nothing there.
+    All values of the curves are positive. Over less than `narrowest` of a speed curves may jump: values beyond tell nothing
+    there.
     """
     if len(speeds) < 3 or not curves.shape[1]:
         return np.zeros(0)
@@ -120,7 +122,7 @@ def speeds_between(speeds: Floats, curves: Floats, narrowest: float = NARROWEST)
 
 
 def _tops(steps: Floats, curves: Floats, wide: Bools) -> Bools:
-    """(s - 2,): inner speeds at which a maximum may be more than the value there."""
+    """Return whether (s - 2,) a maximum at the inner speeds may be more than the value there."""
     here, sides = curves[1:-1], (wide[:-1, None], wide[1:, None])
     rise, fall = (np.where(side, here - beside, 0.0) for side, beside in zip(sides, (curves[:-2], curves[2:]), strict=True))
     before, after = steps[:-1, None], steps[1:, None]
@@ -133,7 +135,7 @@ def _tops(steps: Floats, curves: Floats, wide: Bools) -> Bools:
 
 
 def _bends(steps: Floats, curves: Floats) -> Bools:
-    """(s - 2,): inner speeds whose values are far from the straight lines between their neighbours."""
+    """Return whether (s - 2,) values at the inner speeds are far from the straight lines between their neighbours."""
     share = (steps[:-1] / (steps[:-1] + steps[1:]))[:, None]
     straight = (1 - share) * curves[:-2] + share * curves[2:]
     return np.asarray((np.abs(curves[1:-1] - straight) > _BEND * curves[1:-1]).any(axis=1), bool)
@@ -168,19 +170,22 @@ _APART = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Told(Extremes):
-    """The same at `frequencies` (s,); `left_out` (s,) bounds the share that harmonics left out have in the forces and torques:
-    infinite where no balance was found."""
+    """Extremes at `frequencies` (s,), with bounds `left_out` (s,) of the share that harmonics left out have in forces and
+    torques.
+
+    A bound is infinite where no balance was found.
+    """
 
     frequencies: Floats
     left_out: Floats
 
     @staticmethod
     def of(found: Extremes, frequencies: Floats, left_out: Floats) -> Told:
-        """What was found, and where."""
+        """Return the extremes with their frequencies and bounds."""
         return Told(**vars(found), frequencies=frequencies, left_out=left_out)
 
     def rising(self) -> Told:
-        """The same by rising frequencies."""
+        """Return the same in order of rising frequencies."""
         return self.at(np.argsort(self.frequencies, kind="stable"))
 
 
@@ -196,7 +201,7 @@ class SpeedCurves(Driven):
 
     @cached_property
     def references(self) -> tuple[Floats, Floats]:
-        """Torques of the shafts at rest, nan where they carry none, and the sense in which they act."""
+        """Torques of the shafts at rest (N·m), nan where they carry none, and the sense in which they act."""
         references, senses = torque_references(self.static.others[self.system.torque_outputs])
         return references if self.idle is None else np.where(self.idle, np.nan, references), senses
 
@@ -206,7 +211,7 @@ class SpeedCurves(Driven):
 
     @cached_property
     def most_orders(self) -> int:
-        """That may be brought into balance."""
+        """Greatest number of orders that may be brought into balance."""
         return MOST_ORDERS if self.harmonics is None else self.harmonics * max(self.excitation.orders)
 
     @cached_property
@@ -216,7 +221,7 @@ class SpeedCurves(Driven):
 
     @cached_property
     def tolerance(self) -> float:
-        """Of the balance: a resonance magnifies what is left, and crests are some times the root mean square."""
+        """Tolerance of the balance: a resonance magnifies the residual, and crests are some times the root mean square."""
         return float(np.clip(3e-4 * self.modes.ratio.min(initial=1.0), 1e-9, 2e-5))
 
     @cached_property
@@ -225,31 +230,31 @@ class SpeedCurves(Driven):
 
     @property
     def few(self) -> int:
-        """Harmonics of the tooth frequencies where it is not."""
+        """Number of harmonics of the tooth frequencies where the common period is too long to have all its orders."""
         return _FEW if self.harmonics is None else self.harmonics
 
     def orders(self, frequencies: Floats) -> Indices:
-        """(s,) that are tried first: powers of 2 of harmonics."""
+        """Return the number of orders (s,) that is tried first: powers of 2 of harmonics."""
         least, most = _LEAST_PARTING if self.excitation.parting else _LEAST_HARMONICS, max(self.excitation.orders)
         harmonics = 2 ** np.ceil(np.log2(np.maximum(self.felt_orders(frequencies) / most, least))).astype(int)
         return np.asarray(np.minimum(harmonics * most, self.most_orders), np.intp)
 
     def felt_orders(self, frequencies: Floats) -> Floats:
-        """(s,): twice the highest order of a resonance that could be felt."""
+        """Return twice the highest order (s,) of a resonance that could be felt."""
         met = self.modes.omega / (self.excitation.fundamental * frequencies[:, None])
         return np.asarray(np.where(self._felt(met), 2 * met, 0.0).max(axis=1, initial=0.0), float)
 
     def searched(self, frequencies: Floats) -> Bools:
-        """Where (s,) resonances between the speeds are looked for."""
+        """Return whether (s,) resonances between the speeds are looked for."""
         return self.felt_orders(frequencies) <= 2 * HIGHEST_SOUGHT * max(self.excitation.orders)
 
     def sharp(self, frequencies: Floats) -> Floats:
-        """Natural frequencies (1/s) of modes that could be felt at any of the frequencies, but are hardly damped."""
+        """Return natural frequencies (1/s) of modes that could be felt at any of the frequencies, but are hardly damped."""
         met = self.modes.omega / (self.excitation.fundamental * frequencies[:, None])
         return self.modes.omega[self._felt(met).any(axis=0) & self.modes.sharp]
 
     def _felt(self, orders: Floats) -> Bools:
-        """Whether modes could be felt where they meet the orders (..., r)."""
+        """Return whether modes could be felt where they meet the orders (..., r)."""
         modes = self.modes
         forces = self.driving[np.minimum(orders, len(self.driving) - 1).astype(int)]
         # A step drives as many orders at once as lie within the width of a resonance.
@@ -259,7 +264,7 @@ class SpeedCurves(Driven):
 
     @cached_property
     def standstill(self) -> float:
-        """What K_v tends to at the least speeds: where the stiffness jumps flanks keep their approach, so forces jump."""
+        """Limit of K_v at the least speeds: where the stiffness jumps, flanks keep their approach, so forces jump."""
         jumps, little = self.excitation.jumps, 1e-9
         if not len(jumps):
             return 1.0
@@ -273,7 +278,7 @@ class SpeedCurves(Driven):
     # ------------------------------------------------------------------ motions
 
     def motions(self, frequencies: Floats, start: Complexes | None = None) -> Iterator[tuple[Indices, Motions, Floats]]:
-        """Which of the frequencies (s,), their motions, and a bound (s,) of what is left out; from `start` (s, q, m)."""
+        """Yield which of the frequencies (s,), their motions, and a bound (s,) of what is left out; from `start` (s, q, m)."""
         waiting, orders = np.arange(len(frequencies)), self.orders(frequencies)
         while len(waiting):
             count = int(orders[waiting].min())
@@ -291,20 +296,20 @@ class SpeedCurves(Driven):
                     yield which[~more], found.only(~more), left[~more]
 
     def balance(self, orders: int) -> Resolution:
-        """Of so many orders of the common period."""
+        """Return the balance with that number of orders of the common period."""
         return Resolution(self.system, self.excitation, orders, self.tolerance)
 
     @cached_property
     def tracked(self) -> Indices:
-        """(k,): orders of the common period whose amplitudes are told."""
+        """Orders (k,) of the common period whose amplitudes are given."""
         return np.arange(1, min(_TRACKED * max(self.excitation.orders), _MOST_TRACKED) + 1)
 
     def loads(self, motions: Motions) -> Extremes:
-        """Greatest and least of all that moves."""
+        """Return the greatest and least values of all outputs of the motions."""
         return extremes(self.response(motions), self.references[1], self.tracked, 16 * motions.orders)
 
     def response(self, motions: Motions) -> PeriodicResponse:
-        """The same with turns and torques."""
+        """Return the response of the motions, with turns and torques."""
         outputs = told_by(self.system, self.static, motions.flexible, motions.forces)
         return PeriodicResponse(
             system=self.system,
@@ -319,7 +324,7 @@ class SpeedCurves(Driven):
         )
 
     def _left_out(self, motions: Motions) -> Floats:
-        """(s,): waves of orders beyond those known, all crests at once, over the greatest wave or the load at rest."""
+        """Return waves (s,) of orders beyond those known, all crests at once, over the greatest wave or the load at rest."""
         others = motions.flexible.others[:, :, self.system.torque_outputs]
         at_rest = (np.abs(self.system.stiffness * self.static.approach) / self._stiffest, self.references[0])
         torques = np.einsum("shij,shj->shi", others, motions.forces)
@@ -341,7 +346,7 @@ class SpeedCurves(Driven):
     # ------------------------------------------------------------------ what is told of them
 
     def told(self, frequencies: Floats, start: Complexes | None = None, share: Share = unheard) -> tuple[Told, Floats]:
-        """Loads at frequencies (s,), and frequencies (x,) of resonances between these that a chart would not show."""
+        """Return loads at frequencies (s,), and frequencies (x,) of resonances between these that a chart would not show."""
         done = 0
         order, parts, narrow = [np.zeros(0, np.intp)], [], [np.zeros(0)]
         for which, motions, left in self.motions(frequencies, start):
@@ -353,15 +358,16 @@ class SpeedCurves(Driven):
         return Told.joined(*parts).at(np.argsort(np.concatenate(order))), np.concatenate(narrow)
 
     def curves(self, told: Told) -> Floats:
-        """(s, c): what a chart shows, loads over those at rest, of meshes and of the shafts that carry some."""
+        """Return the curves (s, c) of a chart: loads over those at rest, of meshes and of the shafts that carry some."""
         forces = np.abs(self.system.stiffness * self.static.approach)
         kept = np.isfinite(self.references[0])
         return np.hstack([told.most / forces, told.torques[:, kept] / self.references[0][kept]])
 
     def _narrow(self, motions: Motions, frequencies: Floats) -> Floats:
-        """Frequencies about resonances that could be felt, but lie between these, as far apart as their damping asks for.
+        """Return frequencies (1/s) about resonances that could be felt but lie between the given ones, as close as damping
+        needs.
 
-        An order of the forces at the nearest of these is nearly what it is where it meets a natural frequency.
+        An order of the forces at the nearest given frequency is nearly what it is where it meets a natural frequency.
         """
         modes, rates = self.modes, self.excitation.fundamental
         places = np.sort(frequencies)
@@ -389,7 +395,7 @@ class SpeedCurves(Driven):
 
 
 def _nearest(places: Floats, wanted: Floats) -> Indices:
-    """Indices of rising places (p,)."""
+    """Return the indices of the nearest of rising places (p,)."""
     after = np.clip(np.searchsorted(places, wanted), 1, max(len(places) - 1, 1))
     if len(places) == 1:
         return np.zeros(wanted.shape, np.intp)
@@ -397,6 +403,6 @@ def _nearest(places: Floats, wanted: Floats) -> Indices:
 
 
 def _ladder(reach: float) -> Floats:
-    """0, and half widths of a resonance to both sides, each twice the one before, up to `reach`."""
+    """Return 0, and half widths of a resonance to both sides, each twice the one before, up to `reach`."""
     steps = 0.5 * 2.0 ** np.arange(max(1, int(np.ceil(np.log2(2 * reach)))))
     return np.concatenate([-steps[::-1], [0.0], steps])

@@ -41,9 +41,9 @@ def campbell(
     start: Start | None = None,
     counted: Callable[[int, int], None] = lambda _done, _count: None,
 ) -> CampbellStudy:
-    """The motion at each speed (rpm, rising, not negative) from the same start, on all cores; each speed by itself.
+    """Return the motion at each speed (rpm, rising, not negative) from the same start, on all cores; each speed by itself.
 
-    `counted` hears how many speeds are done, and of how many.
+    `counted` receives how many speeds are done, and of how many.
     """
     checked = _checked_speeds(np.atleast_1d(np.asarray(speeds, float)).tolist())
     checked_samples(duration, sampling)
@@ -120,11 +120,11 @@ def mesh_campbell(
     sampling: float,
     counted: Callable[[int, int], None] = lambda _done, _count: None,
 ) -> MeshCampbell:
-    """Spectra at speeds (s,) of the first pinion (rpm, rising) over a duration (s) after settling, `sampling` a second (Hz).
+    """Return the spectra at speeds (s,) of the first pinion (rpm, rising) over a `duration` (s) after settling.
 
-    `modes` are natural frequencies (Hz) to be drawn in, by name; `counted` hears how many speeds are done. Raises
-    ParameterError for what takes too long or too much memory, with what would do, and SolverError where the motion is
-    unbounded at all speeds.
+    Motions are sampled at `sampling` (Hz). `modes` are natural frequencies (Hz) to be drawn in, by name; `counted` receives how
+    many speeds are done. Raises ParameterError for what takes too long or too much memory, with what would do, and SolverError
+    where the motion is unbounded at all speeds.
     """
     moving, first = MovingSystem.lumped(system, excitation), train.meshes[0]
     per_rpm = first.teeth / 60 / excitation.orders[0]
@@ -181,14 +181,14 @@ def campbell_seconds(
 
 
 def _plan(moving: MovingSystem, excitation: Excitation, duration: float, sampling: float, greatest: float) -> _Plan:
-    """At the greatest frequency (Hz) of the common period."""
+    """Return the plan of the steps for the greatest frequency (Hz) of the common period."""
     step, stride = _step(moving, excitation, sampling, greatest)
     settling = math.ceil(min(settling_time(moving.system), _SETTLES * duration) / step)
     return _Plan(step, stride, round(duration * sampling) * stride, settling)
 
 
 def _step(moving: MovingSystem, excitation: Excitation, sampling: float, greatest: float) -> tuple[float, int]:
-    """Length of a step, and how many there are from sample to sample."""
+    """Return the length of a step (s), and the number of steps from sample to sample."""
     longest = step_for(moving.system, greatest * max(excitation.orders), 1 / sampling)
     stride = max(1, math.ceil(1 / (sampling * longest) * (1 - 1e-9)))
     return 1 / (sampling * stride), stride
@@ -210,7 +210,7 @@ def _require_room(moving: MovingSystem, samples: int, steps: int, duration: floa
 
 
 def _row(motion: Motion, speed: float, pinion: int, sampling: float, highest: float, parting: bool) -> SpeedRow:
-    """In the units of the house."""
+    """Return the results of a motion at one speed in the units of a Campbell study (rad/s, µm, 1/s)."""
     approach = 1e6 * motion.approach[:, 0]
     later = approach[round(SETTLED * len(approach)) :]
     turning = speed * math.pi / 30 + motion.speeds[:, pinion]

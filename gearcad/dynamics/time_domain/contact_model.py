@@ -21,7 +21,7 @@ SOFT = 0.1
 
 
 class EngagedPairs(Enum):
-    """Which pairs of teeth carry."""
+    """Pairs of teeth that carry."""
 
     RIGID_TIPS = "rigid tips"
     """Those between the points at which the tip circles cross the line of action."""
@@ -32,7 +32,7 @@ class EngagedPairs(Enum):
 
 
 def disc_inertia(diameter: float, width: float, density: float) -> float:
-    """J = pi/32 d^4 b rho in kg·m² of a full disc (mm, mm, kg/m³): Uhlir (3.4) with the reference diameter."""
+    """Return J = pi/32 d^4 b rho in kg·m² of a full disc (mm, mm, kg/m³): Uhlir (3.4) with the reference diameter."""
     for name, value, unit in (("diameter", diameter, "mm"), ("width", width, "mm"), ("density", density, "kg/m^3")):
         require_number(name, value, unit, above=0)
     return math.pi / 32 * (1e-3 * diameter) ** 4 * 1e-3 * width * density
@@ -100,7 +100,7 @@ class ContactModel:
         zone: EngagedPairs = EngagedPairs.RIGID_TIPS,
         back_flanks: bool = False,
     ) -> ContactModel:
-        """The model of a spur pair: its path of contact from A to E; its backlash if the back flanks may touch.
+        """Return the model of a spur pair: its path of contact from A to E; its backlash if the back flanks may touch.
 
         Raises GeometryError for a helical pair.
         """
@@ -171,17 +171,17 @@ class ContactModel:
         return self.damping / (2 * math.sqrt(1e6 * self.pair_stiffness * self.reduced_mass))
 
     def natural_frequency(self, pairs: float = 1.0) -> float:
-        """sqrt(N k/m)/(2 pi) in Hz, undamped; `pairs` N may be a mean, such as the contact ratio."""
+        """Return sqrt(N k/m)/(2 pi) in Hz, undamped; `pairs` N may be a mean, such as the contact ratio."""
         require_number("pairs", pairs, above=0)
         return math.sqrt(1e6 * pairs * self.pair_stiffness / self.reduced_mass) / (2 * math.pi)
 
     def tooth_frequency(self, speed: float, harmonic: int = 1) -> float:
-        """i z_1 n/60 in Hz at a speed of the pinion in rpm: Uhlir (3.55)."""
+        """Return i z_1 n/60 in Hz at a speed of the pinion in rpm: Uhlir (3.55)."""
         return harmonic * self.teeth.pinion * speed / 60
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What makes the parameters unlike those of gears."""
+        """Notices of parameters that are unlike those of gears."""
         found = []
         rest = 1e-3 * self.static_approach
         depth = rest / self.normal_module

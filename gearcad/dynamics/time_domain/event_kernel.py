@@ -6,9 +6,6 @@ share. A pair of teeth enters or leaves the zone of contact where u, or u - y, p
 
 Compiled by numba: import this module inside functions only. All of it is in one file, because numba looks only at the file of a
 function to see whether the code that it keeps on disk is still good, not at those of the functions it calls. SI units.
-
-Compiled by numba: import this room inside functions only. All of it is in one file, because numba looks only at the file of a
-function to see whether the code that it keeps on disk is still good, not at those of the functions it calls. SI units.
 """
 
 from __future__ import annotations
@@ -65,7 +62,7 @@ class Motion(NamedTuple):
 
 
 class MotionOutcome(NamedTuple):
-    """What one run gave besides its samples."""
+    """Results of one run besides its samples."""
 
     free: float
     """Time without contact in the counted part (s)."""
@@ -80,7 +77,10 @@ class MotionOutcome(NamedTuple):
 
 @compiled
 def _transition(spring: Spring, tau: float) -> tuple[float, float, float, float, float, float]:
-    """(xx, xv, vx, vv, fx, fv): over a time tau, x = y - rest becomes xx x + xv v + fx, and v becomes vx x + vv v + fv."""
+    """Return (xx, xv, vx, vv, fx, fv) of a time tau for x = y - rest.
+
+    Over that time x becomes xx x + xv v + fx, and v becomes vx x + vv v + fv.
+    """
     square, half = spring.square, spring.half
     if square == 0.0:
         a = 2.0 * half * tau
@@ -109,7 +109,7 @@ def _transition(spring: Spring, tau: float) -> tuple[float, float, float, float,
 
 @compiled
 def advanced(spring: Spring, y: float, v: float, tau: float) -> tuple[float, float]:
-    """y and v after a time tau."""
+    """Return y and v after a time tau."""
     xx, xv, vx, vv, fx, fv = _transition(spring, tau)
     x = y - spring.rest
     return spring.rest + (xx * x + xv * v + fx), vx * x + vv * v + fv
@@ -117,13 +117,13 @@ def advanced(spring: Spring, y: float, v: float, tau: float) -> tuple[float, flo
 
 @compiled
 def accelerated(spring: Spring, y: float, v: float) -> float:
-    """The acceleration y'' where y is the approach and v its rate."""
+    """Return the acceleration y'' where y is the approach and v its rate."""
     return spring.push - spring.square * (y - spring.rest) - 2.0 * spring.half * v
 
 
 @compiled
 def next_turn(spring: Spring, y: float, v: float) -> tuple[float, float]:
-    """Time of the first zero of the acceleration, and from each to the next; infinite where there is none."""
+    """Return the time of the first zero of the acceleration, and from each to the next; infinite where there is none."""
     a = accelerated(spring, y, v)
     slope = -spring.square * v - spring.half * a  # of exp(half t) a(t)
     if spring.square > spring.half * spring.half:
@@ -147,9 +147,10 @@ def next_turn(spring: Spring, y: float, v: float) -> tuple[float, float]:
 def _zero(
     spring: Spring, y: float, v: float, drift: float, share: float, level: float, a: float, b: float, order: int
 ) -> float:
-    """Where q(t) = drift t + share (y(t) - y) reaches `level` (order 0), or turns (order 1), in [a, b], to rounding.
+    """Return the time in [a, b] at which q(t) = drift t + share (y(t) - y) reaches `level` (order 0), or turns (order 1).
 
-    One such time is in there: Newton's steps, and halvings where these leave the bracket or gain too little.
+    The time is good to rounding. One such time is in [a, b]: Newton's steps, and halvings where these leave the bracket or gain
+    too little.
     """
     end_y, end_v = advanced(spring, y, v, b)
     end = drift * b + share * (end_y - y) - level if order == 0 else drift + share * end_v
@@ -176,7 +177,7 @@ def _zero(
 
 @compiled
 def _spring(motion: Motion, side: int, pairs: int) -> Spring:
-    """What acts on y while so many pairs touch on this side: 1 front, -1 back, 0 neither."""
+    """Return the spring that acts on y while so many pairs touch on this side: 1 front, -1 back, 0 neither."""
     if side == 0 or pairs <= 0:
         return Spring(0.0, motion.half, motion.push, 0.0)
     square = pairs * motion.pair_square
@@ -186,7 +187,7 @@ def _spring(motion: Motion, side: int, pairs: int) -> Spring:
 
 @compiled
 def _passed(motion: Motion, zone: Zone, travel: float, y: float) -> tuple[int, int]:
-    """Whole pitches by which tooth 0 is past each end of the zone; their difference is the number of pairs in it."""
+    """Return the whole pitches by which tooth 0 is past each end of the zone; their difference is the number of pairs in it."""
     first = math.floor((travel + zone.first_share * y - zone.first) / motion.pitch)
     last = math.floor((travel + zone.last_share * y - zone.last) / motion.pitch)
     return int(first), int(last)
@@ -194,7 +195,7 @@ def _passed(motion: Motion, zone: Zone, travel: float, y: float) -> tuple[int, i
 
 @compiled
 def _watch(table: Floats, motion: Motion, side: int, first: int, last: int, drift: float, travel: float, y: float) -> None:
-    """Rows of the table: drift and share of what is watched, and its next level above and below, from here.
+    """Fill in the rows of the table: drift and share of what is watched, and its next level above and below, from here.
 
     Row 0 is y itself, which parts or closes the flanks; 1 and 2 are the ends of the zone, at which the number of pairs changes.
     """
@@ -222,10 +223,11 @@ def _watch(table: Floats, motion: Motion, side: int, first: int, last: int, drif
 def _crossing(
     row: Floats, spring: Spring, y: float, v: float, piece: tuple[float, float, float, float, float, float]
 ) -> tuple[float, bool]:
-    """First time in a piece at which one row of the table passes a level, infinite if it does not; whether it rises there.
+    """Return the first time in a piece at which one row of the table passes a level, and whether it rises there.
 
-    A piece (a, y, v there, b, y, v there) lies between zeros of the acceleration: what is watched turns once in it, or never.
-    So it is cut in at most two monotone parts, of which each can pass only the level it moves to.
+    The time is infinite if the row passes none. A piece (a, y, v there, b, y, v there) lies between zeros of the acceleration:
+    what is watched turns once in it, or never. So it is cut in at most two monotone parts, of which each can pass only the
+    level it moves to.
     """
     a, _, va, b, yb, vb = piece
     drift, share, above, below = row[0], row[1], row[2], row[3]
@@ -247,7 +249,7 @@ def _crossing(
 
 @compiled
 def _next_event(table: Floats, spring: Spring, y: float, v: float, horizon: float) -> tuple[float, int, bool]:
-    """Time to the first event, its row in the table, and whether that rises; the horizon and -1 if there is none before."""
+    """Return the time to the first event, its row in the table, and whether that rises; the horizon and -1 if there is none."""
     turn, step = next_turn(spring, y, v)
     a, ya, va = 0.0, y, v
     while True:
@@ -269,7 +271,7 @@ def _next_event(table: Floats, spring: Spring, y: float, v: float, horizon: floa
 def _sample(
     approach: Floats, rate: Floats, number: int, step: float, spring: Spring, y: float, v: float, t: float, end: float
 ) -> int:
-    """Fill in the samples before `end` of a motion that is y, v at t, from `number` on; gives the first that is left."""
+    """Fill in the samples before `end` of a motion that is y, v at t, from `number` on; return the first that is left."""
     xx, xv, vx, vv, fx, fv = _transition(spring, step)
     taken = 0
     at_y, at_v = y, v
@@ -287,7 +289,7 @@ def _sample(
 
 @compiled
 def _changed(motion: Motion, side: int, first: int, last: int, row: int, rising: bool, travel: float) -> tuple[int, int, int]:
-    """Side and passed pitches behind an event of that row."""
+    """Return the side and the passed pitches behind an event of that row."""
     if row == 1:
         return side, first + (1 if rising else -1), last
     if row == 2:
@@ -301,7 +303,7 @@ def _changed(motion: Motion, side: int, first: int, last: int, row: int, rising:
 
 @compiled
 def _stands(row: Floats, before: Spring, after: Spring, y: float, v: float, pitch: float) -> bool:
-    """Whether both accelerations press what is watched against its level, so nearly at rest that it cannot leave it."""
+    """Return whether both accelerations press what is watched against its level, so nearly at rest that it cannot leave it."""
     speed = row[0] + row[1] * v
     back = row[1] * accelerated(after, y, v)
     towards = row[1] * accelerated(before, y, v)
@@ -310,7 +312,7 @@ def _stands(row: Floats, before: Spring, after: Spring, y: float, v: float, pitc
 
 @compiled
 def _disturbed(before: Spring, after: Spring, row: Floats, y: float, v: float, dy: float, dv: float) -> float:
-    """dv behind an event: a disturbed motion passes it earlier or later, and is so long under the other acceleration."""
+    """Return dv behind an event: a disturbed motion passes it earlier or later, and is so long under the other acceleration."""
     speed: float = row[0] + row[1] * v
     share: float = row[1]
     if speed == 0.0:
@@ -322,7 +324,7 @@ def _disturbed(before: Spring, after: Spring, row: Floats, y: float, v: float, d
 def run(
     motion: Motion, drift: float, start: tuple[float, float, float], step: float, counted: float, approach: Floats, rate: Floats
 ) -> MotionOutcome:
-    """Samples of y (m) and y' (m/s) every `step` seconds, from the start (u - share y, y, y') on; V = `drift` in m/s.
+    """Fill in samples of y (m) and y' (m/s) every `step` seconds, from the start (u - share y, y, y') on; V = `drift` in m/s.
 
     Time without contact and the growth of a disturbance (dy, dv) are counted from `counted` seconds to the end.
     """

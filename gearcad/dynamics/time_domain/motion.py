@@ -39,26 +39,26 @@ class Line:
 
     @classmethod
     def level(cls, value: float) -> Line:
-        """The same at all times."""
+        """Return a line with the same value at all times."""
         return cls(time=np.zeros(1), value=np.array([value]))
 
     @property
     def sums(self) -> Floats:
-        """(k,) integrals from the first corner to each."""
+        """Integrals (k,) from the first corner to each."""
         return np.concatenate([[0.0], np.cumsum(np.diff(self.time) * (self.value[1:] + self.value[:-1]) / 2)])
 
     def values(self, time: ArrayLike) -> Floats:
-        """At any times (s); behind a jump where one is."""
+        """Return the values at any times (s); at a jump the value behind it."""
         which, after, slope = self._after(time)
         return np.asarray(self.value[which] + slope * after, float)
 
     def integrals(self, time: ArrayLike) -> Floats:
-        """From the first corner to any times (s)."""
+        """Return the integrals from the first corner to any times (s)."""
         which, after, slope = self._after(time)
         return np.asarray(self.sums[which] + after * (self.value[which] + slope * after / 2), float)
 
     def _after(self, time: ArrayLike) -> tuple[Indices, Floats, Floats]:
-        """The corner before each time, the time since, and the slope there."""
+        """Return the corner before each time, the time since (s), and the slope there."""
         at, steps = np.asarray(time, float), np.diff(self.time)
         slopes = np.append(np.divide(np.diff(self.value), steps, out=np.zeros_like(steps), where=steps > 0), 0.0)
         which = np.maximum(np.searchsorted(self.time, at, side="right") - 1, 0)
@@ -79,7 +79,7 @@ class Course:
 
     @classmethod
     def steady(cls, frequency: float) -> Course:
-        """One speed under the whole load; the frequency is that of the common period (Hz)."""
+        """Return the course of one speed under the whole load; the frequency is that of the common period (Hz)."""
         return cls(frequency=Line.level(frequency))
 
 
@@ -95,7 +95,7 @@ _SETTLED = 7.0
 
 
 def step_for(system: System, tooth_frequency: float, longest: float) -> float:
-    """Seconds, for meshes whose greatest tooth frequency is given (Hz); not longer than `longest`."""
+    """Return the length of a step (s) for meshes with the given greatest tooth frequency (Hz); not longer than `longest`."""
     squares, _ = _shaken(system)
     own = math.sqrt(float(squares.max(initial=0.0)))
     steps = [longest]
@@ -105,7 +105,7 @@ def step_for(system: System, tooth_frequency: float, longest: float) -> float:
 
 
 def settling_time(system: System) -> float:
-    """After which a thousandth is left of vibrations that meshes shake (s); infinite without damping."""
+    """Return the time (s) after which a thousandth is left of vibrations that meshes shake; infinite without damping."""
     squares, rates = _shaken(system)
     slowest = float(np.minimum(rates, np.sqrt(squares)).min(initial=math.inf))
     return _SETTLED / slowest if slowest > 0 else math.inf
@@ -117,7 +117,7 @@ def shaken_frequency(system: System) -> float:
 
 
 def _shaken(system: System) -> tuple[Floats, Floats]:
-    """Squares (1/s²) and rates of decay (1/s) of the modes that the meshes shake, with the meshes at their mean."""
+    """Return squares (1/s²) and rates of decay (1/s) of the modes that the meshes shake, with the meshes at their mean."""
     squares, modes = np.linalg.eigh(system.stiffness_matrix())
     energy = ((modes.T @ system.mesh) ** 2 * system.stiffness).sum(axis=1)
     felt = energy > _SHARE * np.maximum(squares, 1e-9 * squares.max())
@@ -172,8 +172,11 @@ class SpringTable:
 
     @cached_property
     def cells(self) -> Floats:
-        """(CELLS, 8): integral of the stiffness before each cell, its mean and slope there, the same three of stiffness times
-        gap, error and its slope."""
+        """Integrals, means and slopes (CELLS, 8) of the cells.
+
+        The columns are the integral of the stiffness before each cell, its mean and slope there, the same three of stiffness
+        times gap, error and its slope.
+        """
         edges = np.linspace(self.place[0], self.place[-1], CELLS + 1)
         width = edges[1] - edges[0]
         found = np.zeros((CELLS, 8))
@@ -196,13 +199,13 @@ class SpringTable:
         return np.asarray(np.interp(at, self.place, self.gap), float)
 
     def _broken(self, edges: Floats) -> np.ndarray:
-        """Which cells have a jump inside or at an edge."""
+        """Return whether each cell has a jump inside or at an edge."""
         off = [np.abs(np.diff(each)) > _JUMP * np.abs(each).max() for each in (self.stiffness, self.gap)]
         jumps = self.place[1:][(np.diff(self.place) == 0) & (off[0] | off[1])]
         return np.asarray(np.searchsorted(jumps, edges[1:], "right") > np.searchsorted(jumps, edges[:-1]))
 
     def _sums(self, at: Floats) -> tuple[Floats, Floats]:
-        """Integrals of stiffness, and of stiffness times gap, from the first place to those asked for; exact ones."""
+        """Return the exact integrals of stiffness, and of stiffness times gap, from the first place to those asked for."""
         steps = np.diff(self.place)
         safe = np.where(steps > 0, steps, 1.0)
         k, g = self.stiffness[:-1], self.gap[:-1]
@@ -259,7 +262,7 @@ class MeshLaw:
 
 
 def lumped_laws(excitation: Excitation, stiffness: Floats, senses: Floats) -> tuple[MeshLaw, ...]:
-    """Every mesh as one spring whose stiffness changes, of the means `stiffness` (m,) in N/m, as the harmonic balance has it.
+    """Return every mesh as one spring of varying stiffness, as in the harmonic balance; `stiffness` (m,) are the means in N/m.
 
     `senses` (m,) say which flanks the mean load presses.
     """
@@ -270,7 +273,10 @@ def lumped_laws(excitation: Excitation, stiffness: Floats, senses: Floats) -> tu
 
 
 def _lumped(mesh: MeshExcitation, order: int, stiffness: float, sense: float) -> MeshLaw:
-    """Over one base pitch; what comes again with every tooth stands in the table, other errors in long rows."""
+    """Return the law of one mesh over one base pitch.
+
+    What comes again with every tooth stands in the table, other errors in long rows.
+    """
     line = None if mesh.error is None else mesh.error.line
     corners = [np.linspace(0, 2 * np.pi, CELLS + 1), mesh.stiffness.jumps, *([] if line is None else [line.phase, line.jumps])]
     phase = np.unique(np.concatenate([np.mod(each, 2 * np.pi) for each in corners] + [[0.0]]))
@@ -292,7 +298,7 @@ def _lumped(mesh: MeshExcitation, order: int, stiffness: float, sense: float) ->
 
 
 def _long_error(mesh: MeshExcitation, sense: float) -> tuple[Floats, int]:
-    """What of the error comes again with the gears, and after how many teeth."""
+    """Return the error (m) that comes again with the gears, and the number of teeth after which it does."""
     if mesh.error is None or not mesh.error.coefficients.any():
         return np.zeros(1), 1
     own, teeth = mesh.error.coefficients, mesh.error.teeth
@@ -378,7 +384,7 @@ class MovingSystem:
 
     @classmethod
     def lumped(cls, system: System, excitation: Excitation, *, driven: Floats | None = None) -> MovingSystem:
-        """Every mesh as one spring, as in the harmonic balance."""
+        """Return the System with every mesh as one spring, as in the harmonic balance."""
         excitation.fits(system)
         pressed = senses(system)
         laws = lumped_laws(excitation, system.stiffness, pressed)
@@ -386,11 +392,11 @@ class MovingSystem:
 
     @property
     def rows(self) -> int:
-        """How many turns and torques a sample has."""
+        """Number of turns, torques and travels in a sample."""
         return len(self._rows[0])
 
     def at_rest(self) -> Start:
-        """Under the mean load, with the meshes at their mean stiffness."""
+        """Return the state at rest under the mean load, with the meshes at their mean stiffness."""
         return Start(coordinates=static_state(self.system).modal, rates=np.zeros(self.system.size))
 
     def run(
@@ -405,10 +411,11 @@ class MovingSystem:
         disturbed: bool = False,
         tell: Callable[[float], None] = lambda _part: None,
     ) -> Motion:
-        """`count` steps from time 0 on, a sample at every `stride`-th (0: none) and at time 0, windows up to rising `ends`.
+        """Return the motion over `count` steps from time 0 on.
 
-        `tell` hears of the part that is done, now and then. Raises ParameterError, and SolverError where forces of the meshes
-        cannot be found or the motion grows beyond all numbers.
+        A sample is taken at time 0 and every `stride`-th step (0: none), windows reach up to rising `ends`. `tell` receives the
+        part that is done, now and then. Raises ParameterError, and SolverError where forces of the meshes cannot be found or
+        the motion grows beyond all numbers.
         """
         from gearcad.dynamics.time_domain.motion_kernel import State, run
 
@@ -454,7 +461,7 @@ class MovingSystem:
 
     @cached_property
     def _free(self) -> Floats:
-        """(n, r): what turns as a whole."""
+        """Modes (n, r) that turn as a whole."""
         squares, modes = np.linalg.eigh(self.system.stiffness_matrix())
         result: Floats = modes[:, squares <= _NO_SQUARE * squares.max()]
         return result
@@ -470,7 +477,7 @@ class MovingSystem:
         of, laws = self.system, self.laws
 
         def flat(name: str) -> tuple[Floats, Wholes, Wholes]:
-            """What all meshes have of it, where each begins, and how many it has."""
+            """Return a quantity of all meshes in one row, where each mesh begins in it, and how many values each has."""
             counts = np.array([len(getattr(law, name)) for law in laws], np.int64)
             return np.concatenate([getattr(law, name) for law in laws]), np.cumsum(counts) - counts, counts
 
@@ -504,7 +511,7 @@ class MovingSystem:
         return CourseTables(_plain(turns), _plain(np.array([torque.time, torque.value, torque.sums])))
 
     def _disturbance(self, size: int) -> tuple[Floats, Floats, Floats]:
-        """A push on all meshes: it turns nothing as a whole."""
+        """Return a push on all meshes, which turns nothing as a whole."""
         push = (self.system.mesh * self.senses).sum(axis=1)[:size]
         return np.zeros(size), push / max(float(np.linalg.norm(push)), 1e-300), np.zeros(len(self.laws))
 
@@ -555,12 +562,12 @@ class MovingSystem:
 
 
 def _plain(array: Floats) -> Floats:
-    """As the compiled code knows it."""
+    """Return the array as compiled code needs it: contiguous, of float64."""
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
 def _part(records: Records, first: int) -> Records:
-    """What is still to be written down after so many steps."""
+    """Return the part of the records that is still to be written after `first` steps."""
     taken = first // records.stride + 1 if first else 0
     window = int(np.searchsorted(records.ends, first, side="right"))
     courses = [getattr(records, name)[taken:] for name in ("approach", "spring", "total", "sums", "rates")]

@@ -12,13 +12,6 @@ a step behind, by tables of integrals: no impulse is lost or counted twice, wher
 Compiled by numba: import this module inside functions only. All of it is in one file, because numba looks only at the file of a
 function to see whether the code that it keeps on disk is still good, not at those of the functions it calls. Loops instead of
 whole arrays: these take numba seconds each to compile. SI units; places of teeth in base pitches.
-
-What jumps - stiffness where a pair of teeth comes or goes, torque, speed - is taken as its mean from half a step before to half
-a step behind, by tables of integrals: no impulse is lost or found twice, wherever in the step the jump lies.
-
-Compiled by numba: import this room inside functions only. All of it is in one file, because numba looks only at the file of a
-function to see whether the code that it keeps on disk is still good, not at those of the functions it calls. Loops instead of
-whole arrays: these take numba seconds each to compile. SI units; places of teeth in base pitches.
 """
 
 from __future__ import annotations
@@ -139,7 +132,7 @@ class Records(NamedTuple):
 
 @compiled
 def _mean_decay(rate: float) -> tuple[float, float]:
-    """Integrals over x from 0 to 1 of exp(-rate x) and of (1 - x) exp(-rate x)."""
+    """Return the integrals over x from 0 to 1 of exp(-rate x) and of (1 - x) exp(-rate x)."""
     if rate < 1.0:
         first, second, term = 0.0, 0.0, 1.0
         for k in range(1, _TERMS):
@@ -153,7 +146,7 @@ def _mean_decay(rate: float) -> tuple[float, float]:
 
 @compiled
 def _series(square: float, damping: float, z: float, v: float, force: float, ramp: float) -> tuple[float, float]:
-    """z and its rate at 1 of z'' + damping z' + square z = force + ramp x, by its power series."""
+    """Return z and its rate at 1 of z'' + damping z' + square z = force + ramp x, by its power series."""
     before, here, total, rate = z, v, z + v, v
     for k in range(_TERMS):
         push = force if k == 0 else (ramp if k == 1 else 0.0)
@@ -166,7 +159,7 @@ def _series(square: float, damping: float, z: float, v: float, force: float, ram
 
 @compiled
 def _unit_step(square: float, damping: float) -> tuple[float, float, float, float, float, float]:
-    """(zz, zv, vz, vv, S, R): over a time of 1, and what a force of 1, and one that rises to 1, leave of z.
+    """Return (zz, zv, vz, vv, S, R) over a time of 1; S and R are what a force of 1, and one that rises to 1, leave of z.
 
     Their rates there are zv and S: a response to the integral of a force is the integral of the response.
     """
@@ -200,7 +193,7 @@ def _unit_step(square: float, damping: float) -> tuple[float, float, float, floa
 
 @compiled
 def propagators(squares: Floats, damping: Floats, h: float) -> Floats:
-    """(n, 8): zz, zv, vz, vv over a step h, then what the force at its beginning and at its end leave of z, and of v."""
+    """Return (n, 8) zz, zv, vz, vv over a step h, then what the force at its beginning and at its end leave of z, and of v."""
     result = np.empty((squares.size, 8))
     for i in range(squares.size):
         zz, zv, vz, vv, s, r = _unit_step(squares[i] * h * h, damping[i] * h)
@@ -215,7 +208,7 @@ def propagators(squares: Floats, damping: Floats, h: float) -> Floats:
 
 @inlined
 def _along(line: Floats, cursor: int, t: float) -> tuple[float, float, int]:
-    """Value and integral at t of straight lines that go on level beyond their ends; the cursor never turns back."""
+    """Return value and integral at t of straight lines that go on level beyond their ends; the cursor never turns back."""
     while cursor + 1 < line.shape[1] and line[0, cursor + 1] <= t:
         cursor += 1
     after, slope = t - line[0, cursor], 0.0
@@ -226,7 +219,7 @@ def _along(line: Floats, cursor: int, t: float) -> tuple[float, float, int]:
 
 @inlined
 def _integrals(tables: Floats, j: int, first: float, width: float, place: float) -> tuple[float, float, float]:
-    """At a place of the tooth: integrals of the stiffness and of stiffness times gap up to it, and the error."""
+    """Return integrals of the stiffness and of stiffness times gap up to a place of the tooth, and the error there."""
     cell = min(max(int((place - first) / width), 0), tables.shape[1] - 1)
     x = place - first - cell * width
     rest = 0.5 * (x - width)
@@ -237,7 +230,7 @@ def _integrals(tables: Floats, j: int, first: float, width: float, place: float)
 
 @inlined
 def _long_error(marks: Floats, errors: Floats, j: int, place: float) -> float:
-    """The error that comes again with the gears, at base pitches of mesh j (m)."""
+    """Return the error that comes again with the gears, at base pitches of mesh j (m)."""
     start, count, teeth = int(marks[j, _ERROR_START]), int(marks[j, _ERROR_COUNT]), marks[j, _ERROR_TEETH]
     along = (place - teeth * math.floor(place / teeth)) / teeth * count if count > 1 else 0.0
     k = min(int(along), count - 1)
@@ -252,7 +245,7 @@ def _engage(
 ) -> tuple[int, float, float]:
     """Fill in stiffness and gap (rows of springs[j]) of the teeth met from `begin` to `end`, in base pitches of mesh j.
 
-    Gives how many there are, the error, and its change in a base pitch.
+    Returns how many there are, the error, and its change in a base pitch.
     """
     low, high = min(begin, end), max(begin, end)
     short = max(0.5 * (_LEAST_WINDOW - (high - low)), 0.0)
@@ -280,7 +273,9 @@ def _engage(
 
 @inlined
 def _carried(marks: Floats, springs: Floats, j: int, count: int, y: float) -> tuple[float, float]:
-    """What the springs of mesh j carry where its flanks approach by y besides their error, and their tangent stiffness."""
+    """Return the force (N) of the springs of mesh j at an approach y of its flanks beyond their error, and its tangent
+    stiffness.
+    """
     backlash, force, slope = marks[j, _BACKLASH], 0.0, 0.0
     for p in range(count):
         stiffness, gap = springs[j, p, 0], springs[j, p, 1]
@@ -326,10 +321,10 @@ def _eliminate(matrix: Floats, right: Floats) -> None:
 def _one_mesh(
     marks: Floats, springs: Floats, j: int, count: int, y: float, v: float, give: float, rate: float
 ) -> tuple[float, float, float]:
-    """Force of mesh j alone, what of it the springs carry, and their stiffness: its approach is y and the rate of that v, less
-    `give` and `rate` for each newton.
+    """Return the force of mesh j alone, the part of it that the springs carry, and their stiffness.
 
-    Newton's steps inside a bracket: the springs never give way, so there is just one such force.
+    Its approach is y and the rate of that v, less `give` and `rate` for each newton. Newton's steps inside a bracket: the
+    springs never give way, so there is just one such force.
     """
     damped = marks[j, _DAMPING] * v
     share = 1.0 / (1.0 + marks[j, _DAMPING] * rate)
@@ -356,10 +351,10 @@ def _together(
     marks: Floats, springs: Floats, counts: Wholes, y: Floats, v: Floats, give: Floats, rate: Floats, found: Floats,
     work: Floats
 ) -> bool:  # fmt: skip
-    """Rows of `found` - forces (m,) of all meshes, what of them springs carry, their stiffness - where y and v less `give` and
-    `rate` times the forces are the approaches and their rates.
+    """Find the forces (m,) of all meshes, the parts that springs carry, and their stiffness: the rows of `found`.
 
-    Begins with the forces that are there. False where Newton's steps do not come to rest.
+    With them y and v less `give` and `rate` times the forces are the approaches and their rates. Begins with the forces that
+    are there. Returns False where Newton's steps do not come to rest.
     """
     m = y.size
     for _ in range(_NEWTON):
@@ -388,7 +383,7 @@ def _together(
 def _in_turn(
     marks: Floats, springs: Floats, counts: Wholes, y: Floats, v: Floats, give: Floats, rate: Floats, found: Floats
 ) -> bool:
-    """The same, mesh after mesh until none changes any more."""
+    """Find the same forces mesh after mesh until none changes any more; return whether that succeeds."""
     m = y.size
     for _ in range(_SWEEPS):
         most, scale = 0.0, 0.0
@@ -440,7 +435,7 @@ def _disturb(
 
 @compiled
 def _sum(rows: Floats, r: int, values: Floats) -> float:
-    """One of the sums of coordinates."""
+    """Return one of the sums of coordinates."""
     total = 0.0
     for i in range(values.size):
         total += rows[i, r] * values[i]
@@ -479,8 +474,10 @@ def _measure(scale: float, free: Floats, dz: Floats, dv: Floats, df: Floats, gro
 
 @compiled
 def _yielding(mesh: Floats, left: Floats) -> Floats:
-    """(m, m): by how much approaches, or their rates, are less for each newton at the end of a step, of which modes get `left`
-    (n,)."""
+    """Return (m, m) by how much approaches, or their rates, are less for each newton at the end of a step.
+
+    `left` (n,) is what each mode gets of that newton.
+    """
     n, m = mesh.shape
     result = np.zeros((m, m))
     for i in range(n):
@@ -495,7 +492,10 @@ def _moved(
     mesh: Floats, steps: Floats, z: Floats, v: Floats, push: Floats, load: Floats, driven: Floats, factor: float, faster: float,
     still: bool, y: Floats, rates: Floats
 ) -> None:  # fmt: skip
-    """Coordinates at the end of a step without the forces of the meshes there (or as they are), approaches and their rates."""
+    """Set the coordinates at the end of a step without the forces of the meshes there, the approaches and their rates.
+
+    If the step is `still`, the coordinates remain as they are.
+    """
     n, m = mesh.shape
     for j in range(m):
         y[j] = rates[j] = 0.0
@@ -513,7 +513,7 @@ def _moved(
 
 @inlined
 def _pressed(mesh: Floats, steps: Floats, z: Floats, v: Floats, push: Floats, forces: Floats, still: bool) -> None:
-    """The coordinates with the forces of the meshes, and what pushes them into the next step."""
+    """Add the forces of the meshes to the coordinates, and to what pushes them into the next step."""
     n, m = mesh.shape
     for i in range(n):
         total = 0.0
@@ -527,7 +527,7 @@ def _pressed(mesh: Floats, steps: Floats, z: Floats, v: Floats, push: Floats, fo
 
 @inlined
 def _counted(crests: Floats, parted: Floats, reach: Floats, rows: Floats, window: int, found: Floats, z: Floats) -> None:
-    """Take one step into its window."""
+    """Count one step in its window."""
     for j in range(found.shape[1]):
         force, spring = found[0, j], found[1, j]
         crests[window, j, 0] = max(crests[window, j, 0], spring)
@@ -541,7 +541,7 @@ def _counted(crests: Floats, parted: Floats, reach: Floats, rows: Floats, window
 
 @compiled
 def _written(records: Records, number: int, rows: Floats, found: Floats, y: Floats, z: Floats, v: Floats) -> None:
-    """The sample of that number."""
+    """Write the sample of that number to the records."""
     for j in range(y.size):
         records.approach[number, j] = y[j]
         records.total[number, j], records.spring[number, j] = found[0, j], found[1, j]
@@ -551,10 +551,10 @@ def _written(records: Records, number: int, rows: Floats, found: Floats, y: Floa
 
 @compiled
 def run(model: Model, course: CourseTables, h: float, begin: int, count: int, state: State, records: Records) -> int:
-    """Steps `begin` + 1 to `begin` + `count` of h seconds; the first also writes down what is before it if that is step 0.
+    """Run steps `begin` + 1 to `begin` + `count` of h seconds; the first also writes down what is before it if that is step 0.
 
-    Gives how many steps were made before the forces of one could not be found, or more than a base pitch passed in one: `count`
-    if all could.
+    Returns how many steps were made before the forces of one could not be found, or more than a base pitch passed in one:
+    `count` if all could.
     """
     # Arrays by themselves: to take one out of a tuple costs as much as to use it. And what else could be functions of their own
     # stands here: with two more of them a step takes twice as long.

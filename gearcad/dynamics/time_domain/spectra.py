@@ -1,8 +1,6 @@
 """Amplitude spectra of sampled motions at one speed and over speeds, and the maxima of sampled curves.
 
 The maxima are those of `scipy.signal.find_peaks`, whose package takes 0.6 s to import: it brings statistics and images.
-
-Those of `scipy.signal.find_peaks`, whose package takes 0.6 s to come: it brings statistics and images with it.
 """
 
 from __future__ import annotations
@@ -21,13 +19,16 @@ Places = NDArray[np.intp]
 
 
 def outstanding(values: Floats, prominence: float) -> Places:
-    """Maxima that stand so high above the higher of the lowest values to both sides, each up to where it is higher again."""
+    """Return the places of maxima that are at least `prominence` above the higher of the lowest values to both sides.
+
+    Each side reaches up to where the curve is higher again.
+    """
     found = _summits(values)
     return found[[_prominence(values, place) >= prominence for place in found.tolist()]]
 
 
 def apart(values: Floats, distance: int) -> Places:
-    """Maxima at least so many places from each other: a lower one gives way, of two that are alike the one before."""
+    """Return the places of maxima at least `distance` apart: a lower one gives way, of two that are alike the one before."""
     found = _summits(values)
     kept = np.ones(len(found), bool)
     first, last = (np.searchsorted(found, found + reach) for reach in (1 - distance, distance))
@@ -44,13 +45,13 @@ def _prominence(values: Floats, place: int) -> float:
 
 
 def _lowest(values: Floats) -> float:
-    """Of values (n,) from a maximum on, up to where one is higher."""
+    """Return the lowest of values (n,) from a maximum on, up to where one is higher."""
     higher = np.flatnonzero(values > values[0])
     return float(values[: higher[0] if len(higher) else None].min())
 
 
 def _summits(values: Floats) -> Places:
-    """Where values (n,) rise before and fall behind; of those that stay alike at the top the middle, the lower of two."""
+    """Return the places where values (n,) rise before and fall behind; of a level top the middle, the lower of two."""
     starts = np.flatnonzero(np.r_[True, np.diff(values) != 0])
     ends, level = np.r_[starts[1:], len(values)] - 1, values[starts]
     top = np.flatnonzero((level[1:-1] > level[:-2]) & (level[1:-1] > level[2:])) + 1
@@ -73,7 +74,7 @@ class Spectrum:
     amplitude: Floats
 
     def peaks(self, count: int = 6, *, distance: float = 20.0, above: float = 5.0) -> tuple[SpectralPeak, ...]:
-        """The highest local maxima, highest first, at least `distance` Hz apart and above a frequency (Hz)."""
+        """Return the highest local maxima, highest first, at least `distance` Hz apart and above a frequency (Hz)."""
         require_whole("count", count, at_least=1, at_most=1000)
         bins = max(1, round(distance / float(self.frequency[1])))
         places = [place for place in apart(self.amplitude, bins).tolist() if self.frequency[place] > above]
@@ -82,10 +83,10 @@ class Spectrum:
 
 
 def amplitude_spectrum(signal: ArrayLike, sampling: float, highest: float | None = None) -> Spectrum:
-    """Spectrum of a signal (n,) sampled so many times a second (Hz), up to a frequency `highest` (Hz; None: half of that).
+    """Return the spectrum of a signal (n,) sampled at `sampling` (Hz), up to a frequency `highest` (Hz; None: half of that).
 
-    |X| 2/n, and |X|/n at 0 and at half the sampling, without a window: a sine of whole periods shows its amplitude.
-    Raises ParameterError for fewer than two finite numbers, or frequencies not above 0.
+    |X| 2/n, and |X|/n at 0 and at half the sampling, without a window: a sine of whole periods shows its amplitude. Raises
+    ParameterError for fewer than two finite numbers, or frequencies not above 0.
     """
     import scipy.fft
 
@@ -110,7 +111,7 @@ def amplitude_spectrum(signal: ArrayLike, sampling: float, highest: float | None
 
 
 class SpeedRow(NamedTuple):
-    """What a study keeps of one speed."""
+    """Results of a study at one speed."""
 
     pinion_speed: Floats
     approach: Floats
@@ -150,28 +151,28 @@ class SpeedSpectra(ABC):
     @property
     @abstractmethod
     def teeth(self) -> int:
-        """Of the pinion."""
+        """Number of teeth of the pinion."""
 
     @property
     @abstractmethod
     def natural_frequencies(self) -> dict[str, float]:
-        """Lines of the diagram (Hz), by what they are."""
+        """Natural frequencies (Hz) drawn as lines of the diagram, by name."""
 
     def spectrum(self, speed: float) -> Spectrum:
-        """Of the pinion's speed at one of the speeds (rpm)."""
+        """Return the spectrum of the pinion's speed (rad/s) at one of the speeds (rpm)."""
         return Spectrum(self.frequency, self.pinion_speed[self._index(speed)])
 
     def peaks(self, speed: float, count: int = 6) -> tuple[SpectralPeak, ...]:
-        """Highest peaks of the pinion's speed (Hz, rad/s) at one of the speeds (rpm)."""
+        """Return the highest peaks of the pinion's speed (Hz, rad/s) at one of the speeds (rpm)."""
         return self.spectrum(speed).peaks(count)
 
     def tooth_frequencies(self, harmonic: int = 1) -> Floats:
-        """i z_1 n/60 (s,) in Hz at every speed, of a harmonic i."""
+        """Return i z_1 n/60 (s,) in Hz at every speed, of a harmonic i."""
         return harmonic * self.teeth * 1.0 / 60 * self.speeds
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it."""
+        """Notices to read before using the results."""
         if not self.chaotic.any():
             return ()
         listed = ", ".join(f"{speed:g}" for speed in self.speeds[self.chaotic])
@@ -184,7 +185,7 @@ class SpeedSpectra(ABC):
         return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """A row per speed, for JSON; the spectra themselves are arrays."""
+        """Return a row per speed, for JSON; the spectra themselves are arrays."""
         names = ("mean_approach", "greatest_approach", "deepest", "out_of_contact", "growth", "digits_lost", "chaotic")
         return {
             "duration": self.duration,
@@ -206,7 +207,7 @@ class SpeedSpectra(ABC):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MeshCampbell(SpeedSpectra):
-    """That of the motions that have settled at each speed: of the first mesh's pinion, and of the approach of its flanks.
+    """Spectra of settled motions over speed: of the speed of the first mesh's pinion, and of the approach of its flanks.
 
     `modes` are natural frequencies (Hz) that bend the teeth, by name; `settled` is for how long (s) each motion had run before.
     Speeds at which the motion grows beyond all numbers are `unbounded` (rpm), and are left out.
@@ -228,7 +229,7 @@ class MeshCampbell(SpeedSpectra):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it."""
+        """Notices to read before using the results."""
         found = super().notices
         if self.unbounded:
             listed = ", ".join(f"{speed:g}" for speed in self.unbounded)
@@ -237,10 +238,10 @@ class MeshCampbell(SpeedSpectra):
         return tuple(each.within("campbell") for each in found)
 
     def to_dict(self) -> dict[str, Any]:
-        """A row per speed, for JSON."""
+        """Return a row per speed, for JSON."""
         return {"mesh": self.mesh, "settled": self.settled, "unbounded": list(self.unbounded), **super().to_dict()}
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by name."""
         names = {"speed": "speeds", "frequency": "frequency", "pinion_speed": "pinion_speed", "approach": "approach"}
         return {f"campbell_{key}": getattr(self, name) for key, name in names.items()}

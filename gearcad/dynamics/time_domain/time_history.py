@@ -69,7 +69,7 @@ class TimeHistory:
 
     @property
     def duration(self) -> float:
-        """How long the motion was looked at (s)."""
+        """Duration of the motion (s)."""
         return len(self.approach) / self.sampling
 
     @property
@@ -79,54 +79,54 @@ class TimeHistory:
 
     @property
     def pinion_speed(self) -> Floats:
-        """(n,) omega_1 in rad/s: the uniform rotation and the pinion's share of the approach."""
+        """Speed omega_1 (n,) in rad/s: the uniform rotation and the pinion's share of the approach."""
         share = self.model.pinion_share
         return self.speed * math.pi / 30 + share * self.approach_rate / self.model.base_radii.pinion
 
     @property
     def wheel_speed(self) -> Floats:
-        """(n,) omega_2 in rad/s, counter-clockwise as well: negative."""
+        """Speed omega_2 (n,) in rad/s, counter-clockwise as well: negative."""
         share, (pinion, wheel) = 1 - self.model.pinion_share, self.model.base_radii
         return -self.speed * math.pi / 30 * pinion / wheel + share * self.approach_rate / wheel
 
     @property
     def pinion_angle(self) -> Floats:
-        """(n,) turn of the pinion since time 0 in degrees."""
+        """Turn (n,) of the pinion since time 0 in degrees."""
         angle: Floats = 6 * self.speed * self.time + self.pinion_deviation
         return angle
 
     @property
     def wheel_angle(self) -> Floats:
-        """(n,) turn of the wheel since time 0 in degrees."""
+        """Turn (n,) of the wheel since time 0 in degrees."""
         pinion, wheel = self.model.base_radii
         angle: Floats = -6 * self.speed * self.time * pinion / wheel + self.wheel_deviation
         return angle
 
     @property
     def pinion_deviation(self) -> Floats:
-        """(n,) turn of the pinion since time 0 beyond the uniform one, in degrees: its share of the approach."""
+        """Turn (n,) of the pinion since time 0 beyond the uniform one, in degrees: its share of the approach."""
         moved = self.model.pinion_share * 1e-3 * (self.approach - self.approach[0])
         angle: Floats = np.degrees(moved / self.model.base_radii.pinion)
         return angle
 
     @property
     def wheel_deviation(self) -> Floats:
-        """(n,) the same of the wheel."""
+        """Turn (n,) of the wheel since time 0 beyond the uniform one, in degrees: its share of the approach."""
         moved = (1 - self.model.pinion_share) * 1e-3 * (self.approach - self.approach[0])
         angle: Floats = np.degrees(moved / self.model.base_radii.wheel)
         return angle
 
     @property
     def settled(self) -> Floats:
-        """The approach in the second half of the time (µm)."""
+        """Approach in the second half of the time (µm)."""
         return self.approach[round(SETTLED * len(self.approach)) :]
 
     def spectrum(self, highest: float | None = None) -> Spectrum:
-        """Of the pinion's speed (rad/s), over the whole time, as the thesis has it."""
+        """Return the spectrum of the pinion's speed (rad/s) over the whole time, as in the thesis, up to `highest` (Hz)."""
         return amplitude_spectrum(self.pinion_speed, self.sampling, highest)
 
     def approach_spectrum(self, highest: float | None = None) -> Spectrum:
-        """Of the approach (µm), over the whole time."""
+        """Return the spectrum of the approach (µm) over the whole time, up to `highest` (Hz)."""
         return amplitude_spectrum(self.approach, self.sampling, highest)
 
 
@@ -139,7 +139,7 @@ _EVEN = 1e9
 def time_history(
     model: ContactModel, speed: float, *, duration: float = 1.0, sampling: float = 200000.0, start: Start | None = None
 ) -> TimeHistory:
-    """The motion at a mean speed of the pinion in rpm (not negative) over a duration (s), sampled so many times a second (Hz).
+    """Return the motion at a mean speed of the pinion in rpm (not negative) over a duration (s), sampled at `sampling` (Hz).
 
     Without a start the flanks just touch, without relative speed, and a flank of the pinion begins at T1.
     """
@@ -173,7 +173,7 @@ def time_history(
 
 
 def checked_samples(duration: float, sampling: float) -> int:
-    """Number of samples; raises ParameterError unless they are at least 2 and can be held."""
+    """Return the number of samples; raise ParameterError unless they are at least 2 and can be held."""
     require_number("duration", duration, "s", above=0)
     require_number("sampling", sampling, "Hz", above=0)
     samples = round(duration * sampling)
@@ -184,7 +184,7 @@ def checked_samples(duration: float, sampling: float) -> int:
 
 
 def _motion(model: ContactModel) -> Motion:
-    """The model in SI units, reduced to the approach."""
+    """Return the model in SI units, reduced to the approach."""
     from gearcad.dynamics.time_domain.event_kernel import Motion, Zone
 
     mass, share = model.reduced_mass, model.pinion_share
@@ -207,7 +207,7 @@ def _motion(model: ContactModel) -> Motion:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CampbellStudy(SpeedSpectra):
-    """That of a contact model, each speed from the same start: `deepest` has the start from y = 0 in it."""
+    """Campbell study of a contact model, each speed from the same start: `deepest` includes the start from y = 0."""
 
     model: ContactModel
 
@@ -217,7 +217,7 @@ class CampbellStudy(SpeedSpectra):
 
     @property
     def natural_frequencies(self) -> dict[str, float]:
-        """Lines of the diagram (Hz): with one pair, and with the mean number of pairs, which is met at high speed."""
+        """Natural frequencies (Hz) with one pair, and with the mean number of pairs, which is met at high speed."""
         found = {"one pair": self.model.natural_frequency()}
         if self.model.contact_ratio != 1.0:
             found["mean stiffness"] = self.model.natural_frequency(self.model.contact_ratio)
@@ -225,7 +225,7 @@ class CampbellStudy(SpeedSpectra):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Those of the model, and what the motion adds to them."""
+        """Notices of the model and of the motion."""
         found = list(self.model.notices)
         worst = int(np.argmax(self.deepest))
         if 1e-3 * self.deepest[worst] > self.model.normal_module:

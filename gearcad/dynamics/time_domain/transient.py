@@ -23,14 +23,20 @@ _NOTHING = 1e-9
 
 
 class Acceleration(NamedTuple):
-    """What the coordinates of a System feel (n,) of 1 rad/s² of the first pinion; `why` they feel nothing, "" if they do."""
+    """Effect `felt` (n,) on the coordinates of a System of 1 rad/s² of the first pinion.
+
+    `why` gives the reason if there is no effect, else "".
+    """
 
     felt: Floats
     why: str
 
 
 def acceleration(train: Train, system: System, *, backwards: bool = False) -> Acceleration:
-    """With all inertias at the ratios of the teeth, sped up by the one on which the torque drives (`backwards`: is driven)."""
+    """Return the effect of speeding up all inertias at the ratios of the teeth by the one on which the torque drives.
+
+    If the train runs `backwards`, it is the one that is driven.
+    """
     nothing = np.zeros(system.size)
     if train.held:
         return Acceleration(nothing, "the ends of its shafts are held")
@@ -51,7 +57,7 @@ def acceleration(train: Train, system: System, *, backwards: bool = False) -> Ac
 
 
 def per_common_period(teeth: int, order: int) -> float:
-    """Speed of a pinion of so many teeth (rad/s) where the common period of `order` of its teeth has a frequency of 1/s."""
+    """Return the speed of a pinion (rad/s) where the common period of `order` of its teeth has a frequency of 1/s."""
     return 2 * math.pi * order / teeth
 
 
@@ -84,10 +90,10 @@ def run_transient(
     otherwise: float,
     tell: Callable[[float], None] = lambda _part: None,
 ) -> Transient:
-    """The run that the options ask for, of a train whose System and Excitation are given.
+    """Return the run that the options ask for, of a train whose System and Excitation are given.
 
-    `references` (s,) are the torques (N·m) that those of shafts are held against, nan for none; those at rest if not given.
-    `otherwise` is the speed (rpm) where the options have none; `tell` hears of the part that is done. Raises ParameterError for
+    `references` (s,) are the torques (N·m) with which those of shafts are compared, nan for none; those at rest if not given.
+    `otherwise` is the speed (rpm) where the options have none; `tell` receives the part that is done. Raises ParameterError for
     what would take too long or too much memory, with what would do, and SolverError.
     """
     teeth, order = train.meshes[0].teeth, excitation.orders[0]
@@ -111,7 +117,10 @@ def run_transient(
 
 
 def _steps(moving: MovingSystem, options: TransientOptions, quickest: float, first: float) -> tuple[float, int, int]:
-    """Length of a step, steps from sample to sample, and all steps; `quickest` and `first` are tooth frequencies (Hz)."""
+    """Return the length of a step (s), steps from sample to sample, and all steps.
+
+    `quickest` and `first` are tooth frequencies (Hz).
+    """
     duration = options.duration
     longest = step_for(moving.system, quickest, duration / 200)
     wanted = options.sampling
@@ -135,7 +144,7 @@ def _steps(moving: MovingSystem, options: TransientOptions, quickest: float, fir
 
 
 def _down(value: float) -> str:
-    """With two digits, not above."""
+    """Return the value with two digits, rounded down."""
     unit = 10.0 ** (math.floor(math.log10(value)) - 1)
     return f"{math.floor(value / unit * (1 + 1e-12)) * unit:.6g}"
 
@@ -150,7 +159,7 @@ def _torque(options: TransientOptions) -> Line:
 def _settled(
     moving: MovingSystem, options: TransientOptions, frequency: float, quickest: float
 ) -> tuple[Start, tuple[Notice, ...]]:
-    """What lasts at the first speed under the first torque, and whether there was time enough for it."""
+    """Return the state that lasts at the first speed under the first torque, with a notice if time was too short for it."""
     rest = moving.at_rest()
     still = Start(coordinates=options.torque_from * rest.coordinates, rates=rest.rates)
     wanted = settling_time(moving.system)
@@ -168,7 +177,7 @@ def _settled(
 
 
 def _window_ends(frequency: Line, order: int, step: float, count: int) -> Wholes:
-    """Steps (w,) before which windows end: a tooth of the first mesh, several, or a hundredth of all."""
+    """Return the steps (w,) before which windows end: a tooth of the first mesh, several, or a hundredth of all."""
     size = 1 if count < 1_000_000 else count // 1_000_000
     at = np.arange(0, count + size, size).clip(max=count)
     teeth = np.abs(np.diff(order * frequency.integrals(step * at)))
@@ -193,7 +202,7 @@ def _result(
     references: Floats | None,
     notices: tuple[Notice, ...],
 ) -> Transient:
-    """In the units of the house."""
+    """Return the result in the units of the package (µm, degrees, rpm)."""
     system, static = moving.system, static_state(moving.system)
     forces = np.abs(system.stiffness * static.approach)
     torques = np.abs(static.others[system.torque_outputs]) if references is None else references
@@ -222,7 +231,7 @@ def _result(
 
 
 def _shaft_factors(motion: Motion, torques: Floats) -> Floats:
-    """(w, s): in either sense, over their references; nan where there are none."""
+    """Return the greatest torques (w, s) in either sense, over their references; nan where there are none."""
     carried = np.nan_to_num(torques) > _NO_LOAD * np.nan_to_num(torques).max(initial=0.0)
     most = np.maximum(motion.shaft_most, -motion.shaft_least)
     return np.where(carried, most / np.where(carried, torques, 1.0), math.nan)

@@ -52,16 +52,16 @@ class TransientOptions:
 
     @property
     def changes_at(self) -> float:
-        """When the torques begin to change (s)."""
+        """Time at which the torques begin to change (s)."""
         return self.duration / 2 if self.torque_at is None else self.torque_at
 
     @property
     def final_torque(self) -> float:
-        """The factor at the end."""
+        """Factor of the torques at the end."""
         return self.torque_from if self.torque_to is None else self.torque_to
 
     def speeds(self, otherwise: float) -> tuple[float, float]:
-        """At the beginning and at the end (rpm); `otherwise` where neither is given."""
+        """Return the speeds at the beginning and at the end (rpm); `otherwise` where neither is given."""
         given = [each for each in (self.speed_from, self.speed_to) if each is not None] or [otherwise]
         return given[0], given[-1]
 
@@ -135,17 +135,17 @@ class Transient:
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """At the beginning and at the end (rpm)."""
+        """Speeds at the beginning and at the end (rpm)."""
         return float(self.speed[0]), float(self.window_speed[-1]) if len(self.speed) < 2 else float(self.speed[-1])
 
     @property
     def window_torque(self) -> Floats:
-        """The factor of the torques (w,) in the middle of the windows."""
+        """Factors of the torques (w,) in the middle of the windows."""
         return np.asarray(np.interp(self.middles, self.time, self.torque), float)
 
     @property
     def whole_load(self) -> NDArray[np.bool_]:
-        """In which windows (w,) the torques are those of the train."""
+        """Marks (w,) of the windows in which the torques are those of the train."""
         return np.asarray(np.abs(self.window_torque - 1) < 1e-9)
 
     @property
@@ -155,17 +155,17 @@ class Transient:
 
     @property
     def referred_shafts(self) -> list[int]:
-        """Shafts that carry something at rest."""
+        """Indices of the shafts that carry a torque at rest."""
         return [shaft for shaft, column in enumerate(self.shaft_factor.T) if np.isfinite(column).all()]
 
     @property
     def greatest(self) -> tuple[GreatestLoad, ...]:
-        """Of every mesh."""
+        """Greatest load of every mesh."""
         return tuple(self._greatest(self.names[0], self.factor, range(len(self.names[0]))))
 
     @property
     def greatest_of_shafts(self) -> tuple[GreatestLoad, ...]:
-        """Of every shaft that carries something at rest."""
+        """Greatest load of every shaft that carries something at rest."""
         return tuple(self._greatest(self.names[2], self.shaft_factor, self.referred_shafts))
 
     def _greatest(self, names: tuple[str, ...], factors: Floats, which: range | list[int]) -> Iterator[GreatestLoad]:
@@ -176,7 +176,7 @@ class Transient:
 
     @property
     def partings(self) -> tuple[Parting, ...]:
-        """When flanks part, mesh by mesh; none of meshes that cannot."""
+        """Stretches of time in which flanks part, mesh by mesh; none for meshes that cannot part."""
         found = []
         for mesh, name in enumerate(self.names[0]):
             apart = np.concatenate([[False], self.parted[:, mesh] > 0, [False]])
@@ -189,7 +189,7 @@ class Transient:
         return tuple(found)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it; the courses are arrays."""
+        """Return the entry of the run in `dynamics.json`; the courses are arrays."""
         return {
             "speed_from": self.speeds[0],
             "speed_to": self.speeds[1],
@@ -203,6 +203,6 @@ class Transient:
         }
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by name."""
         names = "time speed torque approach force turn shaft_torque windows window_speed factor parted shaft_factor".split()
         return {f"transient_{name}": getattr(self, name) for name in names}
