@@ -58,7 +58,7 @@ def balance(
 
 
 def _passed(stages: dict[str, PerGear[float]], link: Link, torque: float, speeds: Mapping[str, float], eta: float) -> float:
-    """Return the torque on the inner shaft of a stage caused by a torque on its outer shaft; add both to `stages`."""
+    """Return the torque on the inner shaft of a stage caused by a torque on its outer shaft; set both in `stages`."""
     inner, outer = link.teeth
     through = -torque * inner / outer * _kept(torque * speeds[link.shafts[1]], eta)
     _note(stages, link, -through, torque)
