@@ -202,7 +202,10 @@ class Sampling:
         return steps * samples * (_STEP + _TERM * self.system.mesh.size)
 
     def _speed(self, samples: Samples, frequency: float, decays: float, stop: Event) -> tuple[Floats, Bools]:
-        """Return the greatest forces (m, n) in N over the period, and whether (n,) those of its first part repeat in the next."""
+        """Return the greatest forces (m, n) in N over the period, and whether (n,) those of its first part repeat.
+
+        All count as repeated where the period is not evaluated as a whole.
+        """
         per_tooth = self.per_tooth(frequency)
         wait_for, length, period = self._lengths(frequency, decays)
         steps, pattern = self._steps(frequency, per_tooth), self._pattern(per_tooth, frequency)

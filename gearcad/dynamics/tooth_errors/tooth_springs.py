@@ -38,7 +38,7 @@ def _unmodified(lengths: Floats) -> Floats:
 
 
 class TurnedFlank(NamedTuple):
-    """An involute about its axis: base radius, first and last roll length, and the modification `depth` at roll lengths (mm)."""
+    """An involute about its axis: base radius, first and last roll length, and the modification `depth` at roll lengths."""
 
     base_radius: float
     first: float
@@ -47,8 +47,7 @@ class TurnedFlank(NamedTuple):
 
 
 def _turned_gap(flanks: PerGear[TurnedFlank], whole: float, contact: Floats, length: Floats) -> tuple[Floats, Floats]:
-    """Return the gap (mm) between points of the pinion's involute and the whole involute of the wheel, and where they meet
-    there.
+    """Return the gap (mm) between points of the pinion's involute and the wheel's whole involute, and where they meet there.
 
     The latter is a roll length on the wheel's involute (mm). The points are at roll lengths of a flank that, were it long
     enough, would touch at `contact` on the line of action. Nan where a point lies inside the wheel's base circle.

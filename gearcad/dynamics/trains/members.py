@@ -48,10 +48,10 @@ from gearcad.rating.options import RatingOptions
 
 @dataclass(frozen=True, kw_only=True)
 class MeshPair:
-    """A pair whose teeth are a mesh of a train, of a `material`, in a `mounting`, its bodies held as `body` says.
+    """A pair of gears whose teeth are a mesh of a train, with its `material`, `mounting` and the model `body` of its bodies.
 
-    `rating` has the accuracy grade of its teeth. `load` is its own, if it has one: the train gives it another torque and speed.
-    Raises GeometryError for double helical gears.
+    `rating` has the accuracy grade of its teeth. `load` is the pair's own, if it has one: the train gives it another torque and
+    speed. Raises GeometryError for double helical gears.
     """
 
     pair: GearPair
@@ -68,29 +68,29 @@ class MeshPair:
 
     @property
     def mounted(self) -> GearPair:
-        """The pair at the centre distance of its mounting. Raises GeometryError."""
+        """Pair at the centre distance of its mounting. Raises GeometryError."""
         return self.mounting.mounted(self.pair)
 
     @property
     def backlash(self) -> float:
-        """Between the flanks along the line of action, as mounted (µm)."""
+        """Backlash between the flanks along the line of action, as mounted (µm)."""
         return line_backlash(self.mounted)
 
 
 def line_backlash(pair: GearPair) -> float:
-    """Backlash of a pair along the line of action, at its centre distance (µm)."""
+    """Return the backlash of a pair along the line of action, at its centre distance (µm)."""
     across = math.cos(math.radians(pair.working_transverse_pressure_angle))
     return max(1000 * pair.circumferential_backlash * across, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MeshCourse:
-    """What the pair of a mesh does under the train's static load.
+    """Mesh cycle of the pair of a mesh under the train's static load.
 
-    `torque` (N·m) is that on its pinion, counter-clockwise positive, which with `driver` says which flanks carry: if the wheel
-    drives, it is against the pinion's turn. `cycle` is that under this torque by the method whose words are `title`, found in
-    so many `rounds` of stiffness and static force. `offset` (µm) is taken from its transmission error: where the force depends
-    on the stiffness, at rest the train and the cycle must agree how far the flanks have approached.
+    `torque` (N·m) is that on its pinion, counter-clockwise positive. With `driver` it says which flanks carry: if the wheel
+    drives, the torque is against the pinion's turn. `cycle` is the mesh cycle under this torque, by the method whose words are
+    `title`, found in `rounds` rounds of stiffness and static force. `offset` (µm) is taken from its transmission error: where
+    the force depends on the stiffness, train and cycle must have the same approach of the flanks at rest.
     """
 
     cycle: MeshCycle
@@ -107,10 +107,10 @@ class MeshCourse:
 
 
 GROUND = "ground"
-"""The end of a shaft that does not turn."""
+"""Name of the end of a shaft that does not turn."""
 
 BESIDE_PAIR = "not beside pair: it is that of its teeth"
-"""The end of a message about what a mesh's pair tells."""
+"""End of the message about an input that the pair of a mesh already defines."""
 
 
 class _DerivedRadii(PerGear[float]):
@@ -174,7 +174,7 @@ class Shaft(NamedPart):
         self._check_shape()
 
     def _check_shape(self) -> None:
-        """Stiffness or shape, not both; a hollow shaft has a wall."""
+        """Raise GeometryError or ParameterError unless a shaft has either a stiffness or a shape, and a hollow one has a wall."""
         if self.torsional_stiffness is not None:
             for parameter in ("length", "diameter"):
                 if (value := getattr(self, parameter)) is not None:
@@ -195,7 +195,7 @@ class Shaft(NamedPart):
 
     @property
     def stiffness(self) -> float:
-        """G I_p / L (N·m/rad)."""
+        """Torsional stiffness G I_p / L (N·m/rad)."""
         if self.torsional_stiffness is not None:
             return self.torsional_stiffness
         assert self.length is not None
@@ -203,7 +203,7 @@ class Shaft(NamedPart):
 
     @property
     def inertia(self) -> float:
-        """rho I_p L about the axis (kg·m²); 0 for a shaft that is given by its stiffness."""
+        """Moment of inertia rho I_p L about the axis (kg·m²); 0 for a shaft that is given by its stiffness."""
         if self.torsional_stiffness is not None:
             return 0.0
         assert self.length is not None
@@ -211,7 +211,7 @@ class Shaft(NamedPart):
 
     @property
     def _polar_moment(self) -> float:
-        """Of the section (m⁴)."""
+        """Polar moment of area of the section (m⁴)."""
         assert self.diameter is not None
         return math.pi / 32 * ((self.diameter / 1000) ** 4 - (self.inner_diameter / 1000) ** 4)
 
@@ -262,7 +262,10 @@ class Mesh(NamedPart):
         self._check_damping_and_wave()
 
     def _take_none(self) -> None:
-        """Without a pair flanks never part unless a backlash is given. Raises ParameterError without base radii."""
+        """Set the backlash of a mesh without a pair: flanks never part unless one is given.
+
+        Raises ParameterError without base radii.
+        """
         if not is_given(self.backlash):
             object.__setattr__(self, "backlash", None)
         if self.base_radii is _NO_RADII:
@@ -270,7 +273,11 @@ class Mesh(NamedPart):
             raise ParameterError(f"{self.name}.base_radii", None, permitted)
 
     def _take_from_pair(self) -> None:
-        """What the pair knows, derived. Raises ParameterError for what is no pair, and GeometryError for what is given too."""
+        """Set the fields that the pair defines, as derived values.
+
+        Raises ParameterError if `pair` is not a pair, and GeometryError for a field that is given too or a preload that is too
+        high.
+        """
         pair = MeshPair(pair=self.pair) if isinstance(self.pair, GearPair) else self.pair
         if not isinstance(pair, MeshPair):
             raise ParameterError(f"{self.name}.pair", pair, "must be a GearPair, or a MeshPair, which has its material too")
@@ -293,7 +300,7 @@ class Mesh(NamedPart):
             raise GeometryError(f"{self.name}.preload", self.preload, permitted, "N")
 
     def _require_nothing_beside(self) -> None:
-        """Raise GeometryError where something is given too that the pair tells."""
+        """Raise GeometryError for a field that is given although the pair defines it."""
         derived, plain = ("base_radii", "stiffness", "teeth"), ("variation", "shape", "contact_ratio")
         given = {name: not getattr(getattr(self, name), "derived", False) for name in derived}
         given |= {name: getattr(self, name) != getattr(Mesh, name) for name in plain}
@@ -303,11 +310,14 @@ class Mesh(NamedPart):
 
     @property
     def _stiffness_of_pair(self) -> float:
-        """Mean stiffness of the pair's teeth: unknown before their load is."""
+        """Mean stiffness of the pair's teeth: nan, as it is unknown before their load is known."""
         return math.nan
 
     def _check_damping_and_wave(self) -> None:
-        """What does not stand beside each other."""
+        """Raise GeometryError for inputs that exclude each other.
+
+        Raises ParameterError for a square wave without a contact ratio.
+        """
         if self.damping is not None and self.damping_ratio is not None:
             raise GeometryError(f"{self.name}.damping_ratio", self.damping_ratio, "not beside damping: one says the other")
         if self.shape is StiffnessWave.SQUARE and self.variation:
@@ -323,13 +333,16 @@ class Mesh(NamedPart):
 
     @property
     def radii(self) -> PerGear[float]:
-        """What the turns of both gears, both counter-clockwise, move along the line of action (m per rad)."""
+        """Base radii (m) of both gears, negative for a ring gear.
+
+        They are the motion along the line of action per rad of each gear, both counter-clockwise.
+        """
         pinion, wheel = self.base_radii
         return PerGear(pinion / 1000, (-wheel if self.internal else wheel) / 1000)
 
 
 def _deviations(name: str, values: Any, teeth: int) -> tuple[float, ...]:
-    """Pitch deviations: none, or one for each tooth."""
+    """Return the pitch deviations (µm): none, or one for each tooth. Raises ParameterError for another number of them."""
     if not isinstance(values, list | tuple) or len(values) not in (0, teeth):
         count = len(values) if isinstance(values, list | tuple) else values
         raise ParameterError(
@@ -339,25 +352,24 @@ def _deviations(name: str, values: Any, teeth: int) -> tuple[float, ...]:
 
 
 def _two_radii(name: str, values: Any) -> PerGear[float]:
-    """Base radii: two of them."""
+    """Return the base radii (mm) as a PerGear. Raises ParameterError unless there are two."""
     if not isinstance(values, list | tuple) or len(values) != 2:
         raise ParameterError(f"{name}.base_radii", values, "must be two lengths in mm: of pinion and wheel")
     return values if isinstance(values, _DerivedRadii) else PerGear(*map(float, values))
 
 
 _SAME_SPEED = 1e-6
-"""Relative: two ways round a loop must give an inertia the same speed; rounded base radii would lock it."""
+"""Relative difference within which two ways round a loop give an inertia the same speed; rounded base radii would lock it."""
 
 _BALANCED = 1e-3
+"""Part of the greatest torque that may be left unbalanced: torques of four digits balance as well as that."""
 
 _WRONG_SIGN = 0.05
 """How near the torque that balances is to the given one with the other sign, relative to it, to be called its sign."""
 
-"""Of the greatest torque: torques of four digits balance as well as that."""
-
 
 def turning_pieces(names: Sequence[str], shafts: Iterable[Shaft], meshes: Iterable[Mesh]) -> list[dict[str, float]]:
-    """The pieces that hang together, each with its inertias' speeds relative to its first inertia.
+    """Return the connected pieces of a train, each with the speeds of its inertias relative to its first inertia.
 
     Raises GeometryError where a loop would turn an inertia at two speeds.
     """
@@ -378,7 +390,10 @@ def turning_pieces(names: Sequence[str], shafts: Iterable[Shaft], meshes: Iterab
 
 
 def _piece(first: str, neighbours: dict[str, list[tuple[str, float]]]) -> dict[str, float]:
-    """Speeds of what hangs together with one inertia, relative to it."""
+    """Return the speeds of all inertias that are connected with the inertia `first`, relative to it.
+
+    Raises GeometryError where a loop would turn an inertia at two speeds.
+    """
     speeds, waiting = {first: 1.0}, deque([first])
     while waiting:
         here = waiting.popleft()
@@ -394,7 +409,7 @@ def _piece(first: str, neighbours: dict[str, list[tuple[str, float]]]) -> dict[s
 
 
 class Graph(NamedTuple):
-    """The members of a train, which by their names know what they join."""
+    """The members of a train, and the graph that they make: shafts and meshes join inertias by their names."""
 
     inertias: tuple[Inertia, ...]
     shafts: tuple[Shaft, ...]
@@ -402,15 +417,15 @@ class Graph(NamedTuple):
 
     @property
     def reference(self) -> str:
-        """The first mesh's pinion, or the first inertia where there is no mesh."""
+        """Name of the first mesh's pinion, or of the first inertia where there is no mesh."""
         return self.meshes[0].pinion if self.meshes else self.inertias[0].name
 
     def pieces(self) -> list[dict[str, float]]:
-        """What hangs together; see `turning_pieces`."""
+        """Return the connected pieces of the train; see `turning_pieces`."""
         return turning_pieces([inertia.name for inertia in self.inertias], self.shafts, self.meshes)
 
     def speed_ratios(self) -> dict[str, float]:
-        """Nominal speeds of a train in one piece, relative to the reference."""
+        """Return the nominal speeds of a train in one piece, relative to the reference, by the names of inertias."""
         (speeds,) = self.pieces()
         reference = speeds[self.reference]
         return {name: speed / reference for name, speed in speeds.items()}
@@ -440,7 +455,10 @@ class Graph(NamedTuple):
             raise GeometryError("torques", left, permitted, "N·m")
 
     def _require_names(self, torques: Mapping[str, float]) -> None:
-        """Both ends of everything are known, and differ."""
+        """Raise ParameterError or GeometryError unless members and torques name known inertias.
+
+        Both ends of a member must differ.
+        """
         names = [inertia.name for inertia in self.inertias]
         known = f"must be one of the inertias {', '.join(names)}"
         for shaft in self.shafts:
@@ -461,7 +479,7 @@ class Graph(NamedTuple):
                 raise ParameterError("torques", name, known)
 
     def _require_one_piece(self) -> None:
-        """Everything hangs together."""
+        """Raise GeometryError unless all members are connected."""
         ends = {end for shaft in self.shafts for end in (shaft.start, shaft.end)}
         geared = {gear for mesh in self.meshes for gear in mesh.gears}
         for inertia in self.inertias:

@@ -3,11 +3,6 @@
 Inputs are in µm and degrees; solvers take SI units over the phase theta of the common period (rad). The phase of a mesh is in
 radians, 2 pi over a tooth. Coefficients are those of sum_n c_n e^(i n phase), n from -count to count; those from 0 on are
 given.
-
-The phase of a mesh is in radians, 2 pi over a tooth. Coefficients are those of sum_n c_n e^(i n phase), n from -count to count,
-of which those from 0 on are given.
-
-Inputs in µm and degrees; what solvers take from them is in SI units, over the phase theta of the common period (rad).
 """
 
 from __future__ import annotations
@@ -46,11 +41,11 @@ class StiffnessShape(ABC):
 
     @abstractmethod
     def values(self, phase: ArrayLike) -> Floats:
-        """Stiffness over its mean, at any phases (rad)."""
+        """Return the stiffness over its mean, at any phases (rad)."""
 
     @abstractmethod
     def coefficients(self, count: int) -> Complexes:
-        """Fourier coefficients (count + 1,)."""
+        """Return the Fourier coefficients (count + 1,)."""
 
     @property
     def jumps(self) -> Floats:
@@ -70,11 +65,11 @@ class CosineStiffness(StiffnessShape):
         require_number("variation", self.variation, at_least=0, below=1)
 
     def values(self, phase: ArrayLike) -> Floats:
-        """Stiffness over its mean, at any phases (rad)."""
+        """Return the stiffness over its mean, at any phases (rad)."""
         return np.asarray(1 - self.variation * np.cos(phase), float)
 
     def coefficients(self, count: int) -> Complexes:
-        """Fourier coefficients (count + 1,)."""
+        """Return the Fourier coefficients (count + 1,)."""
         result = np.zeros(count + 1, complex)
         result[0] = 1
         result[1:2] = -self.variation / 2
@@ -98,15 +93,15 @@ class CurveStiffness(StiffnessShape):
 
     @cached_property
     def line(self) -> Polyline:
-        """The curve itself, of mean 1."""
+        """Curve of the stiffness over its mean."""
         return Polyline(phase=self.phase, height=self.stiffness)
 
     def values(self, phase: ArrayLike) -> Floats:
-        """Stiffness over its mean, at any phases (rad)."""
+        """Return the stiffness over its mean, at any phases (rad)."""
         return self.line.values(phase)
 
     def coefficients(self, count: int) -> Complexes:
-        """Fourier coefficients (count + 1,), exactly those of the straight lines."""
+        """Return the Fourier coefficients (count + 1,), exactly those of the straight lines."""
         return self.line.coefficients(count)
 
     @property
@@ -116,9 +111,10 @@ class CurveStiffness(StiffnessShape):
 
 
 def square_stiffness(contact_ratio: float, pair_ratio: float = 1.0) -> CurveStiffness:
-    """The square wave of a contact ratio: n + 1 pairs of teeth from phase 0 on for the fraction of it over n, n for the rest.
+    """Return the square wave of a contact ratio: from phase 0 on n + 1 pairs of teeth, for the rest of the tooth n pairs.
 
-    `pair_ratio` is the stiffness of the pair that comes last over that of each of the others: 1 where all are alike.
+    n is the contact ratio rounded down, and the rest of the ratio is the part of a tooth with n + 1 pairs. `pair_ratio` is the
+    stiffness of the pair that comes last over that of each of the others: 1 where all are alike.
     """
     require_number("contact_ratio", contact_ratio, at_least=1, at_most=10)
     require_number("pair_ratio", pair_ratio, above=0)
@@ -130,12 +126,15 @@ def square_stiffness(contact_ratio: float, pair_ratio: float = 1.0) -> CurveStif
 
 
 def cycle_stiffness(cycle: MeshCycle, *, tangent: bool = True) -> CurveStiffness:
-    """The curve of a MeshCycle; phase 0 is roll angle 0. Tangent stiffness is that of small vibrations about the load."""
+    """Return the stiffness curve of a MeshCycle; phase 0 is roll angle 0.
+
+    Tangent stiffness is that of small vibrations about the load.
+    """
     return CurveStiffness(phase=cycle_phase(cycle), stiffness=cycle.tangent_stiffness if tangent else cycle.mesh_stiffness)
 
 
 def cycle_phase(cycle: MeshCycle) -> Floats:
-    """Phases (n,) of the roll angles of a MeshCycle, over exactly 2 pi."""
+    """Return the phases (n,) in rad of the roll angles of a MeshCycle, over exactly 2 pi."""
     phase = cycle.roll_angle * (2 * np.pi / cycle.pitch_angle)
     phase[-1] = phase[0] + 2 * np.pi
     return phase
@@ -146,7 +145,7 @@ _MICRO = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class MeshExcitation:
-    """Of one mesh: the shape of its stiffness, its phase (deg, 360 a tooth), its transmission error and its backlash.
+    """Excitation of one mesh: shape of its stiffness, phase (deg, 360 a tooth), transmission error and backlash.
 
     `frequency_ratio` is its tooth frequency over that of the first mesh: z3/z2 for the second stage of a train. `backlash` (µm)
     is the clearance along the line of action between the flanks at the back: `None` where flanks never part (a linear mesh),
@@ -172,17 +171,17 @@ class MeshExcitation:
 
     @property
     def lead(self) -> float:
-        """The phase in rad."""
+        """Phase (rad)."""
         return math.radians(self.phase)
 
 
 def cycle_excitation(
     cycle: MeshCycle, *, phase: float = 0.0, backlash: float | None = None, tangent: bool = True
 ) -> MeshExcitation:
-    """Stiffness and transmission error of a MeshCycle; the mean stiffness of the mesh is its `tangent_mean` (or `mean`).
+    """Return the excitation of a MeshCycle; the mean stiffness of the mesh is its `tangent_mean` (or `mean`).
 
-    The error is what is left of the loaded one without F/k: so at rest under the torque of the cycle the flanks approach
-    each other by just the cycle's transmission error, modifications and nonlinear contact with it. Phase 0 is roll angle 0.
+    The error is the loaded transmission error less F/k. So at rest under the torque of the cycle the flanks approach each other
+    by just the cycle's transmission error, with modifications and nonlinear contact. Phase 0 is roll angle 0.
     """
     shape = cycle_stiffness(cycle, tangent=tangent)
     mean = cycle.tangent_mean if tangent else cycle.mean
@@ -194,7 +193,10 @@ def cycle_excitation(
 
 @dataclass(frozen=True, kw_only=True)
 class Excitation:
-    """Of all meshes of a system, in its order. `orders` says how many teeth of each mesh pass in the common period."""
+    """Excitation of all meshes of a system, in its order.
+
+    `orders` says how many teeth of each mesh pass in the common period.
+    """
 
     meshes: tuple[MeshExcitation, ...]
 
@@ -226,7 +228,7 @@ class Excitation:
 
     @property
     def bonded(self) -> Excitation:
-        """The same with flanks that never part."""
+        """Same excitation with flanks that never part."""
         return Excitation(meshes=tuple(replace(mesh, backlash=None) for mesh in self.meshes))
 
     def fits(self, system: System) -> None:
@@ -239,11 +241,11 @@ class Excitation:
     # ------------------------------------------------------------------ over the common period
 
     def ratios(self, theta: Floats) -> Floats:
-        """Stiffness of each mesh over its mean (..., m) at phases of the common period (...)."""
+        """Return the stiffness of each mesh over its mean (..., m) at phases of the common period (...)."""
         return np.stack([mesh.stiffness.values(q * theta + mesh.lead) for mesh, q in self._each()], axis=-1)
 
     def ratio_coefficients(self, count: int) -> Complexes:
-        """Their Fourier coefficients (count + 1, m) over the common period."""
+        """Return the Fourier coefficients (count + 1, m) of the stiffness ratios over the common period."""
         result = np.zeros((count + 1, len(self.meshes)), complex)
         for j, (mesh, q) in enumerate(self._each()):
             own = mesh.stiffness.coefficients(count // q)
@@ -251,15 +253,18 @@ class Excitation:
         return result
 
     def errors(self, theta: Floats) -> Floats:
-        """Transmission error of each mesh (..., m) in m."""
+        """Return the transmission error of each mesh (..., m) in m, at phases of the common period (...)."""
         return self._errors(theta, slopes=False)
 
     def error_course(self, count: int) -> Floats:
-        """Transmission errors (count, m) in m at even steps over the common period; those of many teeth much quicker."""
+        """Return the transmission errors (count, m) in m at even steps over the common period.
+
+        Much quicker than `errors` for errors of many teeth.
+        """
         return self._course(count, slopes=False)
 
     def error_slope_course(self, count: int) -> Floats:
-        """Their derivatives with respect to theta (count, m), in m/rad."""
+        """Return the derivatives of `error_course` with respect to theta (count, m), in m/rad."""
         return self._course(count, slopes=True)
 
     def _course(self, count: int, *, slopes: bool) -> Floats:
@@ -281,11 +286,11 @@ class Excitation:
         return _MICRO * columns
 
     def error_slopes(self, theta: Floats) -> Floats:
-        """Its derivative with respect to theta (..., m), in m/rad."""
+        """Return the derivative of each transmission error with respect to theta (..., m), in m/rad."""
         return self._errors(theta, slopes=True)
 
     def error_coefficients(self, count: int) -> Complexes:
-        """Fourier coefficients (count + 1, m) of the transmission errors over the common period, in m."""
+        """Return the Fourier coefficients (count + 1, m) of the transmission errors over the common period, in m."""
         result = np.zeros((count + 1, len(self.meshes)), complex)
         for j, (mesh, q) in enumerate(self._each()):
             if mesh.error is None:
@@ -325,13 +330,13 @@ class Excitation:
 
 
 _PRESSURE_ANGLE = 20.0
-"""Of gears of which a train tells only base radii and teeth (deg)."""
+"""Pressure angle (deg) of gears for which a train has only base radii and numbers of teeth."""
 
 CONTACT_RATIO = 1.6
-"""Of such gears, where no square wave tells it."""
+"""Contact ratio of such gears, where no square wave gives it."""
 
 _HARMONICS = 12
-"""Of the tooth frequency, in the errors of teeth: they fall with the square, to thousandths of a step of one tooth."""
+"""Harmonics of the tooth frequency in the errors of teeth: they fall with the square, to thousandths of a step of one tooth."""
 
 
 def train_excitation(
@@ -341,10 +346,11 @@ def train_excitation(
     seed: int = 0,
     distribution: ErrorDistribution = ErrorDistribution.UNIFORM,
 ) -> Excitation:
-    """Stiffness waves, backlashes and pitch deviations of a train's meshes; random ones of an ISO 1328 `grade`, if given.
+    """Return the excitation of a train: stiffness waves, backlashes and pitch deviations of its meshes.
 
-    A mesh of a pair has the course of its teeth, and their rating's grade in place of `grade`. The deviations are those of the
-    pinions' teeth, drawn with `seed` where a mesh has none given: with the wheels' the period would be that of both.
+    The deviations are random ones of an ISO 1328 `grade`, if it is given. A mesh of a pair has the course of its teeth, and
+    their rating's grade in place of `grade`. The deviations are those of the pinions' teeth, drawn with `seed` where a mesh has
+    none given. With the wheels' deviations the period would be that of both.
     """
     ratios = _tooth_ratios(train)
     meshes = []
@@ -364,7 +370,7 @@ def train_excitation(
 
 
 def _course_of_pair(mesh: EngagedMesh, errors: TransmissionError | None) -> MeshExcitation:
-    """Stiffness and transmission error of the pair's cycle, in the order of time, with the errors of its teeth."""
+    """Return the excitation of the pair's cycle, in the order of time, with the errors of its teeth."""
     found = cycle_excitation(mesh.course.in_time, phase=-360 * mesh.phase, backlash=mesh.backlash)
     assert found.error is not None and found.error.line is not None  # a cycle has one
     line = replace(found.error.line, height=found.error.line.height - mesh.course.offset)
@@ -372,7 +378,7 @@ def _course_of_pair(mesh: EngagedMesh, errors: TransmissionError | None) -> Mesh
 
 
 def _errors_of_pair(mesh: EngagedMesh, seed: int, distribution: ErrorDistribution) -> TransmissionError:
-    """Of the pinion's teeth: as given, or random ones of the pair's accuracy grade."""
+    """Return the transmission error (µm) of the pinion's teeth: as given, or random by the pair's accuracy grade."""
     pair = mesh.teeth_of.mounted
     if mesh.pitch_deviations:
         return _given_errors(mesh.pitch_deviations, max(pair.transverse_contact_ratio, 1.001))
@@ -380,7 +386,7 @@ def _errors_of_pair(mesh: EngagedMesh, seed: int, distribution: ErrorDistributio
 
 
 def _given_errors(deviations: tuple[float, ...], contact_ratio: float) -> TransmissionError:
-    """Of pitch deviations (µm)."""
+    """Return the transmission error (µm) of pitch deviations (µm)."""
     return tooth_errors(given_deviations(deviations), contact_ratio=contact_ratio, harmonics=_HARMONICS)
 
 
@@ -392,7 +398,10 @@ def _wave(mesh: Mesh) -> StiffnessShape:
 
 
 def _mesh_errors(mesh: Mesh, grade: int | None, seed: int, distribution: ErrorDistribution) -> TransmissionError:
-    """Of the pinion's teeth: as given, or random ones of a gear taken to have a pressure angle of 20 degrees."""
+    """Return the transmission error (µm) of the pinion's teeth: as given, or random by the accuracy `grade`.
+
+    For random errors the gear is taken to have a pressure angle of 20 degrees.
+    """
     if mesh.pitch_deviations:
         return _given_errors(mesh.pitch_deviations, mesh.contact_ratio or CONTACT_RATIO)
     assert grade is not None  # one of the two is there
@@ -404,13 +413,16 @@ def _mesh_errors(mesh: Mesh, grade: int | None, seed: int, distribution: ErrorDi
 
 
 def given_deviations(pitch_deviations: Sequence[float]) -> ToothDeviations:
-    """Of pitch deviations f_pt (µm); what would be left after a turn would be none of them."""
+    """Return the tooth deviations of pitch deviations f_pt (µm).
+
+    Their mean is taken off: a rest after a full turn is not a pitch deviation.
+    """
     pitches = np.array(pitch_deviations)
     return ToothDeviations(position=-np.cumsum(pitches - pitches.mean()))
 
 
 def _tooth_ratios(train: Train) -> list[Fraction]:
-    """Tooth frequency of every mesh over that of the first, by whole numbers of teeth: z3/z2 for a second stage."""
+    """Return the tooth frequency of every mesh over that of the first, by whole numbers of teeth: z3/z2 for a second stage."""
     whole = [wheel_teeth(mesh) for mesh in train.meshes]
     exact = [
         Mesh(
@@ -434,7 +446,10 @@ def _tooth_ratios(train: Train) -> list[Fraction]:
 
 
 def wheel_teeth(mesh: Mesh) -> int:
-    """z_2 = z_1 r_b2/r_b1. Raises GeometryError where that is far from a whole number."""
+    """Return the wheel's number of teeth z_2 = z_1 r_b2/r_b1.
+
+    Raises GeometryError where that is far from a whole number.
+    """
     teeth = mesh.teeth * mesh.base_radii.wheel / mesh.base_radii.pinion
     if abs(teeth - round(teeth)) > 0.2 or round(teeth) < 1:
         permitted = f"must be in the ratio of whole numbers of teeth: with {mesh.teeth} of the pinion the wheel has {teeth:.3f}"
@@ -445,9 +460,10 @@ def wheel_teeth(mesh: Mesh) -> int:
 def pair_train(
     pair: GearPair, cycle: MeshCycle, inertias: PerGear[float], *, torque: float, speed: float, damping_ratio: float
 ) -> Train:
-    """A pair by itself: its inertias (kg·m²), the mean tangent stiffness of its cycle, its backlash, a torque (N·m) on it.
+    """Return a pair by itself as a train with `inertias` (kg·m²), a `torque` (N·m) on it and a `speed` (rpm).
 
-    A ring turns with its pinion, so the torque on it is negative.
+    The mesh has the mean tangent stiffness of the cycle and the backlash of the pair. A ring turns with its pinion, so the
+    torque on it is negative.
     """
     radii = pair.gears.map(lambda gear: gear.base_diameter / 2)
     return Train(
@@ -473,7 +489,7 @@ def pair_train(
 
 
 def pair_excitation(train: Train, cycle: MeshCycle, errors: TransmissionError | None = None) -> Excitation:
-    """The course of a pair's stiffness and transmission error, with the errors of its teeth."""
+    """Return the excitation of a pair: stiffness and transmission error of its cycle, with the errors of its teeth."""
     mesh = cycle_excitation(cycle, backlash=train.meshes[0].backlash)
     if errors is not None:
         assert mesh.error is not None  # a cycle has one
@@ -484,7 +500,10 @@ def pair_excitation(train: Train, cycle: MeshCycle, errors: TransmissionError | 
 def pair_errors(
     pair: GearPair, rating: RatingOptions, seed: int, distribution: ErrorDistribution = ErrorDistribution.UNIFORM
 ) -> TransmissionError:
-    """Random pitch deviations of the rating's accuracy grade on the pinion's teeth, drawn with `seed`."""
+    """Return the transmission error (µm) of random deviations of the pinion's teeth, drawn with `seed`.
+
+    The deviations are within the tolerances of the rating's accuracy grade.
+    """
     gear = pair.pinion
     tolerances = flank_tolerances(rating.grade_of(gear), gear.reference_diameter, gear.normal_module, rating.accuracy)
     deviations = random_deviations(gear.teeth, tolerances, seed, distribution=distribution)

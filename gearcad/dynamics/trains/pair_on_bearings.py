@@ -1,13 +1,8 @@
 """A pair of gears on elastic bearings, with six degrees of freedom, and its natural modes.
 
-The pinion's axis is at the origin and the wheel's on +x; both angles count counter-clockwise. The pinion drives with its
-left flanks: the force on the wheel points along n = (sin alpha_wt, cos alpha_wt), and the approach of the flanks is
-y = n (u_1 - u_2) + r_b1 phi_1 + r_b2 phi_2. The axis of a ring is on -x, and its base radius is negative: it turns with the
-pinion.
-
-The pinion's axis stands at the origin and the wheel's on +x; both angles count counter-clockwise. The pinion drives with its
-left flanks: the force on the wheel points along n = (sin alpha_wt, cos alpha_wt), and the approach of the flanks is
-y = n (u_1 - u_2) + r_b1 phi_1 + r_b2 phi_2. A ring stands on -x, and its base radius is negative: it turns with the pinion.
+The pinion's axis is at the origin and the wheel's on +x; both angles count counter-clockwise. The pinion drives with its left
+flanks: the force on the wheel points along n = (sin alpha_wt, cos alpha_wt), and the approach of the flanks is y = n
+(u_1 - u_2) + r_b1 phi_1 + r_b2 phi_2. The axis of a ring is on -x, and its base radius is negative: it turns with the pinion.
 """
 
 from __future__ import annotations
@@ -60,21 +55,21 @@ class BearingModes:
 
     @property
     def shaken(self) -> Bools:
-        """Which of the modes (6,) teeth can shake: those in which the mesh gives way."""
+        """Whether teeth can shake a mode (6,): the mesh gives way in it."""
         return np.asarray(self.potential[:, 0] > _SHAKEN, bool)
 
     @property
     def excited(self) -> Floats:
-        """Circular frequencies (6,) of those, 0 of the others."""
+        """Circular frequencies (6,) in 1/s of the modes that teeth can shake, 0 for the others."""
         return np.where(self.shaken, self.circular, 0.0)
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Of each mode, what moves most."""
+        """Words for the greatest motion in each mode."""
         return tuple("both gears turn as a whole" if mode == 0 else self._words(mode) for mode in range(len(self)))
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain lists, under the names of the fields, and the words."""
+        """Return plain lists, under the names of the fields, and the words."""
         return {**{each.name: getattr(self, each.name).tolist() for each in fields(self)}, "words": list(self.words)}
 
     def _words(self, mode: int) -> str:
@@ -92,10 +87,11 @@ class BearingModes:
 
 
 def modes_on_bearings(stiffness: Floats, masses: Floats, springs: Floats, radii: tuple[float, float]) -> BearingModes:
-    """Of a stiffness matrix (6, 6) of travels along and across and turns of both gears, in N/m and N·m/rad.
+    """Return the natural modes of a stiffness matrix (6, 6) in N/m and N·m/rad.
 
-    `masses` (6,) in kg and kg·m²; `springs` (3, 6, 6) are the parts of it that mesh and bearings have; `radii` (m) those of the
-    base circles.
+    Its coordinates are the travels along and across the line of action and the turns of both gears. `masses` (6,) in kg and
+    kg·m²; `springs` (3, 6, 6) are the parts of the matrix that mesh and bearings have; `radii` (m) are those of the base
+    circles.
     """
     root = np.sqrt(masses)
     squares, modes = _apart(stiffness / np.outer(root, root))
@@ -113,7 +109,10 @@ def modes_on_bearings(stiffness: Floats, masses: Floats, springs: Floats, radii:
 
 
 def _apart(matrix: Floats) -> tuple[Floats, Floats]:
-    """Eigenvalues and vectors, of coordinates that know nothing of each other by themselves: alike ones are not mixed."""
+    """Return the eigenvalues and eigenvectors of a matrix, separately for coordinates that are not coupled.
+
+    So equal eigenvalues do not mix their modes.
+    """
     from scipy.sparse.csgraph import connected_components
 
     count, label = connected_components(matrix != 0, directed=False)
@@ -160,7 +159,7 @@ class PairOnBearings:
         require_number("torque", self.torque, "N·m")
 
     def system(self) -> System:
-        """The six coordinates x_1, y_1, phi_1, x_2, y_2, phi_2, each times the root of its mass or inertia."""
+        """Return the System of x_1, y_1, phi_1, x_2, y_2, phi_2, each times the root of its mass or inertia."""
         angle = math.radians(self.working_transverse_pressure_angle)
         first, second = (radius / 1000 for radius in self.base_radii)
         approach = np.array([math.sin(angle), math.cos(angle), first, -math.sin(angle), -math.cos(angle), second])
@@ -189,7 +188,7 @@ class PairOnBearings:
         )
 
     def _bearings(self) -> Bearings:
-        """Seen along the line of action and across it."""
+        """Return the bearings along the line of action and across it."""
         sine, cosine = math.sin(angle := math.radians(self.working_transverse_pressure_angle)), math.cos(angle)
         turned = np.array([[sine, cosine], [cosine, -sine]])
         travel, stiffness = np.zeros((6, 4)), np.zeros((4, 4))
@@ -200,7 +199,7 @@ class PairOnBearings:
         return Bearings(("pinion", "wheel"), travel, stiffness, self.bearing_damping * np.eye(4))
 
     def modes(self) -> BearingModes:
-        """The six natural modes, seen along the line of action and across it."""
+        """Return the six natural modes, in travels along the line of action and across it."""
         sine, cosine = math.sin(angle := math.radians(self.working_transverse_pressure_angle)), math.cos(angle)
         first, second = (radius / 1000 for radius in self.base_radii)
         approach = np.array([1.0, 0.0, first, -1.0, 0.0, second])
@@ -216,7 +215,7 @@ class PairOnBearings:
         return modes_on_bearings(springs.sum(axis=0), np.array(masses), springs, (first, second))
 
     def frequencies(self) -> tuple[float, ...]:
-        """The six natural frequencies (Hz), lowest first; that of the gears' free turning is 0."""
+        """Return the six natural frequencies (Hz), lowest first; that of the gears' free turning is 0."""
         squares = np.linalg.eigvalsh(self.system().stiffness_matrix())
         squares[0] = 0.0  # but for rounding: nothing holds the gears' turning
         return tuple((np.sqrt(squares) / (2 * math.pi)).tolist())

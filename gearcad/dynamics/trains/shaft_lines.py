@@ -1,8 +1,6 @@
 """Shaft lines of a train without its meshes, and the System of their modes, on which all solvers work.
 
 Inside the dynamics rooms numbers are in SI units (m, N, kg, s, rad); inputs and results are in the units of the package.
-
-Inside the dynamics rooms numbers are in SI units (m, N, kg, s, rad): inputs and results are in those of the house.
 """
 
 from __future__ import annotations
@@ -20,7 +18,7 @@ from gearcad.dynamics.trains.train import Parts, Train, TrainModel, parts_of
 
 @dataclass(frozen=True, eq=False)
 class Bearings:
-    """What holds the axes of `gears` (g) that travel: `travel` (n, 2g) of each (m), along the line of action and across it.
+    """Bearings of the axes of g `gears` that travel: `travel` (n, 2g) of each (m), along the line of action and across it.
 
     `stiffness` (2g, 2g) in N/m and `damping` (2g, 2g) in N·s/m are those of the travels.
     """
@@ -56,44 +54,45 @@ class System:
 
     @property
     def size(self) -> int:
-        """How many coordinates there are."""
+        """Number of coordinates."""
         return len(self.squares)
 
     @property
     def outputs(self) -> Floats:
-        """(n, i + s + t): turns of the inertias, torques in the shafts, travels of the axes, per coordinate."""
+        """Outputs (n, i + s + t) per coordinate: turns of the inertias, torques in the shafts, travels of the axes."""
         travels = [] if self.bearings is None else [self.bearings.travel]
         return np.hstack([self.inertias, self.shaft_torques, *travels])
 
     @property
     def torque_outputs(self) -> slice:
-        """Which of the outputs are torques in the shafts."""
+        """Slice of the outputs that are torques in the shafts."""
         first = self.inertias.shape[1]
         return slice(first, first + self.shaft_torques.shape[1])
 
     def stiffness_matrix(self, stiffness: Floats | None = None) -> Floats:
-        """(n, n), with the meshes at their mean stiffness or another (m,) in N/m."""
+        """Return the stiffness matrix (n, n), with the meshes at their mean stiffness or another (m,) in N/m."""
         k = self.stiffness if stiffness is None else stiffness
         result: Floats = np.diag(self.squares) + (self.mesh * k) @ self.mesh.T
         return result
 
     def damping_matrix(self) -> Floats:
-        """(n, n) in the coordinates: that of the lines and of the meshes."""
+        """Return the damping matrix (n, n) of the lines and the meshes in the coordinates."""
         result: Floats = np.diag(self.damping) + (self.mesh * self.mesh_damping) @ self.mesh.T
         return result
 
 
 Each = float | Floats
-"""Of one shaft at one frequency, or arrays of them."""
+"""A value of one shaft at one frequency, or arrays of them."""
 
 
 # ---------------------------------------------------------------------- elements
 
 
 def twist_shapes(order: int, places: ArrayLike) -> Floats:
-    """Shape functions (order + 1, n) at places 0 ... 1 along a shaft: two linear ones, then integrated Legendre polynomials.
+    """Return shape functions (order + 1, n) at places 0 ... 1 along a shaft.
 
-    Those vanish at both ends: N_j = (P_j - P_{j-2}) / sqrt(4 j - 2) (Szabo and Babuska, Finite Element Analysis, 3.1.1).
+    They are two linear ones, then integrated Legendre polynomials. Those vanish at both ends: N_j = (P_j - P_{j-2}) /
+    sqrt(4 j - 2) (Szabo and Babuska, Finite Element Analysis, 3.1.1).
     """
     x = 2 * np.asarray(places, dtype=float) - 1
     p = [np.ones_like(x), x]
@@ -104,9 +103,9 @@ def twist_shapes(order: int, places: ArrayLike) -> Floats:
 
 
 def element_matrices(stiffness: float, inertia: float, order: int) -> tuple[Floats, Floats]:
-    """Stiffness and inertia matrix (order + 1, order + 1) of a shaft by the shape functions of `twist_shapes`.
+    """Return the stiffness and inertia matrix (order + 1, order + 1) of a shaft by the shape functions of `twist_shapes`.
 
-    The derivatives of all but the linear ones are orthonormal on [-1, 1], so the stiffness matrix is known; that of inertia has
+    The derivatives of all but the linear ones are orthonormal on [-1, 1], so the stiffness matrix is known. That of inertia has
     integrands of degree 2 order, for which Gauss's rule with order + 1 points is exact.
     """
     k = np.diag(np.full(order + 1, 2.0))
@@ -123,7 +122,7 @@ _SMALL = 1e-2
 
 
 def _wave_number(stiffness: Each, inertia: Each, omega: Each) -> Floats:
-    """beta = omega L / c = omega sqrt(J / k)."""
+    """Return beta = omega L / c = omega sqrt(J / k)."""
     result: Floats = np.asarray(omega) * np.sqrt(np.asarray(inertia) / np.asarray(stiffness))
     return result
 
@@ -133,15 +132,20 @@ def _two_by_two(diagonal: Floats, off: Floats) -> Floats:
 
 
 def dynamic_stiffness(stiffness: Each, inertia: Each, omega: Each) -> Floats:
-    """(..., 2, 2): torques on the ends of a shaft that turn harmonically, k beta [[cot beta, -1/sin beta], [..., cot beta]]."""
+    """Return the dynamic stiffness (..., 2, 2): torques on the ends of a shaft that turn harmonically.
+
+    It is k beta [[cot beta, -1/sin beta], [..., cot beta]].
+    """
     beta = _wave_number(stiffness, inertia, omega)
     per_sine = np.asarray(stiffness) / np.sinc(beta / np.pi)
     return _two_by_two(np.cos(beta) * per_sine, -per_sine)
 
 
 def dynamic_inertia(stiffness: Each, inertia: Each, omega: Each) -> Floats:
-    """(..., 2, 2): minus the derivative of `dynamic_stiffness` by omega squared; its quadratic form is twice the kinetic energy
-    over omega squared, of the whole shaft."""
+    """Return the dynamic inertia (..., 2, 2): minus the derivative of `dynamic_stiffness` by omega squared.
+
+    Its quadratic form is twice the kinetic energy over omega squared, of the whole shaft.
+    """
     beta = _wave_number(stiffness, inertia, omega)
     b2 = beta**2
     diagonal, off = 2 / 3 + b2 * (4 / 45 + b2 * 4 / 315), 1 / 3 + b2 * (7 / 90 + b2 * 31 / 2520)
@@ -155,14 +159,14 @@ def dynamic_inertia(stiffness: Each, inertia: Each, omega: Each) -> Floats:
 
 
 def clamped_modes_below(stiffness: Each, inertia: Each, omega: Each) -> NDArray[np.int64]:
-    """J_0 of Wittrick and Williams: how many natural frequencies of the shaft, both ends clamped, are below omega."""
+    """Return J_0 of Wittrick and Williams: the number of natural frequencies below omega of a shaft with both ends clamped."""
     beta = _wave_number(stiffness, inertia, omega)
     count: NDArray[np.int64] = np.maximum(np.ceil(beta / np.pi) - 1, 0).astype(np.int64)
     return count
 
 
 def twist_between(stiffness: float, inertia: float, omega: float, places: ArrayLike) -> Floats:
-    """(2, n): turn at places 0 ... 1 of a shaft one of whose ends turns by 1, the other by 0, harmonically."""
+    """Return the turn (2, n) at places 0 ... 1 of a shaft one of whose ends turns by 1, the other by 0, harmonically."""
     beta = float(_wave_number(stiffness, inertia, omega))
     x = np.asarray(places, dtype=float)
     whole = np.sinc(beta / np.pi)
@@ -178,16 +182,16 @@ class _Element:
     inertia: Floats
 
     def of(self, modes: Floats) -> Floats:
-        """(q, n): the shaft's coordinates in modes (N, n)."""
+        """Return the shaft's coordinates (q, n) in modes (N, n)."""
         result: Floats = np.where(self.index[:, None] >= 0, modes[self.index], 0.0)
         return result
 
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """A System, and what its coordinates are on the shafts.
+    """A System, and its coordinates on the shafts.
 
-    `shafts[s]` (q, n) are coefficients of `twist_shapes` on each shaft; the quadratic forms of `shaft_stiffness[s]` and
+    `shafts[s]` (q, n) are coefficients of `twist_shapes` on each shaft. The quadratic forms of `shaft_stiffness[s]` and
     `shaft_inertia[s]` (q, q) in them are twice its potential, and kinetic, energy. `free` (n, r) are the turns of all that no
     shaft holds, as modes of mass 1.
     """
@@ -201,12 +205,15 @@ class Lines:
 
 
 def system(train: Train) -> System:
-    """The train in modes of its lines. What is left of torques that balance but for rounding is taken out of the load."""
+    """Return the System of the train in modes of its lines.
+
+    The part of the load that is left by rounding, where torques balance, is taken out.
+    """
     return lines_of(train).system
 
 
 def lines_of(train: Train) -> Lines:
-    """The train's lines, their modes, and the System that they make with the meshes."""
+    """Return the train's lines, their modes, and the System that they make with the meshes."""
     parts = parts_of(train)
     elements = _elements(parts, train)
     size = max([len(parts.inertias), *(int(element.index.max()) + 1 for element in elements)])
@@ -231,7 +238,10 @@ def lines_of(train: Train) -> Lines:
 
 
 def _elements(parts: Parts, train: Train) -> list[_Element]:
-    """Of every shaft, a spring where it has no mass; coordinates inside shafts come after those of the inertias."""
+    """Return the element of every shaft, a spring where it has no mass.
+
+    Coordinates inside shafts come after those of the inertias.
+    """
     result, size = [], len(parts.inertias)
     for shaft, ends in zip(parts.shafts, parts.ends, strict=True):
         mass = 0.0 if train.model is TrainModel.MASSLESS else shaft.inertia
@@ -248,7 +258,7 @@ def _elements(parts: Parts, train: Train) -> list[_Element]:
 def _line_modes(
     parts: Parts, elements: list[_Element], stiffness: Floats, inertia: Floats, first_only: bool
 ) -> tuple[Floats, Floats]:
-    """Squares (n,) and modes (N, n) of mass 1, line by line."""
+    """Return the squares (n,) of natural frequencies and the modes (N, n) of mass 1, line by line."""
     from scipy.linalg import eigh
     from scipy.sparse.csgraph import connected_components
 
@@ -272,7 +282,10 @@ def _line_modes(
 
 
 def _kept(parts: Parts, inside: list[int], held: bool) -> int | None:
-    """How many modes a line keeps: those that its shafts ask for, and its turn as a whole; None for all."""
+    """Return the number of modes that a line keeps, None for all.
+
+    They are those that its shafts require, and the turn of a free line as a whole.
+    """
     asked = [parts.shafts[s].modes for s in inside]
     if any(modes is None for modes in asked):
         return None
@@ -283,7 +296,10 @@ def _kept(parts: Parts, inside: list[int], held: bool) -> int | None:
 
 
 def _system(parts: Parts, elements: list[_Element], squares: Floats, modes: Floats, turns: Floats) -> System:
-    """Inertias are the first coordinates; the torque in a shaft with mass is its mean over the length."""
+    """Return the System of the lines' modes.
+
+    Inertias are the first coordinates; the torque in a shaft with mass is its mean over the length.
+    """
     inertias = modes[: len(parts.inertias)].T
     torques = np.zeros((len(squares), len(elements)))
     damping = np.zeros(len(squares))
@@ -311,7 +327,10 @@ def _system(parts: Parts, elements: list[_Element], squares: Floats, modes: Floa
 
 
 def _mesh_damping(parts: Parts, column: int, mesh: Mesh) -> float:
-    """2 zeta sqrt(k m) with m the inertias of the pair alone, reduced to the line of action (N·s/m)."""
+    """Return the damping of a mesh (N·s/m): as given, or 2 zeta sqrt(k m).
+
+    m are the inertias of the pair alone, reduced to the line of action.
+    """
     if mesh.damping_ratio is None:
         return mesh.damping or 0.0
     compliance = float(np.sum(parts.approach[:, column] ** 2 / parts.inertia))

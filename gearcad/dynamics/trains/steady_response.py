@@ -2,8 +2,6 @@
 
 The modes of the shaft lines are uncoupled, so a flexibility is a sum over them; only the meshes at their mean stiffness couple
 them.
-
-SI units. The lines' modes are uncoupled, so everything is a sum over them; only the meshes at their mean stiffness couple.
 """
 
 from __future__ import annotations
@@ -29,18 +27,18 @@ class Direction(Enum):
 
 
 def runs(speeds: Floats, marked: Bools) -> list[Floats]:
-    """Neighbouring speeds (s,) that are marked, run by run."""
+    """Return the neighbouring speeds (s,) that are marked, one array for each run."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(int)))
     return [speeds[start:end] for start, end in edges.reshape(-1, 2)]
 
 
 def frequency_ranges(frequencies: Floats, marked: Bools) -> str:
-    """From where to where rising frequencies (s,) are marked, in words."""
+    """Return the ranges in which rising frequencies (s,) are marked, in words."""
     return ", ".join(f"{part[0]:g} to {part[-1]:g}" for part in runs(frequencies, marked))
 
 
 class Unstable(Enum):
-    """What a motion that does not last was found by; the values are what to say of it."""
+    """How a motion that does not last was found; the values are the words of the notice."""
 
     LINEAR = "parametric instability: vibrations grow without bound {where}; the periodic motion that is given does not last"
     PARTING = (
@@ -61,7 +59,7 @@ def instability(frequencies: Floats, stable: Bools, unstable: Unstable = Unstabl
 
 
 def parting(frequencies: Floats, apart: Bools) -> Notice:
-    """That flanks pull at some of the tooth frequencies (s,) in 1/s, in a motion that lets them."""
+    """Return a notice that flanks pull at some of the tooth frequencies (s,) in 1/s, in a motion that lets them."""
     text = (
         f"flanks would part at tooth frequencies (1/s) {frequency_ranges(frequencies, apart)}: "
         "a sweep with backlash shows what happens there"
@@ -83,10 +81,10 @@ _NO_DAMPING = "no finite periodic motion: a harmonic of one of the frequencies m
 
 @dataclass(frozen=True, eq=False)
 class StaticState:
-    """At rest under the mean load, meshes at their mean stiffness: `modal` (n,), `approach` (m,), `others` (o,) outputs.
+    """State at rest under the mean load, with meshes at their mean stiffness.
 
-    `unit_mesh` (m, m) and `unit_others` (o, m) are the same per force at the meshes, without the load; the outputs are those of
-    the System.
+    `modal` (n,) are the coordinates, `approach` (m,) those of the flanks, and `others` (o,) the outputs of the System.
+    `unit_mesh` (m, m) and `unit_others` (o, m) are approaches and outputs per force at the meshes, without the load.
     """
 
     modal: Floats
@@ -97,7 +95,11 @@ class StaticState:
 
 
 def static_state(system: System) -> StaticState:
-    """Raises GeometryError where a train that is free to turn has torques that do not balance, or the mesh pulls it apart."""
+    """Return the state at rest under the mean load.
+
+    Raises GeometryError where a train that is free to turn has torques that do not balance, and SolverError where a negative
+    stiffness leaves no stable state.
+    """
     matrix = system.stiffness_matrix()
     values, vectors = np.linalg.eigh(matrix)
     limit = 1e-11 * max(values.max(), float(np.abs(matrix).max()))
@@ -119,7 +121,7 @@ def static_state(system: System) -> StaticState:
 
 
 def senses(system: System) -> Floats:
-    """(m,): 1 where the mean load presses the front flanks of a mesh, -1 where it presses those at the back.
+    """Return (m,) 1 where the mean load presses the front flanks of a mesh, -1 where it presses those at the back.
 
     Backlash and separation are counted from the flanks that carry the load.
     """
@@ -136,9 +138,10 @@ class Flexibility:
 
 
 def flexibility(system: System, frequencies: Floats) -> Flexibility:
-    """At circular frequencies (...) other than 0 (1/s), with the meshes at their mean stiffness.
+    """Return the flexibility at circular frequencies (...) other than 0 (1/s), with the meshes at their mean stiffness.
 
     With P = V^T a^-1 V of the lines alone, a = squares - w^2 + i w damping, and meshes K, that of the whole is P (1 + K P)^-1.
+    Raises SolverError at a resonance without damping.
     """
     rows = system.outputs
     count, others = system.mesh.shape[1], rows.shape[1]
@@ -161,7 +164,10 @@ def flexibility(system: System, frequencies: Floats) -> Flexibility:
 
 
 def _undamped(system: System) -> SolverError:
-    """What is to blame: the first mesh without damping, if there is one."""
+    """Return the error for a resonance without damping.
+
+    It names the first mesh without damping, if there is one.
+    """
     name = next((name for name, each in zip(system.names[0], system.mesh_damping, strict=True) if not each), None)
     if name is None:
         return SolverError(_NO_DAMPING)
@@ -179,7 +185,10 @@ class Outputs(NamedTuple):
 
 
 def told_by(system: System, static: StaticState, flexible: Flexibility, forces: Complexes) -> Outputs:
-    """What forces (s, q, m) at the mean system do to it, besides the approach of its flanks."""
+    """Return the outputs under forces (s, q, m) in N on the mean system, with the static ones in order 0.
+
+    The approach of the flanks is not among them.
+    """
     others = np.einsum("shij,shj->shi", flexible.others, forces)
     others[:, 0] += static.others
     torques = system.torque_outputs
@@ -187,7 +196,7 @@ def told_by(system: System, static: StaticState, flexible: Flexibility, forces: 
 
 
 def at_orders(system: System, static: StaticState, omega: Floats, orders: Indices) -> Flexibility:
-    """Flexibilities (s, q, ...) at the orders from 0 on of fundamental frequencies omega (s,)."""
+    """Return the flexibilities (s, q, ...) at the orders from 0 on of fundamental frequencies omega (s,)."""
     moving = flexibility(system, omega[:, None] * orders[1:])
     still = (np.broadcast_to(each, (len(omega), 1, *each.shape)) for each in (static.unit_mesh, static.unit_others))
     mesh, others = (np.concatenate(pair, axis=1) for pair in zip(still, (moving.mesh, moving.others), strict=True))
@@ -195,7 +204,10 @@ def at_orders(system: System, static: StaticState, omega: Floats, orders: Indice
 
 
 def both_sides(coefficients: Complexes) -> Complexes:
-    """From orders 0 on (s, q, ...) to all of them, -q ... q: those of a real course are conjugate."""
+    """Return the coefficients of all orders, -q ... q, from those of the orders from 0 on (s, q, ...).
+
+    Those of a real course are conjugate.
+    """
     return np.concatenate([coefficients[:, :0:-1].conj(), coefficients], axis=1)
 
 
@@ -208,12 +220,12 @@ class Driven:
 
     @cached_property
     def static(self) -> StaticState:
-        """At rest under the mean load. Raises GeometryError and SolverError."""
+        """State at rest under the mean load. Raises GeometryError and SolverError."""
         return static_state(self.system)
 
     @cached_property
     def senses(self) -> Floats:
-        """Which flanks (m,) the mean load presses: 1 for those in front, -1 for those at the back."""
+        """Flanks (m,) that the mean load presses: 1 for those in front, -1 for those at the back."""
         return senses(self.system)
 
     @cached_property
@@ -223,9 +235,9 @@ class Driven:
 
 
 def pressed(gap: Floats, backlashes: Floats, senses: Floats) -> Floats:
-    """g(y - e) in m: what the flanks that carry the load (`senses`), or those behind them, are pressed in; 0 where they part.
+    """Return the deflection g(y - e) in m of the flanks that carry the load (`senses`), or of those behind them.
 
-    A backlash of nan is that of flanks that never part.
+    It is 0 where flanks part. A backlash of nan is that of flanks that never part.
     """
     back = np.minimum(senses * gap + np.where(np.isnan(backlashes), 0.0, backlashes), 0.0)
     return np.where(np.isnan(backlashes), gap, senses * (np.maximum(senses * gap, 0.0) + back))
@@ -253,31 +265,31 @@ class PeriodicResponse(Driven):
 
     @property
     def samples(self) -> int:
-        """Samples over the common period that show the highest harmonic at least 16 times a wave."""
+        """Number of samples over the common period that show the highest harmonic at least 16 times a wave."""
         return int(max(256, 2 ** int(np.ceil(np.log2(16 * max(int(self.harmonics[-1]), 1))))))
 
     def phases(self, count: int | None = None) -> Floats:
-        """Phases of the common period (t,), in rad, at which the courses below are given."""
+        """Return the phases of the common period (t,), in rad, at which the courses below are given."""
         return 2 * np.pi * np.arange(count or self.samples) / (count or self.samples)
 
     def approach(self, which: slice = slice(None), count: int | None = None) -> Floats:
-        """Approaches y of the flanks (s, t, m) in m."""
+        """Return the approaches y of the flanks (s, t, m) in m."""
         return self._course(self.approach_coefficients[which], count)
 
     def turns(self, which: slice = slice(None), count: int | None = None) -> Floats:
-        """Turns of the inertias (s, t, i) in rad."""
+        """Return the turns of the inertias (s, t, i) in rad."""
         return self._course(self.inertia_coefficients[which], count)
 
     def shaft_torques(self, which: slice = slice(None), count: int | None = None) -> Floats:
-        """Torques in the shafts (s, t, n) in N·m."""
+        """Return the torques in the shafts (s, t, n) in N·m."""
         return self._course(self.torque_coefficients[which], count)
 
     def travels(self, which: slice = slice(None), count: int | None = None) -> Floats:
-        """Travels of the axes (s, t, 2g) in m: of each, along the line of action and across it."""
+        """Return the travels of the axes (s, t, 2g) in m: of each, along the line of action and across it."""
         return self._course(self.travel_coefficients[which], count)
 
     def bearing_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:
-        """What the axes press their bearings with (s, t, 2g) in N, the bearings' damping with it."""
+        """Return the forces of the axes on their bearings (s, t, 2g) in N, damping of the bearings included."""
         travels, bearings = self.travel_coefficients[which], self.system.bearings
         if bearings is None:
             return self._course(travels, count)
@@ -286,17 +298,17 @@ class PeriodicResponse(Driven):
         return self._course(travels @ bearings.stiffness.T + rates @ bearings.damping.T, count)
 
     def spring_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:
-        """k(t) g(y - e) (s, t, m) in N: what the teeth carry, without damping."""
+        """Return the forces k(t) g(y - e) (s, t, m) in N that the teeth carry, without damping."""
         return self.carried(self.approach(which, count))
 
     def carried(self, approach: Floats) -> Floats:
-        """The same of approaches (s, t, m) over the common period."""
+        """Return the spring forces (s, t, m) in N of approaches (s, t, m) in m over the common period."""
         theta = self.phases(approach.shape[1])
         gap = approach - self.excitation.error_course(len(theta))
         return self.excitation.ratios(theta) * self.system.stiffness * pressed(gap, self.excitation.backlashes, self.senses)
 
     def damping_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:
-        """c (y' - e') (s, t, m) in N."""
+        """Return the damping forces c (y' - e') (s, t, m) in N."""
         speed = self.excitation.fundamental * self.frequencies[which]
         slopes = self.approach_coefficients[which] * 1j * self.harmonics[:, None]
         rates = self._course(slopes, count) - self.excitation.error_slope_course(count or self.samples)

@@ -2,10 +2,6 @@
 
 Deviations are smooth along the line of action: every pair of teeth takes over its part of the load gradually, so the error of
 the mesh is continuous. Teeth that meet too early (before the line of action) are in `dynamics/tooth_errors`.
-
-Deviations in µm. They are smooth along the line of action here: every pair of teeth takes over its part of the load
-gradually, so that the error of the mesh is continuous. Teeth that meet too early (before the line of action) are those of
-`dynamics/tooth_errors`.
 """
 
 from __future__ import annotations
@@ -24,9 +20,9 @@ from gearcad.rating.tolerances import FlankTolerances
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Polyline:
-    """`phase` (n,) rises over exactly 2 pi (rad), and stands twice where `height` (n,) jumps.
+    """Straight lines over one tooth: `phase` (n,) rises over exactly 2 pi (rad), and repeats a value where `height` (n,) jumps.
 
-    Where both ends differ, it jumps there too. Raises ParameterError.
+    Where both ends differ, the height jumps there too. Raises ParameterError.
     """
 
     phase: Floats
@@ -50,18 +46,18 @@ class Polyline:
         return float(np.diff(self.phase) @ (self.height[1:] + self.height[:-1]) / (4 * np.pi))
 
     def values(self, phase: ArrayLike) -> Floats:
-        """Heights at any phases (rad)."""
+        """Return the heights at any phases (rad)."""
         return np.asarray(np.interp(self._within(phase), self.phase, self.height), float)
 
     def slopes(self, phase: ArrayLike) -> Floats:
-        """Of the line to the right of any phases (1/rad), without what jumps would add."""
+        """Return the slopes (1/rad) of the line to the right of any phases (rad), without what jumps would add."""
         steps, rises = np.diff(self.phase), np.diff(self.height)
         slopes = np.divide(rises, steps, out=np.zeros_like(steps), where=steps > 0)
         place = np.searchsorted(self.phase, self._within(phase), side="right") - 1
         return np.asarray(slopes[np.clip(place, 0, len(slopes) - 1)], float)
 
     def coefficients(self, count: int) -> Complexes:
-        """Fourier coefficients (count + 1,), exactly those of the straight lines.
+        """Return the Fourier coefficients (count + 1,), exactly those of the straight lines.
 
         Integrated by parts twice: i n c_n is the coefficient of the slope, plus what the jumps add.
         """
@@ -77,7 +73,7 @@ class Polyline:
 
     @property
     def jumps(self) -> Floats:
-        """Phases from 0 to 2 pi where it jumps."""
+        """Phases from 0 to 2 pi where the height jumps."""
         found = self.phase[:-1][(np.diff(self.phase) == 0) & (np.diff(self.height) != 0)]
         # What interpolation leaves between two ends that should agree is no jump.
         if abs(self.height[0] - self.height[-1]) > 1e-9 * np.abs(self.height).max():
@@ -90,7 +86,7 @@ class Polyline:
 
 
 _SIGMAS = 3.0
-"""Of a normal distribution, within a tolerance: what lies beyond is drawn again."""
+"""Standard deviations of a normal distribution within a tolerance: numbers beyond are drawn again."""
 
 
 class ErrorDistribution(Enum):
@@ -124,18 +120,18 @@ class TransmissionError:
         object.__setattr__(self, "coefficients", values)
 
     def values(self, phase: ArrayLike) -> Floats:
-        """e (µm) at any phases (rad)."""
+        """Return e (µm) at any phases (rad)."""
         steady = 0.0 if self.line is None else self.line.values(phase)
         return np.asarray(self._sum(self.coefficients, phase) + steady, float)
 
     def slopes(self, phase: ArrayLike) -> Floats:
-        """de/dphase (µm/rad) at any phases (rad)."""
+        """Return de/dphase (µm/rad) at any phases (rad)."""
         steady = 0.0 if self.line is None else self.line.slopes(phase)
         own = self.coefficients * 1j * np.arange(len(self.coefficients)) / self.teeth
         return np.asarray(self._sum(own, phase) + steady, float)
 
     def orders(self, count: int) -> Complexes:
-        """Fourier coefficients (count + 1,) in µm, of n turns of the phase in `teeth` teeth."""
+        """Return the Fourier coefficients (count + 1,) in µm, of n turns of the phase in `teeth` teeth."""
         result = np.zeros(count + 1, complex)
         own = self.coefficients[: count + 1]
         result[: len(own)] = own
@@ -184,10 +180,11 @@ def random_deviations(
     distribution: ErrorDistribution = ErrorDistribution.UNIFORM,
     gear: tuple[int, ...] = (),
 ) -> ToothDeviations:
-    """Deviations of a gear that just keeps its tolerances: single pitches and profile slopes, distributed within them.
+    """Return deviations (µm) of a gear that just keeps its tolerances.
 
-    Single pitch deviations lie within f_pT and sum up to 0 around the gear; where the sum on the way leaves F_pT, all are
-    made smaller. One seed gives one gear, and others for the numbers of another `gear`.
+    Single pitches and profile slopes are distributed within them. Single pitch deviations lie within f_pT and sum up to 0
+    around the gear; where the sum on the way leaves F_pT, all are made smaller. One seed gives one gear, and others for the
+    numbers of another `gear`.
     """
     require_whole("teeth", teeth, at_least=2, at_most=100_000)
     require_whole("seed", seed, at_least=0, at_most=2**63 - 1)
@@ -202,7 +199,7 @@ def random_deviations(
 
 
 def _within_one(generator: np.random.Generator, count: int, distribution: ErrorDistribution) -> Floats:
-    """Random numbers (count,) from -1 to 1."""
+    """Return random numbers (count,) from -1 to 1."""
     if distribution is ErrorDistribution.UNIFORM:
         return generator.uniform(-1, 1, count)
     drawn = generator.standard_normal(count)
@@ -225,18 +222,18 @@ class _Share:
         require_number("contact_ratio", self.contact_ratio, above=1, at_most=10)
 
     def transform(self, frequency: Floats) -> Floats:
-        """Integral of share(s) e^(-2 pi i f s) ds."""
+        """Return the integral of share(s) e^(-2 pi i f s) ds."""
         return np.asarray(np.sinc(frequency) * np.sinc(frequency * (self.contact_ratio - 1)), float)
 
     def moment(self, frequency: Floats) -> Complexes:
-        """Integral of s share(s) e^(-2 pi i f s) ds = i/(2 pi) d(transform)/df."""
+        """Return the integral of s share(s) e^(-2 pi i f s) ds = i/(2 pi) d(transform)/df."""
         wide = self.contact_ratio - 1
         slope = _sinc_slope(frequency) * np.sinc(frequency * wide) + wide * np.sinc(frequency) * _sinc_slope(frequency * wide)
         return np.asarray(1j / (2 * np.pi) * slope, complex)
 
 
 def _sinc_slope(x: Floats) -> Floats:
-    """d/dx of sin(pi x)/(pi x)."""
+    """Return d/dx of sin(pi x)/(pi x)."""
     safe = np.where(x == 0, 1.0, x)
     return np.where(x == 0, 0.0, (np.cos(np.pi * safe) - np.sinc(safe)) / safe)
 
@@ -244,7 +241,7 @@ def _sinc_slope(x: Floats) -> Floats:
 def tooth_errors(
     pinion: ToothDeviations, wheel: ToothDeviations | None = None, *, contact_ratio: float, harmonics: int = 6
 ) -> TransmissionError:
-    """What the deviations of all teeth make of the transmission error, up to `harmonics` of the tooth frequency.
+    """Return the transmission error (µm) of the deviations of all teeth, up to `harmonics` of the tooth frequency.
 
     Pairs in contact are equally stiff, so the error of the mesh is the mean of theirs, each weighted by its share of the load.
     The period is that of the pinion or, with the wheel's deviations, of both: until the same teeth meet again. At phase 0 the

@@ -69,7 +69,7 @@ class Train:
         self._check_modes()
 
     def _check_modes(self) -> None:
-        """Elements of a low degree have no accurate high modes to be kept."""
+        """Raise ParameterError for a shaft with too many modes: elements of a low degree have no accurate high modes."""
         for shaft in self.shafts if self.model is TrainModel.MODES else ():
             if shaft.torsional_stiffness is None and shaft.modes is not None and 2 * shaft.modes > self.order:
                 permitted = f"must be at most half the order {self.order} of the elements, for accurate modes"
@@ -91,7 +91,7 @@ class Train:
 
     @property
     def tooth_frequencies(self) -> dict[str, float]:
-        """Of every mesh, at `speed` (Hz)."""
+        """Tooth frequency (Hz) of every mesh at `speed`, by the names of meshes."""
         return {mesh.name: abs(self.speed_ratios[mesh.pinion] * self.speed) * mesh.teeth / 60 for mesh in self.meshes}
 
 
@@ -105,12 +105,15 @@ class EngagedMesh(Mesh):
 
     @property
     def teeth_of(self) -> MeshPair:
-        """The pair."""
+        """Pair of the mesh."""
         assert isinstance(self.pair, MeshPair)  # it became one when the mesh was made
         return self.pair
 
     def pair_document(self) -> dict[str, Any]:
-        """As `dynamics.json` has it: N·m on the pinion, N, N/µm, µm, degrees."""
+        """Return the pair's part of `dynamics.json`.
+
+        Torque in N·m on the pinion, force in N, stiffness in N/µm, errors and backlash in µm, phase in tooth periods.
+        """
         course, cycle = self.course, self.course.cycle
         return {
             "pair": self.teeth_of.pair.name,
@@ -146,8 +149,11 @@ _NO_FORCE = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """`inertia` (i,) in kg·m², `approach` (i, m) in m/rad of each mesh, `stiffness` (m,) in N/m, `torque` (i,) in N·m on each
-    inertia, of preloads too. `free` (i, r): speeds of each of r pieces that no shaft holds."""
+    """Parts of a train's model: `inertia` (i,) in kg·m², `approach` (i, m) in m/rad and `stiffness` (m,) in N/m of each mesh.
+
+    `torque` (i,) in N·m on each inertia includes that of preloads. `free` (i, r): speeds of each of r pieces that no shaft
+    holds.
+    """
 
     inertias: tuple[Inertia, ...]
     shafts: tuple[Shaft, ...]
@@ -160,13 +166,16 @@ class Parts:
 
     @property
     def ends(self) -> NDArray[np.int64]:
-        """(s, 2): the places of each shaft's ends among the inertias, -1 for ground."""
+        """Places (s, 2) of each shaft's ends among the inertias, -1 for ground."""
         places = {inertia.name: place for place, inertia in enumerate(self.inertias)} | {GROUND: -1}
         return np.array([(places[s.start], places[s.end]) for s in self.shafts], dtype=np.int64).reshape(-1, 2)
 
 
 def _whole_train(train: Train) -> Parts:
-    """With all shafts, whatever the model. The approach of a mesh is positive where its flanks are pressed."""
+    """Return the parts of a train with all shafts, whatever the model.
+
+    The approach of a mesh is positive where its flanks are pressed.
+    """
     parts = _parts(train)
     parts = _turned(parts, _mesh_forces(parts))
     parts = replace(parts, torque=parts.torque + parts.approach @ _preloads(train))
@@ -175,7 +184,10 @@ def _whole_train(train: Train) -> Parts:
 
 
 def parts_of(train: Train) -> Parts:
-    """Those of the train's model: isolated meshes carry the forces that torques give them in the whole train."""
+    """Return the parts of the train's model.
+
+    Isolated meshes carry the forces that torques give them in the whole train, and their preloads.
+    """
     if train.model is not TrainModel.ISOLATED:
         return _whole_train(train)
     whole = _parts(train)
@@ -195,7 +207,7 @@ def parts_of(train: Train) -> Parts:
 
 
 def static_forces(train: Train) -> Floats:
-    """(m,) the mean force in every mesh (N), with torques and preloads at rest."""
+    """Return the mean force (m,) in every mesh (N), with torques and preloads at rest."""
     return np.abs(_mesh_forces(parts_of(train)))
 
 
@@ -209,7 +221,10 @@ def require_pressed(train: Train) -> None:
 
 
 def pressing_forces(train: Train) -> Floats:
-    """(m,) the same with their signs: positive where a torque that is counter-clockwise on the pinion presses the flanks."""
+    """Return the mean forces (m,) in N of the meshes with their signs.
+
+    They are positive where a torque that is counter-clockwise on the pinion presses the flanks.
+    """
     parts = parts_of(train)
     places = [inertia.name for inertia in parts.inertias]
     turned = [parts.approach[places.index(mesh.pinion), column] for column, mesh in enumerate(parts.meshes)]
@@ -217,7 +232,7 @@ def pressing_forces(train: Train) -> Floats:
 
 
 def _parts(train: Train) -> Parts:
-    """The whole train under its torques alone; approach as both gears turn counter-clockwise."""
+    """Return the parts of the whole train under its torques alone, with the approach as both gears turn counter-clockwise."""
     names = [inertia.name for inertia in train.inertias]
     approach = np.zeros((len(names), len(train.meshes)))
     for column, mesh in enumerate(train.meshes):
@@ -237,12 +252,12 @@ def _parts(train: Train) -> Parts:
 
 
 def _preloads(train: Train) -> Floats:
-    """What presses each mesh (m,) beside the torques, in N."""
+    """Return the force (m,) in N that presses each mesh beside the torques."""
     return np.array([mesh.preload for mesh in train.meshes])
 
 
 def _free_turns(inertias: Sequence[Inertia], shafts: Sequence[Shaft], meshes: Sequence[Mesh]) -> Floats:
-    """(i, r): speeds of the inertias of each piece that turns as a whole."""
+    """Return the speeds (i, r) of the inertias of each piece that turns as a whole."""
     names = [inertia.name for inertia in inertias]
     held = {end for shaft in shafts if shaft.held for end in (shaft.start, shaft.end)}
     pieces = [piece for piece in turning_pieces(names, shafts, meshes) if not held & piece.keys()]
@@ -250,7 +265,7 @@ def _free_turns(inertias: Sequence[Inertia], shafts: Sequence[Shaft], meshes: Se
 
 
 def _mesh_forces(parts: Parts) -> Floats:
-    """(m,) of the static train with massless shafts (N); what turns freely is held where it is."""
+    """Return the mesh forces (m,) in N of the static train with massless shafts; what turns freely is held where it is."""
     k = (parts.approach * parts.stiffness) @ parts.approach.T
     for shaft, ends in zip(parts.shafts, parts.ends, strict=True):
         twist = np.zeros(len(k))
@@ -263,7 +278,7 @@ def _mesh_forces(parts: Parts) -> Floats:
 
 
 def _turned(parts: Parts, forces: Floats) -> Parts:
-    """With the approach turned round where the other flanks carry."""
+    """Return the parts with the approach reversed where the other flanks carry."""
     other = forces < -_NO_FORCE * np.abs(forces).max(initial=0.0)
     return replace(parts, approach=parts.approach * np.where(other, -1.0, 1.0))
 
@@ -273,13 +288,19 @@ _PER_HALF_WAVE, _HIGHEST = 3, 40
 
 
 def _half_waves(train: Train) -> float:
-    """omega L / (pi c) of the longest shaft and the quickest mesh, at 1 rpm of the first pinion; 0 for shafts without mass."""
+    """Return omega L / (pi c) of the longest shaft and the quickest mesh, at 1 rpm of the first pinion.
+
+    It is 0 for shafts without mass.
+    """
     quickest = max(abs(train.speed_ratios[mesh.pinion]) * mesh.teeth for mesh in train.meshes) * math.pi / 30
     return quickest / math.pi * max((math.sqrt(shaft.inertia / shaft.stiffness) for shaft in train.shafts), default=0.0)
 
 
 def fitted(train: Train, speed: float) -> Train:
-    """A train of the model "exact", its order raised if it is too low for charts up to a speed (rpm of the first pinion)."""
+    """Return the train, its order raised if it is too low for charts up to a speed (rpm of the first pinion).
+
+    Only the order of a train of the model "exact" is raised.
+    """
     wanted = math.ceil(_PER_HALF_WAVE * _half_waves(train) * speed)
     if train.model is not TrainModel.EXACT or wanted <= train.order:
         return train
@@ -287,7 +308,10 @@ def fitted(train: Train, speed: float) -> Train:
 
 
 def good_up_to(train: Train) -> float:
-    """The speed (rpm of the first pinion) up to which elements follow the shafts; infinite for models without half waves."""
+    """Return the speed (rpm of the first pinion) up to which elements follow the shafts.
+
+    It is infinite for models without half waves.
+    """
     each = _half_waves(train)
     if train.model not in (TrainModel.EXACT, TrainModel.ELEMENTS) or not each:
         return math.inf
@@ -295,7 +319,7 @@ def good_up_to(train: Train) -> float:
 
 
 def coarse_elements(train: Train, speed: float) -> tuple[Notice, ...]:
-    """Where charts go on up to a speed (rpm) beyond that."""
+    """Return a notice if charts go on up to a speed (rpm) beyond `good_up_to`, else none."""
     good = good_up_to(train)
     if speed <= good:
         return ()
@@ -308,10 +332,10 @@ def coarse_elements(train: Train, speed: float) -> tuple[Notice, ...]:
 
 
 def train_document(train: Train) -> dict[str, Any]:
-    """Inputs and derived quantities of a train and its parts, under the keys of tables; lengths in mm, otherwise SI.
+    """Return inputs and derived quantities of a train and its parts, under the keys of tables; lengths in mm, otherwise SI.
 
     Speeds (rpm) and tooth frequencies (Hz) are there where `train.speed` is given. Forces (N) are the mean ones of the model.
-    Of a pair under no load yet there is its name, but no stiffness, and no forces in its train.
+    For a pair under no load yet there is its name, but no stiffness, and no forces in its train.
     """
     own = {key: _plain(value) for key, value in _fields(train).items() if key not in ("name", "inertias", "shafts", "meshes")}
     forces = static_forces(train).tolist() if not _waiting(train) else [None] * len(train.meshes)
@@ -324,7 +348,7 @@ def train_document(train: Train) -> dict[str, Any]:
 
 
 def _waiting(train: Train) -> bool:
-    """Whether static forces are not known: there are no meshes, or pairs whose stiffness depends on them."""
+    """Return whether static forces are not known: there are no meshes, or pairs whose stiffness depends on them."""
     return not train.meshes or any(mesh.pair is not None and math.isnan(mesh.stiffness) for mesh in train.meshes)
 
 
@@ -351,12 +375,15 @@ def _of_inertia(train: Train, inertia: Inertia) -> dict[str, Any]:
 
 
 def _of_shaft(shaft: Shaft) -> dict[str, Any]:
-    """Stiffness and inertia also of a shaft that is given by its shape."""
+    """Return the document of a shaft, with stiffness and inertia also where it is given by its shape."""
     return {**_fields(shaft), "torsional_stiffness": shaft.stiffness, "inertia": shaft.inertia}
 
 
 def _of_mesh(train: Train, mesh: Mesh, force: float | None) -> dict[str, Any]:
-    """1/m_red = sum of r_b²/J of both gears, whatever else hangs on them; the natural frequency is that of both alone."""
+    """Return the document of a mesh.
+
+    1/m_red = sum of r_b²/J of both gears, whatever else is connected with them; the natural frequency is that of both alone.
+    """
     inertias = {each.name: each.inertia for each in train.inertias}
     reduced = 1 / sum(radius**2 / inertias[gear] for gear, radius in zip(mesh.gears, mesh.radii, strict=True))
     speed = {"tooth_frequency": train.tooth_frequencies[mesh.name]} if train.speed else {}

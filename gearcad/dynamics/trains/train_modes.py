@@ -29,7 +29,10 @@ from gearcad.dynamics.trains.train import Parts, Train, TrainModel, parts_of
 
 
 def positive(shape: Floats) -> Floats:
-    """Signs (n,) with which the first inertia that turns at least half as far as any, of modes (n, i), turns positively."""
+    """Return signs (n,) of modes (n, i) with which the first far inertia turns positively.
+
+    That is the first inertia that turns at least half as far as any.
+    """
     far = np.abs(shape) >= 0.5 * np.abs(shape).max(axis=1, keepdims=True)
     return np.where(shape[np.arange(len(shape)), far.argmax(axis=1)] < 0, -1.0, 1.0)
 
@@ -52,7 +55,7 @@ class ComponentModes:
         freeze(self)
 
     def to_dict(self) -> dict[str, Any]:
-        """Turns by the names of what turns."""
+        """Return the modes as plain lists, with turns by the names of inertias and shafts."""
         return {
             "circular": self.circular.tolist(),
             "shape": dict(zip(self.inertias, self.shape.T.tolist(), strict=True)),
@@ -101,19 +104,22 @@ class NaturalModes:
 
     @property
     def unit_shape(self) -> Floats:
-        """(n, i): `shape` with the squares of the turns of all inertias summing up to 1."""
+        """Shape (n, i) with the squares of the turns of all inertias summing up to 1."""
         length = np.linalg.norm(self.shape, axis=1, keepdims=True)
         result: Floats = np.divide(self.shape, length, out=np.zeros_like(self.shape), where=length > 0)
         return result
 
     @property
     def leading_parts(self) -> tuple[tuple[str, ...], ...]:
-        """Of each elastic mode, in words, what moves most and what gives way most: one part where both are the same."""
+        """Names of the parts that move most and give way most in each elastic mode: one part where both are the same.
+
+        Empty for rigid modes.
+        """
         return tuple(() if mode < self.rigid else self._leading(mode) for mode in range(len(self)))
 
     @property
     def most_toothed(self) -> tuple[int, float] | None:
-        """The mode (from 0) whose potential energy is most in the teeth, and their share; None without elastic ones."""
+        """Mode (from 0) whose potential energy is most in the teeth, and their share; None without elastic modes."""
         shares = self.potential_meshes[self.rigid :]
         if not shares.size:
             return None
@@ -121,7 +127,7 @@ class NaturalModes:
         return mode + self.rigid, float(shares[mode].sum())
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain lists, under the names of the fields, and the leading parts."""
+        """Return plain lists, under the names of the fields, and the leading parts."""
         values = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "component_modes"}
         plain = {
             name: value.tolist() if isinstance(value, np.ndarray) else list(value) if isinstance(value, tuple) else value
@@ -143,7 +149,7 @@ class NaturalModes:
 
 
 def _shared(names: tuple[str, ...], shares: Floats, kind: str = "") -> list[tuple[float, str]]:
-    """Shares in an energy, with the names of what has them, of which the kind is a part."""
+    """Return shares in an energy with the names of the parts that have them; a name includes the kind."""
     return [
         (float(share), name if name.startswith(kind.strip()) else kind + name)
         for name, share in zip(names, shares, strict=True)
@@ -151,7 +157,10 @@ def _shared(names: tuple[str, ...], shares: Floats, kind: str = "") -> list[tupl
 
 
 def component_modes(lines: Lines) -> ComponentModes:
-    """Those that the System of the lines keeps, each of mass 1, line by line; Osinski's (2.7) holds such a matrix."""
+    """Return the modes that the System of the lines keeps, each of mass 1, line by line.
+
+    Osinski's (2.7) holds such a matrix.
+    """
     modes = len(lines.system.squares)
     middle = [local.T @ twist_shapes(len(local) - 1, 0.5) for local in lines.shafts]
     shape: Floats = lines.system.inertias
@@ -166,10 +175,11 @@ def component_modes(lines: Lines) -> ComponentModes:
 
 
 SPLIT = (3 - math.sqrt(5)) / 2
-"""A shaft with mass is cut here, so that no mode has all nodes at rest: whole half waves on both sides are impossible."""
+"""Place where a shaft with mass is cut, so that no mode has all nodes at rest: there are never whole half waves on both sides.
+"""
 
 _SAME = 1e-10
-"""Relative: frequencies that are one, of several modes."""
+"""Relative distance below which frequencies are one, of several modes."""
 
 _DOUBLINGS = 200
 _HALVINGS = 200
@@ -180,8 +190,9 @@ _HALVINGS = 200
 class DynamicTrain:
     """Nodes - the inertias, then the cuts of shafts - with `inertia` (n,), `meshes` (n, m), and the pieces of shafts between.
 
-    `pieces` (p, 2) are the places of each piece's shaft, and of the piece on it: 0 or 1, or 0 for a shaft of one piece.
-    `ends` (p, 2, n) pick the nodes at both ends of a piece, none for ground. `free` (n, r) are the turns of what nothing holds.
+    `pieces` (p, 2) are the places of each piece's shaft, and of the piece on it: 0 or 1, or 0 for a shaft of one piece. `ends`
+    (p, 2, n) select the nodes at both ends of a piece, none for ground. `free` (n, r) are the turns of pieces that nothing
+    holds.
     """
 
     parts: Parts
@@ -194,7 +205,7 @@ class DynamicTrain:
     free: Floats
 
     def stiffness(self, omega: Floats) -> Floats:
-        """Dynamic stiffness (q, n, n) at each of omega (q,)."""
+        """Return the dynamic stiffness (q, n, n) at each of omega (q,)."""
         own = dynamic_stiffness(self.piece_stiffness, self.piece_inertia, omega[:, None])
         result: Floats = self._joined(own)
         result -= np.multiply.outer(omega**2, np.diag(self.inertia))
@@ -202,17 +213,20 @@ class DynamicTrain:
         return result
 
     def moving_inertia(self, omega: float) -> Floats:
-        """(n, n): its quadratic form is the modal mass of a shape, the shafts' own motion included."""
+        """Return the inertia (n, n) whose quadratic form is the modal mass of a shape.
+
+        The shafts' own motion is included.
+        """
         own = dynamic_inertia(self.piece_stiffness, self.piece_inertia, omega)
         return np.diag(self.inertia) + self._joined(own)
 
     def _joined(self, own: Floats) -> Floats:
-        """(..., n, n): the matrices (..., p, 2, 2) of all pieces, put together."""
+        """Return the matrices (..., p, 2, 2) of all pieces put together, (..., n, n)."""
         result: Floats = (self.ends.transpose(0, 2, 1) @ own @ self.ends).sum(axis=-3)
         return result
 
     def count_below(self, omega: Floats) -> NDArray[np.int64]:
-        """(q,): how many natural frequencies are below each of omega (q,), above 0."""
+        """Return the number (q,) of natural frequencies below each of omega (q,), above 0."""
         clamped = clamped_modes_below(self.piece_stiffness, self.piece_inertia, omega[:, None]).sum(axis=1)
         negative = (np.linalg.eigvalsh(self.stiffness(omega)) < 0).sum(axis=1)
         count: NDArray[np.int64] = clamped + negative
@@ -220,7 +234,7 @@ class DynamicTrain:
 
 
 def dynamic_train(parts: Parts, *, massless: bool = False) -> DynamicTrain:
-    """Of the parts, with the mass of their shafts or without."""
+    """Return the DynamicTrain of the parts, with the mass of their shafts or without."""
     nodes = len(parts.inertias)
     pieces, joined, matrices, free = [], [], [], list(parts.free)
     for place, (shaft, (start, end)) in enumerate(zip(parts.shafts, parts.ends.tolist(), strict=True)):
@@ -252,7 +266,7 @@ def dynamic_train(parts: Parts, *, massless: bool = False) -> DynamicTrain:
 
 
 def natural_frequencies(train: DynamicTrain, count: int) -> Floats:
-    """The first natural frequencies (n,) in 1/s, as many as there are up to `count`, those that are 0 among them.
+    """Return the first natural frequencies (n,) in 1/s, as many as there are up to `count`, those that are 0 among them.
 
     Bisection by the count finds every one, multiple ones too, as exactly as rounding leaves the dynamic stiffness. Raises
     SolverError where it does not end.
@@ -274,7 +288,7 @@ def natural_frequencies(train: DynamicTrain, count: int) -> Floats:
 
 
 def _above(train: DynamicTrain, count: int) -> float:
-    """A frequency (1/s) with `count` natural frequencies below it."""
+    """Return a frequency (1/s) with `count` natural frequencies below it. Raises SolverError where none is found."""
     k = np.trace((train.meshes * train.parts.stiffness) @ train.meshes.T) + train.piece_stiffness.sum()
     omega = math.sqrt(float(k) / train.inertia.sum())
     for _ in range(_DOUBLINGS):
@@ -285,7 +299,10 @@ def _above(train: DynamicTrain, count: int) -> float:
 
 
 def natural_shapes(train: DynamicTrain, omega: Floats) -> Floats:
-    """Turns of the nodes (n, modes) at natural frequencies that `natural_frequencies` found, each of modal mass 1."""
+    """Return the turns of the nodes (n, modes) at natural frequencies, each of modal mass 1.
+
+    `omega` are frequencies that `natural_frequencies` found.
+    """
     rigid = int((omega == 0).sum())
     shapes = np.zeros((len(train.inertia), len(omega)))
     if rigid:
@@ -302,21 +319,21 @@ def natural_shapes(train: DynamicTrain, omega: Floats) -> Floats:
 
 
 def _orthonormal(shapes: Floats, inertia: Floats) -> Floats:
-    """Shapes of the same space (n, r), orthogonal by the inertia and of modal mass 1."""
+    """Return shapes (n, r) of the same space, orthogonal by the inertia and of modal mass 1."""
     lower = np.linalg.cholesky(shapes.T @ inertia @ shapes)
     result: Floats = np.linalg.solve(lower, shapes.T).T
     return result
 
 
 _NEXT = 1 + 1e-9
-"""A frequency so much higher counts the mode itself; rounding of elements is below."""
+"""Factor on a frequency that counts the mode itself; rounding of elements is below."""
 
 _ROUNDING = 1e-9
-"""How far the mass of a mode may be from 1."""
+"""Greatest difference of the mass of a mode from 1."""
 
 
 def natural_modes(train: Train, *, count: int | None = None, up_to: float | None = None, points: int = 21) -> NaturalModes:
-    """The first `count` modes, or those up to a frequency in Hz; else the first ten; as many as the model has.
+    """Return the first `count` modes, or those up to a frequency in Hz; else the first ten; as many as the model has.
 
     Shapes of shafts are given at `points` places. Raises ParameterError.
     """
@@ -337,7 +354,7 @@ def natural_modes(train: Train, *, count: int | None = None, up_to: float | None
 
 
 def count_below(train: Train, frequency: float) -> int:
-    """How many natural frequencies the train has below `frequency` (Hz), by Wittrick and Williams, 0 Hz counted.
+    """Return the number of natural frequencies of the train below `frequency` (Hz), by Wittrick and Williams, 0 Hz counted.
 
     Shafts have their full mass, in the models "modes" and "elements" too. Raises ParameterError.
     """
@@ -346,7 +363,7 @@ def count_below(train: Train, frequency: float) -> int:
 
 
 def _count(train: Train, omega: float) -> int:
-    """How many natural frequencies there are below omega (1/s)."""
+    """Return the number of natural frequencies below omega (1/s)."""
     dynamic = dynamic_train(parts_of(train), massless=train.model is TrainModel.MASSLESS)
     return int(dynamic.count_below(np.array([omega]))[0])
 
@@ -355,7 +372,10 @@ def _count(train: Train, omega: float) -> int:
 
 
 def _line_system_modes(train: Train, count: int, limit: float, places: Floats) -> NaturalModes:
-    """Modes of the System. Their squares are sums of energies, which rounding cannot make negative."""
+    """Return the natural modes of the System.
+
+    Their squares are sums of energies, which rounding cannot make negative.
+    """
     lines = lines_of(train)
     z = _of_mass_one(lines, _modes_of(lines))
     approach, turns = lines.system.mesh.T @ z, lines.system.inertias.T @ z
@@ -389,7 +409,10 @@ def _line_system_modes(train: Train, count: int, limit: float, places: Floats) -
 
 
 def _of_mass_one(lines: Lines, z: Floats) -> Floats:
-    """The modes (n, m) over the root of the mass that turns in them, which is off where a shaft weighs next to nothing."""
+    """Return the modes (n, m) over the root of their modal mass.
+
+    The mass is not 1 where a shaft weighs next to nothing.
+    """
     turns = lines.system.inertias.T @ z
     shafts = [_form(along @ z, inertia) for along, inertia in zip(lines.shafts, lines.shaft_inertia, strict=True)]
     mass = (lines.parts.inertia[:, None] * turns**2).sum(axis=0) + sum(shafts)
@@ -398,7 +421,10 @@ def _of_mass_one(lines: Lines, z: Floats) -> Floats:
 
 
 def _modes_of(lines: Lines) -> Floats:
-    """(n, n) modes of mass 1 in the lines' coordinates; first those in which all turns freely, which are known."""
+    """Return (n, n) modes of mass 1 in the lines' coordinates.
+
+    First come those in which all turns freely, which are known.
+    """
     from scipy.linalg import eigh
 
     _, z = eigh(lines.system.stiffness_matrix())
@@ -412,7 +438,7 @@ def _modes_of(lines: Lines) -> Floats:
 
 
 def _exact_modes(train: Train, count: int, limit: float, places: Floats) -> NaturalModes:
-    """Modes of the wave equation: what every piece of a shaft does follows from its ends."""
+    """Return modes of the wave equation: the motion of every piece of a shaft follows from its ends."""
     dynamic = dynamic_train(parts_of(train))
     if not math.isinf(limit):
         # One more, which shows where to stop: the limit itself may be a natural frequency.
@@ -440,7 +466,7 @@ def _exact_modes(train: Train, count: int, limit: float, places: Floats) -> Natu
 
 
 def _piece_energies(dynamic: DynamicTrain, omega: Floats, nodes: Floats) -> tuple[Floats, Floats]:
-    """(n, s) each: twice the kinetic energy of shafts over omega squared, and twice their potential energy."""
+    """Return twice the kinetic energy of shafts over omega squared, and twice their potential energy, (n, s) each."""
     ends = dynamic.ends @ nodes
     each = dynamic.piece_stiffness, dynamic.piece_inertia, omega[:, None]
     moving = np.einsum("pan,npab,pbn->np", ends, dynamic_inertia(*each), ends)
@@ -452,7 +478,7 @@ def _piece_energies(dynamic: DynamicTrain, omega: Floats, nodes: Floats) -> tupl
 
 
 def _piece_shapes(dynamic: DynamicTrain, omega: Floats, nodes: Floats, places: Floats) -> Floats:
-    """(n, s, p): turns along the shafts, of which those with mass are in two pieces."""
+    """Return the turns along the shafts (n, s, p), of which those with mass are in two pieces."""
     result = np.zeros((len(omega), len(dynamic.parts.shafts), len(places)))
     ends = dynamic.ends @ nodes
     for piece, (shaft, second) in enumerate(dynamic.pieces):
@@ -470,13 +496,13 @@ def _piece_shapes(dynamic: DynamicTrain, omega: Floats, nodes: Floats, places: F
 
 
 def _form(local: Floats, matrix: Floats) -> Floats:
-    """Quadratic form of each column (n,)."""
+    """Return the quadratic form of each column (n,)."""
     result: Floats = np.einsum("in,ij,jn->n", local, matrix, local)
     return result
 
 
 def _stacked(each: list[Floats], modes: int, points: int) -> Floats:
-    """(n, s, p) of arrays (n, p), of none too."""
+    """Return one array (n, s, p) of s arrays (n, p), also where s is 0."""
     return np.stack(each, axis=1) if each else np.zeros((modes, 0, points))
 
 
@@ -489,7 +515,7 @@ def _natural_modes(
     components: ComponentModes | None = None,
     **arrays: Floats,
 ) -> NaturalModes:
-    """The result: signs set, units of the house, and a count of what is missing."""
+    """Return the result: signs set, units of the package, and the number of frequencies that are missing."""
     sign = positive(shape)[:, None]
     ratios = train.speed_ratios
     per_turn = np.array([abs(ratios[mesh.pinion]) * mesh.teeth for mesh in train.meshes])
