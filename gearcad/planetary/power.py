@@ -388,7 +388,7 @@ def _force(pair: GearPair, torque: float, radius: float, helix_angle: float) -> 
 
 
 def _on_pin(train: TrainData, flow: PowerFlow) -> PinForce:
-    """Return the force on the pin, summed over both meshes: a sun's at the near side of the planet, a ring's at its far side."""
+    """Return the force on the pin, summed over the meshes: a sun's at the near side of the planet, a ring's at the far side."""
     bottom = min(rim.axial_position for rim in train.rims)
     top = max(rim.axial_position + rim.gear.face_width for rim in train.rims)
     radial = tangential = axial = about_radial = about_tangential = 0.0

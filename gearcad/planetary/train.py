@@ -453,7 +453,7 @@ class PlanetaryTrain(TrainData):
             raise ParameterError("output", self.output, "must be another member than input and fixed")
 
     def pose(self, carrier_angle: float = 0.0, central_turn: float = 0.0) -> TrainPose:
-        """Return all gears in mesh, with the carrier at an angle and the fixed central (or else the second) turned (degrees)."""
+        """Return all gears in mesh, with the carrier at an angle and the fixed central (else the second) turned (degrees)."""
         return train_pose(self, carrier_angle, central_turn)
 
     @cached_property

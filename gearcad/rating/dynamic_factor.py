@@ -208,7 +208,7 @@ def _running_in(material: Material, flank_limit: float | None) -> RunningIn:
 
 
 def _tip_relief(pair: GearPair, limits: PerGear[EnduranceLimits], grade: int) -> float:
-    """Return C_a (µm): 0 for coarse grades, else the designed relief of both gears, or else the relief by running-in, if known."""
+    """Return C_a (µm): 0 for coarse grades, else the designed relief of both gears, or else that by running-in, if known."""
     if grade > _FINE:
         return 0.0
     designed = min(gear.modification.tip_relief for gear in pair.gears)

@@ -214,7 +214,10 @@ class Misalignment(NamedTuple):
 
     @classmethod
     def of(cls, mesh: LoadedMesh, mean_load: float) -> Misalignment:
-        """Return the misalignment under F_m/b (N/mm), by (52) or, with a proven contact pattern, (53). Raises ParameterError."""
+        """Return the misalignment under F_m/b (N/mm), by (52) or, with a proven contact pattern, (53).
+
+        Raises ParameterError.
+        """
         options = mesh.options
         slopes = helix_slope_deviations(mesh.pair, options)
         deflection = _shaft_deflection(mesh, mean_load)

@@ -97,7 +97,7 @@ class Rating:
         return self.roots.map(lambda root: root.nominal_stress * self.application_factor)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.RATING` has the words."""
+        """Return values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.RATING` has the words."""
         contact, flanks, bending = self.pitch_point, self.contact_stresses, self.root_stresses
         gears = {
             self.names.pick(role): {**root.to_dict(), "sigma_H": flanks.pick(role), "sigma_F": bending.pick(role)}
