@@ -76,7 +76,7 @@ class Comparison:
 
     @property
     def evaluated(self) -> bool:
-        """False if there is nothing to compare, for the `reason`."""
+        """Whether there is something to compare; if not, `reason` says why."""
         return self.deviation is not None
 
     @property
@@ -117,7 +117,7 @@ def agrees(
     note: str = "",
     reason: str = "",
 ) -> Comparison:
-    """A gate of the numerics: a value that its reference has too."""
+    """Return a gate of the numerics: a value that its reference has too."""
     gate, numerics = ComparisonRole.GATE, Subject.NUMERICS
     return Comparison(quantity, computed, reference, tolerance, unit, source, note, reason, role=gate, subject=numerics)
 
@@ -132,7 +132,7 @@ def beside(
     note: str = "",
     reason: str = "",
 ) -> Comparison:
-    """Information: a value beside the standard's, which leaves other things out."""
+    """Return information: a value beside the standard's, which leaves other things out."""
     information, standard = ComparisonRole.INFORMATION, Subject.STANDARD
     return Comparison(quantity, computed, reference, band, unit, source, note, reason, role=information, subject=standard)
 
@@ -148,12 +148,12 @@ def at_most(
     *,
     subject: Subject = Subject.NUMERICS,
 ) -> Comparison:
-    """A gate that is a limit."""
+    """Return a gate that is an upper limit."""
     return Comparison(quantity, computed, limit, None, unit, source, note, reason, role=ComparisonRole.GATE, subject=subject)
 
 
 def at_least(quantity: str, computed: float | None, limit: float, source: str, note: str = "", reason: str = "") -> Comparison:
-    """A gate of strength: a safety and the least one that is permitted."""
+    """Return a gate of strength: a safety and the least one that is permitted."""
     gate, strength = ComparisonRole.GATE, Subject.STRENGTH
     return Comparison(quantity, computed, limit, None, "", source, note, reason, role=gate, subject=strength, least=True)
 
@@ -161,7 +161,7 @@ def at_least(quantity: str, computed: float | None, limit: float, source: str, n
 def beside_limit(
     quantity: str, computed: float | None, limit: float | None, unit: str, source: str, note: str = "", reason: str = ""
 ) -> Comparison:
-    """Information on strength: a local stress beside a limit that is not its own, None where there is none."""
+    """Return information on strength: a local stress beside a limit that is not its own, None where there is none."""
     information, strength = ComparisonRole.INFORMATION, Subject.STRENGTH
     return Comparison(quantity, computed, limit, None, unit, source, note, reason, role=information, subject=strength)
 
@@ -169,7 +169,7 @@ def beside_limit(
 def beside_required(
     quantity: str, computed: float | None, limit: float, source: str, note: str = "", reason: str = ""
 ) -> Comparison:
-    """Information on strength: a safety beside the least one that is required, which another decides."""
+    """Return information on strength: a safety beside the least one that is required, which another decides."""
     information, strength = ComparisonRole.INFORMATION, Subject.STRENGTH
     return Comparison(quantity, computed, limit, None, "", source, note, reason, role=information, subject=strength, least=True)
 
@@ -209,7 +209,7 @@ class FoundStrength:
         return self.safety is not None and self.safety < self.rated.required
 
     def to_dict(self) -> dict[str, float | str | None]:
-        """Stresses and safeties of both."""
+        """Return stresses and safeties by both, finite elements and the rating."""
         rated = self.rated
         return {
             "fe_stress": self.stress,
@@ -325,7 +325,7 @@ class CheckStrength:
 
     @property
     def judged(self) -> bool:
-        """Whether anything was."""
+        """Whether the strength of any part was judged."""
         return any(each.rated.safety is not None for both in self.parts.values() for each in both)
 
     def to_dict(self) -> dict[str, Any]:

@@ -103,7 +103,7 @@ def three_solid_meshes(cycles: Iterable[SolidCycle]) -> tuple[Convergence, ...]:
 
 
 def _values(cycles: Iterable[Cycle]) -> list[tuple[str, tuple[float, ...]]]:
-    """Mean mesh stiffness and root tension of both gears, mesh by mesh, as a summary of each cycle would tell them.
+    """Return mean mesh stiffness and root tension of both gears, mesh by mesh, as a summary of each cycle would tell them.
 
     A cycle is let go before the next is made.
     """
@@ -199,7 +199,7 @@ class SweepTrends(NamedTuple):
 
     @property
     def pressure_everywhere(self) -> bool:
-        """False if all contacts are near edges at some torque."""
+        """Whether some contact is away from edges at every torque."""
         return all(point.contact_pressure is not None for point in self.points)
 
     @property
@@ -232,7 +232,7 @@ class SweepTrends(NamedTuple):
 
 
 def sweep_point(cycle: Cycle) -> SweepPoint:
-    """The figures of a cycle at its torque."""
+    """Return the figures of a cycle at its torque."""
     few, model = figures(cycle), cycle.model
     turns, _ = cycle.mean("approach_parts")
     # A gear whose flank gives way by u along the line of action turns by u/r_b under the torque F r_b.

@@ -193,7 +193,7 @@ class PlaneRootExplanation(Explanation):
 
 
 def root_at_single_contact(cycle: PlaneCycle, role: Role) -> float:
-    """Root tension (MPa) of a gear with all of the load on one pair at its outer point, D or B."""
+    """Return the root tension (MPa) of a gear with all of the load on one pair at its outer point, D or B."""
     model, path = cycle.model, cycle.model.pair.path_of_contact
     length = PerGear(path.D, model.line.whole - path.B).pick(role)
     load = (0, length, model.force(cycle.torque))

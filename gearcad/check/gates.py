@@ -58,7 +58,7 @@ def _rims(task: CheckTask) -> PerGear[_Rim]:
 
 
 def rim_gates(task: CheckTask) -> Iterator[Comparison]:
-    """A thin rim that is held rigidly does not bend: that is no model of it."""
+    """Yield a gate for a thin rim that is held rigidly: it does not bend, so the model does not show it."""
     for rim in _rims(task):
         if rim.stiffened:
             yield at_most(
@@ -188,7 +188,7 @@ def compare_common(
 
 
 def farness(computed: float, expected: float) -> float:
-    """Relative distance; infinite for what is no number, which is the worst of all."""
+    """Return the relative distance of two values; infinite for what is no number, which is the worst of all."""
     found = abs(computed / expected - 1)
     return found if math.isfinite(found) else math.inf
 
@@ -293,7 +293,7 @@ _DISCRETISATION = 0.01
 def compare_plane(
     task: CheckTask, cycle: PlaneCycle, summary: PlaneSummary, convergence: tuple[Convergence, ...]
 ) -> tuple[Comparison, ...]:
-    """All comparisons, gates first."""
+    """Return all comparisons, gates first."""
     equilibrium = "equilibrium: the torque that is applied through the teeth"
     common = compare_common(task, cycle, summary, convergence, equilibrium=equilibrium, errors=3 * (_DISCRETISATION,))
     return (*_hertz(cycle, summary), *common)
@@ -335,7 +335,7 @@ _FLICKER = 0.03
 def compare_solid(
     task: CheckTask, cycle: SolidCycle, summary: SolidSummary, convergence: tuple[Convergence, ...]
 ) -> tuple[Comparison, ...]:
-    """All comparisons, gates first."""
+    """Return all comparisons, gates first."""
     equilibrium = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.every)} positions"
     common = compare_common(task, cycle, summary, convergence, equilibrium=equilibrium, errors=_ERRORS, flicker=_FLICKER)
     return (*common, *_contact(task, summary), *_face(task, summary))

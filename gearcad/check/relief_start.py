@@ -121,7 +121,7 @@ def _greatest(found: Iterable[PairContact]) -> PerGear[float]:
 
 
 def _again(cycle: Cycle, angles: list[float], factor: float) -> PerGear[float]:
-    """The same at roll angles (deg) with transitions as long as `factor` times these."""
+    """Return the greatest pressures (MPa) at roll angles (deg) with transitions as long as `factor` times these."""
     model: FlexiblePair[FlankCompliance] = cycle.model
     pinion, wheel = (_with_transitions(gear, factor) for gear in model.pair.gears)
     changed = model.with_flanks(replace(model.pair, pinion=pinion, wheel=wheel))

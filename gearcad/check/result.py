@@ -96,7 +96,7 @@ def stiffness_methods(task: CheckTask, own: Callable[[Mounting], StiffnessMethod
 
 
 class MeanLag(NamedTuple):
-    """How far the wheel lags behind the pinion on the mean, and what each gear gives of it (µm along the line of action)."""
+    """Mean lag of the wheel behind the pinion, and each gear's part of it (µm along the line of action)."""
 
     whole: float
     parts: PerGear[float]
@@ -104,7 +104,7 @@ class MeanLag(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class CheckResult(Pictured, ABC):
-    """A task, and everything that its check found out."""
+    """A task, and all results of its check."""
 
     task: CheckTask
     cycle: Cycle
@@ -312,7 +312,7 @@ class CheckResult(Pictured, ABC):
 
 
 def check_document(result: CheckResult) -> dict[str, Any]:
-    """Everything of a check under the names of check.json."""
+    """Return everything of a check under the names of check.json."""
     document = {
         "kind": "check",
         "model": result.model.value,
@@ -348,7 +348,10 @@ def check_document(result: CheckResult) -> dict[str, Any]:
 
 
 def reported_document(result: CheckResult) -> dict[str, Any]:
-    """The same with all that a report shows: also the mesh stiffness by other methods, which takes part of the check's time."""
+    """Return the document with all that a report shows: also the mesh stiffness by other methods.
+
+    This takes part of the check's time.
+    """
     return check_document(result) | {"stiffness_methods": result.stiffness_methods.to_dict()}
 
 

@@ -47,7 +47,7 @@ _PROGRAM = 0.27e9
 
 
 def sizes_of(task: CheckTask, factor: float) -> SolidSizes:
-    """Sizes of the check's mesh, refined by a factor."""
+    """Return the sizes of the check's mesh, refined by a factor."""
     return SolidSizes().refined(factor * task.options.refinement)
 
 
@@ -59,7 +59,7 @@ def _bodies(task: CheckTask) -> dict[str, Expected]:
 
 
 def solid_steps(task: CheckTask) -> dict[str, float]:
-    """Seconds expected of each step, in order."""
+    """Return the seconds expected of each step, in order."""
     few = _EXPECTED_SOUGHT * FEW_POSITIONS * POSITION_SECONDS
     cycle = _EXPECTED_SOUGHT * task.options.positions_of(Model.SOLID)
     bodies = {name: each.seconds + cycle * POSITION_SECONDS for name, each in _bodies(task).items()}
@@ -118,7 +118,7 @@ PLANE_MEMORY = 0.4e9
 
 
 def plane_steps(task: CheckTask) -> dict[str, float]:
-    """Seconds expected of each step, in order."""
+    """Return the seconds expected of each step, in order."""
 
     def bodies(factor: float) -> float:
         whatever, refined = _BODIES

@@ -25,7 +25,7 @@ from gearcad.rating.strength import StrengthRating, rate_strength
 
 @dataclass(frozen=True, kw_only=True)
 class CheckTask:
-    """What is to be checked; `pair` is as mounted. `body_load` is that of a load distribution, if one is asked for."""
+    """Task of a check; `pair` is as mounted. `body_load` is that of a load distribution, if one is asked for."""
 
     pair: GearPair
     material: Materials

@@ -120,7 +120,7 @@ _SHORT = 1e-6
 
 @dataclass(frozen=True)
 class Condition:
-    """What a variant is loaded with: torque (N·m on the pinion), and deviations (µm) added to those of the mounting."""
+    """Load of a variant: torque (N·m on the pinion), and deviations (µm) added to those of the mounting."""
 
     torque: float
     misalignment: float = 0.0
@@ -139,8 +139,10 @@ class Condition:
 
 @dataclass(frozen=True)
 class Outcomes:
-    """What became of each variant, at each position (v, positions): transmission errors in µm, the greatest interior pressures
-    in MPa, and the shares of the load that the edges of tips carry.
+    """Outcomes of variants at each position (v, positions).
+
+    These are transmission errors in µm, the greatest interior pressures in MPa, and the shares of the load that the edges of
+    tips carry.
     """
 
     transmission_errors: Floats
@@ -154,7 +156,7 @@ class Outcomes:
 
     @property
     def figures(self) -> Floats:
-        """All of them side by side (v, 3 positions)."""
+        """All quantities side by side (v, 3 positions)."""
         return np.concatenate([self.transmission_errors, self.position_pressures, self.position_edge_shares], axis=-1)
 
     @property

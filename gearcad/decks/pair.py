@@ -235,9 +235,10 @@ class PairDeck:
 
     @property
     def expected(self) -> dict[str, Any]:
-        """Figures of our own check to compare with: transmission error in µm, turn in rad, stresses in MPa, force in N.
+        """Return the figures of our own check to compare with.
 
-        There is no contact pressure near the edges of flanks.
+        These are the transmission error in µm, the turn in rad, stresses in MPa and forces in N. There is no contact pressure
+        near the edges of flanks.
         """
         of, pair = self.position, self.decks.pair
         turn = (of.approach - self.approach) / self._base_radius
@@ -266,7 +267,9 @@ class PairDeck:
         self.deck.write(path)
 
     def found(self, job: Path) -> dict[str, Any]:
-        """The same figures as CalculiX has left them in the files of a job, named without suffix. Raises SolverError."""
+        """Return the figures to compare as CalculiX has left them in the files of a job, named without suffix. Raises
+        SolverError.
+        """
         mesh, flanks = self.deck.mesh, {each.pinion: each for each in self.deck.flanks}
         printed = printed_contact(job.with_name(f"{job.name}.dat"), mesh, flanks)
         moved = displacements(job.with_name(f"{job.name}.frd"), len(mesh.points))
@@ -326,7 +329,9 @@ class ToothDeck(ABC):
 
     @property
     def expected(self) -> dict[str, Any]:
-        """Figures of our own check to compare with: the greatest tension along the fillets (MPa), and forces (N) on flanks."""
+        """Return the figures of our own check to compare with: the greatest tension along the fillets (MPa), and forces (N) on
+        flanks.
+        """
         width = self.decks.width or 1.0
         return {
             "gear": self.role.value,
@@ -338,7 +343,7 @@ class ToothDeck(ABC):
         }
 
     def found(self, job: Path) -> dict[str, Any]:
-        """The same root stress as CalculiX has left it in the files of a job, named without suffix. Raises SolverError."""
+        """Return the root stress as CalculiX has left it in the files of a job, named without suffix. Raises SolverError."""
         moved = displacements(job.with_name(f"{job.name}.frd"), len(self.mesh.points))
         teeth = [self.decks.tooth(self.role, contact.tooth) for contact in self.position.contacts]
         return {"root_stress": max(self.decks.root_tension(self.mesh, moved, self.role, tooth, 0.0) for tooth in teeth)}

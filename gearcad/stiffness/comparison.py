@@ -77,11 +77,11 @@ class StiffnessComparison(Pictured):
 
     @property
     def divided(self) -> list[MeshCycle]:
-        """The cycles that know more than one part of their compliance."""
+        """Mesh cycles that know more than one part of their compliance."""
         return [cycle for cycle in self.cycles if len(cycle.telling_parts) > 1]
 
     def divided_with(self, part: str) -> list[MeshCycle]:
-        """Return the cycles that know this part of their compliance, and others."""
+        """Return the `divided` cycles that know this part of their compliance."""
         return [cycle for cycle in self.divided if part in cycle.compliance_parts]
 
     @property
@@ -92,7 +92,7 @@ class StiffnessComparison(Pictured):
 
     @property
     def torques(self) -> tuple[float, float]:
-        """The least and the greatest at which there are means (N·m)."""
+        """Least and greatest torque (N·m) for which there are means."""
         torques = [point.torque for point in self.load_points]
         return min(torques), max(torques)
 

@@ -57,7 +57,7 @@ class SinglePair:
 
 
 class MeshCurves(NamedTuple):
-    """What MeshCycle wants of all pairs together, under its names there."""
+    """Curves of all pairs together, for the fields of a MeshCycle of the same names."""
 
     roll_angle: Floats
     mesh_stiffness: Floats
@@ -100,7 +100,7 @@ class Slices:
         return np.linspace(*self.path, _NODES)
 
     def curves(self, single: SinglePair, count: int) -> MeshCurves:
-        """The mesh over one base pitch, in about `count` positions."""
+        """Return the curves of the mesh over one base pitch, in about `count` positions."""
         places, active = self._positions(count)
         first, last = self.path[0] - self.reach / 2, self.path[1] + self.reach / 2
         pairs = range(math.ceil((first - places[-1]) / self.pitch), math.floor((last - places[0]) / self.pitch) + 1)
@@ -246,7 +246,7 @@ class StiffnessMethod(ABC):
         return abs(load.torque) * load.application_factor
 
     def force(self, load: Load) -> float:
-        """F_bt: what all flanks carry together along the line of action (N)."""
+        """Return F_bt: the force that all flanks carry together along the line of action (N)."""
         return 2000 * self.torque(load) / self.mounted.pinion.base_diameter
 
     def inputs(self, load: Load) -> dict[str, Any]:

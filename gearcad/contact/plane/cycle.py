@@ -274,7 +274,7 @@ def conformal(contact: PlanePairContact) -> bool:
 
 
 def wide_plane_contacts(cycle: PlaneCycle) -> Iterator[Notice]:
-    """Rings whose contact is conformal."""
+    """Yield a notice for a ring whose contact is conformal."""
     if cycle.model.pair.internal:
         yield from conformal_notices(_hollow(contact) for _, contact in cycle.interior_contacts)
 
@@ -284,7 +284,7 @@ def _hollow(contact: PlanePairContact) -> HollowContact:
 
 
 def thin_faces(pair: GearPair, material: Materials, plane: Plane) -> Iterator[Notice]:
-    """Gears that are too thin for plane strain."""
+    """Yield a notice for each gear that is too thin for plane strain."""
     if plane is Plane.STRESS:
         return
     for role, gear in pair.gears.items():
@@ -309,7 +309,7 @@ def plane_pressure(material: Materials, plane: Plane) -> Iterator[Notice]:
 
 
 def strip_stresses(x: Floats, depth: Floats, places: Floats, width: float, pressures: Floats) -> tuple[Floats, Floats, Floats]:
-    """sigma_x, sigma_z and tau_xz (MPa) at points (x, depth) below strips of `width` (mm) centred on `places`."""
+    """Return sigma_x, sigma_z and tau_xz (MPa) at points (x, depth) below strips of `width` (mm) centred on `places`."""
     right, left, z = x[..., None] - places + width / 2, x[..., None] - places - width / 2, depth[..., None]
     to_right, to_left = (np.maximum(end**2 + z**2, np.finfo(float).tiny) for end in (right, left))
     scale = pressures / np.pi

@@ -404,7 +404,7 @@ def flank_body(
     solve: Callable[[Gear, Ring, PlaneElasticity], PlaneCompliance] = flank_compliance,
     support: Support | None = None,
 ) -> PlaneCompliance:
-    """One gear, held at `held_radius` (mm), with so many `neighbours` in full on each side of the loaded tooth."""
+    """Return one gear, held at `held_radius` (mm), with so many `neighbours` in full on each side of the loaded tooth."""
     sizes = sizes or MeshSizes()
     if (held := body.teeth_held(gear)) is not None:
         held = max(held, 2 * neighbours + 1)

@@ -182,13 +182,13 @@ class _Dissection:
         return _Left(aside, rest)
 
     def _joined(self, parts: list[_Left], count: int) -> Floats:
-        """The matrix (2 n, 2 n) on so many nodes by what parts have left."""
+        """Return the matrix (2 n, 2 n) on so many nodes by what parts have left."""
         dofs = [node_dofs(self.places[part.nodes]) for part in parts]
         entries = [(2 * count * each[:, None] + each).ravel() for each in dofs]
         return _matrix(np.concatenate(entries), np.concatenate([part.matrix.ravel() for part in parts]), 2 * count)
 
     def _summed(self, begin: int, end: int, count: int) -> Floats:
-        """The same by elements; what is held comes after the others, and is left out."""
+        """Return the matrix (2 n, 2 n) on so many nodes by elements; what is held comes after the others, and is left out."""
         triangles, size = self.triangles[begin:end], 2 * count
         dofs = node_dofs(np.where(self.free[triangles], self.places[triangles], count))
         entries = ((size + 2) * dofs[:, :, None] + dofs[:, None]).ravel()
@@ -440,7 +440,7 @@ class Sector:
         return dofs[~np.isin(dofs, self.held)]
 
     def let_go(self) -> Sector:
-        """The same sector with nothing that holds it."""
+        """Return the same sector with nothing that holds it."""
         nothing = np.zeros_like
         return replace(
             self, held=np.empty(0, int), turn=nothing(self.turn), hub=nothing(self.hub), hub_matrix=nothing(self.hub_matrix)
@@ -495,7 +495,7 @@ def make_sector(mesh: SectorMesh, elasticity: PlaneElasticity, support: Support 
 
 
 def chain_of(sector: Sector, onward: Floats | None = None) -> Chain:
-    """One sector condensed to its cuts and the hub, whose dofs the next sector sees `onward`."""
+    """Return one sector condensed to its cuts and the hub, whose dofs the next sector sees `onward`."""
     cuts = np.r_[sector.behind, sector.ahead]
     places = np.searchsorted(sector.condensed.kept, cuts)
     arrived = sector.condensed.forward(sector.inside(sector.hub))

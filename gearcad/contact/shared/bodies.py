@@ -54,7 +54,7 @@ class Chain:
         return self.followed_by(self)
 
     def followed_by(self, other: Chain) -> Chain:
-        """This chain and the other one ahead of it, the cut between them condensed."""
+        """Return this chain and the other one ahead of it, the cut between them condensed."""
         n, hub = self.cut, len(self.onward)
         keep = 2 * n + hub  # behind, ahead, hub, and last the cut between
         both = np.zeros((keep + n, keep + n))
@@ -73,7 +73,7 @@ class Chain:
         return matrix
 
     def repeated(self, times: int) -> Chain:
-        """So many of this chain in a row, by doubling."""
+        """Return so many of this chain in a row, by doubling."""
         result, power = None, self
         while times:
             if times & 1:
@@ -116,7 +116,7 @@ def polar_turn(angles: Floats, components: int) -> Any:
 
 
 def cut_held(cuts: Cuts, dofs: int, components: int) -> NDArray[np.bool_]:
-    """Which dofs (n,) of a cut are held."""
+    """Return which dofs (n,) of a cut are held."""
     if cuts is Cuts.SLIDING:
         tangential: NDArray[np.bool_] = np.arange(dofs) % components == 1
         return tangential
@@ -327,7 +327,7 @@ class BodyModel:
             raise ParameterError(key, hold.value, 'must be "rigid" for the solid body of a ring: bolts hold sections only (2d)')
 
     def for_solids(self) -> BodyModel:
-        """The same bodies as solids: of what can hold them, only "rigid" and "free"."""
+        """Return the same bodies as solids: of what can hold them, only "rigid" and "free"."""
         return replace(self, solid=True)
 
     def describe(self, pair: GearPair) -> dict[str, str]:

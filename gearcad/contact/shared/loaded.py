@@ -235,7 +235,7 @@ class Quantity(Generic[Seen]):
 
     @property
     def sign(self) -> int:
-        """1, or -1 for what is to be least."""
+        """Sign of the quantity: 1, or -1 for what is to be least."""
         return -1 if self.least else 1
 
 
@@ -262,7 +262,7 @@ class RollRange:
 def add_positions(
     known: Iterable[tuple[float, P]], span: RollRange, solve: Callable[[float], P], quantities: Sequence[Quantity[P]]
 ) -> list[P]:
-    """Positions `solve`d at roll angles (deg) between those that are known."""
+    """Solve further positions at roll angles (deg) between those that are known, and return them."""
     pool, added = sorted(known, key=itemgetter(0)), []
     for quantity in quantities:
         for _ in range(_MOST):
@@ -275,7 +275,7 @@ def add_positions(
 
 
 def extreme(known: Iterable[tuple[float, P]], span: RollRange, quantity: Quantity[P]) -> Extreme | None:
-    """The greatest (or least) of all positions; None where the quantity has no value at any."""
+    """Return the greatest (or least) value of all positions; None where the quantity has no value at any."""
     course = _Sampled.from_positions(sorted(known, key=itemgetter(0)), span, quantity)
     if course.nothing:
         return None
@@ -464,12 +464,12 @@ class LoadedPosition(ABC, Generic[C]):
 
     @property
     def stiffness(self) -> float:
-        """N/(mm·µm): normal force over the approach under load, per mm of common face width."""
+        """Stiffness (N/(mm·µm)): normal force over the approach under load, per mm of common face width."""
         return self.force / ((self.approach - self.rigid_approach) * 1000)
 
     @property
     def transmission_error(self) -> float:
-        """µm along the line of action by which the wheel lags."""
+        """Transmission error (µm) along the line of action: the lag of the wheel."""
         return self.approach * 1000
 
     @property
@@ -558,17 +558,17 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
         return sum(any(contact.edge for contact in position.contacts) for position in self.positions)
 
     def worst_position(self, role: Role) -> Position:
-        """The position of the greatest root tension of a gear."""
+        """Return the position of the greatest root tension of a gear."""
         return max(((position.tension.pick(role).stress, position) for position in self.every), key=itemgetter(0))[1]
 
     # ------------------------------------------------------------------ courses over the base pitch
 
     def values(self, name: str) -> Floats:
-        """A quantity at the even positions, such as "stiffness"."""
+        """Return a quantity at the even positions, such as "stiffness"."""
         return np.array([getattr(position, name) for position in self.positions])
 
     def course(self, name: str) -> Floats:
-        """A quantity at all positions, such as "roll_angle", in the order of the roll angles."""
+        """Return a quantity at all positions, such as "roll_angle", in the order of the roll angles."""
         return np.array([getattr(position, name) for position in self.every])
 
     def mean(self, name: str) -> tuple[Floats, Floats]:

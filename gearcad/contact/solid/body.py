@@ -31,7 +31,7 @@ from gearcad.meshing.sector import SweptMesh
 
 
 class _Made(NamedTuple):
-    """What comes of the condensation: itself, its `forward` of the hub's forces, and the sector as a row."""
+    """Results of the condensation: itself, its `forward` of the hub's forces, and the sector as a row."""
 
     condensed: Condensed
     hub_forward: Forward
@@ -87,7 +87,7 @@ class SolidSector:
         return polar_turn(self._cut_angles, 3)
 
     def polar_turn_at(self, nodes: Wholes) -> Any:
-        """The same of some nodes (n,)."""
+        """Return the matrix (scipy CSR) of `cut_turn` for some nodes (n,)."""
         return polar_turn(self._cut_angles[nodes], 3)
 
     @cached_property

@@ -107,7 +107,9 @@ class SolidPairContact(PairContact):
 
 @dataclass(frozen=True)
 class SolidRootStress(RootStress):
-    """Also at which height (mm), and the greatest along the profile (n,) at each of the fillet's `heights_between` (MPa)."""
+    """Root stress with its height (mm), and the greatest along the profile (n,) at each of the fillet's `heights_between`
+    (MPa).
+    """
 
     height: float
     along_face: Floats

@@ -33,7 +33,7 @@ _SAME = 1e-8
 
 @dataclass(frozen=True)
 class HalfTurn:
-    """Of a swept mesh whose section is symmetric about the x axis, its layers about the middle of the face width."""
+    """Half turn of a swept mesh whose section is symmetric about the x axis, its layers about the middle of the face width."""
 
     mesh: SweptMesh
 

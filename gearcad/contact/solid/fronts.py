@@ -217,7 +217,7 @@ class Store:
         self._left, self._lock = np.zeros(numbers), Lock()
 
     def zeros(self, rows: int, columns: int) -> Floats:
-        """A matrix (rows, columns)."""
+        """Return a matrix (rows, columns) of zeros."""
         with self._lock:
             taken, self._left = np.split(self._left, [rows * columns])
         return taken.reshape(rows, columns, order="F")
@@ -230,7 +230,7 @@ class _Room:
         self._left: list[Floats] = []
 
     def zeros(self, size: int) -> Floats:
-        """A matrix (size, size)."""
+        """Return a matrix (size, size) of zeros."""
         fitting = [each for each in self._left if each.size >= size**2]
         if fitting:
             chosen = min(fitting, key=len)
@@ -246,7 +246,7 @@ class _Room:
         self._left = [each for each in self._left if each is not chosen]
 
     def take_back(self, matrix: Floats) -> None:
-        """One that `zeros` gave, which nobody needs any more."""
+        """Take back a matrix that `zeros` gave and that is no longer needed."""
         base = matrix.base
         assert base is not None
         self._left.append(base)

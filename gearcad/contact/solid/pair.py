@@ -186,7 +186,7 @@ class SolidPair(FlexiblePair[SolidCompliance]):
     solved: KnownSolutions = field(default_factory=KnownSolutions, repr=False)
 
     def remade(self, pair: GearPair, mounting: Mounting) -> SolidPair:
-        """The same bodies with other modifications of the flanks, or another mounting, of an otherwise equal pair."""
+        """Return the same bodies with other modifications of the flanks, or another mounting, of an otherwise equal pair."""
         mounted = mounting.mounted(pair)
         known = self.known if mounted.centre_distance == self.pair.centre_distance else KnownResponses()
         line = line_of_action(mounted)

@@ -177,7 +177,7 @@ class SolidFillet:
 
 
 class SolidFillets(NamedTuple):
-    """Of one gear: the fillet under the loaded flank, the one behind it, and the bore, where it is free."""
+    """Fillets of one gear: under the loaded flank, and behind it; and the bore, where it is free."""
 
     loaded: SolidFillet
     behind: SolidFillet
