@@ -375,7 +375,7 @@ def linear_dimension(
     and RIGHT, a y for ABOVE and BELOW. A narrow dimension has its arrows outside and its text beside them. `datum_letter`
     marks the axis or the middle plane as a datum. Its triangle stands on the extension line of `first`, opposite to the arrow
     or in its place (ISO 5459). A tolerance `frame`, the middle of its left side at (0, 0), stands at the end of a horizontal
-    line and applies to the middle plane (ISO 1101).
+    line. It applies to the middle plane (ISO 1101).
     """
     drawn = _Drawn(first, second, side, size, draughting, datum_letter, frame)
     outs = _lanes(side, clear)

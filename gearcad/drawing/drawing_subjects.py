@@ -40,8 +40,9 @@ class DrawnGear:
 
     @property
     def direction(self) -> int:
-        """Direction of z in the section on the sheet: 1 to the right, -1 to the left. The end of an external gear that has a
-        hub is at the left; so is the end at z = face width, unless a hub is at z = 0 alone.
+        """Direction of z in the section on the sheet: 1 to the right, -1 to the left; 1 for racks and rings. The end of an
+        external gear that has a hub is at the left. Without a hub, or with one at both ends, the end at z = face width is
+        there.
         """
         part = self.gear
         if isinstance(part, Rack) or part.internal or (part.body.hub_length and part.body.hub_side is HubSide.BACK):

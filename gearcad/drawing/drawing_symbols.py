@@ -58,7 +58,7 @@ _WAVE = 4.0
 _MOST = 1000
 
 _BULGE = 0.22
-"""Of each half: some half a millimetre off the path."""
+"""Bulge of each half wave: about half a millimetre off the path."""
 
 _TOOTH = 2.0
 """Half the height of a zigzag, and twice its width."""
@@ -133,7 +133,7 @@ _LOW, _HIGH = 1.4, 3.0
 
 _SLOPE = math.tan(math.radians(60.0))
 _PLACES = (0.5, 0.3, 0.7, 0.15, 0.85)
-"""Where along an edge a symbol may stand."""
+"""Positions of a symbol along an edge, over its length."""
 
 
 def roughness_symbol(value: str, *, height: float = 2.5, side: Side = Side.ABOVE, count: str = "") -> Figure:

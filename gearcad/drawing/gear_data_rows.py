@@ -304,8 +304,8 @@ def modification_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
 
 
 def cutter_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
-    """Yield the rows of the corner radius that makes the fillets of a shaped gear or a ring, and of the shaper cutter if there
-    is one.
+    """Yield the row of the corner radius that makes the fillets of a shaped gear or a ring. Rows of the shaper cutter follow
+    if there is one.
     """
     cutter = gear.cutter
     if shaped(gear):

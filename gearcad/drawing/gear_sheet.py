@@ -214,8 +214,8 @@ class _Content:
     def arranged(self) -> tuple[Arrangement, tuple[Notice, ...]]:
         """Return the arrangement of all views, and notices of what is left out or too small.
 
-        On a sheet size that was asked for, the detail of a tooth is left out if there is no room for all, or all would be too
-        small to read. Raises ParameterError.
+        On a sheet size that was asked for, the detail of a tooth may be left out. This is done if there is no room for all, or
+        all would be too small to read. Raises ParameterError.
         """
         found = self._tried()
         if self.options.sheet is not SheetSize.AUTO and not self._is_legible(found):

@@ -229,9 +229,9 @@ def arranged(
     """Return the arrangement of all views with all their marks on a sheet, none over another.
 
     `views` makes them at a scale (mm of paper for a mm of the part). `fixed` makes the rest of a sheet, which may name the
-    scale ("1:2") but has the same size at any scale. "auto" is the largest scale that has room on A3; on A2 where it would be
-    smaller than 1:2, and on the smallest sheet with 1:5 where A2 has no room at 1:2 either. Raises ParameterError of `scale`
-    or `sheet`, which names a choice with room.
+    scale ("1:2") but has the same size at any scale. "auto" for both takes the largest scale with room on A3, or else on A2,
+    if it is 1:2 or larger. Else it takes the smallest sheet with room at 1:5 or larger, else the sheet with the largest scale.
+    Raises ParameterError of `scale` or `sheet`, which names a choice with room.
     """
     trial = _Trial(views, fixed, projection)
     scales = _CHOSEN if scale == "auto" else (scale,)

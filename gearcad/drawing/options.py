@@ -206,8 +206,8 @@ class DrawingOptions:
     def of_part(self, part: PartDrawing | None, *, alone: bool) -> DrawingOptions:
         """Return the options of the sheet of one gear: the gear's own values, else those of the design.
 
-        Unless the gear is `alone`, the only one of its design, it does not take number, title and revisions from the design:
-        these belong to the assembly.
+        Unless the gear is `alone`, the only one of its design, it does not take number, title and revisions from the design.
+        These belong to the assembly.
         """
         own = {each.name: getattr(part, each.name) for each in fields(part)} if part is not None else {}
         given = {key: value for key, value in own.items() if value is not None}

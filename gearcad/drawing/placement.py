@@ -228,8 +228,8 @@ _ASIDE = 5.0
 
 
 def balanced(groups: Sequence[Sequence[Box]], across: Sequence[bool], taken: Sequence[Box], free: Box) -> list[Point]:
-    """Return the move (mm) of each group of boxes as one, to the middle of its free room: upwards, and sideways only where
-    `across` is true.
+    """Return the move (mm) of each group of boxes as one, to the middle of its free room. Groups move up or down, and sideways
+    only where `across` is true.
     """
     stood = [list(group) for group in groups]
     for _ in range(_ROUNDS):
@@ -300,8 +300,8 @@ class Room:
     ) -> list[list[Point]] | None:
         """Return the places of the origins of views and blocks, the blocks as a last row; None where there is no room.
 
-        Boxes are relative to the origins of what they hold. Views of a row have their origins at one height; rows follow each
-        other downwards, and their views of number `aligned` (-1 the last) have their origins one below the other.
+        Boxes are relative to the origins of their views. Views of a row have their origins at one height, and rows follow each
+        other downwards. The views of number `aligned` (-1 the last) of all rows have their origins one below the other.
         """
         found = next(self._rows(rows, blocks, aligned, None, self.free.top), None)
         return None if found is None else self._balanced(rows, blocks, found)
@@ -398,7 +398,7 @@ class Room:
         return places
 
     def _clear(self, box: Box, left: float) -> float | None:
-        """Return the least left side (mm), from `left` on, at which a box with its left side at 0 is clear; None if there is
+        """Return the least left side (mm), from `left` on, at which a box with its left side at 0 is clear. None if there is
         none.
         """
         while True:
@@ -423,8 +423,8 @@ class Room:
         return min([air, *(_apart(box, each) for box in boxes for each in self.taken)])
 
     def _blocks(self, blocks: Sequence[Box]) -> list[Point] | None:
-        """Return the places of blocks as loosely as all have room: the larger first, each as low and then as far left as it
-        can be. None without room.
+        """Return the places of blocks as loosely as all have room. The larger ones come first, each as low and then as far
+        left as it can be. None without room.
         """
         for air in _LOOSE:
             found = self._packed(blocks, air)

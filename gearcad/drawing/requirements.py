@@ -94,8 +94,8 @@ def back_parallelism(drawn: DrawnGear, rack: Rack) -> float:
 
 
 def hole_position(diameter: float) -> float:
-    """Return the position tolerance (µm) of bolt holes: 3.5 % of their diameter (mm) in whole 0.05 mm. It is no more than half
-    the clearance of medium holes (ISO 273).
+    """Return the position tolerance (µm) of bolt holes: 3.5 % of their diameter (mm) in whole 0.05 mm, at least 0.025 mm. It
+    is no more than half the clearance of medium holes (ISO 273).
     """
     return max(math.floor(_POSITION * diameter / _STEP + _ROUNDING) * _STEP, _STEP / 2) * 1000
 
@@ -192,8 +192,8 @@ class Requirements:
     def tooth_notes(self, words: Words) -> tuple[str, ...]:
         """Return the notes on facts that have no place in the table.
 
-        These are: fillets may be undercut; the direction in which the halves of a double helical gear are offset; values that
-        follow from the accuracy grade alone.
+        These are undercut fillets, the offset direction of a double helical gear's halves, and values that follow from the
+        accuracy grade alone.
         """
         part, options = self.drawn.gear, self.options
         by_grade = not self.flanks.given or any(
@@ -324,7 +324,7 @@ def _deviations(drawn: DrawnGear, gear: Gear, options: DrawingOptions) -> dict[s
 
 
 def _of_back(drawn: DrawnGear, rack: Rack, options: DrawingOptions) -> dict[str, float | None]:
-    """Return the parallelism (µm) of a rack's tips to its back, as given, else by the grade; and the flatness of the back,
+    """Return the parallelism (µm) of a rack's tips to its back, as given, else by the grade. The flatness of the back (µm) is
     half of it.
     """
     parallelism = options.back_parallelism or back_parallelism(drawn, rack)

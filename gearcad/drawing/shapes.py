@@ -521,8 +521,8 @@ class Measured(Enum):
 class Dimension(Shape):
     """A dimension; its `parts` are its visible lines, arrows and texts.
 
-    A CAD program that redraws it uses the measured points `first` and `second`, a point `line` of the dimension line, and
-    `words` as the text of a CAD dimension ("%%c40 H7 {\\S+0.025^0;}"; "<>" stands for the measured value). `scale` is mm of
+    A CAD program that redraws it uses the measured points `first` and `second`, and a point `line` of the dimension line.
+    `words` is the text of a CAD dimension ("%%c40 H7 {\\S+0.025^0;}"); "<>" stands for the measured value. `scale` is mm of
     paper for a mm of the part, None for the scale of the sheet: details have their own.
     """
 

@@ -137,7 +137,7 @@ class _Measured:
         return tuple(lines)
 
     def _reach(self, start: int, room: float) -> int:
-        """Return the end of the part of the text from `start` on that has room; never before a mark that belongs to the letter
+        """Return the end of the text from `start` on that has room. It is never before a mark that belongs to the letter
         before it.
         """
         end = bisect_right(self.places, self.places[start] + room + 1e-9) - 1

@@ -249,7 +249,7 @@ _FINEST, _STROKES = 0.9, 4
 """Least distance of hatching lines (mm of paper), and how many a narrow area should have at least."""
 
 BEYOND_PITCH = 3.0
-"""How far pitch lines reach beyond the teeth (mm of paper)."""
+"""Length of pitch lines beyond the teeth (mm of paper)."""
 
 
 @dataclass(frozen=True)
@@ -439,12 +439,12 @@ _MOST = 40
 _ROUNDING = 1e-6
 
 _SLANTS = (6.0, -6.0, 12.0, -12.0, 20.0, -20.0)
-"""How far along its side a ring stands from its dot if it can: leaders should be neither level nor upright."""
+"""Distances of a ring from its dot along its side: leaders should be neither level nor upright."""
 
 _SIDES = ((Side.LEFT, Side.ABOVE), (Side.LEFT,), (Side.ABOVE,), (Side.LEFT, Side.RIGHT, Side.ABOVE), (Side.RIGHT,))
 
 _PLACES = ((0.5, 0.5), (0.25, 0.5), (0.75, 0.5), (0.5, 0.75), (0.5, 0.25), (0.1, 0.5), (0.9, 0.5))
-"""Where in the box of an area a dot may be."""
+"""Positions of a dot in the box of an area, over width and height."""
 
 
 def dots(areas: Sequence[Polygon], across: Across) -> tuple[Point, ...]:
@@ -554,7 +554,7 @@ def _drawn_one(number: int, dot: Point, ring: Point) -> Figure:
 
 
 def overall_height(box: Box, value: float, draughting: Draughting, prefix: str = "") -> Iterator[Figure]:
-    """Yield dimensions of the height of a box of outlines on paper, at the right or at the left; the value is in mm of the
+    """Yield dimensions of the height of a box of outlines on paper, at the right, then at the left. The value is in mm of the
     part.
     """
     size = Size(value=value, prefix=prefix, reference=True)
@@ -563,15 +563,15 @@ def overall_height(box: Box, value: float, draughting: Draughting, prefix: str =
 
 
 def overall_width(box: Box, value: float, draughting: Draughting) -> Iterator[Figure]:
-    """Yield dimensions of the width of a box of outlines on paper, below or above; the value is in mm of the part."""
+    """Yield dimensions of the width of a box of outlines on paper, below, then above. The value is in mm of the part."""
     size = Size(value=value, reference=True)
     for side, edge in ((Side.BELOW, box.bottom), (Side.ABOVE, box.top)):
         yield from linear_dimension((box.left, edge), (box.right, edge), side, size, draughting, clear=edge)
 
 
 def distance_size(pair: GearPair | RackPair) -> Size:
-    """Return the size (mm) of the distance from axis to axis as a magnitude, or from a pinion's axis to the reference line of
-    a rack.
+    """Return the size (mm, a magnitude) of the distance from axis to axis, or from a pinion's axis to a rack's reference
+    line.
     """
     if isinstance(pair, RackPair):
         return Size(value=pair.mounting_distance)

@@ -1,7 +1,7 @@
 """Half section and front view of an external gear, without dimensions (ISO 2203, ISO 128-3). Lengths in mm.
 
-ISO 2203 shows a gear as a solid body up to the tip circle, or up to the root circle where it is cut, without teeth. Heights z
-are along the axis.
+ISO 2203 shows a gear as a solid body without teeth, up to the tip circle, or to the root circle where it is cut. Heights z are
+along the axis.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ def overall(gear: Gear) -> tuple[float, float]:
 
 
 def strips(gear: Gear) -> tuple[tuple[float, float], ...]:
-    """Return the ranges of height (mm) that have teeth: two if a gap parts the halves of a double helical gear, else one, also
-    with an apex.
+    """Return the ranges of height (mm) that have teeth: one, also with an apex. A gap between the halves of a double helical
+    gear gives two.
     """
     width, half = gear.face_width, gear.half_width
     return ((0.0, half), (width - half, width)) if gear.double_helix.gap_width else ((0.0, width),)
@@ -251,7 +251,7 @@ def half_section(gear: Gear, along: Along) -> Figure:
 
 
 def chamfer_pen(apart: float) -> Pen | None:
-    """Return the pen for an edge of a chamfer that is so far (mm of paper) from the next edge; None if it is left out."""
+    """Return the pen for an edge of a chamfer at this distance (mm of paper) from the next edge; None if it is left out."""
     if apart < _LEAST_APART:
         return None
     return Pen.OUTLINE if apart >= _THICK_APART else Pen.THIN

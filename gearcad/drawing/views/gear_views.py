@@ -171,13 +171,13 @@ class SectionSizes:
 
 _ALONG_TIP = (0.5, 0.3, 0.7, 0.15, 0.85)
 _ALONG_FACE = (0.75, 0.9, 0.25, 0.5)
-"""Where along an edge a leader may end, over its length."""
+"""Positions of a leader's end along an edge, over its length."""
 
 _STANDING = 18.0
 """Least length of the left face for a symbol on it (mm of paper); else the right face is tried first."""
 
 _EXTENSIONS = (3.0, 12.0, 20.0, 28.0)
-"""How far from the outline a symbol may stand on the reference line."""
+"""Distances of a symbol on the reference line from the outline (mm of paper)."""
 
 
 @dataclass(frozen=True)

@@ -118,9 +118,7 @@ class PairPlaces:
 
     @property
     def shown(self) -> tuple[float, float]:
-        """Range of a rack that is shown (mm, from the pinion's axis to the right): all of it, or for a long one the part
-        beside the pinion.
-        """
+        """Shown range of a rack (mm from the pinion's axis to the right): all of it, or only the part beside the pinion."""
         assert isinstance(self.mate.part, Rack) and isinstance(self.pinion.part, Gear)
         left, right = self.rack_start, self.rack_start + self.mate.part.length
         beside = _BESIDE * self.pinion.part.tip_diameter

@@ -39,7 +39,7 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Span:
-    """The shown range of a rack, seen from the end face at z = face width, x to the right; its middle is at the origin."""
+    """The shown range of a rack, seen from the end face at z = face width, x to the right. Its middle is at the origin."""
 
     rack: Rack
     scale: float
@@ -137,7 +137,7 @@ def _cut(start: Vertex, end: Vertex, low: float, high: float) -> tuple[Vertex, V
 
 
 _BEYOND_PITCH, _BEYOND_BREAK = 3.0, 2.0
-"""How far the reference line, and lines where a view is broken, reach beyond the outline."""
+"""Length of the reference line and of break lines beyond the outline (mm of paper)."""
 
 SECTION = "B"
 """The letter of the end section: A is the datum."""
@@ -264,7 +264,7 @@ def _tooth_directions(span: Span) -> Iterator[Shape]:
 
 
 _EXTENSIONS = (4.0, 12.0, 20.0, 28.0)
-"""How far from the outline a symbol may stand on the reference line (mm of paper)."""
+"""Distances of a symbol on the reference line from the outline (mm of paper)."""
 
 _PAST = 2.0
 """Length of the extended line past the symbol (mm of paper)."""
@@ -274,7 +274,7 @@ _CUT_OFF = (2.0, 10.0, 18.0, 27.0, 37.0, 50.0, 65.0, 80.0)
 
 _ALONG_BACK = (0.1, 0.25, 0.4, 0.55, 0.7, 0.05)
 _ALONG_TIP = (0.75, 0.9, 0.25, 0.1)
-"""Where along an edge a leader may end, over its length."""
+"""Positions of a leader's end along an edge, over its length."""
 
 _CUT_AT = (0.6, 0.75, 0.45, 0.9, 0.3, 0.97)
 """Positions of the cutting line along a shown part, over its length."""

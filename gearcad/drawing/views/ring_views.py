@@ -217,7 +217,7 @@ def _spacing(edge: list[Point]) -> float:
 
 
 _FACE_BEYOND_HOLE = 2.0
-"""How far the centre line of a hole reaches beyond it (mm of paper)."""
+"""Length of a hole's centre line beyond the hole (mm of paper)."""
 
 _SIDES = 90
 """Corners of the polygon along which an open rim is drawn by hand."""
@@ -261,7 +261,7 @@ def _centre_lines(ring: Meridian) -> Figure:
 
 
 _ALONG = (0.5, 0.3, 0.7, 0.15, 0.85)
-"""Where along an edge a leader may end, over its length."""
+"""Positions of a leader's end along an edge, over its length."""
 
 _EXTENSIONS = (5.0, 12.0, 20.0, 28.0, 38.0)
 """Distances of a mark on an extended line from the outline (mm of paper)."""

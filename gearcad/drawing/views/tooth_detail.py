@@ -1,8 +1,8 @@
 """Enlarged detail of a tooth: outline, circles, tooth thickness, tip chamfer (ISO 128-3). Lengths of the part and of paper in
 mm.
 
-The outline is about the axis of a gear, or the middle of a rack's tooth on its reference line. A place has a height - a
-radius, or a height over a rack's reference line - and a distance to the right of the middle of the tooth: an angle in radians,
+The outline is about the axis of a gear, or the middle of a rack's tooth on its reference line. A place has a height: a radius,
+or a height over a rack's reference line. It also has a distance to the right of the middle of the tooth: an angle in radians,
 or a length. The reference line is at height 0 of the paper.
 """
 
@@ -467,7 +467,7 @@ _BESIDE = (60.0, -60.0, -90.0, 90.0, 120.0, -120.0, 0.0, 180.0)
 def detail_mark(drawn: DrawnGear, view: Figure, scale: float, letter: str = DETAIL) -> Iterator[Figure]:
     """Yield the ring and letter that mark the detail's place on a `view`, in each possible place.
 
-    The view is along the axis, with the axis at the origin; for a rack it is the front view, with its reference line at height
+    The view is along the axis, with the axis at the origin. For a rack it is the front view, with its reference line at height
     0.
     """
     gear = drawn.gear
