@@ -27,21 +27,21 @@ __all__ = ["engaged", "pair_notices"]
 
 
 _FIRST_GUESS = 15.0
-"""Mean stiffness per face width (N/(mm·µm)) with which static forces are first looked for."""
+"""Mean stiffness per face width (N/(mm·µm)) with which the iteration of the static forces begins."""
 
 _SAME = 1e-7
-"""Relative change of the static forces from which on they stand."""
+"""Relative change of the static forces below which they count as settled."""
 
 _MOST_ROUNDS = 30
 
 _NO_FORCE = 1e-9
-"""Of the greatest mesh force: none."""
+"""Part of the greatest mesh force below which a mesh carries no force."""
 
 _ROUNDING = 1e-9
-"""Relative, of equations of a train."""
+"""Relative rounding error of the equations of a train."""
 
 _OTHER = 1e-3
-"""Relative difference from which on a load is another."""
+"""Relative difference above which two loads count as different."""
 
 
 def engaged(train: Train, options: DynamicsOptions | None = None) -> Train:

@@ -20,11 +20,11 @@ from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.trains.train import good_up_to
 
 SHIFT = 0.025
-"""Relative: so far a resonance may be off in speed. It is less than a speed is known or held."""
+"""Relative difference in speed that a resonance may have: less than the accuracy to which a speed is known or held."""
 
 
 _SAME = 1e-9
-"""Relative: speeds that are one."""
+"""Relative difference below which two speeds count as equal."""
 
 
 class CurveName(NamedTuple):
@@ -45,7 +45,7 @@ class Reason(Enum):
 
 
 OUTSIDE = (Reason.BELOW, Reason.BEYOND)
-"""Those of speeds that are in no chart."""
+"""Reasons of speeds that lie outside the charts."""
 
 _DOUBTS = {
     "long-period": "resonances between the speeds are not looked for",
@@ -53,7 +53,7 @@ _DOUBTS = {
     "hardly-damped": "resonances of modes that are hardly damped are higher than shown",
     "harmonics-left-out": "at some speeds more harmonics would be needed",
 }
-"""What notices of a chart mean for who holds it against another one."""
+"""Doubts that the notices of a chart, by their code, raise about a comparison."""
 
 
 class Doubt(NamedTuple):

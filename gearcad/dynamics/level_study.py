@@ -20,13 +20,13 @@ from gearcad.dynamics.trains.train_modes import natural_modes
 from gearcad.dynamics.variant_comparison import joined_peaks, peaks_of
 
 _WITHIN = 200
-"""Speeds of a chart that an operating range must hold, at least."""
+"""Least number of speeds of a chart within an operating range."""
 
 _SAME = 1e-9
-"""Relative: speeds that are one."""
+"""Relative difference below which two speeds count as equal."""
 
 _EXPLAINED = 3
-"""Missed resonances of a model of which it is said what decides: the highest."""
+"""Number of missed resonances of a model, the highest, for which the deciding mode is given."""
 
 
 def study_levels(

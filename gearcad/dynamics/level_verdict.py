@@ -27,16 +27,16 @@ from gearcad.dynamics.trains.train_modes import NaturalModes, natural_modes
 from gearcad.dynamics.variant_comparison import SideBySide
 
 _NAMED, _OF_GREATEST = 0.05, 1 / 3
-"""Shares that are named: from a twentieth on, and from a third of the greatest; the greatest always."""
+"""Shares that are named: those of at least a twentieth and of a third of the greatest share; the greatest always."""
 
 _HARMONICS = 16
-"""Of the tooth frequencies that are asked what they shake."""
+"""Number of harmonics of the tooth frequencies that are examined as excitation."""
 
 _HARDLY = 0.02
-"""Of the greatest load of a mode: those with less do not decide."""
+"""Part of the greatest load of a mode below which a mode does not decide."""
 
 _RIGID = 1e-9
-"""Of the greatest square of a natural frequency: what is below turns as a whole."""
+"""Part of the greatest square of a natural frequency below which a mode turns as a whole."""
 
 
 class Share(NamedTuple):
@@ -232,7 +232,7 @@ def _shafts_between(train: Train, own: Set[str]) -> dict[str, tuple[str, ...]]:
 
 
 _SAID = 2
-"""Modes of which a sentence says what they have where; tables have all of them."""
+"""Number of modes that a sentence describes; tables have all of them."""
 
 
 class LevelStatus(Enum):
@@ -469,7 +469,7 @@ class LevelStudy(SideBySide):
 
     @property
     def sentence(self) -> str:
-        """Which model is enough, with its numbers, and what decides, in one text."""
+        """Text of all sentences: which model is enough, with its numbers, and what decides."""
         return " ".join(self.sentences)
 
     @property

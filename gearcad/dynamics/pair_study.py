@@ -31,10 +31,10 @@ from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 
 _HIGHEST = 2.2
-"""Spectra go up to so many times the highest tooth frequency, or natural frequency."""
+"""Highest frequency of the spectra over the highest tooth frequency or natural frequency."""
 
 _SPAN = 3.0
-"""By default a Campbell study goes up to so many times the speed of the main resonance."""
+"""Highest speed of a Campbell study over the speed of the main resonance, by default."""
 
 
 def study_pair(

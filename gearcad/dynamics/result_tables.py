@@ -16,16 +16,16 @@ from gearcad.dynamics.trains.train_modes import ComponentModes, NaturalModes
 from gearcad.mesh_cycle import MeshCycle
 
 Columns = Mapping[str, Floats | Bools | Wholes | Sequence[Any]]
-"""Of a table, in order, all of one length; None and nan are cells without a value."""
+"""Columns of a table, in order, all of one length; None and nan are cells without a value."""
 
 Tables = dict[str, Columns]
-"""Of a result, by name."""
+"""Tables of a result, by name."""
 
 _PEAKS = 6
-"""Of a spectrum that a line of a Campbell study has."""
+"""Number of peaks of a spectrum in a row of a Campbell study."""
 
 _MOST_ROWS = 20_000
-"""Of a motion over time: a spreadsheet is slow with more, and the .npz file has them all."""
+"""Greatest number of rows of a motion over time: a spreadsheet is slow with more, and the .npz file has them all."""
 
 
 def named_columns(quantity: str, names: Sequence[str], values: Floats, unit: str = "") -> Columns:

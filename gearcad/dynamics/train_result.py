@@ -221,7 +221,7 @@ class TrainStudy(Pictured):
 
     @property
     def charts(self) -> Charts:
-        """Both charts in the form from which findings are made."""
+        """The charts of both directions, from which findings are made."""
         ratios = tuple(float(mesh.frequency_ratio) for mesh in self.excitation.meshes)
         return Charts(self.speeds, self.up, self.down, ratios)
 
@@ -304,7 +304,7 @@ class TrainStudy(Pictured):
 
     @property
     def course_lasts(self) -> bool:
-        """Whether the motion at the speed of the chart next to that of the course is stable."""
+        """Return whether the motion at the speed of the chart next to that of the course is stable."""
         return bool(self.up.stable[int(np.abs(self.speeds - self.course.speed).argmin())])
 
     # ------------------------------------------------------------------ documents

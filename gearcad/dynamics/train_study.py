@@ -34,24 +34,24 @@ from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 
 _BEYOND = 1.5
-"""How far beyond the last resonance a chart goes on."""
+"""Highest speed of a chart over the speed of the last resonance."""
 
 _SHARE = 0.02
-"""Of a mode's potential energy that a mesh must hold for the mode to be a resonance of it."""
+"""Share of a mode's potential energy that a mesh must hold for the mode to be a resonance of it."""
 
 _DRAWN, _DRAWN_OF_MANY = 1024, 256
 """Samples of a course over a tooth, at least, and over each of many; 8 of the quickest vibration that could be felt."""
 
 _LEAST_LINE, _MOST_LINES = 1e-4, 512
-"""Of the greatest line of a spectrum: what a line must have to be listed; and so many at most."""
+"""Part of the greatest line of a spectrum that a line must have to be listed, and greatest number of lines."""
 _LINES = 4
 """Natural frequencies that a Campbell diagram has."""
 
 _QUICK, _CHART_SECONDS, _MEMORY = "potential-energy", 10.0, 3e8
-"""To say beforehand what a study takes: the method of its pairs, CPU seconds of all but runs in time, and bytes."""
+"""Values for the estimate of a study: the method of its pairs, CPU seconds of all but runs in time, and bytes."""
 
 _LOWER, _RUN_UP = 3.0, 60
-"""Where flanks part at a speed beyond the chart, the run up to it begins at the speed over the first, and has so many steps."""
+"""If flanks part at a speed beyond the chart: that speed over the first of the run up to it, and the number of steps."""
 
 
 def study_modes(train: Train, options: DynamicsOptions | None = None) -> ModalStudy:
@@ -292,7 +292,7 @@ def _unresolved(most: int) -> Notice:
 
 
 def _pull(response: PeriodicResponse) -> bool:
-    """Whether flanks pull in a linear motion."""
+    """Return whether flanks pull in a linear motion."""
     return bool((response.senses * response.spring_forces()).min() <= 0)
 
 

@@ -20,14 +20,14 @@ from gearcad.dynamics.trains.train import Train
 from gearcad.dynamics.trains.train_modes import NaturalModes
 
 _PROMINENCE = 0.005
-"""How far K_v must fall on both sides of a maximum that counts."""
+"""Least fall of K_v on both sides of a maximum that counts."""
 
 _REACH = 0.1
-"""Relative: resonances farther apart in speed are not the same."""
+"""Relative difference in speed above which two resonances are not the same."""
 
 
 _ALIKE = 0.25
-"""Of modes that are taken for the same: the square of the cosine between their shapes, by the energy of the motion."""
+"""Least square of the cosine between the shapes of modes, by kinetic energy, that are taken for the same."""
 
 
 class Peak(NamedTuple):

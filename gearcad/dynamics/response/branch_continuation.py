@@ -146,10 +146,10 @@ def real_course(approach: Complexes) -> Complexes:
 
 
 _MOST_POINTS = 4000
-"""Of a branch: some hundred are usual; one that runs in circles never ends."""
+"""Greatest number of points of a branch: some hundred are usual; a branch that runs in circles never ends."""
 
 _SHARP = 1e-9
-"""Relative, of the frequency at which a branch turns."""
+"""Relative accuracy of the frequency at which a branch turns."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from gearcad.dynamics.trains.steady_response import Direction
 from gearcad.dynamics.trains.train_modes import NaturalModes
 
 _NEAR = 0.04
-"""How far a resonance may be from a natural frequency whose name it gets: damping and parting flanks move it."""
+"""Relative distance from a natural frequency within which a resonance gets its name: damping and parting flanks move it."""
 
 _NAMED = 8
 """Harmonics of a tooth frequency that give a resonance its name: beyond, each lies near the next."""
@@ -208,13 +208,13 @@ def mode_speeds(modes: NaturalModes, teeth: int, others: Sequence[float] = ()) -
 
 
 _ACROSS = "travel across the line of action"
-"""Of gears whose bearings are alike in all directions there is none."""
+"""Quantity that gears do not have if their bearings are alike in all directions."""
 
 
 _MICROMETRES = "µm"
 
 _NOISE = 1e-9
-"""Of the greatest amplitude: travel across that is no more comes from rounding."""
+"""Part of the greatest amplitude below which travel across the line of action comes from rounding."""
 
 
 class GreatestAmplitude(NamedTuple):

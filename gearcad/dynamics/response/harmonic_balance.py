@@ -76,19 +76,19 @@ def _least_squares(hessenberg: Floats, norms: Floats) -> tuple[Floats, Floats]:
 
 
 _TOLERANCE = 1e-6
-"""Of the balance, root mean square over the period, in static deflections, where none is given."""
+"""Default tolerance of the balance, root mean square over the period, in static deflections."""
 
 _MOST_STEPS = 250
-"""Of GMRES: 70 are usual where a thousand well damped vibrations fit between two teeth."""
+"""Greatest number of steps of GMRES: 70 are usual where a thousand well damped vibrations fit between two teeth."""
 
 _MOST_NEWTON, _MOST_RESTARTS = 12, 2
 """Steps of Newton's method where flanks part; where they do not, one is exact, and others begin GMRES anew."""
 
 _ASTRAY = 0.1
-"""Of the static deflection: what more harmonics may change in a motion; beyond that another one was found."""
+"""Part of the static deflection by which more harmonics may change a motion; beyond it another motion was found."""
 
 _NUMBERS = 12_000_000
-"""That one block of speeds may need at a time."""
+"""Greatest count of numbers in memory for one block of speeds."""
 
 
 @dataclass(frozen=True, eq=False)

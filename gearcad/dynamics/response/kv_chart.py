@@ -23,8 +23,10 @@ _BLOCK = 2_000_000
 
 @dataclass(frozen=True, eq=False)
 class Extremes:
-    """At each speed (s,): `most` and `least` (s, m) are forces (N) between the flanks that carry, of their springs, and
-    `damped` (s, m) the greatest with those of the dampers; `torques` (s, n) the greatest in the sense of the static ones (N·m).
+    """Extremes at each speed (s,): `most` and `least` (s, m) are forces (N) of the springs between the flanks that carry.
+
+    `damped` (s, m) are the greatest forces with those of the dampers; `torques` (s, n) the greatest in the sense of the static
+    ones (N·m).
 
     Greatest and least are `approaches` (s, 2, m) of the flanks that carry (m), `turns` (s, 2, i) of the inertias (rad),
     `travels` (s, 2, t) of the axes (m) and `bearings` (s, 2, t) of the forces on their bearings (N); `resultants` (s, g) are
@@ -100,7 +102,7 @@ _ARCSEC = 3600 * 180 / np.pi
 _MICRO = 1e-6
 
 _FREE = 1e-9
-"""Of the greatest: squares of natural frequencies that are 0 but for rounding, and turns in such modes."""
+"""Part of the greatest below which squares of natural frequencies, and turns in such modes, are 0 but for rounding."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -239,7 +241,7 @@ def columns(names: tuple[str, ...], values: Floats) -> dict[str, list[float | No
 
 
 _FLOOR = 1e-3
-"""Of the greatest line of a mesh: those that are below at all speeds are left away."""
+"""Part of the greatest line of a mesh: lines below it at all speeds are left out."""
 
 _MOST = 128
 """Lines that are kept: with 1000 speeds a megabyte a mesh."""
@@ -285,7 +287,7 @@ def lines_that_matter(sizes: Floats, floor: float, most: int) -> Indices:
 
 
 _PROMINENCE = 0.005
-"""How far K_v must fall on both sides of a peak that counts as a resonance."""
+"""Least fall of K_v on both sides of a peak that counts as a resonance."""
 
 
 class ForceDefinition(Enum):

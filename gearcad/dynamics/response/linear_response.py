@@ -42,7 +42,7 @@ _LONGEST_STEP = 0.5
 """Greatest turn (rad) of the fastest mode in such a step: longer ones would meet resonances of their own."""
 
 _BEYOND = 1e100
-"""What grows so much in a period is unstable; more would overflow."""
+"""Growth in a period beyond which a motion is unstable; more would overflow."""
 
 _SERIES, _ORDERS = 0.5, 13
 """Size of A t in Taylor's series of exp(A t), and its orders: good to rounding."""

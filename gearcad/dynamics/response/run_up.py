@@ -26,7 +26,9 @@ _RUNG = 0.004
 """Relative distance of the speeds through which a run goes: a fifth of a resonance's width at a damping ratio of 0.01."""
 
 _LOWEST = 1 / 30
-"""Of the highest natural frequency of the meshes: runs begin there, so that no first speed of a chart decides their values."""
+"""Part of the highest natural frequency of the meshes at which runs begin, so that no first speed of a chart decides their
+values.
+"""
 
 _PER_TOOTH, _PER_WAVE, _PHASE = 256, 80, 9.1
 """Steps over a tooth, and over a vibration: with the third over the root of the damping ratio a frequency is off by a fiftieth

@@ -111,10 +111,10 @@ def fixed_harmonics(period: int, harmonics: int) -> Notice:
 
 
 MOST_ROUNDS = 12
-"""Of speeds between: each quarters the intervals about a maximum."""
+"""Greatest number of rounds of speeds between: each quarters the intervals about a maximum."""
 
 _LEAST_HARMONICS = 12
-"""Of motions that are followed."""
+"""Least number of harmonics of motions that are followed."""
 
 _MOST_UNKNOWNS = 80
 """Most harmonics, of all meshes together, of motions that are followed: the errors of 18 teeth would take minutes."""
@@ -123,7 +123,10 @@ _MARGIN = 0.9
 """A branch begins at so much of the lowest frequency at which flanks part, where they do not yet."""
 
 _LOWER = 0.75
-"""Where that does not do, or flanks are still parted at its end, so much of the frequency is tried; the end, over as much."""
+"""Part of the frequency that is tried next if a branch cannot be followed from there; the end goes up by the same ratio.
+
+The end goes up if flanks are still parted at it.
+"""
 
 _TRACED, _TOLD = 0.4, 0.8
 """Shares of the work: until the branch is followed, and until the loads of its motions are known. No more than a guess."""

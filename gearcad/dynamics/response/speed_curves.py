@@ -21,13 +21,13 @@ from gearcad.dynamics.trains.shaft_lines import System
 from gearcad.dynamics.trains.steady_response import Driven, PeriodicResponse, StaticState, told_by
 
 LEAST_RATIO = 5e-4
-"""Damping ratios below this are taken for this: narrower resonances are not looked for."""
+"""Least damping ratio of the search: modes with less are taken to have this; narrower resonances are not looked for."""
 
 FELT = 0.002
-"""Of the load at rest: vibrations below that are not looked for."""
+"""Part of the load at rest below which vibrations are not looked for."""
 
 _SAMPLES = 4096
-"""Over a tooth, of the quasi-static forces."""
+"""Number of samples of the quasi-static forces over a tooth."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ class Resonances:
     mesh: Floats
     told: Floats
     sharp: Bools
-    """Which of them (r,) are damped so little that they are taken to have more."""
+    """Marks (r,) of modes that are damped so little that they are taken to have more damping."""
 
 
 def resonances(system: System, static: StaticState, references: Floats) -> Resonances:
@@ -92,13 +92,13 @@ def quasi_static_forces(system: System, excitation: Excitation, static: StaticSt
 
 
 _ABOVE = 0.002
-"""Of a maximum: how far a parabola through three points may rise above them."""
+"""Part of a maximum by which a parabola through three points may rise above them."""
 
 _FALL = 0.03
-"""Of a maximum: what its neighbours may lie below it, so that a parabola says something."""
+"""Part of a maximum by which its neighbours may lie below it, so that a parabola says something."""
 
 _BEND = 0.02
-"""Of a value: how far it may lie off the straight line between its neighbours."""
+"""Part of a value by which it may lie off the straight line between its neighbours."""
 
 NARROWEST = 1e-4
 """Relative: intervals below that are not divided. Resonances with a damping ratio of 0.0005 are ten such intervals wide."""
@@ -142,16 +142,16 @@ def _bends(steps: Floats, curves: Floats) -> Bools:
 
 
 MOST_ORDERS = 2048
-"""Of the common period that are brought into balance."""
+"""Greatest number of orders of the common period that are brought into balance."""
 
 _LEAST_HARMONICS, _LEAST_PARTING = 8, 32
-"""Of each tooth frequency, and of one where flanks part: when they do must be known in time."""
+"""Least harmonics of each tooth frequency, and of one where flanks part, because the time of parting must be resolved."""
 
 _FEW = 6
 """Harmonics where the common period is too long to have all its orders."""
 
 LEFT_OUT = 0.01
-"""Of a load: what harmonics that are left out may carry; there are twice as many where it may be half of that."""
+"""Part of a load that harmonics left out may carry; there are twice as many harmonics where it may be half of that."""
 
 _REMAINDER = (0.0, 0.243, 0.352, 0.5, 1.0), (0.0, 1 / 7, 1 / 3, 1.0, 10.0)
 """Of waves that fall as a power of the order: those of orders 1.5 to 2 over those of 1 to 1.5, and what follows from 2 on over
@@ -216,7 +216,7 @@ class SpeedCurves(Driven):
 
     @cached_property
     def resolvable(self) -> bool:
-        """Whether the common period is short enough to have all its orders."""
+        """Return whether the common period is short enough to have all its orders."""
         return _LEAST_HARMONICS * max(self.excitation.orders) <= MOST_ORDERS
 
     @cached_property

@@ -88,10 +88,10 @@ _HIGHEST = 2.2
 """Spectra go up to so many times the highest tooth frequency, or natural frequency."""
 
 _MOST_NUMBERS = 40_000_000
-"""Of the courses at one speed."""
+"""Greatest count of numbers of the courses at one speed."""
 
 _MOST_STEPS = 4_000_000_000
-"""At all speeds: some quarter of an hour on two cores."""
+"""Greatest number of steps at all speeds: some quarter of an hour on two cores."""
 
 _STEP, _TERM, _DISTURBED = 40e-9, 11e-9, 1.6
 """CPU seconds of a step: for itself and for each mode of each mesh; factor for one whose small disturbance is followed too."""

@@ -88,7 +88,7 @@ PER_TOOTH, PER_WAVE = 256, 80
 3e-4, as one step takes w h for w h (1 - (w h)²/24)."""
 
 _SHARE = 0.02
-"""Of a mode's energy that the meshes must have for their forces to shake it: modes without are exact by any steps."""
+"""Share of a mode's energy that the meshes must have for their forces to excite it: modes without are exact by any steps."""
 
 _SETTLED = 7.0
 """Times of decay after which a thousandth is left."""
@@ -126,18 +126,18 @@ def _shaken(system: System) -> tuple[Floats, Floats]:
 
 
 CELLS = 4096
-"""Of even width that a table is cut into: of a tooth, or of the way of one tooth through the mesh."""
+"""Number of cells of even width in a table: of a tooth, or of the way of one tooth through the mesh."""
 
 _PER_TOOTH = 1024
 """Samples of an error over a tooth: between them it runs straight."""
 
 _MOST_SAMPLES = 4_000_000
-"""Of an error that comes again after thousands of teeth only."""
+"""Greatest number of samples of an error that comes again after thousands of teeth only."""
 
 _MOST_TEETH = 10**9
 
 _JUMP = 1e-6
-"""Of the greatest value: less is the slope between the two sides of one place."""
+"""Part of the greatest value above which a change at one place is a jump; less is the slope between its two sides."""
 
 _MICRO = 1e-6
 
@@ -309,10 +309,10 @@ def _long_error(mesh: MeshExcitation, sense: float) -> tuple[Floats, int]:
 
 
 _NO_SQUARE = 1e-11
-"""Of the greatest square of a natural frequency: rounding."""
+"""Part of the greatest square of a natural frequency below which a square is rounding."""
 
 _CHUNK = 2_000_000
-"""Steps between two looks at whether anybody wants to stop."""
+"""Number of steps between two reports of progress, at which a run can be stopped."""
 
 _LONGEST = 1e6
 """Seconds of a step, where nothing turns."""

@@ -6,8 +6,8 @@ springs, one for each mesh. So the motion is good to second order in the step. H
 shorter steps; but a vibration on the springs of the teeth must have two steps at least. Without damping it then neither grows
 nor fades: one step is a matrix of determinant 1.
 
-What jumps - stiffness where a pair of teeth comes or goes, torque, speed - is taken as its mean from half a step before to half
-a step behind, by tables of integrals: no impulse is lost or counted twice, wherever in the step the jump lies.
+Stiffness where a pair of teeth comes or goes, torque and speed may jump. Each is taken as its mean from half a step before to
+half a step behind, by tables of integrals: no impulse is lost or counted twice, wherever in the step the jump lies.
 
 Compiled by numba: import this module inside functions only. All of it is in one file, because numba looks only at the file of a
 function to see whether the code that it keeps on disk is still good, not at those of the functions it calls. Loops instead of
@@ -37,7 +37,7 @@ _ALIKE = 1e-12
 """Relative difference of forces that is rounding."""
 
 _TERMS = 40
-"""Of series whose arguments are at most 1: a double has room for half of them."""
+"""Number of terms of series whose arguments are at most 1: a double has room for half of them."""
 
 _APART = 16
 """Steps after which the size of a disturbance is looked at."""
@@ -72,16 +72,21 @@ class Model(NamedTuple):
 
 
 _DAMPING, _BACKLASH, _OPENING = 0, 1, 2
-"""Of the damper (N·s/m); clearance (m, nan: bonded); 1 where gaps are of flanks that stand apart on both sides, else 0."""
+"""Columns of `marks`: damping of the damper (N·s/m); clearance (m, nan: bonded); and opening.
+
+Opening is 1 where gaps are of flanks that stand apart on both sides, else 0.
+"""
 
 _ORDER, _LEAD, _FIRST, _LAST = 3, 4, 5, 6
-"""Teeth in the common period, base pitches by which they are early, and between which places they have springs."""
+"""Columns of `marks`: teeth in the common period, base pitches by which they are early, first and last place with springs."""
 
 _MIDDLE, _TOOTH_START, _TOOTH_COUNT = 7, 8, 9
-"""The place at which the slope of a tooth adds nothing; where the teeth of this mesh begin, and how many there are."""
+"""Columns of `marks`: the place at which the slope of a tooth adds nothing, where teeth of this mesh begin,
+and their number.
+"""
 
 _ERROR_START, _ERROR_COUNT, _ERROR_TEETH = 10, 11, 12
-"""Where samples of the error begin, how many there are, and over how many teeth."""
+"""Columns of `marks`: where samples of the error begin, how many there are, and over how many teeth."""
 
 
 class CourseTables(NamedTuple):
@@ -93,7 +98,7 @@ class CourseTables(NamedTuple):
 
 
 class State(NamedTuple):
-    """Where a run stands, changed in place: coordinates z, v (n,), forces (m,) on the meshes; dz, dv, df of a disturbance.
+    """State of a run, changed in place: coordinates z, v (n,), forces (m,) on the meshes; dz, dv, df of a disturbance.
 
     `growth` is the logarithm of its size, the least so far, and the most by which it grew between any two times.
     """
@@ -108,7 +113,7 @@ class State(NamedTuple):
 
 
 class Records(NamedTuple):
-    """What a run writes down: at every `stride`-th step, and of windows of steps that end before `ends` (w,).
+    """Records of a run: at every `stride`-th step, and of windows of steps that end before `ends` (w,).
 
     `approach`, `spring`, `total` (k, m) are y, the force of the springs and with it that of the damper; `sums`, `rates` (k, r)
     the rows of the model and their rates. Of each window: `crests` (w, m, 3) are the most and least of the spring's force and

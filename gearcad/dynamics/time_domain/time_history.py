@@ -64,7 +64,7 @@ class TimeHistory:
 
     @property
     def chaotic(self) -> bool:
-        """Whether some stretch of the motion is so sensitive that only its statistics mean anything."""
+        """Return whether some stretch of the motion is so sensitive that only its statistics mean anything."""
         return self.digits_lost > CHAOTIC_DIGITS
 
     @property

@@ -19,7 +19,7 @@ from gearcad.dynamics.trains.steady_response import static_state
 from gearcad.dynamics.trains.train import Train, parts_of
 
 _NOTHING = 1e-9
-"""Of the greatest power: rounding."""
+"""Part of the greatest power below which a power is rounding."""
 
 
 class Acceleration(NamedTuple):
@@ -62,19 +62,19 @@ def per_common_period(teeth: int, order: int) -> float:
 
 
 _MOST_STEPS = 400_000_000
-"""Some minutes."""
+"""Greatest number of steps: some minutes."""
 
 _MOST_NUMBERS = 60_000_000
-"""Of all courses together: half a gigabyte."""
+"""Greatest count of numbers of all courses together: half a gigabyte."""
 
 _SAMPLES, _MOST_SAMPLES = 16, 200_000
-"""Of a tooth, and of a course where nobody says how many."""
+"""Number of samples of a tooth, and greatest number of samples of a course without `sampling`."""
 
 _WINDOWS, _MOST_WINDOWS = 100, 20_000
 """Stretches that a run is cut into at least, and at most: several teeth are one then."""
 
 _NO_LOAD = 1e-9
-"""Of the greatest torque at rest: what is less is none."""
+"""Part of the greatest torque at rest below which a shaft carries no torque."""
 
 _SETTLING_TEETH = 60
 """Tooth periods for which a run settles at the most, beyond its own duration."""
