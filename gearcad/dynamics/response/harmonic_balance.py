@@ -214,7 +214,7 @@ class Resolution(Driven):
         return Motions(omega, self.orders, approach, forces, flexible, solved)
 
     def _forces(self, own: Complexes, omega: Floats) -> tuple[Complexes, Floats]:
-        """Return K y - N(y) + c e' (s, 2q - 1, m) at the mean system, and the slopes (..., t, m) of the tooth forces in N."""
+        """Return K y - N(y) + c e' (s, 2q - 1, m) at the mean system, in N, and the slopes (..., t, m) of the tooth forces."""
         course = self._course(own)
         slopes = self.stiffness
         carried = self.stiffness * course - self.driving

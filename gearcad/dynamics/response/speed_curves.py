@@ -324,7 +324,10 @@ class SpeedCurves(Driven):
         )
 
     def _left_out(self, motions: Motions) -> Floats:
-        """Return waves (s,) of orders beyond those known, all crests at once, over the greatest wave or the load at rest."""
+        """Return a bound (s,) of what is left out, over the greatest wave or the load at rest.
+
+        The bound is that of the waves of orders beyond those known, all crests at once.
+        """
         others = motions.flexible.others[:, :, self.system.torque_outputs]
         at_rest = (np.abs(self.system.stiffness * self.static.approach) / self._stiffest, self.references[0])
         torques = np.einsum("shij,shj->shi", others, motions.forces)

@@ -41,9 +41,9 @@ def campbell(
     start: Start | None = None,
     counted: Callable[[int, int], None] = lambda _done, _count: None,
 ) -> CampbellStudy:
-    """Return the motion at each speed (rpm, rising, not negative) from the same start, on all cores; each speed by itself.
+    """Return the Campbell study of a model: the motion at each speed (rpm, rising, not negative) from the same start.
 
-    `counted` receives how many speeds are done, and of how many.
+    Each speed runs by itself, on all cores. `counted` receives how many speeds are done, and of how many.
     """
     checked = _checked_speeds(np.atleast_1d(np.asarray(speeds, float)).tolist())
     checked_samples(duration, sampling)

@@ -324,9 +324,10 @@ def _disturbed(before: Spring, after: Spring, row: Floats, y: float, v: float, d
 def run(
     motion: Motion, drift: float, start: tuple[float, float, float], step: float, counted: float, approach: Floats, rate: Floats
 ) -> MotionOutcome:
-    """Fill in samples of y (m) and y' (m/s) every `step` seconds, from the start (u - share y, y, y') on; V = `drift` in m/s.
+    """Fill in samples of y (m) and y' (m/s) every `step` seconds, and return the outcome of the run.
 
-    Time without contact and the growth of a disturbance (dy, dv) are counted from `counted` seconds to the end.
+    The run begins at the start (u - share y, y, y'), with V = `drift` in m/s. Time without contact and the growth of a
+    disturbance (dy, dv) are counted from `counted` seconds to the end.
     """
     travel, y, v = start
     t, end, number, events = 0.0, step * approach.size, 0, 0

@@ -164,9 +164,10 @@ def _series(square: float, damping: float, z: float, v: float, force: float, ram
 
 @compiled
 def _unit_step(square: float, damping: float) -> tuple[float, float, float, float, float, float]:
-    """Return (zz, zv, vz, vv, S, R) over a time of 1; S and R are what a force of 1, and one that rises to 1, leave of z.
+    """Return (zz, zv, vz, vv, S, R) over a time of 1.
 
-    Their rates there are zv and S: a response to the integral of a force is the integral of the response.
+    S and R are what a force of 1, and one that rises to 1, leave of z. Their rates there are zv and S: a response to the
+    integral of a force is the integral of the response.
     """
     if square <= 1.0 and damping <= 1.0:
         zz, vz = _series(square, damping, 1.0, 0.0, 0.0, 0.0)
@@ -198,7 +199,10 @@ def _unit_step(square: float, damping: float) -> tuple[float, float, float, floa
 
 @compiled
 def propagators(squares: Floats, damping: Floats, h: float) -> Floats:
-    """Return (n, 8) zz, zv, vz, vv over a step h, then what the force at its beginning and at its end leave of z, and of v."""
+    """Return the propagators (n, 8) over a step h: zz, zv, vz, vv, and the effect of the force.
+
+    The effect is what the force at the beginning and at the end of the step leave of z, and then of v.
+    """
     result = np.empty((squares.size, 8))
     for i in range(squares.size):
         zz, zv, vz, vv, s, r = _unit_step(squares[i] * h * h, damping[i] * h)
@@ -497,7 +501,7 @@ def _moved(
     mesh: Floats, steps: Floats, z: Floats, v: Floats, push: Floats, load: Floats, driven: Floats, factor: float, faster: float,
     still: bool, y: Floats, rates: Floats
 ) -> None:  # fmt: skip
-    """Set the coordinates at the end of a step without the forces of the meshes there, the approaches and their rates.
+    """Set the coordinates at the end of a step without the forces of the meshes there, and the approaches and their rates.
 
     If the step is `still`, the coordinates remain as they are.
     """
@@ -518,7 +522,7 @@ def _moved(
 
 @inlined
 def _pressed(mesh: Floats, steps: Floats, z: Floats, v: Floats, push: Floats, forces: Floats, still: bool) -> None:
-    """Add the forces of the meshes to the coordinates, and to what pushes them into the next step."""
+    """Apply the forces of the meshes to the coordinates, and to what pushes them into the next step."""
     n, m = mesh.shape
     for i in range(n):
         total = 0.0
@@ -556,10 +560,10 @@ def _written(records: Records, number: int, rows: Floats, found: Floats, y: Floa
 
 @compiled
 def run(model: Model, course: CourseTables, h: float, begin: int, count: int, state: State, records: Records) -> int:
-    """Run steps `begin` + 1 to `begin` + `count` of h seconds; the first also writes down what is before it if that is step 0.
+    """Run steps `begin` + 1 to `begin` + `count` of h seconds, and return how many were made.
 
-    Returns how many steps were made before the forces of one could not be found, or more than a base pitch passed in one:
-    `count` if all could.
+    These are `count` unless the forces of a step could not be found, or more than a base pitch passed in one. The first step
+    also writes down what is before it if that is step 0.
     """
     # Arrays by themselves: to take one out of a tuple costs as much as to use it. And what else could be functions of their own
     # stands here: with two more of them a step takes twice as long.
