@@ -25,10 +25,10 @@ from gearcad.geometry.rack import FilletArc, Rack, RackCurveKind
 Colour = tuple[float, float, float]
 
 STEEL: Colour = (0.62, 0.66, 0.72)
-"""Of a part by itself."""
+"""Colour of a part by itself."""
 
 BRIGHT_STEEL: Colour = (0.809468152636, 0.832283570587, 0.865042042985)
-"""Of a part by itself in STEP: the shares of STEEL as shares of light."""
+"""Colour of a part by itself in STEP: the shares of STEEL as shares of light."""
 
 PART_COLOURS: dict[str, Colour] = {
     "pinion": (0.80, 0.55, 0.20),
@@ -36,7 +36,7 @@ PART_COLOURS: dict[str, Colour] = {
     "rack": (0.45, 0.58, 0.72),
     "bracket": (0.55, 0.55, 0.55),
 }
-"""Of the parts of an assembly."""
+"""Colours of the parts of an assembly."""
 
 TRAIN_COLOURS: dict[str, tuple[Colour, Colour]] = {
     "suns": ((0.80, 0.55, 0.20), (0.72, 0.38, 0.22)),
@@ -44,10 +44,10 @@ TRAIN_COLOURS: dict[str, tuple[Colour, Colour]] = {
     "rims": ((0.45, 0.66, 0.42), (0.70, 0.74, 0.36)),
     "carrier": ((0.55, 0.55, 0.55), (0.55, 0.55, 0.55)),
 }
-"""Of the parts of a planetary train, the first and the second of their kind: no two parts that differ are of one colour."""
+"""Colours of the parts of a planetary train, the first and the second of their kind: no two parts that differ share one."""
 
 STAGE_COLOURS: tuple[Colour, Colour] = ((0.66, 0.44, 0.58), (0.52, 0.47, 0.68))
-"""Of pinion and wheel of a stage; those of each further stage are darker."""
+"""Colours of pinion and wheel of a stage; those of each further stage are darker."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,10 @@ class EndCone:
         return self.slope / math.hypot(1.0, self.slope)
 
     def beyond(self, radius: ArrayLike) -> Floats:
-        """Return the distance (mm) of a radius (mm) beyond the face radius towards the tips. The cone is where this is above 0."""
+        """Return the distance (mm) of a radius (mm) beyond the face radius towards the tips.
+
+        The cone is where this is above 0.
+        """
         result: Floats = self.side * (np.asarray(radius, float) - self.face_radius)
         return result
 

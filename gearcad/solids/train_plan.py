@@ -163,7 +163,7 @@ _Extent = tuple[float, float]
 
 @dataclass(frozen=True)
 class Sweep:
-    """What a part of a body sweeps: between two radii about its own axis, between two heights (mm)."""
+    """Room that a part of a body sweeps: between two radii about its own axis, between two heights (mm)."""
 
     standing: Standing
     radii: _Extent
@@ -258,7 +258,7 @@ def overlap(one: _Extent, other: _Extent) -> bool:
 
 
 _RIM, _THICKNESS, _GAP = 0.6, 0.5, 0.1
-"""Of a plate beside the pins, its thickness, and the gap between it and what turns, as shares of the pin's diameter."""
+"""Rim of a plate beside the pins, its thickness, and its gap to what turns, as shares of the pin's diameter."""
 
 
 @dataclass(frozen=True)
@@ -276,7 +276,7 @@ class CarrierPlan:
     plates: tuple[_Extent, ...]
 
     def lifted(self, by: float) -> CarrierPlan:
-        """The same, higher by so much (mm)."""
+        """Return the same plan, higher by so much (mm)."""
         low, high = self.reach
         return replace(self, reach=(low + by, high + by), plates=tuple((bottom + by, top + by) for bottom, top in self.plates))
 
@@ -376,5 +376,7 @@ class TrainPlan:
         return cls(apart, pins.lifted(apart.lifts[layout.carrier.name]) if pins else None)
 
     def turned(self, carrier_angle: float, central_turn: float) -> TrainPlan:
-        """The same turned as by `PlanetaryTrain.pose` (degrees). The carrier's plan stays: as a part it turns with the pose."""
+        """Return the plan turned as by `PlanetaryTrain.pose` (degrees). The carrier's plan stays: as a part it turns with the
+        pose.
+        """
         return replace(self, layout=replace(self.layout, pose=self.layout.train.pose(carrier_angle, central_turn)))

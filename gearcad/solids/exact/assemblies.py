@@ -35,7 +35,7 @@ _ARM = 0.6
 """Half the width of the arm as a share of the thicker shaft's diameter."""
 
 _TOLERANCE = 1e-7
-"""Of edges and vertices (mm): planes, cylinders and circles are exact."""
+"""Tolerance (mm) of edges and vertices: planes, cylinders and circles are exact."""
 
 
 def bracket_boundary(pair: GearPair) -> Boundary:
@@ -155,7 +155,7 @@ def pair_product(pair: GearPair, *, bracket: bool = False) -> AssembledProduct:
 
 
 def pair_assembly(pair: GearPair, *, bracket: bool = False) -> cadquery.Assembly:
-    """The same as an assembly to go on with in CadQuery: see `pair_product`."""
+    """Return the pair as a CadQuery assembly: see `pair_product`."""
     return cad_assembly(pair_product(pair, bracket=bracket))
 
 
@@ -180,5 +180,5 @@ def rack_product(pair: RackPair) -> AssembledProduct:
 
 
 def rack_assembly(pair: RackPair) -> cadquery.Assembly:
-    """The same as an assembly to go on with in CadQuery: see `rack_product`."""
+    """Return pinion and rack as a CadQuery assembly: see `rack_product`."""
     return cad_assembly(rack_product(pair))

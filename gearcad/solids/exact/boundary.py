@@ -104,7 +104,7 @@ class Frame(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class StraightLine:
-    """From `start` along the unit vector `direction`; its parameter is the distance."""
+    """Straight line from `start` along the unit vector `direction`; its parameter is the distance."""
 
     start: Vector
     direction: Vector
@@ -112,7 +112,7 @@ class StraightLine:
 
 @dataclass(frozen=True, eq=False)
 class CircleCurve:
-    """In the xy plane of its frame; its parameter is the angle from the frame's x."""
+    """Circle in the xy plane of its frame; its parameter is the angle from the frame's x."""
 
     frame: Frame
     radius: float
@@ -120,7 +120,7 @@ class CircleCurve:
 
 @dataclass(frozen=True, eq=False)
 class EllipseCurve:
-    """In the xy plane of its frame, its longer half axis `major` along x: major cos t, minor sin t."""
+    """Ellipse in the xy plane of its frame, its longer half axis `major` along x: major cos t, minor sin t."""
 
     frame: Frame
     major: float
@@ -129,7 +129,7 @@ class EllipseCurve:
 
 @dataclass(frozen=True, eq=False)
 class BezierCurve:
-    """One span with `poles` (n + 1, 3), parameter `first` ... `last`."""
+    """Bezier curve of one span with `poles` (n + 1, 3), parameter `first` ... `last`."""
 
     poles: Floats
     first: float = 0.0
@@ -145,7 +145,7 @@ class PlaneSurface:
 
 @dataclass(frozen=True, eq=False)
 class CylinderSurface:
-    """About the z axis of its frame; u is the angle from its x, v the height, the normal points outwards."""
+    """Cylinder about the z axis of its frame; u is the angle from its x, v the height, the normal points outwards."""
 
     frame: Frame
     radius: float
@@ -153,7 +153,7 @@ class CylinderSurface:
 
 @dataclass(frozen=True, eq=False)
 class ConeSurface:
-    """About the z axis of its frame, of `radius` at its origin, widening along z; v is the slant."""
+    """Cone about the z axis of its frame, with `radius` at its origin, widening along z; v is the slant."""
 
     frame: Frame
     radius: float
@@ -162,7 +162,7 @@ class ConeSurface:
 
 @dataclass(frozen=True, eq=False)
 class BezierSurface:
-    """One span with `poles` (n + 1, m + 1, 3), parameters u in 0 ... 1 and v in `low` ... `high`."""
+    """Bezier surface of one span with `poles` (n + 1, m + 1, 3), parameters u in 0 ... 1 and v in `low` ... `high`."""
 
     poles: Floats
     low: float
@@ -171,7 +171,7 @@ class BezierSurface:
 
 @dataclass(frozen=True, eq=False)
 class LineOnSurface:
-    """In the parameters of a surface: from a point on, along a unit vector."""
+    """Line in the parameters of a surface: from a point on, along a unit vector."""
 
     u: float
     v: float
@@ -181,7 +181,7 @@ class LineOnSurface:
 
 @dataclass(frozen=True, eq=False)
 class BezierOnSurface:
-    """In the parameters of a surface: one span with `poles` (n + 1, 2), parameter `first` ... `last`."""
+    """Bezier curve in the parameters of a surface: one span with `poles` (n + 1, 2), parameter `first` ... `last`."""
 
     poles: Floats
     first: float = 0.0
@@ -207,12 +207,12 @@ def unit(direction: Vector) -> Vector:
 
 
 def level_frame(z: float, *, up: bool = True, axis: Point = ORIGIN) -> Frame:
-    """At height z on an axis through the point (x, y), its x along +x and its z along +z or -z."""
+    """Return the frame at height z on an axis through the point (x, y), its x along +x and its z along +z or -z."""
     return Frame((axis[0], axis[1], z), (0.0, 0.0, 1.0 if up else -1.0), (1.0, 0.0, 0.0))
 
 
 def level_circle(radius: float, z: float, axis: Point = ORIGIN) -> CircleCurve:
-    """At height z about an upright axis."""
+    """Return a circle at height z about an upright axis."""
     return CircleCurve(level_frame(z, axis=axis), radius)
 
 
@@ -224,7 +224,7 @@ def straight_line(start: Sequence[float], end: Sequence[float]) -> tuple[Straigh
 
 
 def cylinder_along_z(radius: float, axis: Point = ORIGIN) -> CylinderSurface:
-    """About an upright axis, v = 0 at z = 0."""
+    """Return a cylinder about an upright axis, v = 0 at z = 0."""
     return CylinderSurface(level_frame(0.0, axis=axis), radius)
 
 
@@ -236,12 +236,12 @@ def cone_about_z(radius: float, sine: float, z: float, *, up: bool) -> ConeSurfa
 
 
 def level_plane(z: float) -> PlaneSurface:
-    """At height z, its normal along +z."""
+    """Return the plane at height z, its normal along +z."""
     return PlaneSurface(level_frame(z))
 
 
 def upright_plane(start: Sequence[float], along: Sequence[float]) -> PlaneSurface:
-    """Through a point, containing the horizontal direction `along` (x, y) and z; normal along x z."""
+    """Return the plane through a point that contains the horizontal direction `along` (x, y) and z; normal along x z."""
     length = math.hypot(*along)
     x, y = along[0] / length, along[1] / length
     return PlaneSurface(Frame(vector(start), (y, -x, 0.0), (x, y, 0.0)))
@@ -262,7 +262,7 @@ class Turn(NamedTuple):
 
 
 class BoundaryEdge(NamedTuple):
-    """On a curve in a place (its number), from the vertex `start` at the parameter `first` to `end` at `last`."""
+    """Edge on a curve in a place (its number), from the vertex `start` at the parameter `first` to `end` at `last`."""
 
     curve: CurveForm
     place: int
@@ -273,7 +273,7 @@ class BoundaryEdge(NamedTuple):
 
 
 class BoundaryFace(NamedTuple):
-    """On a surface in a place; its loops run counter-clockwise (holes clockwise) about the surface's own normal.
+    """Face on a surface in a place; its loops run counter-clockwise (holes clockwise) about the surface's own normal.
 
     That normal points out of the solid if `outward`.
     """
@@ -285,8 +285,9 @@ class BoundaryFace(NamedTuple):
 
 
 class LaidCurve(NamedTuple):
-    """What `edges` are in the parameters of a surface, each edge in one of the `places`; two curves where an edge is the seam
-    of a closed surface.
+    """Curves of `edges` in the parameters of a surface, each edge in one of the `places`; two curves where an edge is a seam.
+
+    A seam is an edge at which a closed surface meets itself.
     """
 
     edges: Sequence[int]
@@ -318,7 +319,7 @@ def backward(chain: Chain) -> Chain:
 
 
 class Recorder:
-    """Takes down vertices, edges and faces of one solid (lengths in mm).
+    """Recorder of the vertices, edges and faces of one solid (lengths in mm).
 
     Vertices and edges get twice the `tolerance` to which their curves are fitted: a curve and its surface may differ by
     as much from the exact shape, to opposite sides.
@@ -339,7 +340,7 @@ class Recorder:
         return Boundary(self.tolerance, self._places, self._vertices, self._sources, self._edges, self._laid, self._faces)
 
     def moved(self, z: float, angle: float) -> Recorder:
-        """The same recorder, but what is taken down by it stands higher by `z` (mm) and turned by `angle` (rad)."""
+        """Return a recorder of the same solid whose records stand higher by `z` (mm) and turned by `angle` (rad)."""
         moved = copy(self)
         moved.here = self._place(z, angle)
         return moved

@@ -82,7 +82,7 @@ def moments(boundary: Boundary) -> Moments:
 
 
 def _run(boundary: Boundary, face: BoundaryFace, number: int, along: bool, laid: tuple[OnSurface, ...]) -> _Run:
-    """Return the curve, its ends and its turn, along which a loop of a face runs on an edge."""
+    """Return the run of a loop of a face along an edge: its curve, ends and turn."""
     edge: BoundaryEdge = boundary.edges[number]
     ends = (edge.first, edge.last) if along else (edge.last, edge.first)
     if laid:

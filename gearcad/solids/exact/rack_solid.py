@@ -88,7 +88,7 @@ class FilletSurface:
         return math.pi - math.asin(min(max(sine, -1.0), 1.0))
 
     def v(self, c: float, z: float) -> float:
-        """v (mm) of a place on it."""
+        """Return v (mm) of a place on the cylinder."""
         return self._stretch * z - self.drift * self._radius * math.sin(self.u(c))
 
     def along_teeth(self, c: float, z: float) -> OnSurface:
@@ -104,7 +104,7 @@ class FilletSurface:
         return EllipseCurve(frame, self._radius * self._stretch, self._radius)
 
     def on_level(self, z: float, first: float, last: float) -> OnSurface:
-        """The same in its parameters, between two parameters of the ellipse."""
+        """Return that ellipse in the parameters of the surface, between two parameters of the ellipse."""
         if self.drift == 0:
             return LineOnSurface(_QUARTER, z, 1, 0)
         return self._sine(self._stretch * z, -self.drift * self._radius, first, last)
@@ -117,7 +117,7 @@ class FilletSurface:
         return EllipseCurve(frame, self._radius * self._stretch / abs(self.drift), self._radius)
 
     def on_upright(self, x: float, first: float, last: float) -> OnSurface:
-        """The same in its parameters, between two parameters of the ellipse."""
+        """Return that ellipse in the parameters of the surface, between two parameters of the ellipse."""
         return self._sine(self._stretch * (x - self._axis[0]) / self.drift, self._radius / self.drift, first, last)
 
     def _sine(self, middle: float, amplitude: float, first: float, last: float) -> OnSurface:
@@ -137,7 +137,7 @@ class FilletSurface:
 
 
 _TOLERANCE = 1e-6
-"""Of edges and vertices (mm): planes, cylinders and ellipses are exact, lines through corners may miss by so much."""
+"""Tolerance (mm) of edges and vertices: planes, cylinders and ellipses are exact, lines through corners may miss by so much."""
 
 _NORMALS = {RackSide.BOTTOM: (0, 0, -1), RackSide.TOP: (0, 0, 1), RackSide.START: (-1, 0, 0), RackSide.END: (1, 0, 0)}
 _ENDS = {
@@ -158,7 +158,7 @@ def rack_boundary(rack: Rack) -> Boundary:
 
 
 def rack_solid(rack: Rack) -> cadquery.Solid:
-    """The same as a solid to go on with in CadQuery: see `rack_boundary`."""
+    """Return the rack as a CadQuery solid: see `rack_boundary`."""
     return cad_solid(rack_boundary(rack))
 
 

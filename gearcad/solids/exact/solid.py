@@ -71,7 +71,7 @@ _MADE = "_gearcad_made"
 """The attribute of a solid of ours that holds what it was made of."""
 
 _PRODUCT = "product"
-"""In the metadata of a part of an assembly: what it is called as a product, where its own name is that of one of many."""
+"""Key in the metadata of a part of an assembly: its name as a product, where its own name is that of one of many."""
 
 
 def cad_solid(boundary: Boundary) -> cadquery.Solid:
@@ -279,5 +279,5 @@ def gear_boundary(gear: Gear) -> Boundary:
 
 
 def gear_solid(gear: Gear) -> cadquery.Solid:
-    """The same as a solid to go on with in CadQuery, by `cadquery.Workplane(obj=gear_solid(gear))`: see `gear_boundary`."""
+    """Return the gear as a CadQuery solid, for `cadquery.Workplane(obj=gear_solid(gear))`: see `gear_boundary`."""
     return cad_solid(gear_boundary(gear))

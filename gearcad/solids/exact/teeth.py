@@ -180,7 +180,7 @@ class _ToothRing:
                 self._add_flank(k, piece)
 
     def _add_land(self, k: int, piece: LandArc) -> None:
-        """One face per tooth, over the whole width."""
+        """Add one face per tooth, over the whole width."""
         recorder, surface = self.recorder, cylinder_along_z(piece.radius)
         wraps, after = divmod(k + 1, len(self.layout.pieces))
         left_curves = [side.on_cylinder(0.0) for side in self.side_curves[k]]
@@ -196,7 +196,7 @@ class _ToothRing:
             self._face(surface, [*lower[i], *up, *backward(upper[i]), *down], place)
 
     def _add_flank(self, k: int, piece: FlankSpan) -> None:
-        """One face per tooth and stretch of the face width."""
+        """Add one face per tooth and stretch of the face width."""
         recorder, heights, stretches = self.recorder, self.layout.sweep.heights, self.layout.stretches(k)
         patches = self.layout.sweep.patches(piece)
         wraps, after = divmod(k + 1, len(self.layout.pieces))
@@ -277,7 +277,7 @@ class _ToothRing:
         return self._cone_on_teeth(which, end, cone)
 
     def _cone_on_teeth(self, which: int, end: End, cone: ConeSurface) -> Chain:
-        """One piece of cone per tooth; the plane's loop crosses each tooth on the arc where the cone begins."""
+        """Add one piece of cone per tooth; the plane's loop crosses each tooth on the arc where the cone begins."""
         segments, stations = self.layout.segments[which]
         conic = [j for j, segment in enumerate(segments) if segment.on_cone]
         start, stop = segments[conic[0]].start, segments[conic[-1]].end
@@ -291,7 +291,7 @@ class _ToothRing:
         return loop
 
     def _cone_below_root(self, which: int, end: End, cone: ConeSurface) -> Chain:
-        """One piece of cone per pitch, parted by generators from the start of each right flank; the plane has a circle."""
+        """Add one piece of cone per pitch, parted by generators from the start of each right flank; the plane has a circle."""
         angle = self.layout.segments[which][1][0, 1]
         foot = [end.cone.face_radius * math.cos(angle), end.cone.face_radius * math.sin(angle), end.z]
         feet = [foot for (foot,) in self._vertices_around(np.array([foot]))]

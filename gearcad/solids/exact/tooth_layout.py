@@ -153,7 +153,10 @@ def _fitted(curve: FlankCurve, first: float, last: float, tolerance: float) -> l
 
 
 def _fitted_throughout(curve: FlankCurve, first: float, last: float, tolerance: float) -> list[FlankSpan]:
-    """The same within a quarter of it and along the curve too: modifications turn a point by what its parameter says."""
+    """Return spans within a quarter of the tolerance and along the curve too.
+
+    Modifications turn a point by what its parameter says.
+    """
 
     def deviation(values: Floats, s: Floats) -> Floats:
         return np.asarray(np.hypot(*(values - curve.curve.points(s)).T))
@@ -205,7 +208,7 @@ def _crossing(rising: Callable[[float], float], value: float, low: float, high: 
 
 
 _PROBES = np.array([0.0, 0.25, 0.5, 0.75, 1.0])
-"""Where across a modified surface the degree along it is found; it is too smooth to need more in between."""
+"""Places across a modified surface where the degree along it is found; it is too smooth to need more in between."""
 
 _SHARE = 0.1
 """Share of the section's tolerance for either direction of a modified surface: together they stay below a half."""
@@ -446,7 +449,7 @@ class SideEdge:
 
 @dataclass(frozen=True)
 class Rise:
-    """What of a stretch of the face width there is at a junction between both ends: heights (mm) of its lower and upper end."""
+    """Part of a stretch of the face width at a junction between both ends: heights (mm) of its lower and upper end."""
 
     stretch: int
     low: float

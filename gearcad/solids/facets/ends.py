@@ -246,7 +246,9 @@ class _Capper(ToothEnd):
         return self.chain(i, fixed[(fixed > right + clear) & (fixed < left - clear)].tolist())
 
     def _down_the_cone(self, vertices: Floats, faces: Wholes, ring: Wholes, angle: Floats) -> Cap:
-        """The cone reaches below the teeth: go on along its generators to the circle where it meets the end plane."""
+        """Return the cap continued along the cone's generators, as the cone reaches below the teeth, to its circle in the end
+        plane.
+        """
         circle = points_at(np.array(self.grid.cone.face_radius), angle, np.array(self.end_plane))
         inner = self.next_vertex + len(vertices) + np.arange(len(ring))
         outer_next, inner_next = np.roll(ring, -1), np.roll(inner, -1)
@@ -255,7 +257,7 @@ class _Capper(ToothEnd):
 
 
 _CHORDS = (1, 2, 4, 8, 16, 32)
-"""Of an arc across a tooth."""
+"""Numbers of chords of an arc across a tooth."""
 
 
 def cap_ring_teeth(grid: ToothGrid, end: GearEnd, next_vertex: int, least: float) -> Cap:

@@ -200,7 +200,7 @@ def _on_edges(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: En
 
 
 def _inside_cells(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> Floats:
-    """The same where the surface bulges: in each column the largest deviation (mm) inside triangles."""
+    """Return the largest deviation (mm) inside triangles in each column of cells, where the surface bulges."""
     sides, rising, falling = (np.abs(d) for d in _of_screw(piece.curve, s, layers, cone))
     rise = layers.kappa * np.diff(layers.heights(cone.setback(piece.curve.polar(s)[0])), axis=0)
     upright = _Bend.of(piece.curve, s, layers).uprights(np.maximum(np.abs(rise[:, 1:]), np.abs(rise[:, :-1])))
@@ -247,7 +247,7 @@ def _off_cone(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: En
 
 
 class _Bend(NamedTuple):
-    """How the side bends over cells of a screw surface: A, B, C and |n| of the head of this module, each (len(s) - 1,)."""
+    """Bend of the side over cells of a screw surface: A, B, C and |n| of the head of this module, each (len(s) - 1,)."""
 
     profile: Floats
     mixed: Floats
@@ -278,7 +278,7 @@ class _Bend(NamedTuple):
 
 
 def _of_screw(curve: Curve, s: Floats, layers: Layers, cone: EndCone) -> _Deviations:
-    """To second order; one row stands for all where every layer is the same."""
+    """Return the deviations on a screw surface to second order; one row stands for all where every layer is the same."""
     bend = _Bend.of(curve, s, layers)
     turn = layers.kappa * layers.heights(cone.setback(curve.polar(s)[0]))
     if not cone.present:  # every layer is the same

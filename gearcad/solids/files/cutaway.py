@@ -70,11 +70,11 @@ _IN_PLANE = 1e-10
 """Distance from a plane that counts as none, as a share of the extent of what is cut."""
 
 _DIGITS = 9
-"""Of levels (mm) that are told apart where they are counted."""
+"""Decimal digits of levels (mm) that are told apart where they are counted."""
 
 
 class Cutaway(Enum):
-    """How much of a part is taken off."""
+    """Part of a body that is taken off."""
 
     QUARTER = "quarter"
     HALF = "half"
@@ -82,9 +82,9 @@ class Cutaway(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Cut:
-    """Takes off what is beyond all planes through `point` (3,), one or two with unit normals (3,) towards what is taken off.
+    """Cut that takes off what is beyond all planes through `point` (3,).
 
-    Two planes are square to each other.
+    One or two planes have unit normals (3,) towards what is taken off. Two planes are square to each other.
     """
 
     point: Floats
@@ -106,14 +106,14 @@ class CutFace(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class CutFacets:
-    """What a cut leaves: facets, open where the `faces` close them. Two planes leave two pieces, side by side."""
+    """Facets that a cut leaves, open where the `faces` close them. Two planes leave two pieces, side by side."""
 
     facets: Facets
     faces: tuple[CutFace, ...]
 
 
 def cut_away(facets: Facets, cut: Cut) -> CutFacets:
-    """Return what a cut leaves of facets, which stand in their place, and the cut faces."""
+    """Return the facets that a cut leaves, with the cut faces; facets stand in their place."""
     first = cut.normals[0]
     near, beyond, lines = _parted(facets, cut.point, first)
     if len(cut.normals) == 1:
@@ -147,7 +147,7 @@ def _parted(facets: Facets, point: Floats, normal: Floats) -> tuple[Facets, Face
 
 
 def _true(faces: Wholes) -> Wholes:
-    """Triangles (n, 3) with three corners."""
+    """Return the triangles (n, 3) that have three different corners."""
     found: Wholes = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
     return found
 
@@ -211,7 +211,7 @@ class View(Enum):
 
 
 class Direction(NamedTuple):
-    """Where the eye is, seen from the scene, and what is up in the picture."""
+    """Direction from the scene to the eye, and what is up in the picture."""
 
     eye: tuple[float, float, float]
     up: tuple[float, float, float]

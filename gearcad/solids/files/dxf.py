@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 _CHECKED = np.linspace(0.0, 1.0, 33)
-"""Where a pair of arcs is compared with the curve."""
+"""Places where a pair of arcs is compared with the curve."""
 
 _UNSEEN = 1e-3
 """Share of a deviation by which its peak may be higher than it looks from there."""

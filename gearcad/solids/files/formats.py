@@ -46,7 +46,7 @@ class FileOptions:
 
 
 class Format(Enum):
-    """What can be written of a design, slowest first; the value is the suffix of the file."""
+    """Format of a design's files, slowest first; the value is the suffix of the file."""
 
     STEP = "step"
     STL = "stl"

@@ -27,7 +27,7 @@ _JSON, _BINARY = 0x4E4F534A, 0x004E4942
 
 
 class Arrays:
-    """What stands in the binary chunk, array behind array; the tree knows each by the number of its accessor."""
+    """Arrays of the binary chunk, one behind the other; the tree knows each by the number of its accessor."""
 
     def __init__(self) -> None:
         self._arrays: list[bytes] = []
@@ -148,7 +148,7 @@ def quaternions(angles: Floats) -> Floats:
 
 
 _ROOT = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1]])
-"""From millimetres with z up to the metres with y up that glTF prescribes."""
+"""Matrix from millimetres with z up to the metres with y up that glTF prescribes."""
 
 _METALLIC, _ROUGHNESS = 0.6, 0.45
 _TRIANGLES = 4
@@ -265,12 +265,12 @@ def _unfolded(place: Floats) -> dict[str, Any]:
 
 
 def _angle(place: Floats) -> float:
-    """About z (rad)."""
+    """Return the angle about z (rad)."""
     return math.atan2(place[1, 0], place[0, 0])
 
 
 def _listed(place: Floats) -> list[float]:
-    """Column by column."""
+    """Return the entries column by column."""
     return [float(value) for value in place.T.ravel()]
 
 

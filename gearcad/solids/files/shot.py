@@ -38,12 +38,12 @@ def plain_gear(gear: Gear) -> Gear:
 
 
 def plain_pair(pair: GearPair) -> GearPair:
-    """Both gears without them."""
+    """Return both gears without keyways and bolt holes."""
     return replace(pair, pinion=plain_gear(pair.pinion), wheel=plain_gear(pair.wheel))
 
 
 def plain_train(train: PlanetaryTrain) -> PlanetaryTrain:
-    """All gears of a train without them."""
+    """Return all gears of a train without keyways and bolt holes."""
     return replace(
         train,
         centrals=tuple(replace(each, gear=plain_gear(each.gear)) for each in train.centrals),
@@ -61,7 +61,7 @@ QUICK, _QUICKEST = 4.0, 2.5
 """Frames a pitch of the gear whose teeth pass fastest, and the least: with 2 nobody sees which way it turns."""
 
 MOST_FRAMES = 480
-"""Of the longest loop."""
+"""Frames of the longest loop."""
 
 _SWING = 2.0
 """Pitches that a rack goes either way at the most; the pinion stays on the rack."""
@@ -93,7 +93,7 @@ class Loop:
 
 
 def come_round(passed: Iterable[Fraction]) -> Fraction:
-    """After how many times all that passes so much each time has passed whole numbers; at least one passes anything."""
+    """Return after how many times all that passes so much each time has passed whole numbers; at least one passes anything."""
     moving = [each for each in passed if each]
     return Fraction(math.lcm(*(each.denominator for each in moving)), math.gcd(*(each.numerator for each in moving)))
 
@@ -216,11 +216,11 @@ class _Turning:
     central: float
 
     def scene(self, turns: float) -> list[Part]:
-        """All in its place after so many times these turns."""
+        """Return the parts in their places after the motion has run `turns` times."""
         return self.product.scene(360 * self.carrier * turns, 360 * self.central * turns)
 
     def layout(self, turns: float) -> TrainLayout:
-        """The same without bodies."""
+        """Return the layout, without bodies, after the motion has run `turns` times."""
         return self.product.plan.turned(360 * self.carrier * turns, 360 * self.central * turns).layout
 
     @cached_property
@@ -283,7 +283,7 @@ _SETTINGS_OF_RACK = Direction((0.5, 0.8, 1.1), (0.0, 1.0, 0.0))
 _OF_RACK_PAIR = Direction((-1.1, -0.35, 0.9), _UP)
 _OF_TRAIN = Direction((0.45, -0.85, 1.1), _UP)
 _OF_TRAIN_APART = Direction((0.55, -0.9, 0.6), _UP)
-"""From above the corner from which most of the teeth is seen."""
+"""Direction from above the corner from which most of the teeth is seen."""
 
 _GAP, _GAP_OF_RING = 0.3, 0.8
 """Between what was moved apart, as a share of the pinion's diameter: a ring is seen from high above."""
@@ -367,7 +367,7 @@ _CLOSE, _WIDE = 4.0, 1.2
 """Half the height (normal modules) that a mesh shows close by, and the least width over height at which it does."""
 
 _OF_RACK = 1.5
-"""How far of a rack is shown to either side of its pinion from the corner, in tip diameters."""
+"""Length of rack shown to either side of its pinion from the corner, in tip diameters."""
 
 _LOOKED_AT = 8
 """Scenes of a loop for which the camera is set."""

@@ -277,7 +277,7 @@ def _bezier_surface(surface: BezierSurface) -> _Text:
 
 
 Naming = Callable[[str], str]
-"""What stands for a name in the document."""
+"""Function from a name to the text that stands for it in the document."""
 
 
 def part_document(shape: cadquery.Shape, name: str) -> Any:
@@ -479,7 +479,7 @@ def _sort_colours(content: bytes) -> bytes:
 
 
 _ASSEMBLED = 1e-6
-"""How far (mm) places of an assembly may differ."""
+"""Largest difference (mm) between places of an assembly."""
 
 _WORLD = Frame((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 

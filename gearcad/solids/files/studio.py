@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 _OSMESA = ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")
-"""What VTK draws with where neither an X server nor EGL is there."""
+"""Libraries with which VTK draws where neither an X server nor EGL is there."""
 
 
 @contextmanager
@@ -69,7 +69,7 @@ def require_opengl(window: vtkRenderWindow) -> None:
 
 
 def poly_data(facets: Facets) -> vtkPolyData:
-    """Triangles."""
+    """Return the facets as triangles of VTK."""
     mesh = _points(facets.vertices)
     mesh.SetPolys(_cells(facets.faces))
     return mesh
@@ -353,7 +353,7 @@ def _mean(finer: Pixels) -> NDArray[np.float32]:
 
 
 def _on(taken: NDArray[np.float32], transparent: bool) -> Pixels:
-    """The pixels on nothing, or on white."""
+    """Return the pixels on a transparent or a white background."""
     colours, opacity = taken[..., :3], taken[..., 3:]
     if transparent:
         colours = np.divide(255 * colours, opacity, out=np.zeros_like(colours), where=opacity > 0)
@@ -364,7 +364,7 @@ def _on(taken: NDArray[np.float32], transparent: bool) -> Pixels:
 
 
 class Animation(Enum):
-    """What images that move are written as; the value is the suffix of the file."""
+    """Format of moving images; the value is the suffix of the file."""
 
     GIF = "gif"
     APNG = "apng"
@@ -372,13 +372,13 @@ class Animation(Enum):
 
 
 _COLOURS = 255
-"""Of a GIF; one more is for what is transparent."""
+"""Colours of a GIF; one more is for transparency."""
 
 _SAMPLES = 6
 """Frames from which a GIF takes its colours."""
 
 _QUALITY = 90
-"""Of WebP, which blurs a little."""
+"""Quality of WebP, which blurs a little."""
 
 
 def write_png(pixels: Pixels, path: Path) -> None:

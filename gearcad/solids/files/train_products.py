@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 
 _TOLERANCE = 1e-7
-"""Of edges and vertices (mm): planes, cylinders and circles are exact."""
+"""Tolerance (mm) of edges and vertices: planes, cylinders and circles are exact."""
 
 
 def carrier_boundary(plan: CarrierPlan) -> Boundary:
@@ -68,7 +68,7 @@ def carrier_boundary(plan: CarrierPlan) -> Boundary:
 
 
 def carrier_solid(plan: CarrierPlan) -> cadquery.Solid:
-    """The same as a solid to go on with in CadQuery: see `carrier_boundary`."""
+    """Return the carrier as a CadQuery solid: see `carrier_boundary`."""
     return cad_solid(carrier_boundary(plan))
 
 
@@ -129,7 +129,7 @@ def _occurrence(standing: Standing, parts: dict[str, SolidProduct], origin: Poin
 
 
 _TURN = 0.1
-"""By how much (rad) the normals of neighbouring triangles may differ."""
+"""Largest angle (rad) between the normals of neighbouring triangles."""
 
 
 def carrier_facets(plan: CarrierPlan, chord_error: float) -> Facets:
@@ -167,16 +167,16 @@ def _of_face(shape: Any) -> tuple[Floats, Wholes]:
 
 
 _SECONDS = 10.0
-"""That an animation takes at least."""
+"""Least duration (s) of an animation."""
 
 _MOST_TURNS = 60.0
-"""Of anything, after which an animation ends even if the carrier has not come round."""
+"""Most turns of any part; then an animation ends even if the carrier has not come round."""
 
 _FASTEST = 1.5
 """Turns a second of anything: what is faster cannot be followed."""
 
 _WHOLE = 1e-6
-"""Of a pitch: what is no nearer to whole ones does not come round."""
+"""Largest deviation from whole pitches, as a share of a pitch, at which a part has come round."""
 
 
 def turning_of(layout: TrainLayout, given: Mapping[str, float] | None = None) -> Turning:
@@ -355,7 +355,7 @@ class TrainProduct:
         return list(self._scene(self.plan.turned(carrier_angle, central_turn)))
 
     def other_scene(self) -> list[Part]:
-        """The same moved apart, or in mesh where the scene is apart already."""
+        """Return the scene moved apart, or in mesh where the scene is apart already."""
         return list(self._scene(TrainPlan.of(self.train, carrier=self.options.carrier, exploded=not self.options.exploded)))
 
     def turning(self) -> Turning | None:
