@@ -349,7 +349,7 @@ def _digits(most: int) -> int:
 
 
 _DIMENSIONS = 4
-"""Of entities: points, curves, surfaces and volumes."""
+"""Dimensions of entities: points, curves, surfaces and volumes."""
 
 
 def write_msh(mesh: ElementMesh, path: Path) -> None:
@@ -455,7 +455,7 @@ _KINDS = {
     "line3": "Edge_3",
     "quad4": "Quadrilateral",
 }
-"""What XDMF calls elements and faces; the order of their nodes is ours."""
+"""Names of elements and faces in XDMF; the order of their nodes is ours."""
 
 _PAGE = """<?xml version="1.0"?>
 <Xdmf Version="3.0"><Domain><Grid Name="Grid">

@@ -18,7 +18,7 @@ from gearcad.meshing.bodies.element_mesh import Element
 
 
 class MeshFormat(Enum):
-    """What an ElementMesh can be written as; the value is the suffix of the file."""
+    """Format of a file of an ElementMesh; the value is the suffix of the file."""
 
     MSH = "msh"
     VTU = "vtu"
@@ -42,8 +42,9 @@ class MeshFormat(Enum):
 
 @dataclass(frozen=True)
 class Entry:
-    """One format: what it holds, in words; what writes it, and how names of other files end that it writes beside; which
-    library it needs that gearcad does without.
+    """One format of mesh files: contents in words, writer, endings of further files, and required library.
+
+    `beside` has the endings of names of files that are written beside; `library` is one that gearcad does without.
     """
 
     words: str
@@ -109,7 +110,7 @@ _ENTRIES = {
 }
 
 SUFFIXES = frozenset(name.rpartition(".")[2] for kind in MeshFormat for name in (kind.value, *kind.entry.beside))
-"""Of all files that formats write."""
+"""Suffixes of all files that formats write."""
 
 
 AUTO = "auto"
@@ -120,7 +121,7 @@ Member = TypeVar("Member", bound=Enum)
 
 
 class What(Enum):
-    """How much of the gears is meshed."""
+    """Part of the gears that is meshed."""
 
     SECTOR = "sector"
     """One tooth with its share of the body."""
@@ -149,7 +150,7 @@ class DeckKind(Enum):
 
 
 class Extent(NamedTuple):
-    """How much is meshed: so many `teeth` of each gear, None for all of them."""
+    """Extent of a mesh: `teeth` of each gear, None for all of them."""
 
     what: What
     teeth: int | None = None

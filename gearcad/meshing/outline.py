@@ -104,7 +104,7 @@ def _measured(curve: Curve, last: float) -> float:
 
 
 class Side(Enum):
-    """What a stretch of the outline is. The left flank, y > 0 for tooth 0 on +x, is the loaded one."""
+    """Kind of a stretch of the outline. The left flank, y > 0 for tooth 0 on +x, is the loaded one."""
 
     RIGHT_ROOT = "right root land"
     RIGHT_FILLET = "right fillet"
@@ -474,7 +474,7 @@ _RIM = 4.0
 """Depth of the body below the root circle, in normal modules, where no bore is given."""
 
 _HELD_LEAST = 0.3
-"""Its least radius over that of the root circle."""
+"""Least radius of the held circle over that of the root circle."""
 
 
 def held_radius(gear: Gear) -> float:

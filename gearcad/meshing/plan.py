@@ -98,7 +98,7 @@ class SectorsPlan(GearPlan):
         )
 
     def finer(self, factor: float) -> SectorsPlan:
-        """The same with all edges shorter by a factor, but for those of contacts."""
+        """Return the plan with all edges shorter by a factor, except those of contacts."""
         return replace(self, sizes=self.sizes.scaled(factor))
 
     @property
@@ -170,7 +170,7 @@ _BESIDE = 1
 
 @dataclass(frozen=True)
 class MeshPlan:
-    """How each gear is meshed, by the names of their files, and of what elements.
+    """Plan of each gear, by the names of their files, and of what elements.
 
     `pair` is that in which they stand in mesh, their left or right flanks touching; None where each is meshed by itself.
     """
@@ -189,7 +189,7 @@ class MeshPlan:
 
     @property
     def usual(self) -> bool:
-        """True if nobody asks for a number of elements, or a size."""
+        """True if the options give neither a number of elements nor a size."""
         return self.options.size is None and self.options.elements is None
 
     @property
@@ -356,7 +356,7 @@ def _require_possible(
 
 
 _SECONDS = {Element.TRI6: 1e-5, Element.QUAD8: 8e-6, Element.HEX8: 6e-6, Element.HEX20: 1.2e-5}
-"""To mesh, judge and write an element in the usual formats."""
+"""Time (s) to mesh, judge and write an element in the usual formats."""
 
 _BEFORE = 0.5
 """Seconds that it takes at least."""
@@ -422,7 +422,7 @@ def _most_nodes(plan: MeshPlan) -> int:
 
 
 def _refusal(plan: MeshPlan, text: str, excess: float) -> InputError:
-    """The error for what is too large by a factor, with what would do."""
+    """Return the error for a mesh that is too large by a factor, with a size that would do."""
     options, excess = plan.options, _MARGIN * excess
     if options.elements is not None:
         return ParameterError("elements", options.elements, f"{text}; about {options.elements / excess:.2g} would do")

@@ -61,7 +61,7 @@ def edge_shapes(s: Floats) -> Floats:
 
 
 def edge_slopes(s: Floats) -> Floats:
-    """Their derivatives (n, 3)."""
+    """Return the derivatives (n, 3) of the edge's shape functions."""
     return np.stack([s - 0.5, -2 * s, s + 0.5], -1)
 
 
@@ -73,7 +73,7 @@ def triangle_shapes(local: Floats) -> Floats:
 
 
 def triangle_slopes(local: Floats) -> Floats:
-    """Their derivatives (n, 6, 2)."""
+    """Return the derivatives (n, 6, 2) of the triangle's shape functions."""
     s, t = local.T
     r, zero = 1 - s - t, np.zeros_like(s)
     by_s = np.stack([1 - 4 * r, 4 * s - 1, zero, 4 * (r - s), 4 * t, -4 * t], -1)
@@ -185,7 +185,7 @@ def _shares(line: Floats) -> Floats:
 
 
 _WEIGHT_OF_ALL = 30.0
-"""How much more the number of all quadrangles matters than that on one side, squares of logarithms compared."""
+"""Weight of the number of all quadrangles against that on one side, squares of logarithms compared."""
 
 _LEAST_BEND = 0.15
 """Slope with which the line below the split leans, at the least, towards where it ends on the held circle."""

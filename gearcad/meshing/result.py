@@ -29,12 +29,12 @@ from gearcad.meshing.plan import GearPlan, MeshPlan
 from gearcad.version import __version__
 
 COARSE = 0.5
-"""How far (µm) faces may be from the exact gear between their nodes, where nobody asks for larger ones."""
+"""Largest distance (µm) of faces from the exact gear between their nodes, unless larger elements are asked for."""
 
 
 @dataclass(frozen=True)
 class Gate:
-    """What decides whether a mesh is passed: a value, and its limit, which it must reach (`least`) or not exceed."""
+    """A value that decides whether a mesh is passed, with the limit that it must reach (`least`) or not exceed."""
 
     quantity: str
     value: float
@@ -44,7 +44,7 @@ class Gate:
 
     @property
     def passed(self) -> bool:
-        """False for what is no number, too."""
+        """True if the value keeps its limit; False for NaN."""
         return bool(self.value >= self.limit if self.least else self.value <= self.limit)
 
     def __str__(self) -> str:
@@ -110,7 +110,7 @@ class JudgedMesh:
 
     @property
     def mean_offset(self) -> float:
-        """Mean distance (µm) of the surface from the exact one: the difference in area or volume over the size of the surface."""
+        """Mean distance (µm) of the surface from the exact one: the difference in area or volume over the surface's size."""
         return 1000 * abs(self.whole - self.exact) / self._surface.size
 
     @property
@@ -146,13 +146,14 @@ class Deck(Protocol):
         """Results of gearcad's own check for the same case, to compare with."""
 
     def write(self, path: Path) -> None:
-        """Write it."""
+        """Write the deck to `path`."""
 
 
 @dataclass(frozen=True)
 class MeshResult(Pictured):
-    """The meshes of a design by the names of their files - one a gear, or that of the pair in mesh - and what was found of each
-    gear's; decks by the names of their files.
+    """The meshes of a design with their measured quality, and its decks.
+
+    Meshes and decks go by the names of their files. A mesh is of one gear, or of the pair in mesh.
     """
 
     name: str
@@ -238,7 +239,7 @@ _FOLDED = 1e-6
 """Least scaled Jacobian below which a mesh is none: such an element has no inside."""
 
 _ON = 1e-9
-"""How far (mm) nodes may be from the exact sides, and from those they are matched with: that is rounding."""
+"""Largest distance (mm) of nodes from the exact sides, and from the nodes they are matched with: rounding."""
 
 _ON_SOLID = 1e-6
 """The same of sides of tetrahedra that are no flanks: where these end, nodes are as the edges of the boundary representation
@@ -246,7 +247,7 @@ are, which its kernel knows to 1e-7 mm.
 """
 
 _CLOSED = 1e-9
-"""What share of the surface may be missing: that is rounding, too."""
+"""Largest share of the surface that may be missing: rounding, too."""
 
 
 def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> MeshResult:

@@ -21,7 +21,7 @@ _INSTEAD = 'solid checks (model = "3d"), stiffness "potential-energy" and all th
 
 
 def load_gmsh() -> Any:
-    """The module. Raises SolverError where it is not installed, or lacks a library of the system."""
+    """Return the module gmsh. Raises SolverError where it is not installed, or lacks a library of the system."""
     try:
         import gmsh
     except (ImportError, OSError) as error:

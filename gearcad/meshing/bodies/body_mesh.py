@@ -27,16 +27,16 @@ from gearcad.meshing.outline import Grading, MeshSizes, graded
 from gearcad.meshing.sector import Stack
 
 _LONGER = 4.0
-"""How much longer an edge along the tooth may be than one across its flank: there little changes along the helix."""
+"""Largest ratio of an edge along the tooth to one across its flank: little changes along the helix."""
 
 _THINNER = 0.4
 """Thickness of a layer at an end of the face, or where an end relief begins, over that in the middle."""
 
 _GROWTH = 0.3
-"""How fast layers become thicker from there, per distance."""
+"""Growth of the thickness of layers from there, per distance."""
 
 _OFF_HELIX = 0.25e-3
-"""How far (mm) an edge of second order may be off its helix between its nodes; as much is left to the section's edges."""
+"""Largest distance (mm) of an edge of second order from its helix between its nodes; as much is left to the section's edges."""
 
 _FEWEST = 2
 """Layers of the narrowest gear."""
@@ -327,10 +327,10 @@ _FILLET_TURN = 7.5
 """Degrees that an edge of a fillet turns at most: four of them over 30 degrees."""
 
 _DEVIATION = 0.3e-3
-"""How far (mm) an edge's parabola may be from the curve; what modifications add is less than another 0.2 µm."""
+"""Largest distance (mm) of an edge's parabola from the curve; what modifications add is less than another 0.2 µm."""
 
 _NEAR = 0.1
-"""How far the number of elements may be from what is asked for."""
+"""Largest relative difference from the number of elements that is asked for."""
 
 _TRIES = 16
 

@@ -40,7 +40,7 @@ class Shape:
 
 
 class Element(Enum):
-    """What meshes are made of; the value is the word of commands and files."""
+    """Element of a mesh; the value is the word of commands and files."""
 
     TRI6 = "tri6"
     QUAD8 = "quad8"
@@ -123,7 +123,7 @@ class Faces:
         return len(self.elements)
 
     def shifted(self, elements: int) -> Faces:
-        """The same sides where so many elements stand before them."""
+        """Return the same sides for a mesh in which `elements` others stand before them."""
         return replace(self, elements=self.elements + np.int32(elements))
 
 
@@ -195,7 +195,7 @@ def joined(meshes: Mapping[str, ElementMesh]) -> ElementMesh:
 
 
 NOWHERE = -1
-"""Of nodes that are on no tooth's side of that kind."""
+"""Number for nodes that are on no tooth's side of that kind."""
 
 _TOOTH = re.compile(r"(.+)_(\d+)")
 
@@ -284,7 +284,7 @@ def shape_values(kind: str, places: Floats) -> Floats:
 
 
 def shape_slopes(kind: str, places: Floats) -> Floats:
-    """Their derivatives (p, dimension, n) along the local coordinates."""
+    """Return the derivatives (p, dimension, n) of the shape functions along the local coordinates."""
     powers = _powers(kind)
     found = []
     for axis in range(powers.shape[1]):
@@ -306,7 +306,7 @@ MESHIO_WORDS = {
     "quad9": "quad9",
     "hex27": "hexahedron27",
 }
-"""What meshio calls elements and faces; the order of their nodes is ours."""
+"""Names of elements and faces in meshio; the order of their nodes is ours."""
 
 _LINEAR_FACES = {"line3": "line2", "tri6": "tri3", "quad4": "quad4", "quad8": "quad4"}
 """Faces as scikit-fem reads them: their vertices."""
@@ -351,7 +351,7 @@ def vtk_grid(mesh: ElementMesh) -> Any:
 
 
 def pyvista_grid(mesh: ElementMesh) -> Any:
-    """The same as pyvista.UnstructuredGrid. Raises ImportError without PyVista."""
+    """Return the mesh as a pyvista.UnstructuredGrid. Raises ImportError without PyVista."""
     try:
         import pyvista
     except ImportError as error:
@@ -390,7 +390,7 @@ def skfem_mesh(mesh: ElementMesh) -> Any:
 
 
 def _vertices_first(mesh: ElementMesh) -> ElementMesh:
-    """The same mesh with its nodes numbered as scikit-fem takes them: those between vertices after all of these."""
+    """Return the mesh with its nodes numbered as scikit-fem takes them: those between vertices after all vertices."""
     between = np.ones(len(mesh.points), bool)
     between[mesh.cells[:, : mesh.element.shape.vertices]] = False
     order = np.argsort(between, kind="stable")

@@ -23,18 +23,18 @@ from gearcad.geometry.profile import Chamfer, Curve, CurveKind, Fillet, Involute
 from gearcad.meshing.bodies.element_mesh import GAP, ElementMesh, body_side, rises, shape_values
 
 _DEGREE = 48
-"""Of the polynomials that stand for a curve's radius and angle: they come within rounding of all of them."""
+"""Degree of the polynomials that stand for a curve's radius and angle: they come within rounding of all of them."""
 
 _PLACES, _WEIGHTS = leggauss(16)
 
 
 def exact_area(gear: Gear, held_radius: float) -> float:
-    """Area (mm²) of one tooth and its share of the body up to `held_radius` (mm), in the section at mid face width."""
+    """Return the area (mm²) of one tooth and its share of the body up to `held_radius` (mm), at mid face width."""
     return _body(gear, middle_section(gear), held_radius)
 
 
 def exact_volume(gear: Gear, held_radius: float) -> float:
-    """Volume (mm³) of the same over the face width, flanks modified as they are."""
+    """Return the volume (mm³) of one tooth and its share of the body over the face width, with flanks modified as they are."""
     plain = _body(gear, gear.profile.curves, held_radius) * gear.face_width
     if not gear.modification.present:
         return plain

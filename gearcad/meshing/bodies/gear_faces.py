@@ -38,7 +38,7 @@ _FRONTAL, _HXT = 6, 10
 
 
 class Surface(Enum):
-    """What a face lies on; the value is gmsh's word for it."""
+    """Kind of surface on which a face lies; the value is gmsh's word for it."""
 
     PLANE = "Plane"
     CYLINDER = "Cylinder"
@@ -47,7 +47,7 @@ class Surface(Enum):
 
 
 class Stage(Enum):
-    """What gmsh does one after the other."""
+    """Stages of meshing in gmsh, one after the other."""
 
     CURVES = "edges"
     SURFACES = "faces"
@@ -85,7 +85,7 @@ class RadialLengths:
     mean: float
 
     def refined(self, factor: float) -> RadialLengths:
-        """All of them shorter by a factor."""
+        """Return all lengths, shorter by a factor."""
         return replace(self, lengths=[length / factor for length in self.lengths], mean=self.mean / factor)
 
     def at(self, radius: float) -> float:
@@ -288,7 +288,7 @@ def _filled(gmsh: Any, faces: Sequence[int]) -> Filled:
 
 
 ROOT = "root"
-"""Of a root land, which is of two teeth."""
+"""Name of a root land, which is of two teeth."""
 
 _NEAR = 1e-6
 """Radii and heights (mm) closer than this are the same: the CAD kernel's are exact to rounding."""
@@ -316,7 +316,7 @@ class GearFace:
 
 @dataclass(frozen=True)
 class GearFaces:
-    """Tells the faces of one gear apart."""
+    """The faces of one gear, told apart."""
 
     gear: Gear
 
@@ -432,7 +432,7 @@ _THIN = 1.5
 
 @dataclass(frozen=True, kw_only=True)
 class TetrahedronGrading:
-    """How edges of tetrahedra differ in length, beside the one size that is asked for.
+    """Rules by which the edges of tetrahedra differ from the one size that is asked for.
 
     At least `fillet_elements` stand over 30 degrees of a fillet, and edges in transverse sections are at most about `deviation`
     (µm) off the curve; None: as far as comes of it. On refined teeth edges are `refinement` times as fine. Inwards they grow by
@@ -508,7 +508,10 @@ def _tetrahedron_sizes_by_radius(curve: Curve, length: EdgeLength, least: float)
 
 
 def expected_tetrahedra(lengths: EdgeLengths, faces: Sequence[BrepFace]) -> float:
-    """About how many there will be: most stand on the triangles of the surface, the more the slower edges grow inwards."""
+    """Return the approximate number of tetrahedra.
+
+    Most stand on the triangles of the surface, the more the slower edges grow inwards.
+    """
     usual = [
         limit if radial is None else min(limit, radial.mean)
         for limit, radial in zip(lengths.faces, lengths.radial, strict=True)

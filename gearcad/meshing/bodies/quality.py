@@ -68,7 +68,7 @@ class WorstElement:
 
 @dataclass(frozen=True)
 class Quality:
-    """Of all elements of a mesh. Scaled Jacobians are an element's least.
+    """Quality of all elements of a mesh. The scaled Jacobian of an element is its least.
 
     The scaled Jacobian is the volume that three directions of the map span (the area of two), over the product of their
     lengths: 1 for a right-angled element and for an equilateral one of three or four vertices, 0 or less where it folds. Of

@@ -15,7 +15,10 @@ _STEP = 1e-9
 
 
 class RoundedMapping(MappingIsoparametric):  # type: ignore[misc]
-    """Its parent's search asks for steps that are smaller than rounding is in short elements far from the origin."""
+    """Mapping whose search ends at rounding.
+
+    In short elements far from the origin, its parent's search asks for steps that are smaller than rounding.
+    """
 
     def invF(self, x: Floats, tind: Any = None, newton_max_iters: int = 50, newton_tol: float = _STEP) -> Floats:
         """Places (dimension, elements, n) in elements of the points x of the same shape."""

@@ -141,7 +141,10 @@ class _Outline:
         return self._fillet.turn(self.gear.flank_form, s, self.heights[:, None], left=left)
 
     def _of_tip(self, angle: Floats) -> Floats:
-        """Chamfers turn with the ends of the flanks, the land between its own ends."""
+        """Return the turns at angles (rad) on the tip.
+
+        Chamfers turn with the ends of the flanks, the land between its own ends.
+        """
         end = np.array([self.gear.flank_form.last])
         left, right = self._of_lengths(end, left=True), self._of_lengths(end, left=False)
         land = self.gear.profile.curves[-1]
@@ -225,7 +228,7 @@ _OF_TEETH = {
 
 _ACROSS = OTHER_SIDE | {other: side for side, other in OTHER_SIDE.items()}
 _OF_RINGS = {side: _OF_TEETH[_ACROSS[side]] for side in _OF_TEETH}
-"""Those of a ring, whose teeth point the other way."""
+"""Names of sides of a ring, whose teeth point the other way."""
 
 
 def mesh_section(

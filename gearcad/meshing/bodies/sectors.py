@@ -29,7 +29,7 @@ from gearcad.meshing.quads import SectorLayout, fill_layout, quadrangles, transf
 from gearcad.meshing.sector import fill_polygon, mesh_sector
 
 _GROWTH = 0.25
-"""By how much of the distance from the zone edges are longer than in it."""
+"""Growth of edges outside the zone, as a share of the distance from the zone."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,7 +78,7 @@ def _length(curves: tuple[Curve, ...], kind: CurveKind) -> float:
 
 
 _COARSER = 2.0
-"""How many times longer edges must be wanted before three become one."""
+"""Ratio of wanted to present edge length from which three edges become one."""
 
 _LONGEST = 0.25
 """Longest edge over the radius."""
@@ -87,13 +87,13 @@ _FEWEST = 12
 """Least edges of a circle that is left after three of them became one."""
 
 _EVENED = 0.4
-"""How much of what distances along a circle differ is taken off from one ring to the next."""
+"""Share of the differences of distances along a circle that is taken off from one ring to the next."""
 
 _CORE = 0.55
-"""Where the sides of the core are in their middle, over the radius of the circle round it."""
+"""Distance of the middle of the core's sides from the centre, over the radius of the circle round it."""
 
 _ROUND = 0.5
-"""How round the core is: 0 is a square, 1 a circle."""
+"""Roundness of the core: 0 is a square, 1 a circle."""
 
 
 def filled(ring: ElementMesh, growth: float) -> ElementMesh:
@@ -191,7 +191,7 @@ class _Rings:
         return count + np.arange(len(points))
 
     def _ring(self, thickness: float) -> None:
-        """One quadrangle inside every edge."""
+        """Add a ring with one quadrangle inside every edge."""
         scaled = self._places * (1 - thickness / self._radius)
         inside = self._add(_evenly(scaled, _EVENED))
         self.quads.append(_band(self.last, inside))
@@ -282,7 +282,7 @@ class SectorCount(NamedTuple):
 
 
 class _Kind(NamedTuple):
-    """What makes the sector of a tooth: its zone of short edges; whether it is as fine as sizes ask for."""
+    """Kind of a tooth's sector: its zone of short edges, and whether it is as fine as sizes ask for."""
 
     zone: ContactZone | None
     fine: bool
@@ -391,7 +391,7 @@ def _counted(sector: SectorSides) -> SectorCount:
 
 
 def _carrying(sizes: MeshSizes) -> MeshSizes:
-    """Sizes of a tooth that only carries on."""
+    """Return the sizes of a tooth that only carries on."""
     coarse = sizes.coarse()
     longer = {name: max(getattr(sizes, name), getattr(coarse, name)) for name in ("flank", "corner", "fillet", "outline")}
     return replace(sizes, **longer, fillet_turn=None)

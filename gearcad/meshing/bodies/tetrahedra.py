@@ -526,7 +526,7 @@ def mesh_tetrahedra(
 
 
 _Expected = Callable[[float], float]
-"""How many tetrahedra there may be for a size (mm)."""
+"""Function from a size (mm) to the expected number of tetrahedra."""
 
 
 @dataclass(frozen=True)
