@@ -1,7 +1,5 @@
 """Checks that a gear can exist: its numbers, the tool that must cut it, and trimming by a shaper cutter.
 
-Raises GeometryError, whose limits can be used as they are printed.
-
 Raises ParameterError or GeometryError, whose limits can be used as they are printed.
 """
 
@@ -35,11 +33,14 @@ from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.profile import ToothProfile
 
 _MOST_CUTTER_TEETH = 2000
-"""Of those that are tried, to say which would do."""
+"""Most teeth of the cutters that are tried, to name one that would do."""
 
 
 def check_shaper(gear: GearData) -> None:
-    """The cutter must fit inside its ring, roll on it, reach its root, and generate its flanks up to the tips."""
+    """Raise GeometryError unless the cutter can make these teeth.
+
+    The cutter must fit inside its ring, roll on it, reach its root, and generate its flanks up to the tips.
+    """
     teeth, cutter = gear.cutter.teeth, gear.cutter
     if gear.internal and teeth is not None and teeth >= gear.tooth_count:
         permitted = f"must be at most {gear.tooth_count - 1}: the cutter works inside a ring of {gear.tooth_count} teeth"
@@ -80,7 +81,7 @@ def _terms(gear: GearData) -> str:
 
 
 def _check_shift(gear: GearData, teeth: int) -> None:
-    """The cutter has teeth, and meshes at some centre distance."""
+    """Raise GeometryError unless the cutter has teeth on its reference circle and meshes at some centre distance."""
     tangent = math.tan(math.radians(gear.rack.pressure_angle))
     least = -(math.pi / 2 + gear.tooth_thinning / gear.normal_module) / (2 * tangent)
     limit = -gear.profile_shift - involute(gear.transverse_pressure_angle) * (gear.teeth + teeth) / (2 * tangent)
@@ -95,7 +96,10 @@ def _check_shift(gear: GearData, teeth: int) -> None:
 
 
 def _cannot_reach(gear: GearData) -> GeometryError:
-    """The fault of a root circle at which the cutter has no tip: inside its base circle, or beyond where its flanks meet."""
+    """Return the error for a root circle at which the cutter has no tip.
+
+    The root circle is inside the cutter's base circle, or beyond where its flanks meet.
+    """
     tip = shaper_tip(gear, 0.0)
     owner = "the flanks of the space" if gear.cutter.teeth is None else "the cutter's flanks"
     if shallow := tip.tip_radius <= tip.base_radius:
@@ -120,13 +124,19 @@ def _cannot_reach(gear: GearData) -> GeometryError:
 
 
 def tip_words(gear: GearData, limit: float, side: str) -> str:
-    """The addendum of the rack that has its tip on a circle (mm, signed), where the tip follows from it."""
+    """Return, in words, the rack's addendum that puts its tip on a circle (mm, signed).
+
+    The text is empty if the tip does not follow from the addendum.
+    """
     addendum = (limit - gear.reference_diameter) / (2 * gear.normal_module) - gear.profile_shift - gear.tip_alteration
     return "" if is_given(gear.tip_diameter) or addendum <= 0 else f" (rack.addendum {side} {at_most(addendum)})"
 
 
 def _check_generated(gear: GearData, teeth: int) -> None:
-    """The cutter's involute begins on its base circle: it touches no flank beyond the end of the line of action there."""
+    """Raise GeometryError unless the cutter generates the flanks up to the tips.
+
+    The cutter's involute begins on its base circle: it touches no flank beyond the end of the line of action there.
+    """
     if _generates(gear, teeth):
         return
     side = -1 if gear.internal else 1
@@ -140,7 +150,7 @@ def _check_generated(gear: GearData, teeth: int) -> None:
 
 
 def _cut_by(gear: GearData, teeth: int) -> GearData:
-    """The gear, unchecked, with another number of teeth of its cutter."""
+    """Return the gear, unchecked, with another number of teeth of its cutter."""
     given = {each.name: getattr(gear, each.name) for each in fields(GearData)}
     return GearData(**given | {"cutter": replace(gear.cutter, teeth=teeth)})
 
@@ -204,7 +214,7 @@ def _tips(gear: GearData, profile: ToothProfile, teeth: int) -> InternalTips:
 
 
 def _fewer(gear: GearData, profile: ToothProfile, margin: Callable[[InternalTips], float]) -> str:
-    """The largest number of teeth of a cutter that would do, in words."""
+    """Return, in words, the largest number of teeth of a cutter that would not trim."""
     plain = GearData(**{each.name: getattr(gear, each.name) for each in fields(GearData)})
     for teeth in range((gear.cutter.teeth or 0) - 1, 2, -1):
         other = replace(plain, cutter=replace(gear.cutter, teeth=teeth))
@@ -231,7 +241,7 @@ def check_given(gear: GearData) -> None:
 
 
 def _check_fields(gear: GearData) -> None:
-    """Each field by itself."""
+    """Raise ParameterError for a field that is not permitted by itself."""
     require_name("name", gear.name)
     require_fields(gear)
     if 0 < abs(gear.helix_angle) < LEAST_HELIX:
@@ -251,7 +261,10 @@ def _check_fields(gear: GearData) -> None:
 
 
 def _check_numbers(gear: GearData) -> None:
-    """Circles that are given have the sign of the teeth; the width against module and lead."""
+    """Raise ParameterError or GeometryError for numbers that do not fit together.
+
+    Given circles must have the sign of the teeth, and the width must fit module and lead.
+    """
     for name in ("tip_diameter", "root_diameter"):
         if is_given(given := getattr(gear, name)) and given * gear.teeth <= 0:
             below = f"must be a number below 0 mm, as the teeth are (ISO 21771){f': write {-given:.10g}' if given else ''}"
@@ -270,7 +283,7 @@ def _check_numbers(gear: GearData) -> None:
 
 
 def _check_double_helix(gear: GearData) -> None:
-    """Two hands need a helix, and halves of some width beside the gap."""
+    """Raise GeometryError unless a double helical gear has a helix, external teeth, and halves of some width beside the gap."""
     double = gear.double_helix
     if gear.internal:
         permitted = "must be left out on a ring: its halves are two rings, each with its own hand"
@@ -284,7 +297,7 @@ def _check_double_helix(gear: GearData) -> None:
 
 
 def check_tool(gear: GearData) -> None:
-    """The tool must be able to exist: its tip radius fits between its flanks, and it leaves some tooth."""
+    """Raise GeometryError unless the tool can exist: its tip radius fits between its flanks, and it leaves some tooth."""
     _check_thickness(gear)
     if gear.internal:
         _check_base_circle(gear)
@@ -292,7 +305,7 @@ def check_tool(gear: GearData) -> None:
 
 
 def _check_base_circle(gear: GearData) -> None:
-    """The involutes of a ring begin on its base circle, which must be inside its tips."""
+    """Raise GeometryError unless the base circle of a ring, where its involutes begin, is inside its tips."""
     if gear.tip_diameter >= gear.base_diameter:
         words = tip_words(gear, gear.base_diameter, "below")
         permitted = f"must be below {at_most(gear.base_diameter)} mm{words}, the base circle, where involutes begin"
@@ -300,7 +313,7 @@ def _check_base_circle(gear: GearData) -> None:
 
 
 def _check_thickness(gear: GearData) -> None:
-    """Some tooth on the reference circle, and some depth below it."""
+    """Raise GeometryError unless some tooth is left on the reference circle, and some tool depth below it."""
     m, angle = gear.normal_module, gear.rack.pressure_angle
     least_shift = -math.pi / 4 / math.tan(math.radians(angle))
     if gear.profile_shift <= least_shift:
@@ -326,7 +339,7 @@ def _check_thickness(gear: GearData) -> None:
 
 
 def _check_hob(gear: GearData) -> None:
-    """The tip of a hob or rack: wide enough for its radius."""
+    """Raise GeometryError unless the tip of a hob or rack is wide enough for its radius."""
     m, angle = gear.normal_module, gear.rack.pressure_angle
     thinning = f"thinning {gear.tooth_thinning:g} mm" if gear.tooth_thinning else "no thinning"
     terms = f"for dedendum {gear.dedendum:.6g}, pressure angle {angle:g} deg, {thinning}"

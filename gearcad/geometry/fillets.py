@@ -407,7 +407,7 @@ class ShaperTip:
         return np.sqrt(np.maximum(square, 0.0)), slope
 
     def _square(self, theta: Floats) -> tuple[Floats, Floats]:
-        """The same of the corner itself: r_f^2 - |p|^2."""
+        """Return the root of F = r_f^2 - |p|^2 of the corner itself, and F'/2."""
         wide = self.radius**2 * (1 / self._c**2 - 1)
         square = 4 * self._middle_radius * self.radius * np.sin(theta / 2) ** 2 - wide * np.sin(theta) ** 2
         slope = np.sin(theta) * (self._middle_radius * self.radius - wide * np.cos(theta))

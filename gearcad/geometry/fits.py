@@ -55,7 +55,7 @@ _CLEARANCE = {
     "f": (6, 10, 13, 16, 20, 25, 30, 36, 43, 50, 56, 62, 68),
     "g": (2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 17, 18, 20),
 }
-"""How far below the size a shaft, and above it a hole of that letter, ends."""
+"""Distance (µm) from the size to the nearer limit of that letter: below the size for a shaft, above it for a hole."""
 
 _TRANSITION = {
     "k": (0, 1, 1, 1, 2, 2, 2, 3, 3, 4, 4, 4, 5),
@@ -94,7 +94,7 @@ _INTERFERENCE = {
     "s": (14, 19, 23, 28, 35, 35, 43, 43, 53, 59, 71, 79, 92, 100, 108, 122, 130, 140, 158, 170, 190, 208, 232, 252),
     "u": (18, 23, 28, 33, 41, 48, 60, 70, 87, 102, 124, 144, 170, 190, 210, 236, 258, 284, 315, 350, 390, 435, 490, 540),
 }
-"""How far above the size a shaft of that letter begins, r, s and u in finer ranges."""
+"""Distance above the size at which a shaft of that letter begins, r, s and u in finer ranges."""
 
 _J = {
     5: (-2, -2, -2, -3, -4, -5, -7, -9, -11, -13, -16, -18, -20),

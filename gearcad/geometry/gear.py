@@ -71,7 +71,7 @@ class RackPose(NamedTuple):
 
 
 _PIXELS = 240
-"""Of the longer side."""
+"""Pixels of the longer side."""
 
 CHORD_ERROR = 0.2
 """Pixels that a polygon may be off the outline."""
@@ -227,7 +227,7 @@ _OF_EXTERNAL = "span_teeth span_measurement span_contact_diameter ball_diameter 
 _OF_RINGS = (
     "profile_shift_khk span_spaces span_measurement span_contact_diameter ball_diameter between_balls between_pins".split()
 )
-"""What a document has beside the inputs: of all gears, of external ones and of rings."""
+"""Properties in a document beside the inputs: of all gears, of external ones and of rings."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -283,7 +283,7 @@ class Gear(GearData):
 
     @property
     def _side(self) -> int:
-        """The sign of its diameters."""
+        """Sign of the gear's diameters: -1 for a ring, else 1."""
         return -1 if self.internal else 1
 
     @property
@@ -337,7 +337,7 @@ class Gear(GearData):
 
     @property
     def span_spaces(self) -> int | None:
-        """The same of a spur ring, whose anvils span spaces; None for a helical ring and an external gear."""
+        """Number of spaces to span on a spur ring; None for a helical ring and an external gear."""
         return self.inspection.spanned if self.internal else None
 
     @property
@@ -374,7 +374,7 @@ class Gear(GearData):
 
     @property
     def between_pins(self) -> float | None:
-        """The same with pins in a spur ring; None for a helical ring, whose hollow flanks a straight pin does not fit."""
+        """Dimension between two pins in a spur ring; None for a helical ring: a straight pin does not fit its hollow flanks."""
         return None if self.helix_angle else self.between_balls
 
     @property

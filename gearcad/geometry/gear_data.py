@@ -30,7 +30,7 @@ _COEFFICIENT = Range("", -5, 5)
 _TEETH = Whole(3, 2000, negative=(-10, "internal gear"))
 
 _DIAMETER = Range("mm", -2e6, 2e6)
-"""Of circles that are given, negative on a ring: no permitted teeth and module make a larger gear."""
+"""Range of given diameters, negative on a ring: no permitted teeth and module make a larger gear."""
 
 
 _ROUGHNESS = Range("µm", 0.01, 1000)
@@ -38,7 +38,7 @@ _ROUGHNESS = Range("µm", 0.01, 1000)
 _NO_THINNING = Derived(0.0)
 
 _GAP_DEPTH = 0.5
-"""How much less the diameter between the halves of a double helical gear is than the root circle's, in normal modules."""
+"""Difference of the root circle's diameter and that between the halves of a double helical gear, in normal modules."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -349,7 +349,10 @@ LEAST_RIM = 0.1
 
 
 def check_body(gear: GearData) -> None:
-    """Bore, keyway and hub must leave a rim, the end chamfers some end face; a ring must fit in its rim."""
+    """Raise GeometryError unless the body is possible.
+
+    Bore, keyway and hub must leave a rim, the end chamfers some end face; a ring must fit in its rim.
+    """
     (_check_ring if gear.internal else _check_disc)(gear)
     if gear.double_helix.gap_width:
         _check_gap(gear)
@@ -395,7 +398,7 @@ def _check_ring(gear: GearData) -> None:
 
 
 def _check_bolt_circle(gear: GearData) -> None:
-    """Bolt holes leave a wall outside the root circle and inside the rim."""
+    """Raise GeometryError unless bolt holes leave a wall outside the root circle and inside the rim."""
     body, wall = gear.body, 2 * LEAST_RIM * gear.normal_module
     inner = abs(gear.root_diameter) + wall + body.bolt_diameter
     outer = math.inf if body.rim_diameter is None else body.rim_diameter - wall - body.bolt_diameter
@@ -411,7 +414,7 @@ def _check_bolt_circle(gear: GearData) -> None:
 
 
 def _check_bolt_holes(gear: GearData) -> None:
-    """Bolt holes leave a wall between each other."""
+    """Raise GeometryError unless bolt holes leave a wall between each other."""
     body = gear.body
     most = math.floor(math.pi / math.asin((body.bolt_diameter + LEAST_RIM * gear.normal_module) / body.bolt_circle))
     if body.bolt_holes > max(most, 1):
@@ -455,7 +458,7 @@ def _check_disc(gear: GearData) -> None:
 
 
 def _check_end_chamfer(gear: GearData, deepest: float) -> None:
-    """End chamfers reach no deeper than `deepest` (mm, along the radius from the tip circle)."""
+    """Raise GeometryError if end chamfers reach deeper than `deepest` (mm, along the radius from the tip circle)."""
     length = gear.body.end_chamfer
     slope = math.tan(math.radians(gear.body.end_chamfer_angle))
     most = min(0.49 * gear.half_width, deepest / slope)

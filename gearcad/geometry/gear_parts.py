@@ -1,9 +1,7 @@
-"""What is given of a gear beside its teeth: module series, basic rack, shaper cutter, double helix, body with bore and keyway.
+"""Inputs of a gear beside its teeth: module series, basic rack, shaper cutter, double helix, body with bore and keyway.
 
-Lengths in mm, angles in degrees.
-
-All lengths are coefficients of the normal module. The tool that cuts the gear is the counterpart of the rack, so the
-tip radius of the tool equals the root radius of the rack.
+Lengths in mm, angles in degrees; lengths of basic rack and shaper cutter are coefficients of the normal module. The counterpart
+of the rack is the tool that cuts the gear. So the tip radius of the tool equals the root radius of the rack.
 """
 
 from __future__ import annotations
@@ -19,7 +17,7 @@ from gearcad.core.quantities import Derived, InPlaceOf, Range, Whole, Words, der
 from gearcad.core.records import concise
 
 ISO_54_I = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50)
-"""Those that the standard prefers."""
+"""Modules that the standard prefers."""
 
 ISO_54_II = (1.125, 1.375, 1.75, 2.25, 2.75, 3.5, 4.5, 5.5, 6.5, 7, 9, 11, 14, 18, 22, 28, 36, 45)
 
@@ -81,7 +79,7 @@ _SHIFT = Range("", -5, 5)
 
 @dataclass(frozen=True, kw_only=True)
 class ShaperCutter:
-    """What shapes the roots of a gear: number of teeth z_0, profile shift x_0, radius of the tip corner in normal modules.
+    """Shaper cutter: number of teeth z_0, profile shift x_0, radius of the tip corner in normal modules.
 
     Without teeth there is no shaper: an external gear is cut by the counterpart of its rack, a ring has a form root, whose
     fillet is the corner itself. Without a tip radius the corner has that of the rack, or the full radius where that is
@@ -104,7 +102,7 @@ class ShaperCutter:
 
 
 _PITCH = Range("1/inch", 0.127, 2540)
-"""That of the modules which are permitted."""
+"""Range of the diametral pitches (1/inch) of permitted modules."""
 
 NormalModule = Annotated[
     float, Range("mm", 0.01, 200), Words("normal module", "m_n", "4.2"), InPlaceOf("normal_diametral_pitch")
@@ -151,7 +149,7 @@ _OFFSET = Range("", -HALF_PITCH, HALF_PITCH)
 
 @dataclass(frozen=True, kw_only=True)
 class DoubleHelix:
-    """What is between the halves of a double helical gear; without a gap width the teeth are those of a single helix.
+    """Gap and offset of the halves of a double helical gear; without a gap width the teeth are those of a single helix.
 
     `gap_width` (mm) is part of the face width; 0 lets the halves meet in a sharp apex, in one section. `offset` is how far
     the teeth of the upper half (beyond the gap) are turned on, counter-clockwise, in pitches: 0 where each tooth goes on
@@ -202,7 +200,7 @@ _DEPTHS = (
 )
 
 _ALLOWANCES = ((6, 100.0), (32, 200.0), (100, 300.0))
-"""How much deeper (µm) a keyway may be, up to a width."""
+"""Upper deviations (µm) of the depth of a keyway, up to a width (mm)."""
 
 
 def keyway_of(bore: float) -> Keyway:
@@ -230,7 +228,7 @@ LEAST_FEATURE = 0.001
 
 
 class HubSide(Enum):
-    """Where the hub stands out: beyond z = face width (front), below z = 0 (back), or both."""
+    """Sides on which the hub stands out: beyond z = face width (front), below z = 0 (back), or both."""
 
     FRONT = "front"
     BACK = "back"
@@ -299,7 +297,7 @@ class Body:
                 object.__setattr__(self, name, Derived(value))
 
     def _check_both(self, first: str, second: str) -> None:
-        """Two sizes of one feature: neither stands alone."""
+        """Raise GeometryError if only one of two sizes of one feature is given."""
         for one, other in ((first, second), (second, first)):
             if getattr(self, one) and not getattr(self, other):
                 unit = "" if other == "bolt_holes" else "mm"

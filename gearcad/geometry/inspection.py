@@ -1,7 +1,5 @@
 """Inspection of teeth (ISO 21771): span, dimension over balls and pins, chords, and their limits.
 
-Lengths in mm, angles in degrees.
-
 All lengths in mm, angles in degrees. Tooth thinning is included: these are the dimensions of the gear as cut.
 """
 
@@ -26,7 +24,7 @@ _FARTHEST_CENTRE = math.radians(75)
 
 
 class ChordalThickness(NamedTuple):
-    """Along the chord of the reference circle in the normal section, and its height below the tip circle (mm)."""
+    """Chordal thickness in the normal section on the reference circle, and the height of its chord below the tip circle (mm)."""
 
     thickness: float
     height: float
@@ -34,7 +32,7 @@ class ChordalThickness(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Inspection:
-    """What gauges find on the teeth of an external gear; that of a ring is an `InternalInspection`.
+    """Inspection of the teeth of an external gear by gauges; a ring has an `InternalInspection`.
 
     `middle_diameter` is where a gauge had best touch: d + 2 x m_n, kept on the involute. `base_half_angle` is the half tooth
     angle on the base circle, `addendum` (mm) stands over the reference circle, `lead` is infinite for a spur gear. Teeth,
@@ -42,7 +40,7 @@ class Inspection:
     """
 
     spanned_is: ClassVar[str] = "teeth"
-    """What lies between the anvils of a span."""
+    """Word for what lies between the anvils of a span."""
 
     teeth: int
     normal_module: float
@@ -104,7 +102,7 @@ class Inspection:
         return self.base_diameter / math.cos(math.radians(inverse_involute(value)))
 
     def _at_base_circle(self, ball: float) -> GeometryError:
-        """The fault of a ball whose centre comes to the base circle."""
+        """Return the error for a ball whose centre comes to the base circle."""
         return GeometryError("ball_diameter", ball, "must be larger: the ball falls to the base circle", "mm")
 
     @cached_property
@@ -132,7 +130,7 @@ class Inspection:
         return round(self._whole(ideal / step) * step, 9)
 
     def _whole(self, steps: float) -> int:
-        """A larger ball touches further up the flank: rounded up."""
+        """Return the steps rounded up, as a larger ball touches further up the flank."""
         return math.ceil(steps)
 
     def _touching(self, wanted: float) -> float:
@@ -141,7 +139,10 @@ class Inspection:
         return min(wanted, math.atan(farthest - self._space_at_base))
 
     def _centres(self, touching: float, space: float) -> tuple[float, float]:
-        """Bounds of the pressure angle (rad) at the centre of a ball that touches at one, half the space there given (rad)."""
+        """Return bounds of the pressure angle (rad) at the centre of a ball that touches at `touching`.
+
+        `space` is half the space there (rad).
+        """
         return touching, min(touching + space, math.pi / 2 - 1e-9)
 
     def ball_contact_diameter(self, ball: float) -> float:
@@ -178,9 +179,7 @@ class Inspection:
 
     @property
     def pin_axial_shift(self) -> float:
-        """Return the distance (mm) along the axis between the two pins of a measurement: half an axial pitch if z is odd, else
-        0.
-        """
+        """Return the distance (mm) along the axis between two measuring pins: half an axial pitch if z is odd, else 0."""
         if not self.helix_angle or self.teeth % 2 == 0:
             return 0.0
         return self.lead / self.teeth / 2
@@ -226,7 +225,7 @@ _NEAREST_CENTRE = math.radians(5)
 
 @dataclass(frozen=True, kw_only=True)
 class InternalInspection(Inspection):
-    """What gauges find on the teeth of a ring. Teeth and diameters are negative; what a gauge reads is positive."""
+    """Inspection of the teeth of a ring by gauges. Teeth and diameters are negative; readings of gauges are positive."""
 
     spanned_is: ClassVar[str] = "spaces"
 
@@ -259,7 +258,7 @@ class InternalInspection(Inspection):
     # ------------------------------------------------------------------ balls and pins
 
     def _whole(self, steps: float) -> int:
-        """A larger ball may come to the base circle: rounded down."""
+        """Return the steps rounded down, as a larger ball may come to the base circle."""
         return math.floor(steps)
 
     def _touching(self, wanted: float) -> float:
@@ -268,7 +267,7 @@ class InternalInspection(Inspection):
         return max(wanted, math.atan(nearest - self._space_at_base))
 
     def _centres(self, touching: float, space: float) -> tuple[float, float]:
-        """The centre of the ball is further in than where it touches."""
+        """Return bounds of the pressure angle (rad) at the ball's centre, which is further in than where the ball touches."""
         return 0.0, touching
 
     def _at_base_circle(self, ball: float) -> GeometryError:
@@ -307,13 +306,13 @@ class InternalInspection(Inspection):
 
     @property
     def pin_axial_shift(self) -> float:
-        """Straight pins lie in spur rings only, and side by side."""
+        """Return 0: straight pins lie in spur rings only, and side by side."""
         return 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class RackInspection:
-    """What a pin or a ball in a space finds, whose cross-section square to the teeth is that of the basic rack.
+    """Inspection of a rack by a pin or ball in a space, whose cross-section square to the teeth is that of the basic rack.
 
     Heights count from the reference line: the back is `height` below it, flanks are straight from `form_depth` below it to
     `tip_form_height` above.
@@ -330,7 +329,7 @@ class RackInspection:
 
     @property
     def _normal_space(self) -> float:
-        """e_n on the reference line."""
+        """Normal space width e_n (mm) on the reference line."""
         return self.normal_pitch - self.normal_tooth_thickness
 
     @property
@@ -341,13 +340,16 @@ class RackInspection:
         return round(math.ceil(ideal / step) * step, 9)
 
     def pin_centre(self, pin: float) -> float:
-        """Height of its centre over the reference line: (D/cos alpha_n - e_n)/(2 tan alpha_n). Raises ParameterError."""
+        """Return the height (mm) of a pin's centre over the reference line.
+
+        That height is (D/cos alpha_n - e_n)/(2 tan alpha_n). Raises ParameterError.
+        """
         require_number("pin_diameter", pin, "mm", above=0)
         angle = math.radians(self.pressure_angle)
         return (pin / math.cos(angle) - self._normal_space) / (2 * math.tan(angle))
 
     def pin_contact(self, pin: float) -> float:
-        """Height over the reference line where it touches the flanks."""
+        """Return the height (mm) over the reference line where a pin touches the flanks."""
         return self.pin_centre(pin) - pin / 2 * math.sin(math.radians(self.pressure_angle))
 
     def over_pin(self, pin: float) -> float:
@@ -388,7 +390,7 @@ class RackInspection:
 
 
 class Chord(NamedTuple):
-    """What a tooth caliper reads, and the diameter on which it touches the flanks (mm)."""
+    """Reading of a tooth caliper, and the diameter on which it touches the flanks (mm)."""
 
     thickness: float
     diameter: float

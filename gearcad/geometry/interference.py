@@ -26,12 +26,12 @@ from gearcad.geometry.involute import involute
 from gearcad.geometry.profile import Fillet, ToothProfile
 
 EdgePath = Callable[[Floats], tuple[Floats, Floats]]
-"""Where an edge of a mate is, by its angle from the line of centres about the mate's axis (rad): the radius (mm) about the
-gear's own axis, and the angle (rad) by which it is beside the middle of the gear's tooth."""
+"""Path of an edge of a mate, by its angle from the line of centres about the mate's axis (rad). It gives the radius (mm) about
+the gear's own axis, and the angle (rad) beside the middle of the gear's tooth."""
 
 
 class FilletCut(NamedTuple):
-    """How deep (mm, along the circle) a mate's tip edge cuts into a fillet, and on which diameter (mm) it is deepest."""
+    """Depth (mm, along the circle) of the cut of a mate's tip edge into a fillet, and the diameter (mm) where it is deepest."""
 
     depth: float
     diameter: float
@@ -164,7 +164,7 @@ _REFINEMENTS = 4
 
 
 class InterferenceMargins(NamedTuple):
-    """How far an internal pair is from each interference (mm); what is negative is fouled.
+    """Margins (mm) of an internal pair against each interference; a negative margin means fouling.
 
     Along the line of action: `involute` from the base tangent point T1 to the end of the ring's tip (A); `pinion_fillet` from
     the pinion's root form circle to it; `wheel_fillet` from the end of the pinion's tip (E) to the ring's root form circle.
@@ -181,7 +181,7 @@ class InterferenceMargins(NamedTuple):
 
 @dataclass(frozen=True)
 class ToothTips:
-    """What of the teeth of one gear could foul its mate: the corners of their tips.
+    """Corners of the tips of one gear, which could foul its mate.
 
     `base_half_angle` (rad) is that of the profile. `edges` (radius in mm, half tooth angle in rad) go from the end of the
     involute to the tip land; they are one without a tip chamfer.

@@ -76,7 +76,7 @@ def inverse_involute(value: ArrayLike) -> Any:
 
 
 def _inverse_of_one(target: float) -> float:
-    """The same of one value that is permitted: an array of one takes thirty times as long."""
+    """Return the inverse involute of one permitted value: an array of one takes thirty times as long."""
     guess = float(np.cbrt(3 * target))
     tangent = min(target + math.pi / 2, guess * (1 + 0.4 * guess))
     for _ in range(_MAX_NEWTON_STEPS):

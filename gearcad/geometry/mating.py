@@ -1,7 +1,5 @@
 """Checks that two gears can mesh: common sizes, centre distance, fitting teeth, and interference inside a ring.
 
-Raises GeometryError, whose limits can be used as they are printed.
-
 Raises ParameterError or GeometryError, whose limits can be used as they are printed.
 """
 
@@ -28,13 +26,13 @@ ROUNDING = 1e-9
 """Cut into a fillet, in normal modules, that counts as rounding."""
 
 _ASIDE = 1e-6
-"""What a limit keeps off a tip that would just touch, in normal modules."""
+"""Clearance that a limit keeps from a tip that would just touch, in normal modules."""
 
 _HALVINGS = 40
 _COARSE_HALVINGS = 20
 
 _SHORTER = 0.5
-"""How far a tip circle is drawn in at the most, in normal modules of diameter, for its edge to clear a fillet."""
+"""Largest reduction of a tip circle for its edge to clear a fillet, in normal modules of diameter."""
 
 _MOST_STEPS = 400
 """Rings of more teeth that are looked at, to say which would do."""
@@ -66,7 +64,10 @@ def interference_margins(pair: PairData) -> InterferenceMargins:
 
 
 def check_interference(pair: PairData) -> None:
-    """The ring's tip stays off what the pinion has below its base circle, and both tips off each other beside the mesh."""
+    """Raise GeometryError if tips interfere inside a ring.
+
+    The ring's tip must stay off what the pinion has below its base circle, and both tips off each other beside the mesh.
+    """
     tips = internal_tips(pair)
     if tips.first <= 0 and (cut := _fillet_cut(pair, Role.PINION)):
         limit = 2 * math.hypot(pair.wheel.base_diameter / 2, tips.tangent) - 2 * pair.wheel.body.tip_chamfer
@@ -92,7 +93,7 @@ def ring_tip_limit(pair: PairData) -> str | None:
 
 
 def _trochoid_interference(pair: PairData, depth: float) -> GeometryError:
-    """The error, with the shorter tip or the number of teeth of the ring that would do."""
+    """Return the error of trochoid interference, with the shorter tip or the number of teeth of the ring that would do."""
     why = f"trochoid interference, beside the mesh the tips foul each other by {depth:.4g} mm"
     tip = _shorter_tip(pair, lambda tips: tips.trochoid_margin)
     teeth = _more_teeth(pair, lambda tips: tips.trochoid_margin)
@@ -318,7 +319,7 @@ SAME = 1e-9
 
 
 def check_inputs(pair: PairData) -> None:
-    """The inputs, each by itself."""
+    """Raise ParameterError for an input that is not permitted by itself."""
     for role, gear in pair.gears.items():
         if not isinstance(gear, Gear):
             raise ParameterError(role.value, gear, "must be a Gear")
@@ -331,7 +332,7 @@ def check_inputs(pair: PairData) -> None:
 
 
 def wrong_side(distance: float, *, ring: bool) -> ParameterError:
-    """The error for a centre distance (mm) of the wrong sign, or 0."""
+    """Return the error for a centre distance (mm) that is 0 or has the wrong sign."""
     if not ring:
         return ParameterError("centre_distance", distance, "must be a number above 0 mm", "mm")
     write = f": write {format_number(-distance)}" if distance > 0 else ""
@@ -339,7 +340,7 @@ def wrong_side(distance: float, *, ring: bool) -> ParameterError:
 
 
 def check_ring(teeth: PerGear[int]) -> None:
-    """If one of the gears is a ring, it is the wheel, and the pinion fits inside."""
+    """Raise GeometryError unless a ring, if there is one, is the wheel, and the pinion fits inside."""
     pinion, wheel = teeth
     if pinion < 0:
         raise GeometryError("pinion.teeth", pinion, "must be above 0: of an internal pair the ring is the wheel")
@@ -348,7 +349,7 @@ def check_ring(teeth: PerGear[int]) -> None:
 
 
 def check_mates(pair: PairData) -> None:
-    """Module, pressure angle and helix angle belong together, and the gears face each other."""
+    """Raise GeometryError unless module, pressure angle and helix angle fit together, and the gears face each other."""
     pinion, wheel = pair.gears
     check_ring(pair.gears.map(lambda gear: gear.teeth))
     for name, unit, one, other in (
@@ -369,7 +370,9 @@ def check_mates(pair: PairData) -> None:
 
 
 def _check_halves(pair: PairData) -> None:
-    """Both gears have two halves or none, whose teeth are offset alike and face each other in pairs."""
+    """Raise GeometryError unless both gears or neither are double helical, with equal offsets, and their halves face each
+    other.
+    """
     pinion, wheel = pair.gears.map(lambda gear: gear.double_helix)
     if pinion.present != wheel.present:
         permitted = "must be given for both gears of a double helical pair, or for neither"
@@ -393,7 +396,7 @@ def _check_halves(pair: PairData) -> None:
 
 
 def check_shift_sum(pair: PairData) -> None:
-    """Some centre distance must mesh without backlash, where none is given."""
+    """Raise GeometryError if no centre distance is given and none meshes without backlash."""
     pinion, wheel = pair.gears
     limit = shift_sum_limit(
         teeth=pair.gears.map(lambda gear: gear.teeth),
@@ -408,7 +411,7 @@ def check_shift_sum(pair: PairData) -> None:
 
 
 def check_centre_distance(pair: PairData) -> None:
-    """Beyond that of the base circles."""
+    """Raise GeometryError unless the centre distance is beyond the one at which base circles touch."""
     least = (pair.pinion.base_diameter + pair.wheel.base_diameter) / 2
     if pair.internal:
         if pair.centre_distance >= least:
@@ -436,7 +439,7 @@ def check_tolerance(pair: PairData) -> None:
 
 
 def check_teeth(pair: PairData) -> None:
-    """Flanks do not overlap, tips stay off roots and off each other, and some path of contact is left between them."""
+    """Raise GeometryError if flanks overlap, tips touch roots or each other, or no path of contact is left between tips."""
     _check_backlash(pair)
     for role, clearance in pair.tip_clearances.items():
         if clearance <= 0:
@@ -459,7 +462,7 @@ def check_teeth(pair: PairData) -> None:
 
 
 def _check_path(pair: PairData) -> None:
-    """Some path of contact in a ring: E beyond A, T1T2 < t_a1 + t_a2."""
+    """Raise GeometryError unless some path of contact is left in a ring: E beyond A, T1T2 < t_a1 + t_a2."""
     if pair.centre_distance >= (nearest := _nearest_to_ring(pair)):
         permitted = f"must be below {at_most(nearest)} mm, where the tips reach each other's flanks"
         raise GeometryError("centre_distance", pair.centre_distance, permitted, "mm")

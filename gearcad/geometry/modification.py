@@ -38,7 +38,7 @@ __all__ = [
 _RELIEFS = ("tip_relief", "root_relief", "end_relief")
 _PROFILE_RELIEFS = ("tip_relief", "root_relief")
 _SETTINGS = ("_length", "_shape", "_transition")
-"""What fields end in that describe a relief beside its amount."""
+"""Endings of the fields that describe a relief beside its amount."""
 
 _AMOUNT = Range("µm", -1000, 1000)
 _RELIEF = Range("µm", 0, 1000)
@@ -299,7 +299,7 @@ class FlankForm:
 
     @property
     def _starts(self) -> dict[str, float]:
-        """The same of each relief that takes something off, wherever it starts."""
+        """Return the roll length (mm) where each relief that takes something off starts, inside the flank or not."""
         of = self.modification
         starts = {"tip_relief": self.last - of.tip_relief_length, "root_relief": self.first + of.root_relief_length}
         return {name: start for name, start in starts.items() if getattr(of, name)}

@@ -50,7 +50,7 @@ _DERIVED = (
     "total_contact_ratio tip_clearances circumferential_backlash normal_backlash active_root_diameters "
     "axial_force_ratio"
 ).split()
-"""What a document has beside what was given."""
+"""Properties in a document beside the inputs."""
 
 _SKETCHED = "centre_distance gear_ratio transverse_contact_ratio overlap_ratio circumferential_backlash".split()
 """The figures beside its picture."""
@@ -241,7 +241,7 @@ class GearPair(PairData):
         return pair_html(self.name, self.gears, self.gears.map(lambda gear: gear.profile), self.wheel_pose(), figures)
 
     def _tolerated(self) -> dict[str, Any]:
-        """Return the tolerances for `to_dict`: the class of the centre distance and the limits of backlash, if there are any."""
+        """Return the tolerances for `to_dict`: the class of the centre distance and the limits of backlash, where given."""
         limits, name = self.backlash_limits, self.centre_distance_tolerance
         given = {} if name is None else {"centre_distance_tolerance": name}
         return given if limits is None else given | {"backlash_limits": limits._asdict()}

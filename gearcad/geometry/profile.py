@@ -86,7 +86,7 @@ class Land(_Cartesian):
 
 @dataclass(frozen=True)
 class Fillet(_Cartesian):
-    """What the tool tip cuts up to theta = `last`; s is linear in arcsinh(tan theta), which spreads the bend."""
+    """Fillet that the tool tip cuts up to theta = `last`; s is linear in arcsinh(tan theta), which spreads the bend."""
 
     tool: FilletTool
     last: float
@@ -229,7 +229,7 @@ class ToothProfile:
             )
 
     def _refuse_wrong_chamfer(self) -> None:
-        """The chamfer must leave some involute and some tip land, and must take material off, not add it."""
+        """Raise GeometryError unless the tip chamfer takes material off and leaves some involute and some tip land."""
         deepest = (self.tip_diameter - self.form_diameter) / 2
         if self.tip_chamfer >= deepest:
             raise GeometryError(

@@ -145,7 +145,7 @@ class RackData:
 
 
 class RackCurveKind(Enum):
-    """What a piece of the outline is; the value is its name in files."""
+    """Kind of a piece of the outline; the value is its name in files."""
 
     ROOT = "root land"
     FILLET = "fillet"
@@ -303,17 +303,17 @@ class RackProfile:
 
 
 MOST_PITCHES = 2000
-"""As many as a rack may have teeth."""
+"""Most teeth of a rack."""
 
 
 def check_rack_fields(rack: RackData) -> None:
-    """Each field by itself."""
+    """Raise ParameterError for a field that is not permitted by itself."""
     require_name("name", rack.name)
     require_fields(rack)
 
 
 def check_rack_numbers(rack: RackData) -> None:
-    """Numbers as the module is known, and either teeth or a length."""
+    """Raise ParameterError or GeometryError for numbers that do not fit the module, and unless teeth or a length are given."""
     if 0 < abs(rack.helix_angle) < LEAST_HELIX:
         raise ParameterError("helix_angle", rack.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
     if not isinstance(rack.rack, BasicRack):
@@ -331,7 +331,7 @@ def check_rack_numbers(rack: RackData) -> None:
 
 
 def check_rack_length(rack: RackData) -> None:
-    """A given length holds a pitch, and not too many."""
+    """Raise GeometryError unless a given length holds a pitch, and not too many."""
     pitch = rack.transverse_pitch
     if not 1 <= rack.whole_pitches <= MOST_PITCHES:
         permitted = f"must be from {at_least(pitch)} to {at_most(MOST_PITCHES * pitch)} mm (1 to {MOST_PITCHES} pitches)"
@@ -339,7 +339,11 @@ def check_rack_length(rack: RackData) -> None:
 
 
 def check_rack_teeth(rack: RackData) -> None:
-    """Some tooth on the reference line, a fillet that fits the space, some flank, some tip land, and a back below the roots."""
+    """Raise GeometryError unless the teeth are possible.
+
+    There must be some tooth on the reference line, a fillet that fits the space, some flank, some tip land, and a back below
+    the roots.
+    """
     if rack.normal_tooth_thickness <= 0:
         most = at_most(rack.normal_tooth_thickness + rack.tooth_thinning)
         raise GeometryError("tooth_thinning", rack.tooth_thinning, f"must be below {most} mm, the normal tooth thickness", "mm")
@@ -368,7 +372,7 @@ def _check_space(rack: RackData) -> None:
 
 
 def _check_flank(rack: RackData) -> None:
-    """The tip above the form line, and some land on it."""
+    """Raise GeometryError unless the tip is above the form line and some land is on it."""
     m, tangent = rack.normal_module, math.tan(math.radians(rack.rack.pressure_angle))
     if rack.tip_height <= -rack.form_depth:
         least = at_least(-rack.form_depth / m - rack.rack.addendum)
@@ -462,7 +466,7 @@ _DERIVED = (
     "tip_height tip_form_height form_depth root_depth total_height normal_tooth_thickness transverse_tooth_thickness "
     "tip_thickness pin_diameter over_pin"
 ).split()
-"""What a document has beside the inputs."""
+"""Properties in a document beside the inputs."""
 
 
 @dataclass(frozen=True, kw_only=True)

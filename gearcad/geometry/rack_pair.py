@@ -142,7 +142,7 @@ class RackPairData:
 
 
 def check_rack_inputs(pair: RackPairData) -> None:
-    """The inputs, each by itself."""
+    """Raise ParameterError for an input that is not permitted by itself."""
     if not isinstance(pair.pinion, Gear):
         raise ParameterError("pinion", pair.pinion, "must be a Gear")
     if not isinstance(pair.rack, Rack):
@@ -152,7 +152,7 @@ def check_rack_inputs(pair: RackPairData) -> None:
 
 
 def check_rack_mates(pair: RackPairData) -> None:
-    """An external pinion; module, pressure angle and helix angle belong together."""
+    """Raise GeometryError unless the pinion is external, and module, pressure angle and helix angle fit together."""
     pinion, rack = pair.pinion, pair.rack
     if pinion.internal:
         raise GeometryError("pinion.teeth", pinion.teeth, "must be above 0: no rack meshes with a ring")
@@ -171,7 +171,7 @@ def check_rack_mates(pair: RackPairData) -> None:
 
 
 def check_rack_mesh(pair: RackPairData) -> None:
-    """Flanks do not overlap, tips stay off roots, and some path of contact is left between the tips."""
+    """Raise GeometryError if flanks overlap, tips touch roots, or no path of contact is left between the tips."""
     backlash, m = pair.circumferential_backlash, pair.pinion.normal_module
     if backlash < -ROUNDING_OVERLAP * m:
         least = at_least(pair.zero_backlash_distance, digits=9)
@@ -206,14 +206,14 @@ _FINE = 65
 
 
 class EdgeCut(NamedTuple):
-    """How deep an edge cuts (mm, along pitch line or circle; below 0 it stays clear), and where it is deepest."""
+    """Depth (mm) of an edge's cut along pitch line or circle, below 0 if it stays clear, and the place where it is deepest."""
 
     depth: float
     place: float
 
 
 class RackPlace(NamedTuple):
-    """How a rack stands to its pinion while their flanks touch (mm).
+    """Position of a rack to its pinion while their flanks touch (mm).
 
     `distance` of the reference line from the axis, and how far along the pitch line the middles of two teeth in contact are
     apart there: half of both transverse thicknesses.
@@ -252,7 +252,10 @@ def cut_by_rack(pinion: ToothProfile, rack: RackProfile, place: RackPlace) -> Ed
 
 
 def cut_by_pinion(pinion: ToothProfile, rack: RackProfile, place: RackPlace) -> EdgeCut:
-    """The same of the pinion's tip edges in the rack's fillet; the place is a height over the reference line (mm)."""
+    """Return the deepest cut (mm) by the tip edges of the pinion into the rack's fillet.
+
+    The cut's `place` is a height (mm) over the reference line.
+    """
     working = pinion.reference_diameter / 2
     edges = {(pinion.tip_form_diameter / 2, math.radians(pinion.half_angle(pinion.tip_form_diameter / 2)))}
     edges.add((pinion.tip_diameter / 2, float(pinion.curves[-1].polar(0.0)[1])))
@@ -301,7 +304,7 @@ _DERIVED = (
     "travel_per_revolution travel_per_degree tip_alteration transverse_contact_ratio usable_contact_ratio overlap_ratio "
     "total_contact_ratio circumferential_backlash normal_backlash active_root_diameter active_root_depth"
 ).split()
-"""What a document has beside what was given."""
+"""Properties in a document beside the inputs."""
 
 _SKETCHED = "mounting_distance travel_per_revolution transverse_contact_ratio overlap_ratio circumferential_backlash".split()
 """The figures beside its picture."""
