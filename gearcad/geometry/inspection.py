@@ -24,7 +24,7 @@ _FARTHEST_CENTRE = math.radians(75)
 
 
 class ChordalThickness(NamedTuple):
-    """Chordal thickness in the normal section on the reference circle, and the height of its chord below the tip circle (mm)."""
+    """Chordal thickness in the normal section on the reference circle, and height of its chord below the tip circle (mm)."""
 
     thickness: float
     height: float
