@@ -16,22 +16,22 @@ from gearcad.dynamics.planetary.planetary_strength import PublishedFactor, publi
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 
 _POINTS = (1, 360, 60, 24, 12)
-"""Angles of the grid over a turn, by the number of things that turn."""
+"""Angles of the grid over a turn, by the number of parts that turn."""
 
 SMALLEST_STEP = 1e-4
-"""Steps (rad) at which the search ends: near a maximum, a hundred-millionth of what turns."""
+"""Steps (rad) at which the search ends: near a maximum, a hundred-millionth of the part that turns."""
 
 _CASES = 4096
-"""Cases that are looked at together, for the sake of memory."""
+"""Cases that are computed together, to limit memory."""
 
 
 def grid_points(turning: int) -> int:
-    """Angles of the grid over a turn of each of so many things."""
+    """Return the number of angles of the grid over a turn of each of `turning` parts."""
     return _POINTS[turning]
 
 
 def greatest(quantities: Callable[[Floats], Floats], turning: int) -> tuple[Floats, Floats]:
-    """The greatest (k,) of the `quantities` (s, k) that angles (s, turning) in rad give, and the angles (k, turning) there."""
+    """Return the greatest (k,) of the `quantities` (s, k) at angles (s, turning) in rad, and the angles (k, turning) there."""
     grid = 2 * np.pi * np.array(list(product(range(grid_points(turning)), repeat=turning))) / grid_points(turning)
     values = np.vstack([quantities(grid[start : start + _CASES]) for start in range(0, len(grid), _CASES)])
     best = values.argmax(axis=0)
@@ -59,7 +59,7 @@ _UNLOADED = 1e-9
 class MeshLoads:
     """Forces (N,) in N of a mesh along the line of action, in the transverse section, by planets.
 
-    `force` is without what turns; `greatest` and `least` are over all turns.
+    `force` is without run-out and forces of stages, which turn; `greatest` and `least` are over all turns.
     """
 
     force: Floats
@@ -67,7 +67,7 @@ class MeshLoads:
     least: Floats
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return plain lists for JSON."""
         return {name: value.tolist() for name, value in vars(self).items()}
 
 
@@ -80,19 +80,19 @@ class PlanetPins:
     greatest: Floats
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return plain lists for JSON."""
         return {name: value.tolist() for name, value in vars(self).items()}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LoadSharing:
-    """How the planets of a train share its load; losses are left out.
+    """Load sharing of the planets of a train; losses are left out.
 
     Shares are 1 where all planets carry the same, and alike in both meshes, as each planet is in balance by itself. `shares`
-    (N,) are without what turns; `greatest_shares` and `least_shares` (N,) over all turns, where each of `turning` - run-out of
-    members, forces of stages - stands at whatever angle is worst. `displacements` {member: (x, y)} in µm, seen from the carrier
-    with planet 0 on +x, are without what turns, `excursions` {member: µm} the greatest distances over all turns. `unloaded` are
-    planets (from 0) that carry nothing at some angle.
+    (N,) are without what turns. `greatest_shares` and `least_shares` (N,) are over all turns, where each of `turning` - run-out
+    of members, forces of stages - stands at whatever angle is worst. `displacements` {member: (x, y)} in µm, seen from the
+    carrier with planet 0 on +x, are without what turns; `excursions` {member: µm} are the greatest distances over all turns.
+    `unloaded` are planets (from 0) that carry nothing at some angle.
     """
 
     train: PlanetaryTrain
@@ -118,12 +118,12 @@ class LoadSharing:
 
     @property
     def published(self) -> tuple[PublishedFactor, ...]:
-        """K_gamma of rules for so many planets, whatever their errors."""
+        """Published values of K_gamma for the number of planets, whatever their errors."""
         return published_factors(self.train.planets)
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it."""
+        """Notices to read before the load sharing is used."""
         found = [*planar_notices(self.train)]
         if self.unloaded:
             planets = ", ".join(str(planet + 1) for planet in self.unloaded)
@@ -154,7 +154,7 @@ class LoadSharing:
         return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `planetary.json` has it."""
+        """Return the load sharing as a part of `planetary.json`."""
         return {
             "mesh_load_factor": self.mesh_load_factor,
             "published": [each.to_dict() for each in self.published],
@@ -177,7 +177,8 @@ def share_load(
     stiffness: Mapping[str, ArrayLike],
     given_speeds: Mapping[str, float] | None = None,
 ) -> LoadSharing:
-    """The sharing of a train with `stiffness` (N/µm) of each mesh by its name, of one planet as of all or (N,) of each.
+    """Return the load sharing of a train with `stiffness` (N/µm) of each mesh by its name: one for all planets, or (N,) of
+    each.
 
     Raises ParameterError without torque, GeometryError where members float that carry nothing across the axis, SolverError
     where planets would have to pull.
@@ -208,7 +209,10 @@ def share_load(
 
 
 def _extremes(statics: TrainStatics, angles: Floats) -> Floats:
-    """What is sought the greatest of (s, k): forces of meshes, these negative, sizes of pin forces, and of displacements."""
+    """Return the quantities (s, k) whose greatest values are sought, at `angles` (s, t) in rad.
+
+    They are forces of meshes, the same negative, sizes of pin forces (all in N), and sizes of displacements (µm).
+    """
     state = statics.state(angles)
     meshes, places = state.forces[:, statics.meshes.ravel()], statics.places(state)
     pins = np.hypot(*(state.forces[:, each] for each in statics.pins))

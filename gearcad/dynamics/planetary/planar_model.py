@@ -2,11 +2,7 @@
 
 SI units (N, m, rad). The coordinates are fixed to the carrier: x, y and u = r theta of carrier and centrals, r the base radius
 or the radius of the pins; of each planet zeta outwards, eta along the carrier's rotation, and u = r theta. Elongations are
-positive where flanks press. Of helical teeth it is the transverse section: planets do not tilt.
-
-In SI units (N, m, rad). The coordinates stand on the carrier: x, y and u = r theta of carrier and centrals, r the base radius
-or the radius of the pins; of each planet zeta outwards, eta along the carrier's rotation, and u = r theta. Elongations are
-positive where flanks press. Of helical teeth it is the transverse section: planets do not tilt.
+positive where flanks press. For helical teeth it is the transverse section: planets do not tilt.
 """
 
 from __future__ import annotations
@@ -36,7 +32,8 @@ _MICRO = 1e6
 class PlanarMember:
     """A central or the carrier: `radius` (m) by which its turn counts, base radius or that of the pins.
 
-    `support` (N/m) on x and y and `torsion` (N/m) on u, which is the turn times the radius: None holds it, 0 leaves it free.
+    `support` (N/m) on x and y and `torsion` (N/m) on u, which is the turn times the radius: None holds the member, 0 leaves it
+    free.
     """
 
     name: str
@@ -47,7 +44,7 @@ class PlanarMember:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MeshLine:
-    """How a central presses the planets: `pressure_angle` (rad) of the line of action, `stiffness` (N,) of each mesh in N/m.
+    """Line of action of a central with the planets: `pressure_angle` (rad), `stiffness` (N,) of each mesh in N/m.
 
     `rim_ratio` is the base radius of its rim over that of the first mesh's. `sense` is 1 where the torque on the central turns
     it counter-clockwise against the planets, -1 where the other flanks carry.
@@ -77,7 +74,7 @@ class PlanarTrain:
 
     @property
     def planets(self) -> int:
-        """How many there are."""
+        """Number of planets."""
         return len(self.angles)
 
 
@@ -88,10 +85,10 @@ def planar_train(
     held: Collection[str] | None = None,
     sense: int = 1,
 ) -> PlanarTrain:
-    """The train with `mesh_stiffness` (N/µm) of each mesh: of one planet as of all, or (N,) of each.
+    """Return the planar train with `mesh_stiffness` (N/µm) of each mesh: one for all planets, or (N,) of each.
 
-    `held` members cannot turn where they have no torsional stiffness: by default what `fixed` holds. The torque on the first
-    central is counter-clockwise with `sense` 1, clockwise with -1. Lengths are those of the transverse section. Raises
+    `held` members cannot turn where they have no torsional stiffness: by default those that `fixed` holds. The torque on the
+    first central is counter-clockwise with `sense` 1, clockwise with -1. Lengths are those of the transverse section. Raises
     ParameterError.
     """
     held = held_members(train) if held is None else held
@@ -119,7 +116,10 @@ def planar_train(
 
 
 def held_members(train: PlanetaryTrain) -> tuple[str, ...]:
-    """What the fixed shaft holds: the member itself, or that which it is geared to by stages."""
+    """Return the names of members that the fixed shaft holds.
+
+    They are the member itself, or that to which it is geared by stages.
+    """
     return () if train.fixed is None else (shafts_of(train)[train.fixed].member,)
 
 
@@ -154,7 +154,7 @@ def _line(mesh: SetMesh, train: PlanetaryTrain, stiffness: ArrayLike, reference:
 
 @dataclass(frozen=True, kw_only=True)
 class MemberMass:
-    """`mass` in kg and `inertia` in kg·m² about its own axis; None where it is unknown, and `why`.
+    """Mass of a member: `mass` in kg and `inertia` in kg·m² about its own axis; None where it is unknown, and `why`.
 
     `given` names those of the two that are not of the solid.
     """
@@ -165,14 +165,14 @@ class MemberMass:
     why: str = ""
 
     def to_dict(self) -> dict[str, Any]:
-        """As documents have it."""
+        """Return the mass as documents have it."""
         found = {"mass": self.mass, "inertia": self.inertia, "given": list(self.given)}
         return {**found, "why": self.why} if self.why else found
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrainMasses:
-    """Of both centrals and the carrier by their names (`members`), and of one planet with all its rims.
+    """Masses of both centrals and the carrier by their names (`members`), and of one planet with all its rims.
 
     The carrier is without its planets.
     """
@@ -182,18 +182,18 @@ class TrainMasses:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """Why masses or inertias are unknown, one line each; () where all are known."""
+        """Reasons why masses or inertias are unknown, one line each; () where all are known."""
         return tuple(each.why for each in (*self.members.values(), self.planet) if each.why)
 
     def to_dict(self) -> dict[str, Any]:
-        """As documents have them."""
+        """Return the masses as documents have them."""
         return {**{name: each.to_dict() for name, each in self.members.items()}, "planet": self.planet.to_dict()}
 
 
 def train_masses(train: PlanetaryTrain, material: TrainMaterial | None = None) -> TrainMasses:
-    """Of a train whose gears are of one `material`, or of one each, by the name of the central or rim.
+    """Return the masses of a train whose gears are of one `material`, or of one each, by the name of the central or rim.
 
-    What is given wins; only what is not is weighed.
+    A given mass or inertia wins; only others are computed from the solid.
     """
     carrier, densities = train.carrier, _densities(train, material)
     members = {central.name: _central(central, densities[central.name]) for central in train.centrals}
@@ -203,7 +203,7 @@ def train_masses(train: PlanetaryTrain, material: TrainMaterial | None = None) -
 
 
 def _densities(train: PlanetaryTrain, material: TrainMaterial | None) -> dict[str, float]:
-    """In kg/m³, of each central and rim."""
+    """Return the density of each central and rim by its name, in kg/m³."""
     return {each.name: material_of(material, each.name).density for each in (*train.centrals, *train.rims)}
 
 
@@ -212,7 +212,7 @@ def _central(central: Central, density: float) -> MemberMass:
 
 
 def _carrier(train: PlanetaryTrain) -> MemberMass:
-    """That of the carrier as it is given: it has no solid."""
+    """Return the mass of the carrier as it is given: it has no solid."""
     carrier = train.carrier
     values = {"mass": carrier.mass, "inertia": carrier.inertia}
     given = tuple(name for name, value in values.items() if value is not None)
@@ -222,7 +222,7 @@ def _carrier(train: PlanetaryTrain) -> MemberMass:
 
 
 def _either(gears: Mapping[str, tuple[Gear, float]], mass: float | None, inertia: float | None) -> MemberMass:
-    """What is given, and else that of gears of some densities together on one axis."""
+    """Return the given mass and inertia, or else those of gears of some densities together on one axis."""
     given = tuple(name for name, value in (("mass", mass), ("inertia", inertia)) if value is not None)
     if len(given) == 2:
         return MemberMass(mass=mass, inertia=inertia, given=given)
@@ -235,11 +235,11 @@ def _either(gears: Mapping[str, tuple[Gear, float]], mass: float | None, inertia
 
 
 class _NoSolid(Exception):
-    """Why a gear has no solid."""
+    """Raised with the reason why a gear has no solid."""
 
 
 def _weighed(name: str, gear: Gear, density: float) -> tuple[float, float]:
-    """Mass (kg) and inertia (kg·m²) of a gear. Raises _NoSolid."""
+    """Return mass (kg) and inertia (kg·m²) of a gear. Raises _NoSolid."""
     from gearcad.solids.exact.inertia import mass_properties
 
     try:
@@ -250,7 +250,7 @@ def _weighed(name: str, gear: Gear, density: float) -> tuple[float, float]:
 
 
 class SpringKind(Enum):
-    """What a spring is."""
+    """Kinds of springs."""
 
     MESH = "mesh"
     PIN_RADIAL = "radial"
@@ -262,7 +262,7 @@ class SpringKind(Enum):
 
 @dataclass(frozen=True)
 class Spring:
-    """Of `owner`: a mesh such as "sun-planet", or a member; pins are of the carrier. `planet` counts from 0."""
+    """A spring of `owner`: a mesh such as "sun-planet", or a member; pins are of the carrier. `planet` counts from 0."""
 
     kind: SpringKind
     owner: str
@@ -270,7 +270,7 @@ class Spring:
 
     @property
     def name(self) -> str:
-        """Such as "sun-planet 1", "pin 1 radial", "carrier x"; planets are counted from 1."""
+        """Name such as "sun-planet 1", "pin 1 radial", "carrier x"; planets are counted from 1."""
         if self.planet is None:
             return f"{self.owner} {self.kind.value}"
         number = self.planet + 1
@@ -281,9 +281,9 @@ class Spring:
 class TrainSprings:
     """m springs between n coordinates: elongations `vectors` @ q (m), forces `stiffness` times these (N).
 
-    `vectors` (m, n), `stiffness` (m,) in N/m. `coordinates` (n,) are those that can move, such as "sun.x" and "planet 1.zeta";
-    `basis` (3 (N + 3), n) makes all from them, in the order carrier, centrals, planets: what is held does not move, and on
-    rigid pins planets go with the carrier.
+    `vectors` (m, n), `stiffness` (m,) in N/m. `coordinates` (n,) are those that can move, such as "sun.x" and "planet 1.zeta".
+    `basis` (3 (N + 3), n) makes all from them, in the order carrier, centrals, planets: coordinates that are held do not move,
+    and on rigid pins planets go with the carrier.
     """
 
     planar: PlanarTrain
@@ -299,27 +299,33 @@ class TrainSprings:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the springs."""
+        """Names of the springs."""
         return tuple(spring.name for spring in self.springs)
 
     @property
     def members(self) -> tuple[str, ...]:
-        """Carrier, then centrals."""
+        """Names of carrier, then centrals."""
         return tuple(member.name for member in self.planar.members)
 
     def matrix(self, stiffness: Floats | None = None) -> Floats:
-        """K = sum k v v^T (n, n), with these stiffnesses or others (m,) in N/m."""
+        """Return K = sum k v v^T (n, n) in N/m, with these stiffnesses or others (m,) in N/m."""
         k = self.stiffness if stiffness is None else stiffness
         result: Floats = (self.vectors.T * k) @ self.vectors
         return result
 
     def select(self, kind: SpringKind, owner: str | None = None) -> Indices:
-        """Places of the springs of a kind, of one owner or of all; those of planets in their order."""
+        """Return the places of the springs of a kind, of one owner or of all.
+
+        Those of planets are in their order.
+        """
         found = [i for i, each in enumerate(self.springs) if each.kind is kind and owner in (None, each.owner)]
         return np.array(found, np.intp)
 
     def turning(self, member: str) -> Floats:
-        """(n,): turn of a member (rad) per coordinate; so also what a torque of 1 N·m on it does to each of them."""
+        """Return the turn (n,) of a member (rad) per coordinate.
+
+        It is also the load on each coordinate of a torque of 1 N·m on the member.
+        """
         place = self.members.index(member)
         return np.asarray(self.basis[3 * place + 2] / self.planar.members[place].radius, float)
 
@@ -331,12 +337,12 @@ def train_springs(
     held: Collection[str] | None = None,
     sense: int = 1,
 ) -> TrainSprings:
-    """The springs of a train; see `planar_train` for what is given."""
+    """Return the springs of a train; see `planar_train` for the arguments."""
     return springs_of(planar_train(train, mesh_stiffness, held=held, sense=sense))
 
 
 def springs_of(planar: PlanarTrain) -> TrainSprings:
-    """Lin and Parker's springs, of any set: K = sum k v v^T."""
+    """Return Lin and Parker's springs, of any set: K = sum k v v^T."""
     names = all_coordinates(planar)
     basis, free = _basis(planar)
     springs, vectors, stiffness = [], [], []
@@ -356,13 +362,13 @@ def springs_of(planar: PlanarTrain) -> TrainSprings:
 
 
 def all_coordinates(planar: PlanarTrain) -> list[str]:
-    """Names of the 3 (N + 3) of carrier, centrals and planets."""
+    """Return the names of the 3 (N + 3) coordinates of carrier, centrals and planets."""
     members = [f"{member.name}.{each}" for member in planar.members for each in ("x", "y", "u")]
     return members + [f"planet {n + 1}.{each}" for n in range(planar.planets) for each in ("zeta", "eta", "u")]
 
 
 def _basis(planar: PlanarTrain) -> tuple[Floats, list[int]]:
-    """All coordinates from those that can move, and which these are."""
+    """Return the matrix that makes all coordinates from those that can move, and the places of these."""
     size = 9 + 3 * planar.planets
     held = set()
     for place, member in enumerate(planar.members):
@@ -381,13 +387,13 @@ def _basis(planar: PlanarTrain) -> tuple[Floats, list[int]]:
 
 
 def _pin_place(psi: float) -> tuple[Floats, Floats]:
-    """(3,), (3,): how a pin goes outwards, and along the rotation, with x, y, u of the carrier."""
+    """Return the motion of a pin outwards (3,) and along the rotation (3,), per x, y, u of the carrier."""
     sin, cos = np.sin(psi), np.cos(psi)
     return np.array([cos, sin, 0.0]), np.array([-sin, cos, 1.0])
 
 
 def _all_springs(planar: PlanarTrain) -> list[tuple[Spring, float, Floats]]:
-    """Each with its stiffness, 0 where there is none, and its vector over all coordinates."""
+    """Return each spring with its stiffness, 0 where there is none, and its vector over all coordinates."""
     size, carrier = 9 + 3 * planar.planets, planar.members[0].name
     result = [
         (Spring(SpringKind.MESH, line.name, n), float(line.stiffness[n]), _mesh_vector(line, place, n, psi, size))
@@ -408,9 +414,10 @@ def _all_springs(planar: PlanarTrain) -> list[tuple[Spring, float, Floats]]:
 
 
 def _mesh_vector(line: MeshLine, member: int, planet: int, psi: float, size: int) -> Floats:
-    """How flanks approach: u + e u_p - x sin(psi - e a) + y cos(psi - e a) - e zeta sin a - eta cos a, e -1 for a ring.
+    """Return the approach of flanks (size,) per coordinate, with e -1 for a ring.
 
-    The other flanks are at -a, and what turns the central the other way presses them.
+    It is u + e u_p - x sin(psi - e a) + y cos(psi - e a) - e zeta sin a - eta cos a. The other flanks are at -a, and a torque
+    that turns the central the other way presses them.
     """
     e, a = 1.0 if line.external else -1.0, line.sense * line.pressure_angle
     vector = np.zeros(size)
@@ -420,7 +427,7 @@ def _mesh_vector(line: MeshLine, member: int, planet: int, psi: float, size: int
 
 
 def stage_forces(train: PlanetaryTrain, flow: PowerFlow) -> dict[str, tuple[float, float]]:
-    """Forces (N) along x and y on the members whose gears stages mesh with, in space."""
+    """Return the forces (N) along x and y, in space, on the members with whose gears stages mesh."""
     found: dict[str, tuple[float, float]] = {}
     for stage in train.stages:
         for role, member in ((Role.PINION, stage.pinion), (Role.WHEEL, stage.wheel)):
@@ -432,12 +439,15 @@ def stage_forces(train: PlanetaryTrain, flow: PowerFlow) -> dict[str, tuple[floa
 
 
 def mesh_force(stage: PairStage, torques: PerGear[float]) -> float:
-    """F_bt = T/r_b in the transverse plane (N), of the `torques` (N·m) on its gears by their shafts."""
+    """Return F_bt = T/r_b in the transverse plane (N), of the `torques` (N·m) on its gears by their shafts."""
     return abs(torques.wheel) * 2e3 / abs(stage.pair.wheel.base_diameter)
 
 
 def _on_axis(stage: PairStage, role: Role, torques: PerGear[float]) -> tuple[float, float]:
-    """Force on the gear on the train's axis: along the line of action, against its shaft's torque, off an outer mate."""
+    """Return the force (N) along x and y on the gear on the train's axis.
+
+    It is along the line of action, against its shaft's torque, off an outer mate.
+    """
     own, mate = stage.pair.gears.pick(role), stage.pair.gears.pick(role.mate)
     towards = math.radians(stage.angle) + math.pi * mate.internal
     pressure = math.radians(stage.pair.working_transverse_pressure_angle)
@@ -452,7 +462,7 @@ def _on_axis(stage: PairStage, role: Role, torques: PerGear[float]) -> tuple[flo
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Turning:
-    """What turns against the carrier: gaps (2, m) in µm and loads (2, n) in N, times cosine and sine of the angle.
+    """A part that turns against the carrier: gaps (2, m) in µm and loads (2, n) in N, times cosine and sine of the angle.
 
     It turns with the member `follows`, or stands in space where that is None. `name` says what it is.
     """
@@ -464,14 +474,15 @@ class Turning:
 
 
 def set_members(train: PlanetaryTrain) -> tuple[Carrier | Central, ...]:
-    """Carrier, then centrals, as springs have them."""
+    """Return carrier, then centrals, in the order of the springs."""
     return (train.carrier, *train.centrals)
 
 
 def gaps(train: PlanetaryTrain, springs: TrainSprings, sense: int) -> Floats:
-    """(m,) in µm: pins that yield to the first central open their springs, teeth that stand proud close theirs.
+    """Return the gaps (m,) of the springs in µm.
 
-    The errors of a rim that meshes with both centrals count in the first mesh: the planet turns until both share them.
+    Pins that yield to the first central open their springs; teeth that stand proud close theirs. The errors of a rim that
+    meshes with both centrals count in the first mesh: the planet turns until both share them.
     """
     gap, told = np.zeros(len(springs.springs)), set()
     if train.carrier.pin_errors:
@@ -484,7 +495,7 @@ def gaps(train: PlanetaryTrain, springs: TrainSprings, sense: int) -> Floats:
 
 
 def turning_and_standing(train: PlanetaryTrain, springs: TrainSprings, flow: PowerFlow) -> tuple[tuple[Turning, ...], Floats]:
-    """All that turns against the carrier, and forces (n,) across the axis that stand still against it."""
+    """Return all that turns against the carrier, and forces (n,) in N across the axis that stand still against it."""
     across, turning = _stages_across(train, springs, flow), []
     none = np.zeros_like(across)
     standing = train.fixed is not None and shafts_of(train)[train.fixed].member == train.carrier.name
@@ -498,7 +509,10 @@ def turning_and_standing(train: PlanetaryTrain, springs: TrainSprings, flow: Pow
 
 
 def _stages_across(train: PlanetaryTrain, springs: TrainSprings, flow: PowerFlow) -> Floats:
-    """(2, n) in N: what stages push across the axis, times cosine and sine of how far space turns against the carrier."""
+    """Return the forces (2, n) of stages across the axis in N.
+
+    They count times cosine and sine of the angle by which space turns against the carrier.
+    """
     found = np.zeros((2, springs.vectors.shape[1]))
     for member, (along_x, along_y) in stage_forces(train, flow).items():
         x, y = _across(springs, member)
@@ -507,7 +521,7 @@ def _stages_across(train: PlanetaryTrain, springs: TrainSprings, flow: PowerFlow
 
 
 def _run_out(train: PlanetaryTrain, springs: TrainSprings, member: str) -> Floats:
-    """(2, m): gaps for an eccentricity of 1 µm: of a central's teeth in its mesh, of the carrier in its bearing."""
+    """Return gaps (2, m) for an eccentricity of 1 µm: of a central's teeth in its mesh, of the carrier in its bearing."""
     found = np.zeros((2, len(springs.springs)))
     for axis, along in enumerate(_across(springs, member)):
         for mesh in train.meshes:
@@ -521,6 +535,6 @@ def _run_out(train: PlanetaryTrain, springs: TrainSprings, member: str) -> Float
 
 
 def _across(springs: TrainSprings, member: str) -> Floats:
-    """(2, n): x and y of a member."""
+    """Return x and y of a member (2, n) per coordinate."""
     place = 3 * springs.members.index(member)
     return springs.basis[place : place + 2]

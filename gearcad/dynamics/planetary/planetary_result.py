@@ -36,16 +36,17 @@ PARTS = {
     "response": "response over speed",
     "rating": "rating",
 }
-"""The parts of a study that may be missing, and what they are called."""
+"""Parts of a study that may be missing, and their words."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PlanetaryStudy(Pictured):
     """A planetary train at its load: geometry in mesh, speeds, torques, forces, sharing, stiffness, natural modes, rating.
 
-    A part is None where something that it needs is not given or cannot be had; `why_not` {part: reason} says which.
-    The `response` takes long and is there where it was asked for. `stiffness` is of both meshes by their names, `stage_cycles`
-    of the stages that carry something. `asks_strength`: whether materials or required safeties ask for a verdict on strength.
+    A part is None where an input that it needs is not given or the part cannot be computed; `why_not` {part: reason} says
+    which. The `response` takes long and is there where it was asked for. `stiffness` is of both meshes by their names,
+    `stage_cycles` of the stages that carry something. `asks_strength`: whether materials or required safeties ask for a verdict
+    on strength.
     """
 
     train: PlanetaryTrain
@@ -76,12 +77,12 @@ class PlanetaryStudy(Pictured):
 
     @property
     def name(self) -> str:
-        """That of the train."""
+        """Name of the train."""
         return self.train.name
 
     @property
     def turning(self) -> Speeds | None:
-        """The speeds, where there is one: None of a train that has only a torque, or is at rest."""
+        """Speeds of a train that turns; None for a train that has only a torque, or is at rest."""
         return self.speeds if self.speeds is not None and any(self.speeds.members.values()) else None
 
     @property
@@ -91,7 +92,7 @@ class PlanetaryStudy(Pictured):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it: of the meshes, of its parts, and what could not be had."""
+        """Notices to read before the study is used: of the meshes, of its parts, and of parts that are missing."""
         found = [*self.train.notices, *(self.load.notices if self.load is not None else ())]
         for mesh in (self.stiffness or {}).values():
             found += mesh.notices
@@ -102,14 +103,17 @@ class PlanetaryStudy(Pictured):
         return tuple(dict.fromkeys((*found, *self._missing())))
 
     def _missing(self) -> Iterator[Notice]:
-        """The parts that could not be had, together where the reason is the same."""
+        """Yield a notice for the parts that are missing, together where the reason is the same."""
         for why in dict.fromkeys(self.why_not.values()):
             parts = [PARTS[part] for part, reason in self.why_not.items() if reason == why]
             yield Notice("not-computed", why, where=f"no {', '.join(parts)}")
 
 
 def study_document(study: PlanetaryStudy) -> dict[str, Any]:
-    """Everything but what data.json has of pairs: rpm, N·m, N, µm, Hz; None for what could not be had, `why_not` says why."""
+    """Return the document of a study, without what data.json has of pairs: rpm, N·m, N, µm, Hz.
+
+    A part that is missing is None; `why_not` says why.
+    """
     train, flow = study.train, study.flow
     harmonics = train_harmonics(train, dict(study.phases))
     return {
@@ -150,7 +154,7 @@ def study_document(study: PlanetaryStudy) -> dict[str, Any]:
 
 
 def _strength(study: PlanetaryStudy) -> dict[str, Any]:
-    """Safeties of the gears and the verdict; of a train that has no rating that it was not judged."""
+    """Return safeties of the gears and the verdict; for a train without a rating, that it was not judged."""
     if study.rating is not None:
         return study.rating.strength.summary()
     why = study.why_not["rating"]
@@ -164,7 +168,10 @@ def _strength(study: PlanetaryStudy) -> dict[str, Any]:
 
 
 def _why_not(study: PlanetaryStudy) -> dict[str, str]:
-    """Why a part is None; of speeds that of a train at rest, too, whose torques are known."""
+    """Return the reasons why parts are None.
+
+    For a train at rest whose torques are known there is a reason for speeds, too.
+    """
     if study.speeds is None or study.turning is not None:
         return dict(study.why_not)
     return {"speeds": f"nothing turns: the speed of {study.train.input} stands in [load], others in [planetary.speeds]"} | dict(
@@ -173,7 +180,7 @@ def _why_not(study: PlanetaryStudy) -> dict[str, str]:
 
 
 def _document(part: Any) -> dict[str, Any] | None:
-    """That of a part, if it is there."""
+    """Return the document of a part, None if the part is missing."""
     found: dict[str, Any] | None = None if part is None else part.to_dict()
     return found
 
@@ -187,7 +194,7 @@ def _items(parts: Mapping[str, Any] | None) -> Any:
 
 
 def _members(study: PlanetaryStudy) -> dict[str, dict[str, Any]]:
-    """Speed (rpm) and torque from outside (N·m) of every member and shaft, and what it is to the train."""
+    """Return speed (rpm), torque from outside (N·m) and role in the train of every member and shaft."""
     speeds = {} if study.speeds is None else study.speeds.members
     torques = {} if study.flow is None else study.flow.torques
     known = {} if study.turning is None else study.turning.members

@@ -3,15 +3,10 @@
 Losses are left out: meshes are springs, and springs have no friction. Forces in N, lengths in µm.
 
 The force method: forces in balance with the load are F = F_0 + Z y, and of all these the true ones make F C F/2 + e F least. A
-spring may be rigid, C = 0, and the unknowns are as few as there are more springs than the balance needs: none where a set
+spring may be rigid, C = 0. The number of unknowns is the number of springs beyond those that the balance needs: 0 where a set
 shares its load by balance alone. A spring that can only press has a compliance above 0, and the rest of the springs is not
-overdetermined, so there is one least; Lawson and Hanson's least distance programming finds it in a finite number of steps, or
+overdetermined, so there is one least. Lawson and Hanson's least distance programming finds it in a finite number of steps, or
 that there is none.
-
-Forces in balance with the load are F = F_0 + Z y, and of all these the true ones make F C F/2 + e F least. A spring may be
-rigid, C = 0, and the unknowns are as few as there are more springs than the balance needs: none at all where a set shares its
-load by balance alone. What can only press has a compliance above 0 and the rest of the springs is not overdetermined, so there
-is one least; Lawson and Hanson's least distance programming finds it in a finite number of steps, or that there is none.
 """
 
 from __future__ import annotations
@@ -60,7 +55,7 @@ _NONE = 1e-10
 
 
 class _Balance(NamedTuple):
-    """What of the springs is geometry: `inverse` (n, m) of V, self-stresses `redundant` (m, r), motions `free` (n, f)."""
+    """Geometry of the springs: `inverse` (n, m) of V, self-stresses `redundant` (m, r), motions `free` (n, f)."""
 
     inverse: Floats
     redundant: Floats
@@ -68,7 +63,7 @@ class _Balance(NamedTuple):
 
 
 class _Measure(NamedTuple):
-    """What energy makes of self-stresses: `moved` (m, r), of which each adds the same, and the compliance of the softest."""
+    """Self-stresses of equal energy, `moved` (m, r), and the compliance of the softest spring."""
 
     moved: Floats
     softest: float
@@ -78,8 +73,8 @@ class _Measure(NamedTuple):
 class Equilibrium:
     """m springs of elongations V q - e between n coordinates: `vectors` V (m, n); those that can only `press` (m,) have F >= 0.
 
-    Everywhere a row a case: compliances (s, m), gaps e (s, m) and loads (s, n), each for all cases or (1, ...) for every one,
-    in any units that fit each other.
+    In all arrays a row is a case: compliances (s, m), gaps e (s, m) and loads (s, n), each for all cases or (1, ...) for every
+    one. They may be in any units that fit each other.
     """
 
     vectors: Floats
@@ -94,7 +89,10 @@ class Equilibrium:
 
     @property
     def redundancy(self) -> int:
-        """How many springs more there are than the balance needs: forces depend on stiffnesses and errors only if there are."""
+        """Number of springs beyond those that the balance needs.
+
+        Only where it is above 0 do forces depend on stiffnesses and errors.
+        """
         return int(self._balance.redundant.shape[1])
 
     @property
@@ -103,13 +101,13 @@ class Equilibrium:
         return self._balance.free
 
     def unbalanced(self, load: Floats) -> Floats:
-        """The part (s, n) of a load that no spring can carry, 0 but for rounding where all of it is carried."""
+        """Return the part (s, n) of a load that no spring can carry, 0 but for rounding where all of it is carried."""
         found: Floats = load @ self.free @ self.free.T
         found[np.abs(found).max(axis=1) <= _BALANCE * np.abs(load).max(axis=1)] = 0.0
         return found
 
     def forces(self, compliance: Floats, gap: Floats, load: Floats) -> tuple[Floats, Floats]:
-        """Forces (s, m), and how far springs that can only press are open (s, m).
+        """Return the forces (s, m), and the openings (s, m) of springs that can only press.
 
         Raises SolverError where something would have to pull.
         """
@@ -125,7 +123,7 @@ class Equilibrium:
         return forces, opening
 
     def two_sided(self, compliance: Floats, gap: Floats, load: Floats) -> Floats:
-        """Forces (s, m) as if all springs could pull, too."""
+        """Return the forces (s, m) as if all springs could pull, too."""
         inverse, redundant, _ = self._balance
         cases = max(map(len, (compliance, gap, load)))
         balanced = np.broadcast_to(load @ inverse, (cases, len(redundant)))
@@ -138,20 +136,23 @@ class Equilibrium:
         return found
 
     def displacement(self, elongation: Floats) -> Floats:
-        """q (s, n) of elongations V q (s, m), which are C F + e less what is open; of what no spring holds, the least."""
+        """Return q (s, n) of elongations V q (s, m), which are C F + e less the openings.
+
+        Motions that no spring holds are the least ones.
+        """
         found: Floats = elongation @ self._balance.inverse.T
         return found
 
     def _measured(self, compliance: Floats) -> _Measure:
-        """Of compliances (m,): L L' = Z' C Z over the softest spring."""
+        """Return the measure of energy for compliances (m,): L L' = Z' C Z over the softest spring."""
         redundant, softest = self._balance.redundant, compliance.max()
         root = np.linalg.cholesky((redundant.T * (compliance / softest)) @ redundant)
         return _Measure(np.asarray(np.linalg.solve(root, redundant.T).T, float), float(softest))
 
     def _pressed(self, measure: _Measure, forces: Floats) -> tuple[Floats, Floats]:
-        """From the forces (m,) of a case as if springs could pull: forces (m,) where they cannot, and openings (m,).
+        """Return forces (m,) of springs that cannot pull, and openings (m,), from the `forces` (m,) of a case as if they could.
 
-        Of L' (y - y_0) the least is sought that keeps all F >= 0 (Lawson and Hanson, chapter 23).
+        The least of L' (y - y_0) is sought that keeps all F >= 0 (Lawson and Hanson, chapter 23).
         """
         from scipy.optimize import nnls
 
@@ -179,7 +180,7 @@ _PRESENT = 1.0
 
 
 class State(NamedTuple):
-    """Springs of the train in cases (s, m): forces in N, and in µm gaps, how far they yield, and how far teeth are open."""
+    """Springs of the train in cases (s, m): forces in N; openings of teeth, elastic deflections `yielding` and gaps in µm."""
 
     forces: Floats
     opening: Floats
@@ -189,9 +190,10 @@ class State(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TrainStatics:
-    """m springs between n coordinates, seen from the carrier: `compliance` (m,) in µm/N, 0 where one is rigid.
+    """m springs between n coordinates, seen from the carrier: `compliance` (m,) in µm/N, 0 where a spring is rigid.
 
-    Without what is `turning`, gaps are `gap` (m,) in µm and loads `load` (n,) in N. `flow` is that without losses.
+    `gap` (m,) in µm and `load` (n,) in N are without the gaps and loads that are `turning`. `flow` is the power flow without
+    losses.
     """
 
     train: PlanetaryTrain
@@ -204,28 +206,28 @@ class TrainStatics:
 
     @cached_property
     def equilibrium(self) -> Equilibrium:
-        """Of the springs: teeth can only press."""
+        """Equilibrium of the springs: teeth can only press."""
         press = np.array([spring.kind is SpringKind.MESH for spring in self.springs.springs])
         return Equilibrium(vectors=self.springs.vectors, press=press)
 
     @property
     def meshes(self) -> Floats:
-        """(2, N): places of the springs of both meshes, by planets."""
+        """Places (2, N) of the springs of both meshes, by planets."""
         return np.array([self.springs.select(SpringKind.MESH, mesh.name) for mesh in self.train.meshes])
 
     @property
     def pins(self) -> Floats:
-        """(2, N): places of the radial and the tangential springs of the pins."""
+        """Places (2, N) of the radial and the tangential springs of the pins."""
         return np.array([self.springs.select(kind) for kind in (SpringKind.PIN_RADIAL, SpringKind.PIN_TANGENTIAL)])
 
     @property
     def output(self) -> str:
-        """The member of the set that turns with the output."""
+        """Name of the member of the set that turns with the output."""
         return shafts_of(self.train)[self.train.output].member
 
     @property
     def torque(self) -> float:
-        """On the output (N·m), a magnitude."""
+        """Magnitude of the torque on the output (N·m)."""
         return abs(self.flow.torques[self.train.output])
 
     @property
@@ -235,9 +237,9 @@ class TrainStatics:
         return 0.0 if stiffness is None else 1e6 * self.flow.set_torques[self.output] ** 2 / stiffness
 
     def state(self, angles: Floats | None = None, compliance: Floats | None = None) -> State:
-        """The train with what turns at angles (s, t) in rad, or without it, and compliances (s, m) in µm/N or its own.
+        """Return the state of the springs, with what turns at angles (s, t) in rad or without it.
 
-        Raises SolverError where teeth would have to pull.
+        `compliance` (s, m) in µm/N is the train's own if not given. Raises SolverError where teeth would have to pull.
         """
         c = self.compliance[None] if compliance is None else compliance
         gap, load = self.gap[None], self.load[None]
@@ -255,17 +257,20 @@ class TrainStatics:
         return State(forces=forces, opening=opening, yielding=c * forces, gap=np.broadcast_to(gap, forces.shape))
 
     def places(self, state: State) -> Floats:
-        """(s, 3, 2): x and y (µm) of carrier and centrals; of what no spring holds, the least."""
+        """Return x and y (s, 3, 2) in µm of carrier and centrals.
+
+        Where no spring holds them, these are the least.
+        """
         return self._across(self.equilibrium.displacement(state.yielding + state.gap - state.opening))
 
     @property
     def undetermined(self) -> tuple[str, ...]:
-        """Members whose place no spring decides."""
+        """Names of members whose place no spring decides."""
         moved = np.abs(self._across(self.equilibrium.free.T)).max(axis=(0, 2), initial=0.0)
         return tuple(name for name, size in zip(self.springs.members, moved, strict=True) if size > _FREE)
 
     def _across(self, motion: Floats) -> Floats:
-        """(s, 3, 2) of motions (s, n)."""
+        """Return x and y (s, 3, 2) of carrier and centrals in motions (s, n)."""
         rows = np.array([[3 * place, 3 * place + 1] for place in range(3)])
         found: Floats = np.einsum("paj,sj->spa", self.springs.basis[rows], motion)
         return found
@@ -277,10 +282,10 @@ def train_statics(
     stiffness: Mapping[str, ArrayLike],
     given_speeds: Mapping[str, float] | None = None,
 ) -> TrainStatics:
-    """The springs of a train with `stiffness` (N/µm) of each mesh by its name, of one planet as of all or (N,) of each.
+    """Return the statics of a train with `stiffness` (N/µm) of each mesh by its name: one for all planets, or (N,) of each.
 
-    Input and what else is not the output are held against turning. Raises ParameterError without torque or with the wrong
-    number of errors, GeometryError where nothing carries what stages push across the axis.
+    Input and all other members but the output are held against turning. Raises ParameterError without torque or with the wrong
+    number of errors, GeometryError where nothing carries the forces of stages across the axis.
     """
     if not load.given_torque:
         permitted = "must not be 0: without load no flanks are pressed together"
@@ -314,7 +319,7 @@ def _given(stiffness: Mapping[str, ArrayLike], name: str) -> ArrayLike:
 
 
 def planar_notices(train: PlanetaryTrain) -> tuple[Notice, ...]:
-    """That planets which their forces tilt stand parallel here."""
+    """Return a notice if forces would tilt planets, which stand parallel in this model; empty otherwise."""
     middles = {rim.axial_position + rim.gear.face_width / 2 for rim in train.rims}
     helical = any(mesh.rim.gear.helix_angle and not mesh.pair.double_helical for mesh in train.meshes)
     if len(middles) == 1 and not helical:
@@ -324,7 +329,10 @@ def planar_notices(train: PlanetaryTrain) -> tuple[Notice, ...]:
 
 
 def _with_rigid(planar: PlanarTrain, output: str) -> tuple[TrainSprings, Floats]:
-    """Springs in the place of all that is rigid, too, and compliances (m,) in µm/N of all; nothing holds the output."""
+    """Return springs that stand for all rigid parts, too, and the compliances (m,) of all in µm/N.
+
+    Nothing holds the output.
+    """
 
     def present(member: PlanarMember) -> PlanarMember:
         support = _PRESENT if member.support is None else member.support
@@ -359,7 +367,7 @@ def _check_carried(statics: TrainStatics) -> None:
 
 
 def _floating(train: PlanetaryTrain) -> str:
-    """Such as "sun floats", "" where nothing does."""
+    """Return the members that float in words, such as "sun floats", or "" where nothing does."""
     names = [each.name for each in set_members(train) if each.support_stiffness == 0]
     return f"{' and '.join(names)} float{'s' if len(names) == 1 else ''}" if names else ""
 
@@ -372,7 +380,7 @@ _ROUNDING = 1e-12
 
 
 class TwistSource(Enum):
-    """What springs are."""
+    """Kind of the springs that add to the twist."""
 
     MESH = "mesh"
     PIN = "pin"
@@ -393,7 +401,7 @@ _SOURCES = {
 
 @dataclass(frozen=True, kw_only=True)
 class Contribution:
-    """What the springs of `name` add to the twist: `twist` in degrees, `share` of the whole.
+    """Contribution of the springs of `name` to the twist: `twist` in degrees, `share` of the whole.
 
     `square_force` (N², of shafts N²·m²) is the sum of the squares of their forces, in the mean over a turn.
     """
@@ -407,10 +415,10 @@ class Contribution:
 
 @dataclass(frozen=True, kw_only=True)
 class TorsionalStiffness:
-    """Twist (degrees) of the output of a train under `torque` (N·m) on it, with all else held, and what adds to it.
+    """Twist (degrees) of the output of a train under `torque` (N·m) on it, with all else held, and its contributions.
 
-    Without errors, with mean mesh stiffnesses and in the mean over a turn of what stages push across the axis. `rigid` names
-    what was given no stiffness.
+    It is without errors, with mean mesh stiffnesses and in the mean over a turn of the forces of stages across the axis.
+    `rigid` names the parts that were given no stiffness.
     """
 
     train: PlanetaryTrain
@@ -421,15 +429,16 @@ class TorsionalStiffness:
 
     @property
     def stiffness(self) -> float:
-        """T/theta (N·m/rad)."""
+        """Torsional stiffness T/theta (N·m/rad)."""
         return self.torque / float(np.radians(self.twist))
 
     def share(self, source: TwistSource) -> float:
-        """Share of the twist that springs of a kind have (1 is all of it)."""
+        """Return the share of the twist that springs of a kind have (1 is all of it)."""
         return sum(each.share for each in self.contributions if each.source is source)
 
     def implied_pin_stiffness(self, stiffness: float) -> float:
-        """Stiffness of one pin (N/µm) that would make it `stiffness` (N·m/rad), with all other springs as they are.
+        """Return the stiffness of one pin (N/µm) that would make the train's `stiffness` (N·m/rad), with all other springs as
+        they are.
 
         Raises ParameterError where that is not softer than the train with rigid pins.
         """
@@ -443,7 +452,7 @@ class TorsionalStiffness:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What is taken for rigid."""
+        """Notices of what is left out and of parts that are taken for rigid."""
         found = [*planar_notices(self.train)]
         if self.rigid:
             text = f"taken for rigid, without a stiffness: {', '.join(self.rigid)}; the train is softer"
@@ -456,7 +465,7 @@ class TorsionalStiffness:
         return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `planetary.json` has it: N·m/rad, degrees."""
+        """Return the part of `planetary.json`: N·m/rad, degrees."""
         return {
             "stiffness": self.stiffness,
             "torque": self.torque,
@@ -468,7 +477,10 @@ class TorsionalStiffness:
 
 
 def twist_of(work: ArrayLike, torque: float) -> Floats:
-    """theta = sum F delta/T in degrees, of the sums of forces times what springs yield under them (N·µm), linear or not."""
+    """Return theta = sum F delta/T in degrees, for a `torque` T (N·m), linear or not.
+
+    `work` (N·µm) are the sums of forces times the deflections of the springs under them.
+    """
     return np.degrees(np.asarray(work, float) / (1e6 * torque))
 
 
@@ -478,9 +490,9 @@ def torsional_stiffness(
     stiffness: Mapping[str, ArrayLike],
     given_speeds: Mapping[str, float] | None = None,
 ) -> TorsionalStiffness:
-    """That of a train with `stiffness` (N/µm) of each mesh and stage by its name; a stage without one is rigid.
+    """Return the torsional stiffness of a train with `stiffness` (N/µm) of each mesh and stage by its name.
 
-    Raises what `train_statics` does.
+    A stage without a stiffness is rigid. Raises the errors of `train_statics`.
     """
     statics = train_statics(_flawless(train), load, stiffness, given_speeds)
     squares = _mean_squares(statics)
@@ -497,7 +509,7 @@ def torsional_stiffness(
 
 
 def _flawless(train: PlanetaryTrain) -> PlanetaryTrain:
-    """The same without errors."""
+    """Return the same train without errors."""
     return replace(
         train,
         centrals=tuple(replace(central, run_out=0.0) for central in train.centrals),
@@ -507,14 +519,14 @@ def _flawless(train: PlanetaryTrain) -> PlanetaryTrain:
 
 
 def _mean_squares(statics: TrainStatics) -> Floats:
-    """Squares (m,) of the forces, in the mean over a turn of the carrier."""
+    """Return the squares (m,) of the forces in N², in the mean over a turn of the carrier."""
     angles = np.linspace(0, 2 * np.pi, _TURNS, endpoint=False)[:, None]
     found: Floats = (statics.state(angles).forces ** 2).mean(axis=0)
     return found
 
 
 def _of_set(statics: TrainStatics, squares: Floats) -> Iterator[Contribution]:
-    """Of meshes, pins, supports and what holds members, in the order of the springs."""
+    """Yield the contributions of meshes, pins, supports and shafts that hold members, in the order of the springs."""
     groups: dict[tuple[TwistSource, str], list[int]] = {}
     for place, spring in enumerate(statics.springs.springs):
         groups.setdefault((_SOURCES[spring.kind], _name(spring)), []).append(place)
@@ -530,7 +542,7 @@ def _name(spring: Spring) -> str:
 
 
 def _of_shafts(statics: TrainStatics) -> Iterator[Contribution]:
-    """Of what the output drives through its member."""
+    """Yield the contribution of the shaft that the output drives through its member."""
     if statics.output_work:
         square = statics.flow.set_torques[statics.output] ** 2
         yield _contribution(statics.output, TwistSource.SHAFT, square, statics.output_work, statics.torque)
@@ -545,12 +557,12 @@ def _of_stages(statics: TrainStatics, stiffness: Mapping[str, ArrayLike]) -> Ite
 
 
 def _contribution(name: str, source: TwistSource, square: float, work: float, torque: float) -> Contribution:
-    """From F delta in N·µm."""
+    """Return a contribution from its work F delta in N·µm; its share is not known yet."""
     return Contribution(name=name, source=source, square_force=square, twist=float(twist_of(work, torque)), share=0.0)
 
 
 def _rigid(train: PlanetaryTrain) -> Iterator[str]:
-    """Pins and shafts without a stiffness."""
+    """Yield the names of pins and shafts without a stiffness."""
     if train.carrier.pin_stiffness is None:
         yield "pins"
     yield from (f"shaft of {each.name}" for each in set_members(train) if each.torsional_stiffness is None)

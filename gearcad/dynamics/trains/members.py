@@ -174,7 +174,10 @@ class Shaft(NamedPart):
         self._check_shape()
 
     def _check_shape(self) -> None:
-        """Raise GeometryError or ParameterError unless a shaft has either a stiffness or a shape, and a hollow one has a wall."""
+        """Raise GeometryError or ParameterError unless a shaft has either a stiffness or a shape.
+
+        A hollow shaft must have a wall.
+        """
         if self.torsional_stiffness is not None:
             for parameter in ("length", "diameter"):
                 if (value := getattr(self, parameter)) is not None:
