@@ -177,11 +177,10 @@ def share_load(
     stiffness: Mapping[str, ArrayLike],
     given_speeds: Mapping[str, float] | None = None,
 ) -> LoadSharing:
-    """Return the load sharing of a train with `stiffness` (N/µm) of each mesh by its name: one for all planets, or (N,) of
-    each.
+    """Return the load sharing of a train with `stiffness` (N/µm) of each mesh by its name.
 
-    Raises ParameterError without torque, GeometryError where members float that carry nothing across the axis, SolverError
-    where planets would have to pull.
+    A stiffness is one for all planets, or (N,) of each. Raises ParameterError without torque, GeometryError where members float
+    that carry nothing across the axis, SolverError where planets would have to pull.
     """
     statics = train_statics(train, load, stiffness, given_speeds)
     state = statics.state()

@@ -29,24 +29,24 @@ from gearcad.planetary.power import MeshLoad
 from gearcad.stiffness.methods import METHODS
 
 QUICK = "strain-energy"
-"""The method that is taken where none is asked for: suns and rings, spur and helical, in less than a second a mesh."""
+"""Default method: suns and rings, spur and helical, in less than a second a mesh."""
 
 NOMINAL_STRESS = 10.0
-"""F_bt/(b m_n) in MPa at which a mesh without a load is looked at: little, for contact is the stiffer the more it carries."""
+"""F_bt/(b m_n) in MPa for a mesh without a load: little, for contact is the stiffer the more it carries."""
 
 
 _JUMP = 1e-9
-"""Change, over the mean, that is no rounding: helical cycles have places twice where they only bend."""
+"""Change, over the mean, that is not rounding: helical cycles have places twice where they only bend."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class MeshStiffness:
     """Stiffness of the mesh of a central with one planet, by the MeshCycle of its pair.
 
-    Everywhere `ahead` is in base pitches: how far contact is past the pitch point in the direction in which it moves, the same
-    for every pair of teeth that touches, so that only its fraction counts. Contact moves from root to tip of the gear that
-    drives, `driver`, with the carrier at rest. Of helical teeth it is that of the middle of the common face width.
-    Where `Central.mesh_stiffness` gives the mean, secant and tangent stiffness have that mean, and the course of the cycle.
+    `ahead` is always in base pitches: how far contact is past the pitch point in the direction in which it moves. It is the
+    same for every pair of teeth that touches, so that only its fraction counts. Contact moves from root to tip of the gear that
+    drives, `driver`, with the carrier at rest. For helical teeth it is that of the middle of the common face width. Where
+    `Central.mesh_stiffness` gives the mean, secant and tangent stiffness have that mean, and the course of the cycle.
     `nominal`: the train has no load, and the cycle is that of NOMINAL_STRESS.
     """
 
@@ -62,27 +62,27 @@ class MeshStiffness:
 
     @property
     def given(self) -> bool:
-        """Whether the mean was given."""
+        """Whether the mean stiffness was given."""
         return self.mesh.central.mesh_stiffness is not None
 
     @cached_property
     def ahead(self) -> Floats:
-        """Places (n,), rising over exactly one base pitch; where the stiffness jumps twice the same."""
+        """Places (n,) in base pitches, rising over exactly one; equal values where the stiffness jumps."""
         return self._placed(self._sense * self.cycle.roll_angle / self.cycle.pitch_angle)
 
     @cached_property
     def secant(self) -> Floats:
-        """F/delta (n,) at the load (N/µm), at `ahead`."""
+        """Secant stiffness F/delta (n,) at the load (N/µm), at `ahead`."""
         return self._placed(self.cycle.mesh_stiffness * (self.mean / self.cycle.mean))
 
     @cached_property
     def tangent(self) -> Floats:
-        """dF/ddelta (n,) at the load (N/µm), at `ahead`."""
+        """Tangent stiffness dF/ddelta (n,) at the load (N/µm), at `ahead`."""
         return self._placed(self.cycle.tangent_stiffness * (self.tangent_mean / self.cycle.tangent_mean))
 
     @cached_property
     def transmission_error(self) -> Floats:
-        """By how much what is driven lags under the load (n,) along the line of action (µm), at `ahead`."""
+        """Lag of the driven gear under the load (n,) along the line of action (µm), at `ahead`."""
         return self._placed(self.cycle.transmission_error)
 
     @property
@@ -102,19 +102,19 @@ class MeshStiffness:
         return np.sort(np.mod(self.ahead[twice], 1.0))
 
     def stiffness_at(self, ahead: ArrayLike, *, tangent: bool = False) -> Floats:
-        """Secant (or tangent) stiffness (N/µm) at places (...) in base pitches, in their shape."""
+        """Return the secant (or tangent) stiffness (N/µm) at places (...) in base pitches, in their shape."""
         start = self.ahead[0]
         within = np.mod(np.asarray(ahead, float) - start, 1.0) + start
         result: Floats = np.interp(within, self.ahead, self.tangent if tangent else self.secant)
         return result
 
     def _placed(self, values: Floats) -> Floats:
-        """Values (n,) of the cycle in the order in which they come."""
+        """Return values (n,) of the cycle in the order in which they come."""
         return values[:: self._sense]
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Those of the method; that the load is nominal; that the mean was given."""
+        """Notices of the method, that the load is nominal, and that the mean was given."""
         name, found = self.mesh.name, list(self.cycle.notices)
         if self.nominal:
             text = f"without a load, its stiffness is that at F_bt/(b m_n) = {NOMINAL_STRESS:g} MPa, {self.cycle.force:.4g} N"
@@ -134,12 +134,12 @@ def mesh_stiffness(
     material: Materials | None = None,
     positions: int = 0,
 ) -> MeshStiffness:
-    """The stiffness of a mesh under what one planet carries: `load`, of which the torque (N·m) is that on the pair's pinion.
+    """Return the stiffness of a mesh under the `load` of one planet, with the torque (N·m) on the pair's pinion.
 
     Without a load, or a torque, it is that of a small nominal one. `method` is a name of `gearcad.stiffness.METHODS`, or
-    "auto": that of `gearcad dynamics`, whose course does not jump; 0 `positions` are its own number. Raises ParameterError for
-    an unknown method, and what methods raise - but GeometryError only
-    where no mean was given: one that was needs no course.
+    "auto": that of `gearcad dynamics`, whose course does not jump. With 0 `positions` the method chooses their number. Raises
+    ParameterError for an unknown method, and the errors of methods. GeometryError is raised only where no mean was given: a
+    given mean needs no course.
     """
     if method == AUTO:
         method = DynamicsOptions().method_for(mesh.pair)
@@ -157,7 +157,7 @@ def mesh_stiffness(
 
 
 def _flat(mesh: SetMesh, load: Load, mean: float, why: str) -> MeshCycle:
-    """The cycle of a mean (N/µm) whose course no method tells, with the reason."""
+    """Return the cycle of a mean (N/µm) for which no method gives a course, with the reason."""
     pinion = mesh.pair.pinion
     torque = abs(load.torque) * load.application_factor
     force, half, constant = 2000 * torque / pinion.base_diameter, 180 / pinion.teeth, np.full(2, mean)
@@ -184,10 +184,10 @@ def train_stiffness(
     material: TrainMaterial | None = None,
     positions: int = 0,
 ) -> dict[str, MeshStiffness]:
-    """Of both meshes by their names, as `mesh_stiffness` under the even share of `loads` with K_A; without loads as the input
-    drives.
+    """Return the stiffness of both meshes by their names, as `mesh_stiffness` under the even share of `loads` with K_A.
 
-    `stiffness_at(MeshPhases.ahead[n])` is then that of planet n in the pose of the phases, if these are of the same drive.
+    Without loads the contact moves as the input drives. `stiffness_at(MeshPhases.ahead[n])` is then that of planet n in the
+    pose of the phases, if these are of the same drive.
     """
     drivers = {name: each.driver for name, each in (loads or mesh_phases(train)).items()}
     return {
@@ -204,14 +204,14 @@ def train_stiffness(
 
 
 def nominal_load(mesh: SetMesh) -> Load:
-    """That at which a mesh without a load is looked at: F_bt/(b m_n) = NOMINAL_STRESS."""
+    """Return the load of a mesh without a load of its own: F_bt/(b m_n) = NOMINAL_STRESS."""
     pinion = mesh.pair.pinion
     force = NOMINAL_STRESS * mesh.pair.common_width.width * pinion.normal_module
     return Load(torque=force * pinion.base_diameter / 2000)
 
 
 _FREE = 1e-11
-"""Of the greatest frequency of the lines: rounding of what nothing holds."""
+"""Part of the greatest frequency of the lines: rounding of motions that nothing holds."""
 
 
 def planetary_system(
@@ -223,11 +223,11 @@ def planetary_system(
     damping_ratio: float = 0.0,
     alike: int = 1,
 ) -> System:
-    """The train in the modes that its pins, supports and masses have without the meshes.
+    """Return the System of the train, in the modes that its pins, supports and masses have without the meshes.
 
-    With folded springs every planet stands for so many that are `alike`.
+    With folded springs every planet stands for `alike` planets.
 
-    `torques` (N·m) act on members from outside and balance, but for what is held; springs that hold the turning of `driven`
+    `torques` (N·m) act on members from outside and balance, except on held members. Springs that hold the turning of `driven`
     members carry their torques at rest, whatever these are. `damping_ratio` is that of every mode of pins and supports, and of
     every mesh as if central and planet were alone on rigid axes. Raises ParameterError.
     """
@@ -259,9 +259,10 @@ def planetary_system(
 
 
 def static_places(springs: TrainSprings, torques: Mapping[str, float], driven: tuple[str, ...] = ()) -> Floats:
-    """(n,): where the coordinates (m) are under torques, meshes at their mean; the least that turns freely.
+    """Return the coordinates (n,) in m under torques, with meshes at their mean stiffness.
 
-    Springs that hold the turning of `driven` members stand on what drives them, so they ask for nothing.
+    Of free turns it is the least. Springs that hold the turning of `driven` members stand on what drives them, so they are not
+    deflected.
     """
     loose = [i for i, each in enumerate(springs.springs) if each.kind is SpringKind.TORSION and each.owner in driven]
     kept = springs.stiffness.copy()
@@ -281,10 +282,11 @@ def planetary_excitation(
     parting: bool = False,
     alike: int = 1,
 ) -> Excitation:
-    """Tangent stiffness and transmission error of every mesh, those of the first central before those of the second.
+    """Return the excitation of every mesh, those of the first central before those of the second.
 
-    `forces` (N) are what each planet's share presses each mesh with at rest, where it lags by its transmission error. With
-    `parting` flanks part, and meet behind after the backlash. The first of planets that are `alike` stand for all.
+    It has the tangent stiffness and transmission error. `forces` (N) are those of each planet's share on each mesh at rest,
+    where it lags by its transmission error. With `parting` flanks part, and meet behind after the backlash. The first of
+    planets that are `alike` stand for all.
     """
     first, second = train.meshes
     ratios = Fraction(1), Fraction(second.rim.gear.teeth, first.rim.gear.teeth)
@@ -304,16 +306,16 @@ def planetary_excitation(
 
 
 def _phase(stiffness: MeshStiffness) -> Floats:
-    """Phases (n,) of a mesh, over exactly 2 pi."""
+    """Return the phases (n,) of a mesh in rad, over exactly 2 pi."""
     phase = 2 * np.pi * stiffness.ahead
     phase[-1] = phase[0] + 2 * np.pi
     return phase
 
 
 def _free_error(stiffness: MeshStiffness, shape: CurveStiffness, force: float) -> TransmissionError:
-    """What is left of the loaded transmission error without F/k: at rest under the force the planet lags by just the former.
+    """Return the loaded transmission error less F/k (µm): at rest under the force (N) the planet lags by just the former.
 
-    Where the mean stiffness was given, what gives way under load does so by it. k is that of the model, mean times `shape`.
+    Where the mean stiffness was given, the deflection under load follows from it. k is that of the model, mean times `shape`.
     """
     cycle = stiffness.cycle
     unloaded = stiffness.transmission_error - cycle.force / (stiffness.secant * (cycle.mean / stiffness.mean))
@@ -325,7 +327,10 @@ def _free_error(stiffness: MeshStiffness, shape: CurveStiffness, force: float) -
 
 
 def _line_modes(model: MassSprings, others: Indices) -> tuple[Floats, Floats]:
-    """Squares (n,) of the frequencies that the other springs and the masses have, 0 where nothing holds, and the modes."""
+    """Return squares (n,) of the frequencies of the springs `others` and the masses, and the modes.
+
+    A square is 0 where nothing holds a mode.
+    """
     rooted = model.rooted[others]
     _, values, modes = np.linalg.svd(np.vstack([rooted, np.zeros((max(0, len(model.lower) - len(rooted)), len(model.lower)))]))
     values[values <= _FREE * max(float(values.max(initial=0.0)), 1e-300)] = 0.0
@@ -333,14 +338,17 @@ def _line_modes(model: MassSprings, others: Indices) -> tuple[Floats, Floats]:
 
 
 def _turns(springs: TrainSprings) -> Floats:
-    """(N + 3, n): turns of members and planets (rad) per coordinate."""
+    """Return the turns (N + 3, n) of members and planets (rad) per coordinate."""
     planar = springs.planar
     radii = np.array([*(member.radius for member in planar.members), *[planar.planet_radius] * planar.planets])
     return np.asarray(springs.basis[2::3] / radii[:, None], float)
 
 
 def _alone(springs: TrainSprings, mass: Floats, meshes: Indices) -> Floats:
-    """(m,) in kg: the mass that turning central and planet alone have along the line of action; what is held is none."""
+    """Return the masses (m,) in kg that turning central and planet alone have along the line of action.
+
+    A held gear has no part in it.
+    """
     result = []
     for mesh in meshes:
         spring = springs.springs[mesh]

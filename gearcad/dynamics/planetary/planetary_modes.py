@@ -3,10 +3,6 @@
 J. Lin and R. G. Parker, J. Vib. Acoust. 121 (1999) 316-321, for planets alike at equal angles: rotational modes, in which
 carrier and centrals only turn; translational modes, in pairs, in which they only travel; planet modes, in which they rest, each
 N - 3 times.
-
-J. Lin and R. G. Parker, J. Vib. Acoust. 121 (1999) 316-321, for planets alike at equal angles: rotational modes, in which
-carrier and centrals only turn; translational ones, in pairs, in which they only travel; planet modes, in which they rest, each
-N - 3 times. SI units inside.
 """
 
 from __future__ import annotations
@@ -25,23 +21,23 @@ from gearcad.planetary import MeshPhases, PlanetaryTrain
 from gearcad.planetary.train_data import speeds
 
 _RIGID = 1e-11
-"""Of the highest frequency: rounding of a mode in which no spring gives way."""
+"""Part of the highest frequency: rounding of a mode in which no spring gives way."""
 
 _NEAR = 1e-6
-"""Relative: modes so near to each other are told apart by what they do, not by their frequencies."""
+"""Relative distance within which modes are told apart by their motion, not by their frequencies."""
 
 _EQUAL = 1e-9
-"""Relative: frequencies that are the same but for rounding."""
+"""Relative distance within which frequencies are the same but for rounding."""
 
 _STILL = 1e-5
-"""Of a mode: what a central that rests may move."""
+"""Part of a mode by which a central at rest may move."""
 
 
 _UNKNOWN = MemberMass(mass=None, inertia=None)
 
 
 class ModeKind(Enum):
-    """What carrier and centrals do in a mode."""
+    """Motion of carrier and centrals in a mode."""
 
     ROTATIONAL = "rotational"
     """They only turn: the planets all move alike."""
@@ -57,7 +53,10 @@ class ModeKind(Enum):
 
 
 def mass_diagonal(springs: TrainSprings, masses: TrainMasses) -> Floats:
-    """(3 (N + 3),): m, m, J/r^2 (kg) of every body; 0 of what cannot move. Raises ParameterError for what moves without."""
+    """Return m, m, J/r^2 (3 (N + 3),) in kg of every body; 0 for coordinates that cannot move.
+
+    Raises ParameterError for a body that moves and has no mass.
+    """
     planar = springs.planar
     bodies = [(member.name, masses.members.get(member.name, _UNKNOWN), member.radius) for member in planar.members]
     bodies += [("planet", masses.planet, planar.planet_radius)] * planar.planets
@@ -80,8 +79,8 @@ def mass_diagonal(springs: TrainSprings, masses: TrainMasses) -> Floats:
 class MassSprings:
     """Springs and masses in coordinates z = L^T q, M = L L^T, so that orthonormal vectors are modes of mass 1.
 
-    `rooted` (m, n): elongations times the roots of the stiffness, whose singular values are the frequencies: so what is 0 is 0
-    but for rounding, which its square is not.
+    `rooted` (m, n) are elongations times the roots of the stiffness. Its singular values are the frequencies: a frequency of 0
+    is 0 but for rounding, which its square is not.
     """
 
     springs: TrainSprings
@@ -91,19 +90,22 @@ class MassSprings:
 
     @classmethod
     def of(cls, springs: TrainSprings, masses: TrainMasses) -> MassSprings:
-        """Raises ParameterError where a mass is missing."""
+        """Return springs and masses together. Raises ParameterError where a mass is missing."""
         mass = mass_diagonal(springs, masses)
         lower = np.asarray(np.linalg.cholesky((springs.basis.T * mass) @ springs.basis), float)
         rooted: Floats = np.linalg.solve(lower, (springs.vectors * np.sqrt(springs.stiffness)[:, None]).T).T
         return cls(springs, mass, lower, rooted)
 
     def places(self, modes: Floats) -> Floats:
-        """(3 (N + 3), g): all coordinates in modes (n, g)."""
+        """Return all coordinates (3 (N + 3), g) in modes (n, g)."""
         result: Floats = self.springs.basis @ np.linalg.solve(self.lower.T, modes)
         return result
 
     def diagonal(self, modes: Floats) -> tuple[Floats, Floats]:
-        """Frequencies (g,) in 1/s, rising, and the modes (n, g) in a space that is spanned by g orthonormal ones."""
+        """Return rising frequencies (g,) in 1/s, and the modes (n, g).
+
+        They are those in the space that g orthonormal `modes` span.
+        """
         _, values, within = np.linalg.svd(self.rooted @ modes)
         omega = np.zeros(modes.shape[1])
         omega[: len(values)] = values
@@ -119,7 +121,7 @@ class Eigenspace(NamedTuple):
 
 
 def eigenspaces(model: MassSprings) -> Iterator[Eigenspace]:
-    """Neighbouring frequencies together, told apart by kind, then by frequency again."""
+    """Yield neighbouring frequencies together, separated by kind, then by frequency again."""
     omega, modes = model.diagonal(np.eye(len(model.lower)))
     omega[omega <= _RIGID * omega[-1]] = 0.0
     for near in _runs(omega, _NEAR):
@@ -131,7 +133,7 @@ def eigenspaces(model: MassSprings) -> Iterator[Eigenspace]:
 
 
 def _runs(omega: Floats, near: float) -> list[Indices]:
-    """Rising frequencies (n,) in runs without a gap."""
+    """Return the places of rising frequencies (n,) in runs without a gap."""
     gaps = np.flatnonzero(np.diff(omega) > near * omega[1:]) + 1
     return np.split(np.arange(len(omega)), gaps)
 
@@ -140,7 +142,10 @@ def _runs(omega: Floats, near: float) -> list[Indices]:
 
 
 def _kinds(model: MassSprings, modes: Floats) -> list[tuple[ModeKind, Floats]]:
-    """The space of some modes (n, g), split into those of each kind: modes of one frequency come in any mixture."""
+    """Return the space of some modes (n, g), split into those of each kind.
+
+    Modes of one frequency come in any mixture.
+    """
     travel, turn = _travel(model, modes), _turn(model, modes)
     at_place, unturned, still = _unmoved(travel), _unmoved(turn), _unmoved(np.vstack([travel, turn]))
     rotational, translational = _without(at_place, still), _without(unturned, still)
@@ -161,20 +166,23 @@ def _turn(model: MassSprings, modes: Floats) -> Floats:
 
 
 def _parts(model: MassSprings, modes: Floats, rows: list[int]) -> Floats:
-    """What members do in modes, over what all do: by way and by energy, for a heavy member moves little, a light one far."""
+    """Return the motion of members in modes over that of all bodies, by way and by energy.
+
+    Both are needed, for a heavy member moves little, a light one far.
+    """
     places = model.places(modes)
     ways = places[rows] / np.linalg.norm(places, 2)
     return np.vstack([ways, np.sqrt(model.mass[rows])[:, None] * places[rows]])
 
 
 def _unmoved(parts: Floats) -> Floats:
-    """(g, d): an orthonormal basis of the mixtures of g modes in which parts (r, g) rest."""
+    """Return an orthonormal basis (g, d) of the mixtures of g modes in which parts (r, g) rest."""
     _, values, mixtures = np.linalg.svd(parts)
     return mixtures[int((values > _STILL).sum()) :].T
 
 
 def _without(space: Floats, less: Floats) -> Floats:
-    """What is left of a space (g, d) besides another (g, e) within it, as an orthonormal basis."""
+    """Return an orthonormal basis of a space (g, d) without another space (g, e) within it."""
     if not space.shape[1]:
         return space
     _, _, mixtures = np.linalg.svd(less.T @ space)
@@ -186,9 +194,9 @@ def _without(space: Floats, less: Floats) -> Floats:
 
 
 def _told_apart(model: MassSprings, modes: Floats, kind: ModeKind) -> Floats:
-    """Modes of one frequency, the second at rest where the first moves, and so on: not as rounding mixes them; signs set.
+    """Return modes of one frequency, the second at rest where the first moves, and so on; their signs are set.
 
-    Of a translational pair one travels along x, the other along y.
+    So they are not as rounding mixes them. Of a translational pair one travels along x, the other along y.
     """
     places, count = model.places(modes), modes.shape[1]
     sizes = np.linalg.norm(places, axis=1)
@@ -210,7 +218,7 @@ def _told_apart(model: MassSprings, modes: Floats, kind: ModeKind) -> Floats:
 
 
 _SAME = 1e-9
-"""Relative: angles and stiffnesses that are the same but for rounding."""
+"""Relative distance within which angles and stiffnesses are the same but for rounding."""
 
 
 class ModeFamily(NamedTuple):
@@ -222,7 +230,7 @@ class ModeFamily(NamedTuple):
     first: int
 
     def to_dict(self) -> dict[str, Any]:
-        """As `planetary.json` has it."""
+        """Return the family as a part of `planetary.json`."""
         return {"frequency": self.frequency, "kind": self.kind.value, "multiplicity": self.multiplicity}
 
 
@@ -262,22 +270,22 @@ class PlanetaryModes:
 
     @property
     def bodies(self) -> tuple[str, ...]:
-        """Carrier, centrals, "planet 1" and so on: the rows of a shape."""
+        """Names of carrier, centrals, "planet 1" and so on: the rows of a shape."""
         return (*self.springs.members, *(f"planet {n + 1}" for n in range(self.springs.planar.planets)))
 
     @property
     def turns(self) -> Floats:
-        """(n, N + 3): turns of the bodies in rad, for a modal mass of 1 kg."""
+        """Turns of the bodies (n, N + 3) in rad, for a modal mass of 1 kg."""
         planar = self.springs.planar
         radii = [member.radius for member in planar.members] + [planar.planet_radius] * planar.planets
         return np.asarray(self.shape[:, :, 2] / np.array(radii), float)
 
     def of_kind(self, kind: ModeKind) -> Indices:
-        """Numbers of its modes, from 0."""
+        """Return the numbers of the modes of a kind, from 0."""
         return np.flatnonzero([each is kind for each in self.kinds])
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain lists."""
+        """Return plain lists."""
         return {
             "frequencies": [family.to_dict() for family in self.families],
             "kind": [kind.value for kind in self.kinds],
@@ -293,7 +301,7 @@ class PlanetaryModes:
 
 
 def planetary_modes(springs: TrainSprings, masses: TrainMasses) -> PlanetaryModes:
-    """The modes of a train's springs and masses. Raises ParameterError where a mass is missing."""
+    """Return the modes of a train's springs and masses. Raises ParameterError where a mass is missing."""
     model = MassSprings.of(springs, masses)
     blocks = sorted(eigenspaces(model), key=lambda block: float(block.omega.mean()))
     omega = np.concatenate([block.omega for block in blocks])
@@ -324,7 +332,7 @@ def planetary_modes(springs: TrainSprings, masses: TrainMasses) -> PlanetaryMode
 
 
 def why_mixed(planar: PlanarTrain) -> str:
-    """What keeps modes from being rotational, translational or planet modes; "" where nothing does."""
+    """Return the reason why modes are not rotational, translational or planet modes; "" where there is none."""
     count = planar.planets
     turns = np.sort(np.mod(planar.angles, 2 * np.pi))
     if count == 1:
@@ -346,17 +354,17 @@ def _notices(planar: PlanarTrain, kinds: tuple[ModeKind, ...]) -> tuple[Notice, 
 
 
 NEAR = 0.05
-"""Of the speed of a resonance: a load that runs so near is told of."""
+"""Part of the speed of a resonance within which a load gets a notice."""
 
 _SHAKEN = 1e-6
-"""Of what all planets together could do to a mode: rounding of what takes itself off."""
+"""Part of what all planets together could do to a mode: rounding of excitations that cancel."""
 
 _UNMESHED = 1e-9
-"""Of the potential energy: what a mesh holds of a mode that does not move it."""
+"""Part of the potential energy that a mesh holds in a mode that does not move it."""
 
 
 class LineKind(Enum):
-    """What shakes a train."""
+    """Sources that shake a train."""
 
     MESH = "mesh"
     """Stiffness and transmission error of a central's meshes."""
@@ -372,7 +380,7 @@ class LineKind(Enum):
 
 
 class CampbellLine(NamedTuple):
-    """A `harmonic` of what is called `source`: its frequency is `per_rpm` (Hz) times the speed of the input (rpm)."""
+    """A `harmonic` of a `source`: its frequency is `per_rpm` (Hz) times the speed of the input (rpm)."""
 
     kind: LineKind
     source: str
@@ -381,15 +389,15 @@ class CampbellLine(NamedTuple):
 
     @property
     def name(self) -> str:
-        """Such as "2 x sun-planet"."""
+        """Name such as "2 x sun-planet"."""
         return self.source if self.harmonic == 1 else f"{self.harmonic} x {self.source}"
 
 
 class Resonance(NamedTuple):
-    """Where a line meets modes: `speed` of the input (rpm) and `frequency` (Hz), by numbers of `line` and `family`.
+    """Meeting of a line and modes: `speed` of the input (rpm) and `frequency` (Hz), by numbers of `line` and `family`.
 
-    `share` is how much of what the planets' meshes could do to the modes they do with their phases: 0 where they take each
-    other off; None where that is not judged, of what is no mesh of the set.
+    `share` is the part of the possible excitation by the planets' meshes that is left with their phases: 0 where they cancel.
+    It is None where that is not judged, for lines that are not meshes of the set.
     """
 
     speed: float
@@ -406,10 +414,10 @@ class Resonance(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PlanetaryCampbell:
-    """`lines` over the input's speed up to `highest_speed` (rpm), the modes' `families`, and where both meet, by rising speed.
+    """Campbell diagram: `lines` over the input's speed up to `highest_speed` (rpm), `families` of modes, and `resonances`.
 
-    `shares` (l, f) of lines in families are those of the resonances, nan where they are not judged. `speed` (rpm, without its
-    sign) is that of the load, where one is given.
+    Resonances are by rising speed. `shares` (l, f) of lines in families are those of the resonances, nan where they are not
+    judged. `speed` (rpm, without its sign) is that of the load, where one is given.
     """
 
     train: PlanetaryTrain
@@ -422,12 +430,12 @@ class PlanetaryCampbell:
 
     @property
     def excited(self) -> tuple[Resonance, ...]:
-        """Those at which modes are shaken."""
+        """Resonances at which modes are shaken."""
         return tuple(each for each in self.resonances if each.excited)
 
     @property
     def near(self) -> tuple[Resonance, ...]:
-        """Those that excite modes, within NEAR of which the load runs, the nearest first, even beyond the diagram."""
+        """Resonances that excite modes within NEAR of the load's speed, the nearest first, even beyond the diagram."""
         if not self.speed:
             return ()
         found = [
@@ -441,7 +449,10 @@ class PlanetaryCampbell:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """That the load runs near a resonance: one for each mode and speed, of all harmonics that meet there."""
+        """Notices that the load runs near a resonance.
+
+        There is one for each mode and speed, of all harmonics that meet there.
+        """
         together: dict[tuple[int, str], list[Resonance]] = {}
         for each in self.near:
             together.setdefault((each.family, f"{each.speed:.6g}"), []).append(each)
@@ -461,13 +472,13 @@ class PlanetaryCampbell:
         )
 
     def kinds_excited(self, source: str, harmonic: int) -> tuple[ModeKind, ...]:
-        """Kinds of the modes that a line shakes."""
+        """Return the kinds of the modes that a line shakes."""
         (row,) = [i for i, line in enumerate(self.lines) if (line.source, line.harmonic) == (source, harmonic)]
         found = {family.kind for family, share in zip(self.families, self.shares[row], strict=True) if share > 0}
         return tuple(kind for kind in ModeKind if kind in found)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain lists; no value (null) where a share is not judged."""
+        """Return plain lists; no value (null) where a share is not judged."""
         return {
             "speed": self.speed,
             "highest_speed": self.highest_speed,
@@ -489,10 +500,10 @@ def planetary_campbell(
     given_speeds: Mapping[str, float] | None = None,
     speed: float | None = None,
 ) -> PlanetaryCampbell:
-    """Up to a speed of the input (rpm), with so many `harmonics` of every mesh.
+    """Return the Campbell diagram up to a speed of the input (rpm), with `harmonics` harmonics of every mesh.
 
-    `given_speeds` (rpm) are those of a differential beside its input at `highest_speed`: all rise alike. `speed` (rpm) of the
-    load: resonances near it are told. Raises ParameterError, and GeometryError where the set turns as one.
+    `given_speeds` (rpm) are those of a differential beside its input at `highest_speed`: all rise alike. `speed` (rpm) is that
+    of the load: resonances near it get a notice. Raises ParameterError, and GeometryError where the set turns as one.
     """
     require_whole("harmonics", harmonics, at_least=1, at_most=1000)
     turns = speeds_per_input(train, {**(given_speeds or {}), train.input: highest_speed})
@@ -519,10 +530,11 @@ def planetary_campbell(
 
 
 def modal_shares(modes: PlanetaryModes, mesh: str, ahead: Floats, harmonic: int) -> Floats:
-    """(f,): what a harmonic of a mesh does to the modes of each family, over what it could if it came rightly for each planet.
+    """Return the shares (f,) of the possible excitation of each family that a harmonic of a mesh has.
 
-    |sum_n y_n exp(2 pi i m lambda_n)|, y_n the approach of the flanks of planet n in a mode, over the root of N sum y_n^2; of
-    several modes the root of the sum of squares. 0 where the phases of the planets (`ahead`, base pitches) take it off.
+    It is |sum_n y_n exp(2 pi i m lambda_n)|, y_n the approach of the flanks of planet n in a mode, over the root of N sum
+    y_n^2; of several modes the root of the sum of squares. It is 0 where the phases of the planets (`ahead`, base pitches)
+    cancel it.
     """
     columns = modes.springs.select(SpringKind.MESH, mesh)
     waves = np.exp(2j * np.pi * harmonic * ahead)
@@ -538,9 +550,9 @@ def modal_shares(modes: PlanetaryModes, mesh: str, ahead: Floats, harmonic: int)
 
 
 def speeds_per_input(train: PlanetaryTrain, given: Mapping[str, float]) -> dict[str, float]:
-    """Speeds of all shafts and the planet's against the carrier ("planet"), over that of the input; these are `given` in rpm.
+    """Return speeds of all shafts and of the planet against the carrier ("planet"), over that of the input.
 
-    Raises ParameterError for an input at rest, GeometryError where the set turns as one.
+    `given` are speeds in rpm. Raises ParameterError for an input at rest, GeometryError where the set turns as one.
     """
     turning = {name: speed for name, speed in given.items() if name != train.input}
     turning[train.input] = given[train.input] or 1.0
@@ -552,7 +564,7 @@ def speeds_per_input(train: PlanetaryTrain, given: Mapping[str, float]) -> dict[
 
 
 def _lines(train: PlanetaryTrain, turns: Mapping[str, float], harmonics: int) -> tuple[CampbellLine, ...]:
-    """Meshes of the set and of its stages with their harmonics, then what comes once a turn."""
+    """Return the lines of meshes of the set and of its stages with their harmonics, then lines of events once a turn."""
     meshes = [(LineKind.MESH, mesh.name, mesh.rim.gear.teeth * turns["planet"]) for mesh in train.meshes]
     meshes += [(LineKind.STAGE, stage.name, stage.pair.pinion.teeth * turns[stage.pinion]) for stage in train.stages]
     found = [

@@ -3,9 +3,6 @@
 Flanks stay in contact or, where both meshes have one tooth frequency, part; speeds are as close as every maximum needs. Where
 planets are alike, at equal angles and in phase - all of them, or every second, every third ... - their motion repeats after
 that part of a turn, and one planet stands for them. Carrier and centrals then only turn.
-
-Where planets are alike, at equal angles and in phase - all of them, or every second, every third ... - what they do comes again
-after that part of a turn. Carrier and centrals then only turn.
 """
 
 from __future__ import annotations
@@ -52,17 +49,23 @@ from gearcad.planetary.poses import drive_of, mesh_phases
 from gearcad.planetary.power import lossless_flow
 
 _SAME = 1e-9
-"""Relative, or of a base pitch: rounding."""
+"""Rounding, relative or of a base pitch."""
+
+_REMEDIES = "more damping ([dynamics] damping_ratio) or fewer [dynamics] speeds"
+"""Inputs of planetary trains that give loads where runs in time would take too long."""
 
 
 def planets_alike(planar: PlanarTrain, phases: Mapping[str, MeshPhases]) -> int:
-    """How many planets do what planet 0 does: the n-th, the 2 n-th ... after it; 1 where it is the only one."""
+    """Return the number of planets that move as planet 0 does, itself included.
+
+    They are the n-th, the 2 n-th ... after it; 1 where it is the only one.
+    """
     count = planar.planets
     return max(count // step for step in range(1, count + 1) if count % step == 0 and _comes_again(planar, phases, step))
 
 
 def _comes_again(planar: PlanarTrain, phases: Mapping[str, MeshPhases], step: int) -> bool:
-    """Whether all is the same so many planets on."""
+    """Return whether all is the same `step` planets further."""
 
     def later(values: Floats) -> Floats:
         return np.roll(values, -step) - values
@@ -74,7 +77,7 @@ def _comes_again(planar: PlanarTrain, phases: Mapping[str, MeshPhases], step: in
 
 
 def fold(springs: TrainSprings, alike: int) -> TrainSprings:
-    """The first planets of each kind, each with the springs and the masses of `alike` of them."""
+    """Return the springs of the first planets of each kind, each with the springs and the masses of `alike` of them."""
     if alike == 1:
         return springs
     kept = springs.planar.planets // alike
@@ -95,13 +98,16 @@ def fold(springs: TrainSprings, alike: int) -> TrainSprings:
 
 
 def meshes_of_all(planets: int, alike: int) -> Indices:
-    """(2 N,): which of the meshes of the first planets of each kind does what each mesh of all planets does."""
+    """Return (2 N,) the mesh of the first planets of each kind that stands for each mesh of all planets."""
     kept = planets // alike
     return np.concatenate([np.tile(np.arange(kept), alike), np.tile(np.arange(kept, 2 * kept), alike)])
 
 
 def _spread(springs: TrainSprings, kept: int) -> tuple[Floats, list[str]]:
-    """All coordinates (n, f) of those of the kept planets and the turns of the members, and the names of these."""
+    """Return all coordinates (n, f) from those of the kept planets and the turns of the members.
+
+    The names of these come second.
+    """
     every = all_coordinates(springs.planar)
     places = [every.index(name) for name in springs.coordinates]
     leaders = [place if place < 9 else 9 + (place - 9) % (3 * kept) for place in places]
@@ -112,11 +118,14 @@ def _spread(springs: TrainSprings, kept: int) -> tuple[Floats, list[str]]:
 
 
 _FAST = 0.05
-"""Twice the speed of the carrier over the lowest natural frequency from which on turning axes are to be minded."""
+"""Twice the speed of the carrier over the lowest natural frequency from which on turning axes get a notice."""
 
 
 def turning_axes(modes: PlanetaryModes, carrier: float, highest_speed: float) -> tuple[Notice, ...]:
-    """Where axes that turn with the carrier would show; `carrier` is its speed over that of the input."""
+    """Return a notice if axes that turn with the carrier would show, else none.
+
+    `carrier` is its speed over that of the input; `highest_speed` is in rpm of the input.
+    """
     elastic = modes.circular[modes.rigid :]
     rpm = abs(carrier * highest_speed)
     ratio = 2 * rpm * math.pi / 30 / float(elastic.min(initial=math.inf))
@@ -130,7 +139,7 @@ def turning_axes(modes: PlanetaryModes, carrier: float, highest_speed: float) ->
 
 
 def stages_left_out(train: PlanetaryTrain) -> tuple[Notice, ...]:
-    """That stages vibrate by themselves here."""
+    """Return a notice that stages are no part of the vibrating model, none for a train without stages."""
     if not train.stages:
         return ()
     names = " and ".join(stage.name for stage in train.stages)
@@ -140,7 +149,10 @@ def stages_left_out(train: PlanetaryTrain) -> tuple[Notice, ...]:
 def errors_left_out(
     train: PlanetaryTrain, load: TrainLoad, stiffness: Mapping[str, MeshStiffness], given_speeds: Mapping[str, float] | None
 ) -> tuple[Notice, ...]:
-    """That planets carry even shares in spite of errors, and what these make of the shares at rest."""
+    """Return a notice that planets carry even shares in spite of errors, none for a train without errors.
+
+    It says what the errors make of the shares at rest.
+    """
     errors = tuple(_errors(train))
     if not errors:
         return ()
@@ -152,7 +164,7 @@ def errors_left_out(
 
 
 def _errors(train: PlanetaryTrain) -> Iterator[str]:
-    """Names of those that are not 0."""
+    """Yield the names of errors that are not 0."""
     if any(train.carrier.pin_errors):
         yield f"pin errors of {train.carrier.name}"
     for rim in train.rims:
@@ -179,7 +191,7 @@ def _shares_at_rest(
 
 
 def planets_differ(frequencies: Floats, growing: Bools) -> tuple[Notice, ...]:
-    """That planets do not go on doing the same at some of the tooth frequencies (s,) in 1/s."""
+    """Return a notice that planets cease to move alike at some of the tooth frequencies (s,) in 1/s, if they do."""
     if not growing.any():
         return ()
     text = (
@@ -191,7 +203,10 @@ def planets_differ(frequencies: Floats, growing: Bools) -> tuple[Notice, ...]:
 
 
 def differences_where_parted(over: OverSpeed) -> tuple[Notice, ...]:
-    """How planets taken for one are judged where their flanks part."""
+    """Return a notice of how planets taken for one are judged where their flanks part.
+
+    There is none where flanks do not part.
+    """
     if over.branch is None and over.runs is None:
         return ()
     text = "whether planets go on doing the same where flanks part is judged as if flanks stayed in contact"
@@ -199,13 +214,13 @@ def differences_where_parted(over: OverSpeed) -> tuple[Notice, ...]:
 
 
 _BEYOND = 1.5
-"""How far beyond the last resonance a chart goes on."""
+"""Highest speed of a chart over that of the last resonance."""
 
 _SHARE = 0.02
-"""Of a mode's potential energy that the meshes must hold for the mode to be a resonance of theirs."""
+"""Part of a mode's potential energy that the meshes must hold for the mode to be a resonance of theirs."""
 
 _SLOWEST_STEPPED = 1 / 200
-"""Of the highest speed, where that of a chart of stepped planets begins: their meshes come again after many teeth only."""
+"""Part of the highest speed at which a chart of stepped planets begins: their meshes repeat after many teeth only."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -234,17 +249,17 @@ class PlanetaryResponse:
 
     @property
     def up(self) -> KvChart:
-        """Running up."""
+        """Chart running up."""
         return self.over.up
 
     @property
     def down(self) -> KvChart | None:
-        """Running down, where flanks part."""
+        """Chart running down, where flanks part."""
         return self.over.down
 
     @property
     def speeds(self) -> Floats:
-        """Of the input (s,), in rpm."""
+        """Speeds of the input (s,), in rpm."""
         return self.up.frequencies / (2 * np.pi * self.tooth_frequency)
 
     @cached_property
@@ -256,17 +271,17 @@ class PlanetaryResponse:
 
     @property
     def greatest(self) -> GreatestFactor:
-        """The greatest factor of the whole chart."""
+        """Greatest factor of the whole chart."""
         return greatest_factor(self._charts)
 
     @property
     def greatest_in_operation(self) -> GreatestFactor:
-        """The greatest factor where the train runs under load."""
+        """Greatest factor where the train runs under load."""
         return greatest_factor(self._charts, self.operating.rows(self.speeds))
 
     @property
     def at_load(self) -> GreatestFactor | None:
-        """The greatest factor at the load's speed, None if that is not in the chart."""
+        """Greatest factor at the load's speed, None if that is not in the chart."""
         rows = np.isclose(self.speeds, abs(self.load.speed), rtol=1e-9)
         return greatest_factor(self._charts, rows) if (rows & self.up.known).any() else None
 
@@ -276,7 +291,10 @@ class PlanetaryResponse:
 
     @cached_property
     def damping_ratios(self) -> Floats:
-        """(n,): what the damping of meshes, pins and supports comes to in each mode; nan of those without a frequency."""
+        """Damping ratio (n,) of each mode from the damping of meshes, pins and supports.
+
+        It is nan for modes without a frequency.
+        """
         squares, modes = np.linalg.eigh(self.system.stiffness_matrix())
         damping = np.einsum("nr,nk,kr->r", modes, self.system.damping_matrix(), modes)
         result = np.full(len(squares), np.nan)
@@ -285,9 +303,9 @@ class PlanetaryResponse:
         return result
 
     def at(self, speed: float) -> PeriodicResponse:
-        """The steady vibration at any one speed of the input (rpm), running up, with the meshes of every planet.
+        """Return the steady vibration at any one speed of the input (rpm), running up, with the meshes of every planet.
 
-        It is stable where the charts say so. Raises ParameterError unless it turns.
+        It is stable where the charts say so. Raises ParameterError unless the input turns.
         """
         require_number("speed", abs(speed), "rpm", above=0)
         found = self.over.response(2 * np.pi * self.tooth_frequency * abs(speed))
@@ -303,11 +321,11 @@ class PlanetaryResponse:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it."""
+        """Notices to read before the response is used."""
         return (*self.found, *self.over.notices, *self.up.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain lists: rpm, N, Hz."""
+        """Return plain lists: rpm, N, Hz."""
         at_load = self.at_load
         return {
             "speed": self.speeds.tolist(),
@@ -334,7 +352,7 @@ def planetary_response(
     *,
     given_speeds: Mapping[str, float] | None = None,
 ) -> PlanetaryResponse:
-    """Loads over the speeds of the `options`, at the torque of the load with K_A, without losses.
+    """Return the loads over the speeds of the `options`, at the torque of the load with K_A, without losses.
 
     `stiffness` of each mesh is that of an even share of the load. A differential needs the second speed (rpm) that it has at
     the load's: both rise alike. Raises ParameterError, GeometryError and SolverError.
@@ -358,7 +376,8 @@ def planetary_response(
         )
         for many in (1, alike)
     )
-    over = over_speed(*folded, 2 * np.pi * tooth_frequency * charted, harmonics=options.harmonics)
+    frequencies = 2 * np.pi * tooth_frequency * charted
+    over = over_speed(*folded, frequencies, harmonics=options.harmonics, remedies=_REMEDIES)
     return PlanetaryResponse(
         train=train,
         load=load,
@@ -400,7 +419,7 @@ def _require_course(stiffness: Mapping[str, MeshStiffness]) -> None:
 
 
 def _driven(train: PlanetaryTrain) -> tuple[str, ...]:
-    """Members that are not held."""
+    """Return the names of members that are not held."""
     held = held_members(train)
     return tuple(name for name in train.members if name not in held)
 
@@ -411,12 +430,15 @@ def _means(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness]) -> tup
 
 
 def _torques(train: PlanetaryTrain, load: TrainLoad, given_speeds: Mapping[str, float] | None) -> Mapping[str, float]:
-    """On the members of the set (N·m), with K_A, which balance as those with losses would not."""
+    """Return the torques on the members of the set (N·m), with K_A.
+
+    They are without losses, so they balance; those with losses would not.
+    """
     return lossless_flow(train, load.times(load.application_factor), given_speeds).set_torques
 
 
 def _forces(train: PlanetaryTrain, torques: Mapping[str, float]) -> dict[str, float]:
-    """What each planet's share presses each mesh with (N)."""
+    """Return the force (N) of each planet's share on each mesh, by the names of meshes."""
     return {
         mesh.name: abs(torques[mesh.central.name]) * 1000 / (train.planets * mesh.central_base_radius) for mesh in train.meshes
     }
@@ -425,7 +447,7 @@ def _forces(train: PlanetaryTrain, torques: Mapping[str, float]) -> dict[str, fl
 def _speeds(
     train: PlanetaryTrain, options: DynamicsOptions, modes: PlanetaryModes, tooth_frequency: float, load: TrainLoad
 ) -> Floats:
-    """Of the chart (rpm of the input), with that of the load if it lies within."""
+    """Return the speeds of the chart (rpm of the input), with that of the load if it lies within."""
     last = options.speed_to
     if last is None:
         meshes = modes.springs.select(SpringKind.MESH)
@@ -437,7 +459,10 @@ def _speeds(
 
 
 def _of_each(over: OverSpeed, alike: int, system: System, excitation: Excitation) -> OverSpeed:
-    """Charts of planets taken for one with the forces of each, and the stability of all, that with flanks in contact."""
+    """Return charts with the forces of each planet, from charts of planets taken for one.
+
+    They have the stability of all planets, with flanks in contact.
+    """
     columns = meshes_of_all(len(system.names[0]) // 2, alike)
 
     def unfolded(chart: KvChart) -> KvChart:
@@ -460,5 +485,5 @@ def _of_each(over: OverSpeed, alike: int, system: System, excitation: Excitation
 
 
 def _lasting(system: System, excitation: Excitation, frequencies: Floats) -> Bools:
-    """Whether (s,) motions of all planets last while flanks stay in contact."""
+    """Return whether (s,) motions of all planets last while flanks stay in contact."""
     return np.asarray(growth(system, excitation.bonded, frequencies) <= UNSTABLE, bool)

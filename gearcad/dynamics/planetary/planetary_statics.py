@@ -437,10 +437,9 @@ class TorsionalStiffness:
         return sum(each.share for each in self.contributions if each.source is source)
 
     def implied_pin_stiffness(self, stiffness: float) -> float:
-        """Return the stiffness of one pin (N/µm) that would make the train's `stiffness` (N·m/rad), with all other springs as
-        they are.
+        """Return the stiffness of one pin (N/µm) that would make `stiffness` (N·m/rad) of the train.
 
-        Raises ParameterError where that is not softer than the train with rigid pins.
+        All other springs are as they are. Raises ParameterError where that is not softer than the train with rigid pins.
         """
         pins = [each for each in self.contributions if each.source is TwistSource.PIN]
         others = float(np.radians(self.twist - sum(each.twist for each in pins)))
