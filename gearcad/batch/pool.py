@@ -23,6 +23,7 @@ from typing import IO, Any, Generic, TypeVar
 
 from gearcad.core.errors import GearcadError, ParameterError, format_number, require_whole
 from gearcad.core.guard import death, die_with
+from gearcad.core.runtime import cores
 from gearcad.version import __version__
 
 
@@ -297,11 +298,6 @@ class Pool:
             yield Outcome(pending.pop(future), future)
 
 
-def available_cores() -> int:
-    """Cores this process may use, fewer than the machine's in a container."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 @contextmanager
 def open_pool(jobs: int | None, cluster: str | None) -> Iterator[Pool]:
     """A pool of `jobs` processes (None: the cores) here, or the threads of the Dask cluster at `cluster`.
@@ -311,7 +307,7 @@ def open_pool(jobs: int | None, cluster: str | None) -> Iterator[Pool]:
     """
     if jobs is not None:
         require_whole("jobs", jobs, at_least=1, at_most=_MOST_JOBS)
-    count = jobs or available_cores()
+    count = jobs or cores()
     if cluster is not None:
         with remembered_interrupt() as look, _dask_pool(cluster, count, look) as pool:
             yield pool

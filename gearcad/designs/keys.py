@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from importlib import import_module
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 from gearcad.core.quantities import FieldSchema, Words, parts_of, schema_of
 from gearcad.core.records import Role
@@ -15,13 +15,12 @@ from gearcad.core.symbols import Symbol
 from gearcad.geometry import Gear, GearPair, Rack, RackPair, ShiftSplit
 from gearcad.geometry.fits import THINNING_OR_ALLOWANCE
 from gearcad.geometry.gear_parts import MODULE_OR_PITCH
-from gearcad.lazy_table import LazyTable
 
 
 class DesignKind(Enum):
     """Kind of design that a spec makes.
 
-    The value names its module in `kinds` and its main table; the main table of a pinion and a rack is [pair].
+    The value names the main table of the spec; that of a pinion and a rack is [pair].
     """
 
     GEAR = "gear"
@@ -89,6 +88,33 @@ def _kind_beside(table: str) -> type[DataclassInstance]:
     room, _, name = _HOMES[table].rpartition(".")
     kind: type[DataclassInstance] = getattr(import_module(f"gearcad.{room}"), name)
     return kind
+
+
+Value = TypeVar("Value")
+
+
+class LazyTable(Mapping[str, Value]):
+    """A mapping of `names`; `make` is called once for each value, at its first use."""
+
+    def __init__(self, names: Iterable[str], make: Callable[[str], Value]) -> None:
+        self._names, self._make = tuple(names), make
+        self._made: dict[str, Value] = {}
+
+    def __getitem__(self, name: str) -> Value:
+        if name not in self._made:
+            if name not in self._names:
+                raise KeyError(name)
+            self._made[name] = self._make(name)
+        return self._made[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
 
 
 BESIDE = LazyTable(_HOMES, _kind_beside)

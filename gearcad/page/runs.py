@@ -27,10 +27,10 @@ from typing import Any, ClassVar
 from fastapi import FastAPI, Request, Response
 from fastapi.responses import FileResponse
 
-from gearcad.batch.pool import ONE_THREAD, available_cores
+from gearcad.batch.pool import ONE_THREAD
 from gearcad.core.errors import ParameterError, format_number, require_number
 from gearcad.core.guard import death
-from gearcad.core.runtime import Clock, Expected, machine_memory
+from gearcad.core.runtime import Clock, Expected, cores, machine_memory
 from gearcad.page.run_process import RUNS, Asked
 
 GIGABYTE = 1e9
@@ -260,7 +260,7 @@ class Turns:
                 self._changed.notify_all()
 
 
-_TURNS = Turns(max(available_cores(), 1))
+_TURNS = Turns(max(cores(), 1))
 
 
 _OPEN: dict[str, Runs] = {}
