@@ -27,20 +27,23 @@ from gearcad.rating.strength.rating import called
 
 @dataclass(frozen=True, kw_only=True)
 class PublishedFactor:
-    """K_gamma of a source for the planets of a train; `recalled`: not read in the source itself, verify it."""
+    """K_gamma of a source for the planets of a train; `recalled`: not read in the source itself, to be verified."""
 
     source: str
     factor: float
     recalled: bool
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return a dictionary for JSON."""
         return {"source": self.source, "factor": self.factor, "recalled": self.recalled}
 
 
 @dataclass(frozen=True, kw_only=True)
 class PublishedFactors:
-    """K_gamma by the number of planets, up to `most` of them; that of the last key holds for more where `most` allows."""
+    """K_gamma of a source by the number of planets, up to `most` of them.
+
+    The value of the last key holds for more planets where `most` allows.
+    """
 
     source: str
     by_planets: Mapping[int, float]
@@ -48,7 +51,7 @@ class PublishedFactors:
     recalled: bool
 
     def of(self, planets: int) -> PublishedFactor | None:
-        """That of a number of planets; None where the source has none."""
+        """Return the factor for a number of planets; None where the source has none."""
         known = [count for count in self.by_planets if count <= planets]
         if not known or planets > self.most:
             return None
@@ -76,7 +79,7 @@ of application, which was not at hand; ISO 6336-1 itself has none."""
 
 
 def published_factors(planets: int) -> tuple[PublishedFactor, ...]:
-    """What the sources have for so many planets.
+    """Return K_gamma of each source that has one for a number of planets.
 
     >>> [(each.factor, each.recalled) for each in published_factors(4)]
     [(1.2, False), (1.25, True)]
@@ -86,8 +89,11 @@ def published_factors(planets: int) -> tuple[PublishedFactor, ...]:
 
 
 class MeshFactors(NamedTuple):
-    """What the mesh with a planet has of its own: K_v with the masses of the set, None where it is not known, and why; Y_M;
-    symbols of what of it is to be verified."""
+    """Factors of the mesh with a planet: K_v with the masses of the set, and Y_M.
+
+    `dynamic` is None where K_v is not known, and `unknown` says why. `verify` are the symbols of factors that are to be
+    verified.
+    """
 
     dynamic: float | None
     unknown: str
@@ -104,13 +110,13 @@ class LeastSafety(NamedTuple):
 
 @dataclass(frozen=True)
 class GearStrength:
-    """What flanks and roots of one gear of a train bear, by the names of its meshes; two of the two flanks of a planet."""
+    """Strength of flanks and roots of one gear of a train, by the names of its meshes; two for the two flanks of a planet."""
 
     flank: Mapping[str, PartStrength]
     root: Mapping[str, PartStrength]
 
     def least(self, part: Part) -> LeastSafety | None:
-        """The least safe place; None where no mesh was judged."""
+        """Return the least safety and its mesh; None where no mesh was judged."""
         of = self.flank if part is Part.FLANK else self.root
         known = [LeastSafety(each.safety, mesh) for mesh, each in of.items() if each.safety is not None]
         return min(known, default=None)
@@ -122,7 +128,7 @@ class GearStrength:
         yield from self.root.values()
 
     def to_dict(self) -> dict[str, Any]:
-        """The least safeties, each with its mesh; None where nothing was judged."""
+        """Return the least safeties, each with its mesh; None where nothing was judged."""
         found = {part.value: self.least(part) for part in Part}
         return {
             **{name: None if least is None else least.safety for name, least in found.items()},
@@ -151,7 +157,7 @@ class TrainStrength(Pictured):
 
     @property
     def members(self) -> dict[str, GearStrength]:
-        """What each gear bears."""
+        """Strength of each gear, by its name."""
         return {name: GearStrength(self._parts(Part.FLANK, name), self._parts(Part.ROOT, name)) for name in self.names}
 
     def _parts(self, part: Part, gear: str) -> dict[str, PartStrength]:
@@ -164,7 +170,7 @@ class TrainStrength(Pictured):
 
     @property
     def strength(self) -> Verdict:
-        """The verdict on strength of all meshes and stages by `strength_verdict`."""
+        """Verdict on strength of all meshes and stages by `strength_verdict`."""
         found = [verdict for each in self.meshes.values() for verdict in each.required_verdicts]
         return strength_verdict(self.asked, [*found, *(Verdict.NOT_JUDGED for _ in self.unrated)])
 
@@ -175,7 +181,7 @@ class TrainStrength(Pictured):
 
     @property
     def not_judged(self) -> dict[str, str]:
-        """What was not, and why."""
+        """Meshes and parts that were not judged, and the reasons."""
         found = {f"{mesh}, {part}": why for mesh, each in self.meshes.items() for part, why in each.not_judged.items()}
         return {**self.unrated, **found}
 
@@ -199,7 +205,7 @@ class TrainStrength(Pictured):
 
     @property
     def verdict(self) -> str:
-        """In one line."""
+        """Verdict in one line."""
         if self.strength is Verdict.FAILED:
             return "; ".join((f"strength NOT passed: {', '.join(self.failed)}", *self._scuffing_unasked))
         if self.strength is Verdict.PASSED:
@@ -210,26 +216,26 @@ class TrainStrength(Pictured):
 
     @property
     def _scuffing_unasked(self) -> Iterator[str]:
-        """Of meshes that may scuff where no safety is required."""
+        """Words for meshes that may scuff where no safety is required."""
         return (f"{name}: {each.scuffing_unasked}" for name, each in self.meshes.items() if each.scuffing_unasked)
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """What was not given, of all meshes."""
+        """Inputs that were assumed, of all meshes."""
         return tuple(dict.fromkeys(each for rating in self.meshes.values() for each in rating.assumed))
 
     @property
     def verify(self) -> tuple[str, ...]:
-        """Symbols of what rests on one source or on memory, of all meshes."""
+        """Symbols of values that rest on one source or on memory, of all meshes."""
         return tuple(dict.fromkeys(each for rating in self.meshes.values() for each in rating.verify))
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Those of each mesh."""
+        """Notices of each mesh."""
         return tuple(notice.within(name) for name, each in self.meshes.items() for notice in each.notices)
 
     def summary(self) -> dict[str, Any]:
-        """What is said of the train: safeties of its gears, life (h), verdict."""
+        """Return the summary of the train: safeties of its gears, life (h), verdict."""
         return {
             "safety": {name: gear.to_dict() for name, gear in self.members.items()},
             "required": {
@@ -244,7 +250,7 @@ class TrainStrength(Pictured):
         }
 
     def to_dict(self) -> dict[str, Any]:
-        """What rate.json holds, but for kind and name."""
+        """Return the contents of rate.json, without kind and name."""
         return {
             "meshes": {name: each.to_dict() for name, each in self.meshes.items()},
             "unrated": dict(self.unrated),
@@ -267,9 +273,9 @@ def train_strength(
 ) -> TrainStrength:
     """Rate every mesh of a set under `loads`, and every stage, as `rate_strength` rates a pair.
 
-    Of a mesh with planets K_gamma is that of its load, K_v of Method B and Y_M are those of its `factors`; a central has a
-    contact with each planet in one turn against the carrier, a planet one on each of its flanks. `unrated` are those that have
-    no rating even without load factors, and why.
+    A mesh with planets has K_gamma of its load, and K_v of Method B and Y_M of its `factors`. A central has a contact with each
+    planet in one turn against the carrier, a planet one on each of its flanks. `unrated` are meshes and stages that have no
+    rating even without load factors, and why.
     """
     pairs = {mesh.name: mesh.pair for mesh in train.meshes} | {stage.name: stage.pair for stage in train.stages}
     made_of = {mesh.name: mesh_material(material, mesh) for mesh in train.meshes}
@@ -313,7 +319,7 @@ def asks_strength(material: TrainMaterial | None, options: RatingOptions | None)
 
 
 _OF_SET = "ISO 6336-1, 6, Method B, with the masses of the set"
-"""The source of K_v of a mesh with planets that nobody gave."""
+"""Source of K_v of a mesh with planets where K_v was not given."""
 
 
 def _sourced(rating: StrengthRating, sources: Mapping[str, str]) -> StrengthRating:
@@ -331,12 +337,15 @@ def _sourced(rating: StrengthRating, sources: Mapping[str, str]) -> StrengthRati
 
 
 def _names(mesh: SetMesh) -> PerGear[str]:
-    """Of both gears of a mesh, those of the central and the rim."""
+    """Return the names of both gears of a mesh, those of the central and the rim."""
     return PerGear.each(lambda role: mesh.central.name if role is mesh.central_role else mesh.rim.name)
 
 
 def _of_mesh(load: MeshLoad, factors: MeshFactors, options: RatingOptions) -> RatingOptions:
-    """The options of a pair that stands for one of N meshes, where they do not say themselves. Raises ParameterError."""
+    """Return the options of a pair that stands for one of N meshes; options that are given are kept.
+
+    Raises ParameterError.
+    """
     if options.mesh_load_factor != 1:
         permitted = "must be left out: that of a planetary train is mesh_load_factor of its [load], or computed"
         raise ParameterError("rating.mesh_load_factor", options.mesh_load_factor, permitted)
@@ -361,7 +370,7 @@ ALTERNATING = 0.7
 """Y_M of teeth that bend both ways in every turn, over that of teeth that bend one way: idlers and planets (recalled)."""
 
 _RECALLED = {"K_v": "the inertias that count in K_v", "Y_M": f"Y_M = {ALTERNATING:g} of planets that bend both ways"}
-"""What each symbol stands for."""
+"""Meaning of each symbol."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -369,8 +378,8 @@ class MeshRating:
     """The rating of the mesh with the planet that carries most, under K_A K_gamma.
 
     `dynamic_factor` K_v of ISO 6336-1, Method B, is that of the pinion's speed against the carrier, not in the stresses of the
-    `rating`; None where it is not known, and `no_dynamic_factor` why. `mean_stress_factor` Y_M of each gear divides the root
-    stress before it is held against a limit of teeth that bend one way.
+    `rating`. It is None where it is not known, and `no_dynamic_factor` says why. `mean_stress_factor` Y_M of each gear divides
+    the root stress before it is held against a limit of teeth that bend one way.
     """
 
     load: MeshLoad
@@ -381,17 +390,17 @@ class MeshRating:
 
     @property
     def planets_verify(self) -> tuple[str, ...]:
-        """Symbols of what is peculiar to planets and rests on a text of the standard that was not at hand."""
+        """Symbols of values for planets only that rest on a text of the standard that was not at hand."""
         idlers = (f"{role.value}.Y_M" for role, factor in self.mean_stress_factor.items() if factor != 1)
         return (*(["K_v"] if self.dynamic_factor is not None else ()), *idlers)
 
     @property
     def verify(self) -> tuple[str, ...]:
-        """The same of all of the rating."""
+        """Symbols to verify of all of the rating, those for planets included."""
         return (*self.rating.verify, *self.planets_verify)
 
     def to_dict(self) -> dict[str, Any]:
-        """As `rate.json` has it, K_gamma, K_v and Y_M beside the rest, and what the mesh carries."""
+        """Return the rating as a part of `rate.json`, with K_gamma, K_v, Y_M and the load of the mesh."""
         found = self.rating.to_dict()
         for role, factor in self.mean_stress_factor.items():
             found[role.value]["Y_M"] = factor
@@ -403,7 +412,10 @@ class MeshRating:
 
 @dataclass(frozen=True, kw_only=True)
 class TrainRating:
-    """Of the meshes of a train's set and of its stages by their names; `unrated`: those that cannot be rated, and why."""
+    """Ratings of the meshes of a train's set and of its stages by their names.
+
+    `unrated`: those that cannot be rated, and why.
+    """
 
     meshes: Mapping[str, MeshRating]
     stages: Mapping[str, Rating]
@@ -412,7 +424,10 @@ class TrainRating:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What of planets is to be verified, and what is not known; what each rating warns of stands with it."""
+        """Notices of values for planets that are to be verified, and of unknown ones.
+
+        The warnings of each rating are in the rating itself.
+        """
         symbols = {symbol.rpartition(".")[2] for each in self.meshes.values() for symbol in each.planets_verify}
         found = []
         if symbols:
@@ -426,7 +441,10 @@ class TrainRating:
         return tuple(notice.within("rating") for notice in found)
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON: nominal ratings by the names of meshes and stages, and the full one of each as its "rate"."""
+        """Return a dictionary for JSON: nominal ratings by the names of meshes and stages.
+
+        The full rating of each is its "rate".
+        """
         meshes = {name: each.to_dict() for name, each in self.meshes.items()}
         stages = {name: each.to_dict() for name, each in self.stages.items()}
         found = meshes | stages | {name: {"unrated": why} for name, why in self.unrated.items()}
@@ -476,8 +494,10 @@ def _mesh_rating(
 
 
 def _inertias(train: PlanetaryTrain, load: MeshLoad, masses: TrainMasses) -> PerGear[float] | str:
-    """kg·m² that count in one mesh (recalled of ISO 6336-1): all of the planet, the N-th part of a central, what is held
-    infinite; or why they are not known."""
+    """Return the inertias (kg·m²) that count in one mesh, or why they are not known (recalled of ISO 6336-1).
+
+    All of the planet counts, the N-th part of a central; a held central counts as infinite.
+    """
     central, planet = masses.members[load.mesh.central.name], masses.planet
     held = train.fixed == load.mesh.central.name
     own = math.inf if held else central.inertia
@@ -490,7 +510,7 @@ def _inertias(train: PlanetaryTrain, load: MeshLoad, masses: TrainMasses) -> Per
 def _dynamic_factor(
     pair: GearPair, material: Materials, load: Load, inertias: PerGear[float] | str, options: RatingOptions
 ) -> tuple[float | None, str]:
-    """K_v at the load's speed, or None and why."""
+    """Return K_v at the load's speed and an empty text, or None and the reason."""
     if isinstance(inertias, str):
         return None, inertias
     try:

@@ -29,19 +29,22 @@ from gearcad.rating.options import RatingOptions
 from gearcad.stiffness.methods import METHODS
 
 _BEYOND = 2.0
-"""Times the speed of the load up to which a Campbell diagram goes, if nothing is said of it."""
+"""Highest speed of a Campbell diagram over that of the load, if none is given."""
 
 Part = TypeVar("Part")
 
 
 class _Findings:
-    """Parts of a study as they are found, and why one is missing."""
+    """Parts of a study as they are found, and the reasons why others are missing."""
 
     def __init__(self) -> None:
         self.why_not: dict[str, str] = {}
 
     def part(self, name: str, needs: tuple[str, ...], make: Callable[[], Part]) -> Part | None:
-        """What `make` gives; None where what it needs is missing, or input or solvers do not let it be."""
+        """Return the result of `make`, or None and note why.
+
+        It is None where a part that it needs is missing, or where `make` raises InputError or SolverError.
+        """
         for need in needs:
             if need in self.why_not:
                 self.why_not[name] = self.why_not[need]
@@ -64,13 +67,13 @@ def study_planetary(
     response: bool = False,
     progress: Progress | None = None,
 ) -> PlanetaryStudy:
-    """Find out all that can be found out of a train.
+    """Return the study of a train, with all parts that can be computed.
 
     `given_speeds` (rpm) are of members, beside that of the input in `load`. The method of the mesh stiffness is that of
     `dynamics`; where it names none, strain energy, and for a `response` a method whose course does not jump. The highest speed
-    is that of `dynamics` too; otherwise of a Campbell diagram twice that of the load, of a `response` beyond the last
-    resonance. Raises ParameterError for speeds that contradict each other and an unknown method; what else keeps a part from
-    being found is in `why_not`.
+    is that of `dynamics` too. Otherwise it is twice that of the load for a Campbell diagram, and beyond the last resonance for
+    a `response`. Raises ParameterError for speeds that contradict each other and an unknown method; other reasons why a part is
+    missing are in `why_not`.
     """
     tell = Agenda(
         progress,
@@ -168,7 +171,7 @@ def study_planetary(
 
 
 def _there(part: Part | None) -> Part:
-    """A part that is not missing, as `needs` has made sure."""
+    """Return a part that is not missing, as `needs` has made sure. Raises RuntimeError if it is missing."""
     if part is None:
         raise RuntimeError("a part that is needed is missing")
     return part
@@ -188,7 +191,7 @@ def _carries(load: TrainLoad | None) -> bool:
 def _speeds(
     train: PlanetaryTrain, load: TrainLoad | None, given: Mapping[str, float], found: _Findings
 ) -> tuple[Speeds | None, TrainLoad | None, dict[str, float]]:
-    """All speeds, the load with that of the input, and what is given of others, one of a differential.
+    """Return all speeds, the load with that of the input, and the given speeds of others, one of a differential.
 
     Raises ParameterError where more is given than is free.
     """
@@ -219,7 +222,7 @@ def _what_is_missing(train: PlanetaryTrain, known: Mapping[str, float]) -> str:
 
 
 def _drive(train: PlanetaryTrain, flow: PowerFlow) -> Drive:
-    """How the first central is pushed and turns against the carrier."""
+    """Return the drive: the senses of the torque on the first central and of its turn against the carrier."""
     first, carrier = train.centrals[0].name, train.carrier.name
     relative = flow.speeds.members[first] - flow.speeds.members[carrier]
     torque = flow.set_torques[first]
@@ -231,7 +234,7 @@ def _drive(train: PlanetaryTrain, flow: PowerFlow) -> Drive:
 def _stage_cycles(
     train: PlanetaryTrain, loads: Mapping[str, Load], method: str, material: TrainMaterial | None
 ) -> dict[str, MeshCycle]:
-    """Those of the stages under their loads."""
+    """Return the mesh cycles of the stages under their loads, by the names of stages."""
     kind = METHODS[method]
     return {
         stage.name: kind(pair=stage.pair, material=stage_material(material, stage))(loads[stage.name])
@@ -243,7 +246,10 @@ def _stage_cycles(
 def _courses(
     train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness], cycles: Mapping[str, MeshCycle], flow: PowerFlow
 ) -> dict[str, StiffnessCourse]:
-    """Of meshes and stages over how far contact is past the pitch point."""
+    """Return the stiffness courses of meshes and stages, by their names.
+
+    They are over the distance of contact past the pitch point.
+    """
     found: dict[str, StiffnessCourse] = {**stiffness}
     for stage in train.stages:
         if stage.name in cycles:
@@ -253,7 +259,7 @@ def _courses(
 
 
 def _modes(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness], masses: TrainMasses, drive: Drive) -> PlanetaryModes:
-    """At the mean tangent stiffness of the meshes."""
+    """Return the natural modes at the mean tangent stiffness of the meshes."""
     first, second = (stiffness[mesh.name].tangent_mean for mesh in train.meshes)
     return planetary_modes(train_springs(train, (first, second), sense=drive.sense), masses)
 
@@ -266,7 +272,7 @@ def _campbell(
     phases: Mapping[str, MeshPhases],
     options: DynamicsOptions | None,
 ) -> PlanetaryCampbell:
-    """Up to the speed of the options, or _BEYOND times that of the load."""
+    """Return the Campbell diagram up to the speed of the options, or _BEYOND times that of the load."""
     speed = 0.0 if load is None else load.speed
     highest = None if options is None else options.speed_to
     if highest is None and not speed:
@@ -278,7 +284,7 @@ def _campbell(
 
 
 def _weighed(train: PlanetaryTrain, masses: TrainMasses) -> PlanetaryTrain:
-    """With the mass of its planets, which press their pins outwards."""
+    """Return the train with the mass of its planets, which press their pins outwards; unchanged if that is unknown."""
     if masses.planet.mass is None:
         return train
     return replace(train, carrier=replace(train.carrier, planet_mass=masses.planet.mass))

@@ -24,38 +24,41 @@ LONGEST = 2000.0
 """Base pitches of the first mesh after which a run ends."""
 
 _BESIDE = 1e-9
-"""Base pitches by which both sides of a jump are looked at."""
+"""Base pitches from a jump to the places on both its sides that are computed."""
 
 _STILL = 1e-9
-"""Turns in a base pitch below which something stands still."""
+"""Turns in a base pitch below which a part stands still."""
 
 
 class StiffnessCourse(Protocol):
-    """Stiffness of a mesh (N/µm) over how far contact is past the pitch point, in base pitches in the direction it moves."""
+    """Stiffness of a mesh (N/µm) over the distance of contact past the pitch point.
+
+    The distance is in base pitches in the direction in which contact moves.
+    """
 
     def stiffness_at(self, ahead: ArrayLike) -> Floats:
-        """At any places."""
+        """Return the stiffness (N/µm) at any places (base pitches)."""
 
     @property
     def jumps(self) -> Floats:
-        """Places where it jumps, from 0 to 1."""
+        """Places where the stiffness jumps, from 0 to 1."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class CycleCourse:
-    """That of a MeshCycle whose pinion drives; with `reverse` its wheel does."""
+    """Stiffness course of a MeshCycle whose pinion drives; with `reverse` its wheel does."""
 
     cycle: MeshCycle
     reverse: bool = False
 
     def stiffness_at(self, ahead: ArrayLike) -> Floats:
-        """At any places."""
+        """Return the stiffness (N/µm) at any places (base pitches)."""
         roll = np.asarray(ahead, float) * self.cycle.pitch_angle
         return self.cycle.stiffness_at(-roll if self.reverse else roll)
 
     @property
     def jumps(self) -> Floats:
-        """Places where it jumps."""
+        """Places where the stiffness jumps, from 0 to 1."""
         twice = np.flatnonzero(np.diff(self.cycle.roll_angle) == 0)
         places = self.cycle.roll_angle[twice] / self.cycle.pitch_angle
         return np.mod(-places if self.reverse else places, 1.0)
@@ -63,11 +66,12 @@ class CycleCourse:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Rolling:
-    """Everything as the first mesh rolls, from the pose in which the carrier stands at 0.
+    """Motion of all parts of a train as the first mesh rolls, from the pose in which the carrier stands at 0.
 
-    `ahead` (2, N) base pitches of each planet there, and what both meshes roll, `paces` (2,), in one base pitch of the first;
-    `stage_paces` likewise. `carrier` and `output` turn so far (turns), `turning` (t,) is what turns against the carrier.
-    `period` base pitches after which both meshes stand as before; `rate` base pitches in a minute, 0 at rest.
+    `ahead` (2, N) are base pitches of each planet there. `paces` (2,) are base pitches that both meshes roll in one of the
+    first; `stage_paces` likewise. `carrier` and `output` are their turns in one base pitch, `turning` (t,) those of what turns
+    against the carrier. `period` is the number of base pitches after which both meshes stand as before; `rate` base pitches in
+    a minute, 0 at rest.
     """
 
     ahead: Floats
@@ -81,12 +85,18 @@ class Rolling:
 
     @property
     def span(self) -> float:
-        """Base pitches in which all that turns has turned once, and both meshes have gone through all they can be."""
+        """Base pitches in which all that turns has turned once and both meshes have passed one period.
+
+        It is at most LONGEST.
+        """
         moving = np.abs(self.turning[np.abs(self.turning) > _STILL])
         return float(min(max([self.period, *(1 / moving)]), LONGEST))
 
     def places(self, span: float, steps: int, courses: Mapping[str, StiffnessCourse], names: tuple[str, str]) -> Floats:
-        """Base pitches (s,) of the first mesh from 0 to `span`: equal steps, both ends too, and both sides of every jump."""
+        """Return the places (s,) from 0 to `span` in base pitches of the first mesh.
+
+        They are equal steps with both ends, and both sides of every jump.
+        """
         stages = [pace for name, pace in self.stage_paces.items() if name in courses]
         count = math.ceil(steps * span * max([*self.paces, *stages]))
         return np.unique(np.concatenate([np.linspace(0, span, count + 1), *self._jumps(span, courses, names)]))
@@ -102,9 +112,9 @@ class Rolling:
 
 
 def rolling_of(statics: TrainStatics, given_speeds: Mapping[str, float] | None = None) -> Rolling:
-    """How a train rolls at its load; at rest, as a positive speed of the input would have it.
+    """Return the motion of a train at its load; for a train at rest, as with a positive speed of the input.
 
-    Raises ParameterError where the set turns as one, and speeds of a differential that are missing.
+    Raises ParameterError where the set turns as one, and for missing speeds of a differential.
     """
     train, load = statics.train, statics.flow.load
     found = speeds(train, {train.input: load.speed or 1.0, **(given_speeds or {})})
@@ -130,7 +140,7 @@ def rolling_of(statics: TrainStatics, given_speeds: Mapping[str, float] | None =
 
 
 def _pace(train: PlanetaryTrain, stage: PairStage, members: Mapping[str, float]) -> float:
-    """Base pitches of a stage in a minute."""
+    """Return the base pitches of a stage in a minute."""
     return abs(members[stage.pinion]) * stage.pair.pinion.tooth_count
 
 
@@ -138,7 +148,7 @@ STEPS = 32
 """Steps in a base pitch of the mesh that rolls fastest."""
 
 HARMONICS = 10
-"""Of the mesh that rolls faster, that the ripple of the speed has: where stiffness jumps it would have no bound with all."""
+"""Harmonics of the faster mesh in the ripple of the speed: with all it would have no bound where stiffness jumps."""
 
 _PER_HARMONIC = 16
 """Steps in a wave of the highest harmonic."""
@@ -149,7 +159,7 @@ _MEAN = 720
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Ripple:
-    """The part of the output's twist that the meshes make alone, nothing else turning, over the `period` that both repeat.
+    """Part of the output's twist from the meshes alone, nothing else turning, over the `period` that both repeat.
 
     `amplitude` {mesh: (HARMONICS,)} in degrees at multiples of its frequency. `speed` is the peak-to-peak speed over that of
     the output, of harmonics up to HARMONICS times the faster mesh; None where the output stands.
@@ -160,7 +170,7 @@ class Ripple:
     speed: float | None
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """Return plain values for JSON."""
         return {
             "period": self.period,
             "amplitude": {name: values.tolist() for name, values in self.amplitude.items()},
@@ -193,12 +203,12 @@ class Running:
 
     @property
     def time(self) -> Floats | None:
-        """(s,) in s; None at rest."""
+        """Time (s,) in s; None at rest."""
         return self.rolled / self.rate * 60 if self.rate else None
 
     @property
     def twist_ripple(self) -> float:
-        """Peak to peak (degrees)."""
+        """Peak-to-peak twist (degrees)."""
         return float(np.ptp(self.twist))
 
     @cached_property
@@ -223,7 +233,7 @@ class Running:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it."""
+        """Notices to read before the run is used."""
         span = f"{self.rolled[-1]:.6g} base {'pitch' if self.rolled[-1] == 1 else 'pitches'} of {self.train.meshes[0].name}"
         turn = f"the carrier turns {abs(self.carrier_angle[-1]):.4g} deg"
         found = [Notice("span", f"run over {span}, in which {turn}, at {len(self.rolled)} places; without masses and friction")]
@@ -243,7 +253,7 @@ class Running:
         return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
-        """Figures as `planetary.json` has them: degrees, and the ripple of the twist in arc seconds and µrad, too."""
+        """Return the figures of `planetary.json`: degrees, and the ripple of the twist in arc seconds and µrad, too."""
         return {
             "span": float(self.rolled[-1]),
             "places": len(self.rolled),
@@ -263,7 +273,7 @@ class Running:
         }
 
     def arrays(self) -> dict[str, Floats]:
-        """As the .npz file has them."""
+        """Return the arrays of the .npz file by their names."""
         return {
             "rolled": self.rolled,
             "carrier_angle": self.carrier_angle,
@@ -276,7 +286,7 @@ class Running:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Run:
-    """What is run: the train, how it rolls, and how stiff its meshes and stages are over that."""
+    """Inputs of a run: the train, its motion, and the stiffness of its meshes and stages over that motion."""
 
     statics: TrainStatics
     rolling: Rolling
@@ -291,7 +301,7 @@ class _Run:
         return self.rolling.places(span, steps, self.courses, self.names)
 
     def state(self, rolled: Floats, *, mean: bool = False) -> State:
-        """At places (s,), with the compliances of the meshes there, or their mean."""
+        """Return the state at places (s,), with the compliances of the meshes there, or their mean."""
         compliance = np.tile(self.statics.compliance, (len(rolled), 1))
         for name, springs, pace, ahead in zip(
             self.names, self.statics.meshes, self.rolling.paces, self.rolling.ahead, strict=True
@@ -304,7 +314,7 @@ class _Run:
         return self.statics.state(angles, compliance)
 
     def twist(self, state: State, rolled: Floats, *, mean: bool = False) -> Floats:
-        """(s,) in degrees, by the virtual work of set, stages and the output's shaft."""
+        """Return the twist (s,) in degrees, by the virtual work of set, stages and the output's shaft."""
         statics = self.statics
         work = (state.forces * (state.yielding + state.gap)).sum(axis=1) + statics.output_work
         for stage in statics.train.stages:
@@ -315,7 +325,7 @@ class _Run:
         return twist_of(work, statics.torque)
 
     def shares(self, state: State) -> Floats:
-        """(N, s)."""
+        """Return the shares of the planets (N, s)."""
         forces = state.forces[:, self.statics.meshes[0]]
         found: Floats = (forces / forces.mean(axis=1, keepdims=True)).T
         return found
@@ -329,11 +339,11 @@ def run_train(
     steps: int = STEPS,
     given_speeds: Mapping[str, float] | None = None,
 ) -> Running:
-    """The run of a train with the stiffness of each mesh and stage by its name; a stage without one is rigid.
+    """Return the run of a train with the stiffness of each mesh and stage by its name; a stage without one is rigid.
 
-    It ends when all that turns has turned once and the meshes have gone through all they can be, at the latest after LONGEST
-    base pitches. `steps` are those in a base pitch of what rolls fastest. Raises ParameterError where nothing rolls, and what
-    `train_statics` does.
+    It ends when all that turns has turned once and the meshes have passed one period, at the latest after LONGEST base pitches.
+    `steps` are those in a base pitch of the fastest mesh or stage. Raises ParameterError where nothing rolls, and the errors of
+    `train_statics`.
     """
     require_whole("steps", steps, at_least=4, at_most=1000)
     statics = train_statics(train, load, {mesh.name: 1.0 for mesh in train.meshes}, given_speeds)
@@ -357,7 +367,7 @@ def run_train(
 
 
 def _ripple(run: _Run) -> Ripple:
-    """Of the meshes of the set, over the period after which they repeat themselves."""
+    """Return the ripple of the meshes of the set, over the period after which they repeat themselves."""
     still = replace(run, statics=replace(run.statics, turning=()), courses={name: run.courses[name] for name in run.names})
     period, faster = run.rolling.period, float(run.rolling.paces.max())
     rolled = still.places(period, _PER_HARMONIC * HARMONICS)
@@ -375,12 +385,12 @@ def _ripple(run: _Run) -> Ripple:
 
 
 def _speed_ripple(coefficients: Complexes, period: int) -> float:
-    """Peak-to-peak slope (deg in a base pitch) of the harmonics 1, 2, ... of a period."""
+    """Return the peak-to-peak slope (deg in a base pitch) of the harmonics 1, 2, ... of a period."""
     orders = np.arange(1, len(coefficients) + 1)
     slopes = np.concatenate([[0], coefficients * 2j * np.pi * orders / period])
     return float(np.ptp(np.fft.irfft(slopes / 2, n=16 * len(slopes)) * 16 * len(slopes)))
 
 
 def _mean_compliance(course: StiffnessCourse) -> float:
-    """Mean of 1/k over a base pitch (µm/N)."""
+    """Return the mean of 1/k over a base pitch (µm/N)."""
     return float((1 / course.stiffness_at((np.arange(_MEAN) + 0.5) / _MEAN)).mean())

@@ -1,1 +1,1 @@
-"""Errors of teeth, drawn many times: single pairs of teeth as springs that may meet too early; K_v as it lies over gears."""
+"""Tooth errors of many samples: single pairs of teeth as springs that may meet too early, and the distribution of K_v."""
