@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from gearcad.dynamics.pair_result import ContactStudy
     from gearcad.dynamics.response.kv_chart import KvChart
     from gearcad.dynamics.tooth_errors.error_result import ErrorStudy
-    from gearcad.dynamics.train_result import TrainStudy
+    from gearcad.dynamics.train_result import ModalStudy, TrainStudy
     from gearcad.dynamics.trains.pair_on_bearings import BearingModes
     from gearcad.dynamics.trains.train import EngagedMesh
     from gearcad.dynamics.trains.train_modes import NaturalModes
@@ -164,7 +164,7 @@ def _lines(study: Study) -> list[str]:
     if isinstance(study, ContactStudy):
         return _contact_lines(study)
     if isinstance(study, ModalStudy):
-        return _mode_lines(study.modes)
+        return [*_mode_lines(study.modes), *_transient_lines(study)]
     if isinstance(study, SideBySide):
         return beside_lines(study)
     if not isinstance(study, PairStudy):
@@ -258,7 +258,7 @@ def _campbell_lines(study: TrainStudy) -> list[str]:
     return [f"{runs}: {int(of.chaotic.sum())} chaotic, {flanks}"]
 
 
-def _transient_lines(study: TrainStudy) -> list[str]:
+def _transient_lines(study: TrainStudy | ModalStudy) -> list[str]:
     """The greatest loads of a run with changing speed or torque."""
     run = study.transient
     if run is None:

@@ -8,6 +8,7 @@ from .train_result import ModalStudy as ModalStudy
 from .train_result import TrainStudy as TrainStudy
 from .train_study import study_modes as study_modes
 from .train_study import study_train as study_train
+from .train_study import study_undamped as study_undamped
 from .trains.members import Inertia as Inertia
 from .trains.members import Mesh as Mesh
 from .trains.members import MeshPair as MeshPair

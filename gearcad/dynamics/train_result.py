@@ -104,11 +104,16 @@ class Course:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ModalStudy:
-    """A train without meshes: nothing shakes it, but it has its natural modes."""
+    """Natural modes of a train without loads over speed: it has no meshes, or no damping.
+
+    `transient` is the run in time of a train with meshes, where it was asked for; `found` are notices of the calculation.
+    """
 
     train: Train
     options: DynamicsOptions
     modes: NaturalModes
+    transient: Transient | None = None
+    found: tuple[Notice, ...] = ()
 
     @property
     def name(self) -> str:
@@ -118,29 +123,34 @@ class ModalStudy:
     @property
     def notices(self) -> tuple[Notice, ...]:
         """Notices to read before using the results."""
-        return _missed(self.train, self.modes)
+        return (*self.found, *_missed(self.train, self.modes))
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """The notices in words."""
         return texts(self.notices)
 
+    def lasting(self, _mesh: int) -> None:
+        """Return None: without loads over speed there is no lasting force to compare a run with."""
+
     def to_dict(self) -> dict[str, Any]:
         """Return the document of the study for `dynamics.json`, without chart and course."""
         return {
             "model": self.train.model.value,
             "modes": self.modes.to_dict(),
+            **({} if self.transient is None else {"transient": self.transient.to_dict()}),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],
         }
 
     def arrays(self) -> dict[str, Floats]:
         """Return the arrays of the .npz file by name."""
-        return _mode_arrays(self.modes)
+        return _mode_arrays(self.modes) | ({} if self.transient is None else self.transient.arrays())
 
     def tables(self) -> Tables:
         """Return the tables of the CSV files by name."""
-        return modal_tables(self.modes)
+        found: Tables = {**modal_tables(self.modes)}
+        return found | ({} if self.transient is None else {"transient": transient_columns(self.transient)})
 
 
 def _missed(train: Train, modes: NaturalModes) -> tuple[Notice, ...]:

@@ -9,12 +9,12 @@ from functools import partial
 
 import numpy as np
 
-from gearcad.core.errors import GeometryError
+from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import Floats, Notice
 from gearcad.core.runtime import Expected, Share, Tell, cores, unheard, untold
 from gearcad.dynamics.engagement import engaged, pair_notices
 from gearcad.dynamics.options import DynamicsOptions, operating_range
-from gearcad.dynamics.response.kv_chart import lines_that_matter
+from gearcad.dynamics.response.kv_chart import idle_shafts, lines_that_matter
 from gearcad.dynamics.response.speed_charts import OverSpeed, over_speed
 from gearcad.dynamics.time_domain.campbell import campbell_seconds, mesh_campbell
 from gearcad.dynamics.time_domain.spectra import MeshCampbell
@@ -27,7 +27,7 @@ from gearcad.dynamics.train_result import Course, ModalStudy, TrainStudy
 from gearcad.dynamics.trains.mesh_excitation import Excitation, train_excitation
 from gearcad.dynamics.trains.pair_on_bearings import BearingModes, PairOnBearings
 from gearcad.dynamics.trains.shaft_lines import System, system
-from gearcad.dynamics.trains.steady_response import PeriodicResponse
+from gearcad.dynamics.trains.steady_response import PeriodicResponse, require_damping, senses
 from gearcad.dynamics.trains.train import EngagedMesh, Train, coarse_elements, fitted, require_pressed, static_forces
 from gearcad.dynamics.trains.train_modes import NaturalModes, natural_modes
 from gearcad.rating.dynamic_factor import DynamicFactor
@@ -99,6 +99,7 @@ def study_train(
     charted = system(train) if bearings is None else bearings.system()
     frequencies, asked = _frequencies(train, charted_speeds)
     tell("chart")
+    require_damping(charted, excitation)
     over = over_speed(charted, excitation, frequencies, harmonics=options.harmonics, method_b=method_b, share=share)
     tell("course")
     course, more = _course(train, over, asked, options)
@@ -138,6 +139,62 @@ def study_train(
         transient=transient,
         campbell=spectra,
     )
+
+
+def study_undamped(train: Train, options: DynamicsOptions | None = None, *, tell: Tell = untold) -> ModalStudy:
+    """Return the natural modes of a train without damping and, where the options ask for it, its run in time.
+
+    A notice says that loads over speed are left out, and why. `tell` receives how much of the run is done. Raises
+    ParameterError, GeometryError and SolverError.
+    """
+    train = engaged(train, options)
+    require_pressed(train)
+    options = (options or DynamicsOptions()).graded(RatingOptions())
+    modes = natural_modes(train, count=options.frequencies)
+    found = (*pair_notices(train), _no_steady_motion(options))
+    if options.transient is None:
+        return ModalStudy(train=train, options=options, modes=modes, found=found)
+    speed = abs(train.speed)
+    if not speed and options.transient.speed_from is None and options.transient.speed_to is None:
+        permitted = "must be given, or train.speed: without loads over speed there is no highest resonance to run at"
+        raise ParameterError("dynamics.transient.speed_from", None, permitted, "rpm")
+    highest = max(map(abs, options.transient.speeds(speed)))
+    train = fitted(train, highest)
+    shaken, excitation = system(train), _own_excitation(train, options)
+    run = run_transient(train, shaken, excitation, options.transient, otherwise=speed, tell=partial(tell, "transient"))
+    run = _without_idle_shafts(run)
+    found = (*found, *coarse_elements(train, highest), *run.notices, *_pulled(shaken, excitation, run))
+    return ModalStudy(train=train, options=options, modes=modes, transient=run, found=found)
+
+
+def _no_steady_motion(options: DynamicsOptions) -> Notice:
+    """Return the notice of what an undamped train has no values of, and what to give."""
+    left_out = ["loads over speed"]
+    left_out += ["drawn tooth errors"] if options.drawn else []
+    left_out += ["the Campbell diagram"] if options.spectra else []
+    in_time = "" if options.transient is not None else ", or [dynamics.transient] for a run in time, which needs no damping"
+    text = (
+        f"{' and '.join(left_out)} are left out: without damping a steady motion has no finite value where a harmonic "
+        f"of a tooth frequency meets a natural frequency; give damping or damping_ratio of a mesh or shaft{in_time}"
+    )
+    return Notice("no-damping", text)
+
+
+def _without_idle_shafts(run: Transient) -> Transient:
+    """Return a run in which shafts that carry next to nothing at rest have no reference, as in charts."""
+    idle = idle_shafts(np.nan_to_num(run.shaft_factor), np.ones(run.shaft_factor.shape[1]))
+    references, factors = (np.where(idle, np.nan, each) for each in (run.shaft_references, run.shaft_factor))
+    return replace(run, shaft_references=references, shaft_factor=factors)
+
+
+def _pulled(shaken: System, excitation: Excitation, run: Transient) -> tuple[Notice, ...]:
+    """Return a notice if flanks that cannot part pull in a run in time."""
+    pressing = senses(shaken) * np.sign(run.torque)[:, None] * run.force
+    bonded = np.isnan(excitation.backlashes)
+    if not bonded.any() or pressing[:, bonded].min() >= 0:
+        return ()
+    text = "flanks would part in this run: give the mesh a backlash to see what happens then"
+    return (Notice("flanks-would-part", text, "transient"),)
 
 
 def expected_train(train: Train, options: DynamicsOptions) -> Expected:

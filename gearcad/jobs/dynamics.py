@@ -28,7 +28,8 @@ from gearcad.dynamics.options import DynamicsOptions, PairModel, idle_without_le
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.pair_study import study_contact, study_pair
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
-from gearcad.dynamics.train_study import expected_train, study_modes, study_train
+from gearcad.dynamics.train_study import expected_train, study_modes, study_train, study_undamped
+from gearcad.dynamics.trains.steady_response import UndampedError
 from gearcad.dynamics.trains.train import Train
 from gearcad.dynamics.variant_comparison import SideBySide
 from gearcad.geometry import GearPair
@@ -247,10 +248,21 @@ def _of_train(design: TrainDesign, progress: Progress | None) -> TrainStudy | Mo
         train = engaged(replace(train, model=every[0]), options)
     if design.other_models:
         agenda = Agenda(progress, before | {f"{each.value}: {step}": took for each in every for step, took in steps.items()})
-        return study_levels(train, design.models, options, tell=agenda)
+        try:
+            return study_levels(train, design.models, options, tell=agenda)
+        except UndampedError as error:
+            raise UndampedError(f"{error}; one model alone {_ALONE}") from None
     agenda = Agenda(progress, {**before, **steps})
-    study = study_train(train, options, tell=agenda, share=agenda.within("chart"), drawn=agenda.within(_ERRORS))
+    study: TrainStudy | ModalStudy
+    try:
+        study = study_train(train, options, tell=agenda, share=agenda.within("chart"), drawn=agenda.within(_ERRORS))
+    except UndampedError:
+        study = study_undamped(train, options, tell=agenda)
     return replace(study, found=(*idle_without_levels(options), *study.found))
+
+
+_ALONE = "has its natural frequencies without damping and, with [dynamics.transient], a run in time"
+"""What becomes of an undamped train that is laid over no other."""
 
 
 def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | ContactStudy:
@@ -354,7 +366,7 @@ class DynamicsBeside(Dynamics):
         count, studies = len(designs), []
         for number, (label, each) in enumerate(zip(self.variants.labels, designs, strict=True)):
             own = None if progress is None else partial(_told, progress, label, number, count)
-            studies.append(_over_speed(super()._run(each, own)))
+            studies.append(_over_speed(super()._run(each, own), label))
         of = self.variants
         return SideBySide(name=design.name, what=of.what, labels=of.labels, studies=tuple(studies), key=of.key)
 
@@ -383,8 +395,13 @@ def _require_chart(design: PairDesign | TrainDesign) -> None:
         raise ParameterError("dynamics.model", PairModel.CONTACT.value, permitted)
 
 
-def _over_speed(study: Study) -> TrainStudy:
-    """Return the study of a train, or of a pair as a train, with all its notices."""
+def _over_speed(study: Study, label: str) -> TrainStudy:
+    """Return the study of a train, or of a pair as a train, with all its notices.
+
+    Raises UndampedError, with the label of the variant, if it has no loads over speed.
+    """
+    if isinstance(study, ModalStudy):
+        raise UndampedError(f"{label}: no loads over speed without damping to be laid over others; this variant alone {_ALONE}")
     if isinstance(study, PairStudy):
         return replace(study.study, found=tuple(dict.fromkeys((*study.study.found, *study.notices))))
     assert isinstance(study, TrainStudy)  # _require_chart has seen to it

@@ -13,7 +13,7 @@ from gearcad.dynamics.time_domain.contact_model import EngagedPairs
 from gearcad.dynamics.time_domain.spectra import SpeedSpectra
 from gearcad.dynamics.time_domain.time_history import TimeHistory
 from gearcad.dynamics.time_domain.transient_result import Transient
-from gearcad.dynamics.train_result import TrainStudy
+from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.plots.paper import (
     DARK,
     FIGURE_INCHES,
@@ -221,14 +221,15 @@ def factors_inches(run: Transient) -> tuple[float, float]:
     return FIGURE_INCHES[0], 1.4 + 2.6 * len(run.names[0])
 
 
-def plot_transient_factors(study: TrainStudy, run: Transient, figure: Figure | None = None) -> Figure:
-    """Greatest force of every tooth period over speed, a panel for each mesh; broad and grey what lasts at each speed."""
+def plot_transient_factors(study: TrainStudy | ModalStudy, run: Transient, figure: Figure | None = None) -> Figure:
+    """Greatest force of every tooth period over speed, a panel for each mesh; broad and grey what lasts, where it is known."""
     of, names = new_figure(factors_inches(run)) if figure is None else figure, run.names[0]
     panels = of.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
     speeds = np.abs(run.window_speed)
     for mesh, (panel, name) in enumerate(zip(panels, names, strict=True)):
         prepared(panel, "", (f"{plain(name)}: " if len(names) > 1 else "") + "force / static one")
-        _draw_lasting(panel, study, run, mesh)
+        if not isinstance(study, ModalStudy):
+            _draw_lasting(panel, study, run, mesh)
         panel.plot(speeds, run.factor[:, mesh], color=SERIES[mesh % len(SERIES)], linewidth=1.0, label="this run")
         panel.set_ylim(bottom=min(0.9, float(run.factor[:, mesh].min())))
     panels[0].set_xlim(float(speeds.min()), float(speeds.max()))

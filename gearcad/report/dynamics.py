@@ -284,6 +284,7 @@ def _modes_html(study: ModalStudy, name: str) -> str:
         modes=mode_table(study.modes),
         **_shapes(study.modes),
         shape_figures=_shape_figures(study),
+        time_figures=_transient_figures(study),
         warnings=study.warnings,
     )
 
@@ -454,7 +455,7 @@ def _campbell_figures(study: TrainStudy) -> list[Picture]:
     return [Picture("Campbell diagram", diagram, _said("mesh_campbell", of))]
 
 
-def _transient_figures(study: TrainStudy) -> list[Picture]:
+def _transient_figures(study: TrainStudy | ModalStudy) -> list[Picture]:
     """Return the figures of a run with changing speed or torque; empty if there is none."""
     run, found = study.transient, []
     if run is not None and run.speed_changes:

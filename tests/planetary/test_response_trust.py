@@ -89,6 +89,19 @@ def steady() -> PlanetaryResponse:
     return _respond(_train((24, 21, -66), (0.3, 0.2, -0.7), 3), 5, 4000.0, 6000.0)
 
 
+# ---------------------------------------------------------------------- what is not computed
+
+
+def test_speeds_without_loads_recommend_only_what_planetary_trains_have(monkeypatch: pytest.MonkeyPatch) -> None:
+    """[dynamics.transient] and campbell are unknown keys in the spec of a planetary train."""
+    monkeypatch.setattr("gearcad.dynamics.response.run_up._MOST_SECONDS", 0.0)
+    found = _respond(_train((22, 20, -62), (0.4, 0.3, -1.0), 4), 5, 37_500.0, 38_500.0)
+    (text,) = (each.text for each in found.notices if each.code == "no-value")
+    assert text.endswith("s; more damping ([dynamics] damping_ratio) or fewer [dynamics] speeds give some")
+    assert "transient" not in text and "campbell" not in text and "integrate" not in text
+    assert not found.up.known.all()
+
+
 # ---------------------------------------------------------------------- at one speed
 
 

@@ -90,13 +90,16 @@ def in_time(frequencies: Floats, marked: Bools) -> tuple[Notice, ...]:
     return (Notice("integrated-in-time", text),)
 
 
-def no_value(frequencies: Floats, marked: Bools, reason: str) -> Notice:
-    """Return the notice of the frequencies (1/s) at which no loads are given, and why."""
+BY_TIME = 'more damping (damping_ratio), fewer speeds, or [dynamics.transient] or campbell = "on", which integrate in time,'
+"""Inputs of pairs and trains that give loads where runs in time would take too long."""
+
+
+def no_value(frequencies: Floats, marked: Bools, reason: str, remedies: str = BY_TIME) -> Notice:
+    """Return the notice of the frequencies (1/s) at which no loads are given, why, and the inputs that give some."""
     places = frequencies[marked]
     text = (
         f"no loads at {len(places)} speeds between tooth frequencies of {places[0]:g} and {places[-1]:g} 1/s, where flanks "
-        f"would part: {reason}; more damping"
-        ' (damping_ratio), fewer speeds, or [dynamics.transient] or campbell = "on", which integrate in time, give some'
+        f"would part: {reason}; {remedies} give some"
     )
     return Notice("no-value", text)
 
@@ -318,12 +321,13 @@ def over_speed(
     *,
     harmonics: int | None = None,
     method_b: DynamicFactor | None = None,
+    remedies: str = BY_TIME,
     share: Share = unheard,
 ) -> OverSpeed:
     """Return charts at rising `frequencies` and as many between them as their curves need.
 
-    `harmonics` of the tooth frequencies at most; else as many as leave out less than a hundredth of the load at rest. `share`
-    receives how much is done.
+    `harmonics` of the tooth frequencies at most; else as many as leave out less than a hundredth of the load at rest.
+    `remedies` are the inputs that give loads where runs in time would take too long. `share` receives how much is done.
     """
     share = onwards(share)
     excitation.fits(system)
@@ -342,7 +346,7 @@ def over_speed(
             branch = parted(curves, frequencies, told.frequencies[apart | ~stable], share=rest)
         except SolverError:
             branch = None
-        sides, runs, more = _by_runs(linear, excitation, frequencies, told, stable, branch)
+        sides, runs, more = _by_runs(linear, excitation, frequencies, told, stable, branch, remedies)
         branch, notices = (branch if runs is None else None), (*notices, *more)
     elif apart.any():
         notices = (*notices, parting(told.frequencies, apart))
@@ -368,7 +372,13 @@ _Side = tuple[Told, Bools, Floats]
 
 
 def _by_runs(
-    linear: SpeedCurves, excitation: Excitation, frequencies: Floats, told: Told, stable: Bools, branch: Parted | None
+    linear: SpeedCurves,
+    excitation: Excitation,
+    frequencies: Floats,
+    told: Told,
+    stable: Bools,
+    branch: Parted | None,
+    remedies: str,
 ) -> tuple[list[_Side], TimeRuns | None, tuple[Notice, ...]]:
     """Return charts by runs in time unless the branch shows the same; without values where runs take too long."""
     runs = TimeRuns(linear, excitation, float(frequencies[-1]))
@@ -394,7 +404,7 @@ def _by_runs(
         except SolverError as error:
             reason = str(error)
     empty = without_values(told, np.flatnonzero(flagged))
-    return [(empty, stable | flagged, np.zeros(0))], runs, (no_value(told.frequencies, flagged, reason),)
+    return [(empty, stable | flagged, np.zeros(0))], runs, (no_value(told.frequencies, flagged, reason, remedies),)
 
 
 def _speeds_of(runs: TimeRuns, both: tuple[TimeRun, TimeRun], frequencies: Floats, contact: Floats) -> Floats:

@@ -227,6 +227,12 @@ class Excitation:
         return any(mesh.backlash is not None for mesh in self.meshes)
 
     @property
+    def shakes(self) -> bool:
+        """Whether a stiffness varies over the mesh, or teeth have errors."""
+        phases = 2 * np.pi * np.arange(1024) / 1024
+        return any(mesh.error is not None or np.ptp(mesh.stiffness.values(phases)) > 0 for mesh in self.meshes)
+
+    @property
     def bonded(self) -> Excitation:
         """Same excitation with flanks that never part."""
         return Excitation(meshes=tuple(replace(mesh, backlash=None) for mesh in self.meshes))

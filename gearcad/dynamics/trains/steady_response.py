@@ -163,15 +163,25 @@ def flexibility(system: System, frequencies: Floats) -> Flexibility:
     return result
 
 
-def _undamped(system: System) -> SolverError:
+class UndampedError(SolverError):
+    """A steady motion without a finite value: a resonance has no damping."""
+
+
+def require_damping(system: System, excitation: Excitation) -> None:
+    """Raise UndampedError if teeth shake a System without any damping."""
+    if not (system.damping.any() or system.mesh_damping.any()) and excitation.shakes:
+        raise _undamped(system)
+
+
+def _undamped(system: System) -> UndampedError:
     """Return the error for a resonance without damping.
 
     It names the first mesh without damping, if there is one.
     """
     name = next((name for name, each in zip(system.names[0], system.mesh_damping, strict=True) if not each), None)
     if name is None:
-        return SolverError(_NO_DAMPING)
-    return SolverError(
+        return UndampedError(_NO_DAMPING)
+    return UndampedError(
         f"{name}.damping = 0 N·s/m: must be above 0, as damping or damping_ratio, or damp the shafts: {_NO_DAMPING}"
     )
 
