@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from gearcad.cli import main
-from gearcad.core.errors import ParameterError
+from gearcad.core.errors import ParameterError, SolverError
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.time_domain.transient_result import TransientOptions
 from gearcad.dynamics.train_study import study_train, study_undamped
@@ -35,7 +35,10 @@ MASS = 1 / (0.04**2 / 0.004 + 0.08**2 / 0.03)
 """Of both gears on the line of action, in kg."""
 
 STEPS = 2e-3
-"""Relative error of forces by 80 steps a vibration."""
+"""Relative error of forces by 80 steps a vibration or more."""
+
+PHASE = 0.01
+"""Of the swing: what phases of 6 or 22 vibrations are late by so many steps comes to 0.0043."""
 
 
 def pair(**more: object) -> Train:
@@ -60,8 +63,7 @@ def test_a_torque_step_swings_for_ever_as_an_undamped_oscillator() -> None:
     assert run is not None
     later = run.time > lasts / 3
     expected = np.where(later, 1.5 - np.cos(omega * (run.time - lasts / 3)), 0.5)
-    # 80 steps a vibration lose a small part of a step of it in each of the six vibrations.
-    np.testing.assert_allclose(run.force[:, 0] / FORCE, expected, atol=0.02)
+    np.testing.assert_allclose(run.force[:, 0] / FORCE, expected, atol=PHASE)
     assert run.greatest[0].factor == pytest.approx(2.5, rel=STEPS)
     assert {each.code for each in found.notices} == {"no-damping", "not-settled"}
 
@@ -84,7 +86,7 @@ def test_a_mesh_of_varying_stiffness_moves_as_scipy_integrates_it() -> None:
     ).y[0]
     swing = np.ptp(expected)
     assert swing > 0.2 * FORCE / STIFFNESS
-    np.testing.assert_allclose(approach[: len(expected)], expected, atol=0.03 * swing, rtol=0)
+    np.testing.assert_allclose(approach[: len(expected)], expected, atol=PHASE * swing, rtol=0)
 
 
 def test_only_what_is_shaken_needs_damping() -> None:
@@ -99,6 +101,14 @@ def test_flanks_that_pull_are_told() -> None:
     bonded, parting = (study_undamped(pair(backlash=each), DynamicsOptions(transient=step)).notices for each in (None, 100.0))
     assert "flanks-would-part" in [each.code for each in bonded]
     assert "flanks-would-part" not in [each.code for each in parting]
+
+
+def test_a_run_that_grows_beyond_all_numbers_says_what_bounds_it() -> None:
+    """Twice the natural frequency: parametric resonance of flanks that stick, about exp(0.05 omega t)."""
+    twice = 2 * math.sqrt(STIFFNESS / MASS) * 60 / (2 * math.pi * RATIO)
+    step = TransientOptions(duration=1.2, speed_from=twice, torque_from=0.5, torque_to=1.0, torque_at=0.0)
+    with pytest.raises(SolverError, match=r"grows beyond all numbers before .* s: more damping ends that, or a backlash"):
+        study_undamped(pair(variation=0.2), DynamicsOptions(transient=step))
 
 
 def test_a_run_needs_a_speed() -> None:

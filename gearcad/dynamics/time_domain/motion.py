@@ -438,7 +438,10 @@ class MovingSystem:
                     f"the forces of the meshes at {step * (first + made + 1):g} s were not found: take shorter steps"
                 )
             if not np.isfinite(state.z).all():
-                raise SolverError(f"the motion grows beyond all numbers before {step * (first + steps):g} s")
+                raise SolverError(
+                    f"the motion grows beyond all numbers before {step * (first + steps):g} s: more damping ends that, or a "
+                    "backlash, with which flanks part"
+                )
             tell((first + steps) / count)
         return self._motion(step, bounds, count, state.growth, Start(coordinates=state.z, rates=state.v), records)
 
