@@ -94,7 +94,7 @@ def _lines(role: str, judged: JudgedMesh, result: MeshResult) -> list[str]:
 
 
 def _of_pair(result: MeshResult) -> str:
-    """Both in one."""
+    """Return both gears of a pair in one mesh."""
     side, mesh, roll = "left" if result.plan.left else "right", result.mesh, result.plan.options.roll
     amount = f"{grouped(len(mesh.cells))} elements, {grouped(len(mesh.points))} nodes"
     return f"pair: {amount}, {side} flanks in mesh at a roll angle of {roll:g}° of the pinion"

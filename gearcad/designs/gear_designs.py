@@ -172,7 +172,7 @@ class GearDesign(GearedDesign):
 
     @property
     def gears(self) -> dict[str, Gear]:
-        """The one gear."""
+        """The one gear of the design."""
         return {"gear": self.gear}
 
 
@@ -206,7 +206,7 @@ class RackDesign(ToothedDesign):
 
     @property
     def described(self) -> Mapping[str, Described]:
-        """The one rack."""
+        """The one rack of the design."""
         return {"rack": self.rack}
 
 

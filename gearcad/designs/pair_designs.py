@@ -85,7 +85,7 @@ class PairDesign(GearedDesign):
 
     @property
     def assembly(self) -> GearPair:
-        """The pair."""
+        """The pair in mesh."""
         return self.pair
 
     @property
@@ -351,7 +351,7 @@ class RackPairDesign(ToothedDesign):
 
     @property
     def assembly(self) -> RackPair:
-        """The pair."""
+        """The pair in mesh."""
         return self.pair
 
     @property

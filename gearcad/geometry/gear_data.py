@@ -76,7 +76,7 @@ class GearData:
 
     @property
     def tooth_count(self) -> int:
-        """|z|."""
+        """Number of teeth |z|."""
         return abs(self.teeth)
 
     @property
@@ -128,7 +128,7 @@ class GearData:
 
     @cached_property
     def reference_diameter(self) -> float:
-        """d = z m_t."""
+        """Reference diameter d = z m_t (mm)."""
         return self.teeth * self.transverse_module
 
     @cached_property
@@ -156,7 +156,7 @@ class GearData:
 
     @property
     def transverse_pitch(self) -> float:
-        """p_t = pi m_t."""
+        """Transverse pitch p_t = pi m_t (mm)."""
         return math.pi * self.transverse_module
 
     @property

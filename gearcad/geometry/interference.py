@@ -232,12 +232,12 @@ class InternalTips:
 
     @cached_property
     def pressure_angle(self) -> float:
-        """alpha_wt (rad)."""
+        """Working transverse pressure angle alpha_wt (rad)."""
         return math.acos((self.ring.base_radius - self.pinion.base_radius) / self.centre_distance)
 
     @property
     def tangent(self) -> float:
-        """|T1T2| (mm)."""
+        """Length |T1T2| of the line of action (mm)."""
         return self.centre_distance * math.sin(self.pressure_angle)
 
     @property

@@ -370,7 +370,7 @@ class PairData:
 
     @property
     def gear_ratio(self) -> float:
-        """u = z_2/z_1."""
+        """Gear ratio u = z_2/z_1."""
         return self.wheel.teeth / self.pinion.teeth
 
     @property

@@ -221,7 +221,7 @@ class RackProfile:
 
     @property
     def stretch(self) -> float:
-        """1/cos beta."""
+        """Factor 1/cos beta of lengths in the transverse section."""
         return 1 / math.cos(math.radians(self.helix_angle))
 
     @property

@@ -216,7 +216,7 @@ class Stack:
 
     @property
     def total(self) -> int:
-        """Nodes in all."""
+        """Number of nodes in all."""
         return self.middle(self.layers)
 
     def plane(self, k: int) -> int:
@@ -264,7 +264,7 @@ class SweptMesh:
 
     @property
     def nodes(self) -> int:
-        """Nodes in all."""
+        """Number of nodes in all."""
         return self._stack.total
 
     def plane(self, k: int) -> int:

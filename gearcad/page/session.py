@@ -327,7 +327,7 @@ class Session:
         self._table.take(text, name)
 
     def step(self, forth: bool) -> None:
-        """Redo, or undo."""
+        """Redo or undo a step."""
         (self.bench.redo if forth else self.bench.undo)()
         self.follow(reveal=True)
 

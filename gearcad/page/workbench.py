@@ -330,7 +330,7 @@ class BesideDesign:
             self.bench.open(kept.text, kept.name)
 
     def let_go(self) -> None:
-        """Keep nothing."""
+        """Let the kept design go."""
         self.kept = None
 
     def _present(self) -> Kept:

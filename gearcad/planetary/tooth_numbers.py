@@ -258,17 +258,17 @@ class MeshSizes:
 
     @cached_property
     def transverse_angle(self) -> float:
-        """alpha_t."""
+        """Transverse pressure angle alpha_t."""
         return math.atan(math.tan(math.radians(RACK.pressure_angle)) / math.cos(self.helix_angle))
 
     @property
     def transverse_module(self) -> float:
-        """m_t."""
+        """Transverse module m_t (mm)."""
         return self.module / math.cos(self.helix_angle)
 
     @property
     def reference_distance(self) -> Floats:
-        """|a_d|."""
+        """Reference centre distance |a_d| (mm)."""
         result: Floats = self.transverse_module * np.abs(self.central + self.rim) / 2
         return result
 
@@ -285,7 +285,7 @@ class MeshSizes:
         return result
 
     def working_angle(self, distance: Floats) -> Floats:
-        """alpha_wt."""
+        """Working transverse pressure angle alpha_wt."""
         result: Floats = np.arccos(self.reference_distance * math.cos(self.transverse_angle) / distance)
         return result
 

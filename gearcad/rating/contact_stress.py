@@ -99,7 +99,7 @@ class LineContact:
 
     @property
     def half_width(self) -> float:
-        """a (mm)."""
+        """Return the half width a of the contact (mm)."""
         return float(half_width(self.load_per_width, self.radius, self.modulus))
 
     @property

@@ -70,7 +70,7 @@ class Rim(ABC):
 
     @abstractmethod
     def factor(self, edition: Edition) -> float:
-        """Y_B."""
+        """Rim thickness factor Y_B."""
 
     @abstractmethod
     def notices(self, edition: Edition, where: str) -> Iterator[Notice]:

@@ -115,7 +115,7 @@ class ManyTeeth:
 
     @cached_property
     def transverse_angle(self) -> Numbers:
-        """alpha_t."""
+        """Transverse pressure angle alpha_t."""
         result: Numbers = np.arctan(math.tan(math.radians(self.rack.pressure_angle)) / self._cosine)
         return result
 
@@ -126,25 +126,25 @@ class ManyTeeth:
 
     @cached_property
     def diameter(self) -> Numbers:
-        """d."""
+        """Reference diameter d (mm)."""
         return self.teeth * self.normal_module / self._cosine
 
     @cached_property
     def base_diameter(self) -> Numbers:
-        """d_b."""
+        """Base diameter d_b (mm)."""
         result: Numbers = self.diameter * np.cos(self.transverse_angle)
         return result
 
     @cached_property
     def tip_diameter(self) -> Numbers:
-        """d_a."""
+        """Tip diameter d_a (mm)."""
         if self.given_tip is not None:
             return self.given_tip
         return self.diameter + 2 * self.normal_module * (self.rack.addendum + self.shift + self.tip_alteration)
 
     @cached_property
     def root_diameter(self) -> Numbers:
-        """d_f."""
+        """Root diameter d_f (mm)."""
         return self.diameter - 2 * self.normal_module * (self.dedendum - self.shift)
 
     @property
@@ -213,17 +213,17 @@ class ManyPairs(Columns):
 
     @cached_property
     def cosine(self) -> Floats:
-        """cos beta."""
+        """Cosine of the helix angle beta."""
         return np.cos(np.radians(self.helix_angle))
 
     @cached_property
     def transverse_angle(self) -> Floats:
-        """alpha_t."""
+        """Transverse pressure angle alpha_t."""
         return np.arctan(math.tan(self.normal_angle) / self.cosine)
 
     @cached_property
     def base_helix(self) -> Floats:
-        """beta_b."""
+        """Base helix angle beta_b."""
         return np.arcsin(np.sin(np.radians(np.abs(self.helix_angle))) * math.cos(self.normal_angle))
 
     @cached_property
@@ -237,17 +237,17 @@ class ManyPairs(Columns):
 
     @cached_property
     def transverse_module(self) -> Floats:
-        """m_t."""
+        """Transverse module m_t (mm)."""
         return self.normal_module / self.cosine
 
     @cached_property
     def diameters(self) -> PerGear[Floats]:
-        """d."""
+        """Reference diameters d (mm)."""
         return PerGear(*(z * self.transverse_module for z in self.teeth))
 
     @cached_property
     def base_diameters(self) -> PerGear[Floats]:
-        """d_b."""
+        """Base diameters d_b (mm)."""
         across = np.cos(self.transverse_angle)
         return PerGear(*(d * across for d in self.diameters))
 
@@ -260,13 +260,13 @@ class ManyPairs(Columns):
 
     @cached_property
     def tip_diameters(self) -> PerGear[Floats]:
-        """d_a."""
+        """Tip diameters d_a (mm)."""
         rise = self.rack.addendum + self.tip_alteration
         return PerGear(*(d + 2 * self.normal_module * (rise + x) for d, x in zip(self.diameters, self.shifts, strict=True)))
 
     @cached_property
     def root_diameters(self) -> PerGear[Floats]:
-        """d_f."""
+        """Root diameters d_f (mm)."""
         dedendum = self.rack.dedendum
         return PerGear(*(d - 2 * self.normal_module * (dedendum - x) for d, x in zip(self.diameters, self.shifts, strict=True)))
 
@@ -278,7 +278,7 @@ class ManyPairs(Columns):
 
     @property
     def ratio(self) -> Floats:
-        """u."""
+        """Gear ratio u."""
         return self.teeth.wheel / self.teeth.pinion
 
     # ------------------------------------------------------------------ path of contact
@@ -321,7 +321,7 @@ class ManyPairs(Columns):
 
     @cached_property
     def base_pitch(self) -> Floats:
-        """p_bt."""
+        """Transverse base pitch p_bt (mm)."""
         return math.pi * self.transverse_module * np.cos(self.transverse_angle)
 
     @cached_property

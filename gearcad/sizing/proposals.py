@@ -116,7 +116,7 @@ class SizedPair:
 
     @property
     def ratio(self) -> float:
-        """u."""
+        """Gear ratio u."""
         return self.teeth.wheel / self.teeth.pinion
 
     @property

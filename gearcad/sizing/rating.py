@@ -74,7 +74,7 @@ class ManyLoadFactors:
 
     @property
     def pairs(self) -> ManyPairs:
-        """The pairs."""
+        """The pairs that are rated."""
         return self.nominal.pairs
 
     @property
@@ -97,7 +97,7 @@ class ManyLoadFactors:
 
     @cached_property
     def total_contact_ratio(self) -> Numbers:
-        """eps_gamma."""
+        """Total contact ratio eps_gamma."""
         return self.pairs.contact_ratio + self.nominal.overlap_ratio
 
     # ------------------------------------------------------------------ deviations
@@ -138,7 +138,7 @@ class ManyLoadFactors:
 
     @cached_property
     def helix_slope_deviations(self) -> PerGear[Numbers]:
-        """f_Hbeta."""
+        """Helix slope deviations f_Hbeta (µm)."""
         return self._deviations(self._options.helix_slope_deviation, lambda each: each.helix_slope)
 
     @property
@@ -157,7 +157,7 @@ class ManyLoadFactors:
 
     @cached_property
     def dynamic(self) -> Numbers:
-        """K_v."""
+        """Dynamic factor K_v."""
         method = self._options.dynamic_factor
         if method == "C":
             measure = speed_measure(self.speed, self.pairs.teeth.pinion, self.pairs.ratio)
@@ -200,12 +200,12 @@ class ManyLoadFactors:
 
     @cached_property
     def _mean_load(self) -> Numbers:
-        """F_m/b."""
+        """Mean load F_m/b (N/mm)."""
         return self.outer_load * self.dynamic
 
     @cached_property
     def face_flank(self) -> Numbers:
-        """K_Hbeta."""
+        """Face load factor K_Hbeta of the flanks."""
         given = self._options.face_load_factor
         if not isinstance(given, str):
             return np.full_like(self.outer_load, given)
@@ -215,7 +215,7 @@ class ManyLoadFactors:
 
     @property
     def _misalignment(self) -> Numbers:
-        """F_beta_x."""
+        """Equivalent misalignment F_beta_x (µm)."""
         options, slopes = self._options, self.helix_slope_deviations
         factors = helix_factors(options.helix_modification, options.standard)
         least = least_misalignment(self._mean_load, _larger(slopes))
@@ -230,7 +230,7 @@ class ManyLoadFactors:
 
     @property
     def _deflection(self) -> Numbers:
-        """f_sh."""
+        """Deviation f_sh by deflection of the shaft (µm)."""
         options, d_1 = self._options, self.pairs.diameters.pinion
         if options.shaft_deflection is not None:
             return options.shaft_deflection
@@ -244,7 +244,7 @@ class ManyLoadFactors:
 
     @property
     def face_root(self) -> Numbers:
-        """K_Fbeta."""
+        """Face load factor K_Fbeta of the roots."""
         if self._options.helix_modification in UNLOADED_ENDS:
             return self.face_flank
         pairs = self.pairs
@@ -263,7 +263,7 @@ class ManyLoadFactors:
 
     @property
     def transverse_flank(self) -> Numbers:
-        """K_Halpha."""
+        """Transverse load factor K_Halpha of the flanks."""
         given, ratio = self._options.transverse_load_factor, self.pairs.contact_ratio
         if not isinstance(given, str):
             return np.full_like(self.outer_load, given)
@@ -272,7 +272,7 @@ class ManyLoadFactors:
 
     @property
     def transverse_root(self) -> Numbers:
-        """K_Falpha."""
+        """Transverse load factor K_Falpha of the roots."""
         given = self._options.transverse_load_factor
         if not isinstance(given, str):
             return np.full_like(self.outer_load, given)
@@ -322,7 +322,7 @@ class Rated(Columns):
 
     @property
     def total_contact_ratio(self) -> Floats:
-        """eps_gamma."""
+        """Total contact ratio eps_gamma."""
         return self.pairs.contact_ratio + self.overlap_ratio
 
     @property

@@ -524,7 +524,7 @@ def _ends(task: SizeTask, pairs: ManyPairs, most_mass: Floats) -> tuple[Floats, 
 
 
 def _mass_of_width(task: SizeTask, pairs: ManyPairs) -> Floats:
-    """kg/mm."""
+    """Mass per face width (kg/mm)."""
     return disc_mass(pairs, np.ones(1), PerGear(*(each.density for each in task.materials)))
 
 

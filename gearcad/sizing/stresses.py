@@ -96,7 +96,7 @@ class ManyRoots:
 
     @cached_property
     def form_factor(self) -> Floats:
-        """Y_F (9)."""
+        """Form factor Y_F (equation 9)."""
         chord, _, arm = self._section
         _, alpha_fen = self._load_point
         result: Floats = 6 * arm * np.cos(alpha_fen) / (chord**2 * math.cos(self.pairs.normal_angle))
@@ -104,7 +104,7 @@ class ManyRoots:
 
     @cached_property
     def stress_correction_factor(self) -> Floats:
-        """Y_S (36)."""
+        """Stress correction factor Y_S (equation 36)."""
         chord, _, arm = self._section
         slimness = chord / arm
         result: Floats = (1.2 + 0.13 * slimness) * np.power(self.notch_parameter, 1 / (1.21 + 2.3 / slimness))
@@ -112,7 +112,7 @@ class ManyRoots:
 
     @cached_property
     def notch_parameter(self) -> Floats:
-        """q_s (38)."""
+        """Notch parameter q_s (equation 38)."""
         chord, radius, _ = self._section
         return chord / (2 * radius)
 
@@ -146,7 +146,7 @@ class NominalStresses:
 
     @cached_property
     def tangential_force(self) -> Floats:
-        """F_t (N)."""
+        """Tangential force F_t (N)."""
         return 2000 * abs(self.torque) / self.pairs.diameters.pinion
 
     @cached_property
@@ -156,7 +156,7 @@ class NominalStresses:
 
     @cached_property
     def overlap_ratio(self) -> Floats:
-        """eps_beta."""
+        """Overlap ratio eps_beta."""
         return self.width * np.sin(np.radians(np.abs(self.pairs.helix_angle))) / (math.pi * self.pairs.normal_module)
 
     # ------------------------------------------------------------------ stiffness
@@ -186,21 +186,21 @@ class NominalStresses:
 
     @cached_property
     def zone_factor(self) -> Floats:
-        """Z_H."""
+        """Zone factor Z_H."""
         a_t, a_wt, beta_b = self.pairs.transverse_angle, self.pairs.working_angle, self.pairs.base_helix
         result: Floats = np.sqrt(2 * np.cos(beta_b) / (np.cos(a_t) ** 2 * np.tan(a_wt)))
         return result
 
     @cached_property
     def contact_ratio_factor(self) -> Floats:
-        """Z_eps."""
+        """Contact ratio factor Z_eps."""
         ratio, overlap = self.pairs.contact_ratio, np.minimum(self.overlap_ratio, 1.0)
         result: Floats = np.sqrt((4 - ratio) / 3 * (1 - overlap) + overlap / ratio)
         return result
 
     @property
     def helix_angle_factor(self) -> Floats:
-        """Z_beta."""
+        """Helix angle factor Z_beta."""
         root = np.sqrt(self.pairs.cosine)
         return root if self.edition is Edition.DIN_1987 else 1 / root
 
@@ -229,7 +229,7 @@ class NominalStresses:
 
     @cached_property
     def contact_factors(self) -> PerGear[Floats]:
-        """Z_B and Z_D."""
+        """Single pair contact factors Z_B and Z_D."""
         overlap, raised = np.minimum(self.overlap_ratio, 1.0), self._profile_factor
         return PerGear(*(raised * np.where(overlap >= 1, 1.0, np.maximum(m - overlap * (m - 1), 1.0)) for m in self.curvatures))
 
@@ -250,14 +250,14 @@ class NominalStresses:
 
     @cached_property
     def root_helix_factor(self) -> Floats:
-        """Y_beta."""
+        """Helix angle factor Y_beta of the root."""
         helix = np.minimum(np.abs(self.pairs.helix_angle), 30.0)
         plain = 1 - np.minimum(self.overlap_ratio, 1.0) * helix / 120
         return plain / np.cos(np.radians(helix)) ** 3 if self.edition is Edition.ISO_2019 else plain
 
     @cached_property
     def _virtual_contact_ratio(self) -> Floats:
-        """eps_alphan."""
+        """Virtual contact ratio eps_alphan."""
         result: Floats = self.pairs.contact_ratio / np.cos(self.pairs.base_helix) ** 2
         return result
 
@@ -270,7 +270,7 @@ class NominalStresses:
 
     @cached_property
     def deep_tooth_factor(self) -> Floats:
-        """Y_DT."""
+        """Deep tooth factor Y_DT."""
         ratio = self._virtual_contact_ratio
         if self.accuracy_grade > 4 or self.edition is not Edition.ISO_2006:
             return np.ones_like(ratio)
@@ -336,7 +336,7 @@ class Strengths:
 
     @cached_property
     def flanks(self) -> PerGear[Numbers]:
-        """sigma_HG."""
+        """Pitting stress limit sigma_HG of the flanks (MPa)."""
         return PerGear(self._flank(Role.PINION), self._flank(Role.WHEEL))
 
     def _flank(self, role: Role) -> Numbers:
@@ -374,7 +374,7 @@ class Strengths:
 
     @cached_property
     def roots(self) -> PerGear[Numbers]:
-        """sigma_FG."""
+        """Root stress limit sigma_FG (MPa)."""
         return PerGear(self._root(Role.PINION), self._root(Role.WHEEL))
 
     def _root(self, role: Role) -> Numbers:

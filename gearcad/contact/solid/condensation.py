@@ -176,7 +176,7 @@ class Forward(NamedTuple):
         return Forward(half, (self.top[0] @ even, self.top[1] @ odd))
 
     def plus(self, other: Forward) -> Forward:
-        """The sum."""
+        """Return the sum of both."""
         half = [_sum(one, two) for one, two in zip(self.half, other.half, strict=True)]
         return Forward(half, (self.top[0] + other.top[0], self.top[1] + other.top[1]))
 

@@ -171,7 +171,7 @@ class MeshExcitation:
 
     @property
     def lead(self) -> float:
-        """Phase (rad)."""
+        """Phase of the mesh (rad)."""
         return math.radians(self.phase)
 
 

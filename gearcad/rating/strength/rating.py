@@ -72,7 +72,7 @@ class StrengthRating(Pictured):
 
     @property
     def contact_ratio(self) -> float:
-        """eps_gamma."""
+        """Total contact ratio eps_gamma."""
         return self.pair.total_contact_ratio
 
     @property

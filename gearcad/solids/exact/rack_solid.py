@@ -78,7 +78,7 @@ class FilletSurface:
         return math.hypot(1.0, self.drift)
 
     def surface(self) -> CylinderSurface:
-        """The cylinder."""
+        """The cylinder of the surface."""
         c, y = self._axis
         return CylinderSurface(Frame((c, y, 0.0), unit((self.drift, 0.0, 1.0)), (0.0, 1.0, 0.0)), self._radius)
 
