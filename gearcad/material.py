@@ -83,7 +83,7 @@ class MaterialGroup(StrEnum):
 
 
 class MaterialQuality(StrEnum):
-    """How much is asked of material and heat treatment in ISO 6336-5."""
+    """Quality: the demands on material and heat treatment in ISO 6336-5."""
 
     MODEST = "ML"
     USUAL = "MQ"
@@ -183,7 +183,7 @@ class Material:
 
 
 Materials = Material | PerGear[Material]
-"""That of both gears, or of each."""
+"""The material of both gears, or of each."""
 
 
 def of_both(material: Materials) -> PerGear[Material]:

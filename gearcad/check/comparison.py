@@ -26,7 +26,7 @@ class ComparisonRole(Enum):
 
 
 class Subject(Enum):
-    """What a comparison is about."""
+    """Subject of a comparison."""
 
     NUMERICS = "numerics"
     """Whether the numbers are those of the model: equilibrium, Hertz, the error of mesh and positions."""
@@ -35,7 +35,7 @@ class Subject(Enum):
     """Limits of the material."""
 
     STANDARD = "standard"
-    """What ISO 6336 has for it."""
+    """Value of ISO 6336 for the quantity."""
 
 
 @dataclass(frozen=True)
@@ -179,7 +179,7 @@ _FE = "finite elements"
 
 @dataclass(frozen=True, kw_only=True)
 class FoundStrength:
-    """Of one flank or root: `stress` by finite elements (MPa), and `raised` by the load factors that the model lacks.
+    """Safety of one flank or root: `stress` by finite elements (MPa), and `raised` by the load factors that the model lacks.
 
     `rated` is what the rating says of it, `rated_stress` its stress under that load: of a spectrum under its nominal torque.
     Without a `safety` it was not judged, for the `reason`.
@@ -225,7 +225,7 @@ class FoundStrength:
 
 @dataclass(frozen=True, kw_only=True)
 class CheckStrength:
-    """What finite elements and the rating say of strength, side by side."""
+    """Strength by finite elements and by the rating, side by side."""
 
     task: CheckTask
     summary: Summary

@@ -47,7 +47,7 @@ _FIGURES = {
     "root tension, pinion": "root_tension_pinion",
     "root tension, wheel": "root_tension_wheel",
 }
-"""What is watched, in words, and its name in a summary."""
+"""Watched figures in words, with their names in a summary."""
 
 
 @dataclass(frozen=True)
@@ -178,7 +178,7 @@ class SweepPoint(NamedTuple):
 
 
 class SweepTrends(NamedTuple):
-    """How the figures of a sweep go with the torque: its `points` in rising order."""
+    """Figures of a sweep over the torque: its `points` in rising order."""
 
     points: tuple[SweepPoint, ...]
 

@@ -178,7 +178,8 @@ def explain_stiffness(task: CheckTask, cycle: Cycle, summary: Summary, sweep: Se
 
 @dataclass(frozen=True, kw_only=True)
 class PlaneRootExplanation(Explanation):
-    """With all of the load on one pair of teeth at its `outer_point` the finite elements have `single_contact` (MPa).
+    """Reasons of the root stress: `single_contact` (MPa) of finite elements with all of the load on one pair of teeth at its
+    `outer_point`.
 
     There a pair carries the part `load_share` of the load. `rim_compression` (MPa) is that of a rim that bends, None of one
     that does not; `rim_thickness_factor` is Y_B.

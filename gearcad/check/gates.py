@@ -159,7 +159,7 @@ _REACTION = 0.005
 """Torque on a hub against that applied: interpolation between unit loads, not equilibrium, makes up what is missing."""
 
 _SAMPLING = 0.002
-"""What positions may miss of a stress."""
+"""Permitted sampling error of a stress."""
 
 
 def compare_common(
@@ -284,8 +284,8 @@ def standards(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
 
 _PRESSURE = 0.01
 _HALF_WIDTH = 0.02
-"""What contact and Hertz may differ by. The width is less sharp than the pressure: flanks are no parabolas up to the ends of
-the contact, and teeth bend along it. High teeth (m 2, h_a 1.35) have 1.25 % on any mesh, with pressures within 0.8 %.
+"""Permitted difference of contact and Hertz. The width is less sharp than the pressure: flanks are no parabolas up to the
+ends of the contact, and teeth bend along it. High teeth (m 2, h_a 1.35) have 1.25 % on any mesh, with pressures within 0.8 %.
 """
 _DISCRETISATION = 0.01
 
@@ -325,11 +325,13 @@ def _hertz(cycle: PlaneCycle, summary: PlaneSummary) -> Iterator[Comparison]:
 
 
 _ERRORS = (0.01, 0.02, 0.02)
-"""What the mesh may do to the mesh stiffness, and to the root stresses of both gears, each of which is that of one point."""
+"""Permitted influence of the mesh on the mesh stiffness, and on the root stresses of both gears, each of which is that of
+one point.
+"""
 
 
 _FLICKER = 0.03
-"""What positions may miss of a pressure: where lines cross the start of a linear relief, it flickers from cell to cell."""
+"""Permitted sampling error of a pressure: where lines cross the start of a linear relief, it flickers from cell to cell."""
 
 
 def compare_solid(

@@ -34,7 +34,7 @@ _SWITCH = {"on": True, "off": False}
 
 
 class Model(Enum):
-    """What the gears are to the finite elements."""
+    """Model of the gears in the finite elements."""
 
     PLANE = "2d"
     """A section through the middle of the common face width."""

@@ -129,7 +129,7 @@ def _below(contact: PlanePairContact, depth: Floats, poisson_ratio: float) -> St
 ShownSolid: TypeAlias = ShownContact[SolidPosition, SolidPairContact]
 
 _BELOW = 2.0
-"""How much of the body below the root circle is shown, in normal modules."""
+"""Depth of the body that is shown below the root circle, in normal modules."""
 
 _PARTS = np.array([[0, 4, 7], [1, 5, 4], [2, 6, 5], [3, 7, 6], [4, 5, 6], [4, 6, 7]])
 """A face of four corners and four middles in triangles."""

@@ -118,7 +118,7 @@ class CheckResult(Pictured, ABC):
     model: ClassVar[Model]
 
     shown_by_reports: ClassVar[tuple[str, ...]]
-    """What is solved for reports only."""
+    """Results that are solved for reports only."""
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of {self.pair.name!r} at {self.torque:g} N·m: {self.verdict}>"

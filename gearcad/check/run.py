@@ -39,7 +39,7 @@ COARSER, FINER = "coarser bodies, for the error", "finer bodies, for the error"
 _SINGLE_POSITIONS = 15
 
 _EXPECTED_SOUGHT = 2
-"""How many times the positions asked for there are with those between them, where extremes are sought."""
+"""Factor on the number of positions for those between them, where extremes are sought."""
 _RATING_SECONDS = 0.2
 
 _PROGRAM = 0.27e9
@@ -86,7 +86,7 @@ _GROWTH = 4.0
 """Power of the refinement with which memory grows: of edges and layers together."""
 
 _MARGIN = 1.25
-"""By how much less than what would just do the refinement that is told asks for: memory is known roughly."""
+"""Margin of the proposed refinement below what would just fit: memory is known roughly."""
 
 
 def require_room(task: CheckTask) -> None:
@@ -105,7 +105,7 @@ def require_room(task: CheckTask) -> None:
 
 
 _WORTH_A_WORD = 0.01
-"""How much wider than the mesh a root carries before it is told."""
+"""Factor of a root's width over the mesh's from which a notice is given."""
 
 _BODIES = (0.1, 0.13)
 """Seconds for two bodies: whatever their mesh, and times the square of its refinement."""
@@ -291,7 +291,9 @@ def _edge_notices(task: CheckTask, cycle: SolidCycle, summary: SolidSummary) -> 
 
 
 COARSE = 0.5
-"""How much finer than in a check the elements are. K_Hbeta is then up to 3 % larger (spur and helical pairs, measured)."""
+"""Factor by which the elements are finer than in a check. K_Hbeta is then up to 3 % larger (spur and helical pairs,
+measured).
+"""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -26,7 +26,7 @@ _Position: TypeAlias = LoadedPosition[Any]
 _Quantities: TypeAlias = tuple[Quantity[_Position], ...]
 
 Extremes: TypeAlias = dict[str, Extreme | None]
-"""By name; None for what has no value at any position."""
+"""Figures by name; None for a figure without a value at any position."""
 
 
 def _tension(role: Role) -> Quantity[_Position]:
@@ -58,7 +58,7 @@ _COURSES: _Quantities = (
     Quantity("mesh_stiffness_max", lambda position: position.stiffness, swing=True),
     Quantity("mesh_stiffness_min", lambda position: position.stiffness, least=True, swing=True),
 )
-"""What goes up and down over the mesh, and is told by how far it does."""
+"""Quantities that go up and down over the mesh; their swing is told."""
 
 PLANE: _Quantities = (*STRESSES, *PerGear.each(_compression), *PerGear.each(_bore), *_COURSES)
 SOLID: tuple[Quantity[SolidPosition], ...] = (*PLANE, Quantity("line_load_max", lambda position: position.line_load))
@@ -81,7 +81,7 @@ def by_name(values: Mapping[str, Any]) -> dict[str, Any]:
 
 @dataclass(frozen=True, kw_only=True)
 class Summary:
-    """What every model tells: stiffness in N/(mm·µm) of common face width, stresses in MPa, transmission error in µm.
+    """Figures of every model: stiffness in N/(mm·µm) of common face width, stresses in MPa, transmission error in µm.
 
     `contact_pressure` is the greatest away from the edges of the flanks, `von_mises` the greatest below that contact,
     `von_mises_depth` (mm) below the flank. `corner_positions` counts positions where the edge of a tip touches, whose pressure
@@ -226,7 +226,7 @@ _NEAR = 2.0
 """Half widths around a contact within which the stress below it is greatest."""
 
 _PRESSURES = ("contact_pressure", "von_mises", "von_mises_depth", "von_mises_half_plane")
-"""What the worst contact away from the ends of the flanks decides."""
+"""Figures that the worst contact away from the ends of the flanks decides."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -303,7 +303,7 @@ _HARMONICS = 5
 
 @dataclass(frozen=True, kw_only=True)
 class SolidSummary(Summary):
-    """That of a cycle of solid gears: also where the greatest are, radii and heights in mm, `across` from the middle of the
+    """Summary of a cycle of solid gears: also where the greatest are, radii and heights in mm, `across` from the middle of the
     common face width.
 
     `transmission_error_harmonics` (µm) at the tooth frequency and its multiples; `contact_length_mean` (mm) of the lines that
@@ -328,7 +328,7 @@ class SolidSummary(Summary):
 
 
 class WorstPlace(NamedTuple):
-    """Where the greatest pressure away from the edges of the flanks is: `place` in cells of the line."""
+    """Position of the greatest pressure away from the edges of the flanks: `place` in cells of the line."""
 
     position: SolidPosition
     contact: SolidPairContact
@@ -384,7 +384,7 @@ def _nothing_inside(cycle: SolidCycle) -> dict[str, str]:
 
 
 class _Below(NamedTuple):
-    """Where the greatest pressure is (mm), and the stress below it (MPa) and its depth (mm)."""
+    """Place of the greatest pressure (mm), with the stress below it (MPa) and its depth (mm)."""
 
     von_mises: float | None
     depth: float | None

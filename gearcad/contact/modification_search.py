@@ -30,13 +30,13 @@ _APART = 0.1
 """Least distance of two starts of a descent along some axis, as a share of its length."""
 
 _REACH, _FARTHEST = 4, 8
-"""How far a descent looks along each axis, in steps: at first, and at the most."""
+"""Reach of a descent along each axis, in steps: the first, and the greatest."""
 
 _SCREENED, _SOLVED = 4000, 24
-"""How many places in reach its linear model looks at, and how many of them, the most promising, are worked out."""
+"""Numbers of places in reach that the linear model looks at, and of the most promising that are worked out."""
 
 _LATTICE_DECIMALS = 6
-"""Of figures, which are of the order of 1 to 1000."""
+"""Tolerance of figures, which are of the order of 1 to 1000."""
 
 _WORTH = 0.05
 """Relative gain of a step from which on a descent looks farther."""
@@ -73,7 +73,7 @@ class Remembered:
 
 @dataclass(frozen=True)
 class Goal:
-    """What is to be least: a value (v,) of the figures (v, m) of places."""
+    """The goal, which is to be least: a value (v,) of the figures (v, m) of places."""
 
     figures: Remembered
     value: Callable[[Floats], Floats]
@@ -85,7 +85,7 @@ class Goal:
 
 @dataclass(frozen=True)
 class _Descent:
-    """Where a descent is, and how far it looks; 0 when it is over."""
+    """Place of a descent and its reach; 0 when it is over."""
 
     place: Wholes
     value: float
@@ -221,7 +221,7 @@ def _stepped(descent: _Descent, places: Wholes, values: Floats) -> _Descent:
 
 
 _ROUGH = 2
-"""Of that many positions a survey takes one."""
+"""Number of positions of which a survey takes one."""
 
 _STEPS = np.array([1.0, 0.05, 1.0, 0.05, 1.0, 1.0])
 _DECIMALS = 2
@@ -270,7 +270,7 @@ def conditions(torque: float) -> tuple[Condition, ...]:
 
 @dataclass(frozen=True)
 class Found:
-    """What a search came to: the amounts (6,), the bound (MPa), and what becomes of the flanks.
+    """Result of a search: the amounts (6,), the bound (MPa), and what becomes of the flanks.
 
     `tried` variants were solved for it under the torque, roughly or in full, those that were known before included.
     """

@@ -108,7 +108,7 @@ AMOUNTS = (
     "pinion.lead_crowning",
     "pinion.helix_angle_modification",
 )
-"""What varies, in the order of the columns of a table of variants; amounts in µm, lengths in mm."""
+"""Quantities that vary, in the order of the columns of a table of variants; amounts in µm, lengths in mm."""
 
 _ENDS = (-0.02, 0.06)
 """Where, from the ends of the path of contact outwards and as shares of the base pitch, edges of tips carry loads that rise and

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 CAN_GUARD = hasattr(os, "fork")
 
 _STAGING, _FOLDER, _BEGIN, _END = b"S", b"F", b"(", b")"
-"""What the worker tells: a folder that goes with it, one that goes if it is empty, renames that belong together."""
+"""Messages of the worker: a folder that goes with it, one that goes if it is empty, renames that belong together."""
 
 _PATIENCE = 2.0
 """Seconds that such renames may take before they are torn after all."""

@@ -79,7 +79,7 @@ def source_date() -> datetime | None:
 
 
 UNWRITABLE = (OSError, UnicodeEncodeError)
-"""What the system raises for a place that cannot be written."""
+"""Errors of the system for a place that cannot be written."""
 
 
 def unwritable(folder: Path, error: OSError | UnicodeEncodeError) -> OutputError:

@@ -111,23 +111,23 @@ SPEED = Range("rpm", 1e-6, 1e7, signed=True)
 APPLICATION_FACTOR = Range("", 0.01, 100.0)
 
 MODULUS = Range("MPa", 0.1, 1e7)
-"""From a gel to some times diamond."""
+"""Young's modulus, from a gel to some times diamond."""
 
 POISSON_RATIO = Range("", 0.0, 0.499)
-"""What is incompressible locks finite elements."""
+"""Poisson's ratio; an incompressible material locks finite elements."""
 
 DENSITY = Range("kg/m³", 1e-3, 1e5)
-"""From next to nothing to some times osmium."""
+"""Density, from next to nothing to some times osmium."""
 
 STRENGTH = Range("MPa", 1e-3, 1e6)
 BAND = Range("%", 0.01, 1e4)
 OFFSET = Range("mm", 1e-6, 1e5, signed=True)
-"""How far something stands from its place."""
+"""Distance of something from its place."""
 
 INERTIA = Range("kg·m²", 1e-21, 1e12)
 TORSIONAL_STIFFNESS = Range("N·m/rad", 1e-12, 1e15)
 LENGTH = Range("mm", 1e-3, 1e7)
-"""Of shafts, and their diameters."""
+"""Lengths of shafts, and their diameters."""
 
 STIFFNESS = Range("N/µm", 1e-9, 1e9)
 DAMPING_RATIO = Range("", 0.0, 100.0)
@@ -245,7 +245,7 @@ def with_assumed(document: dict[str, Any]) -> dict[str, Any]:
 
 
 class Words(NamedTuple):
-    """How a field is written: plain words, the standard's symbol, and the clause (as in Symbol)."""
+    """Words of a field: plain words, the standard's symbol, and the clause (as in Symbol)."""
 
     words: str
     symbol: str = ""
@@ -260,7 +260,7 @@ class InPlaceOf(NamedTuple):
 
 @dataclass(frozen=True)
 class FieldSchema:
-    """What a type says of one of its fields: the members of its type, what is permitted, how it is written, and its marks.
+    """Schema of one field of a type: the members of its type, what is permitted, how it is written, and its marks.
 
     One without a default is `required`; an `optional` one can be None, where it is absent or is to be derived.
     """

@@ -14,7 +14,7 @@ Item = TypeVar("Item")
 Found = TypeVar("Found")
 
 _VARIABLES = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
-"""What a library reads when it is loaded, and never again."""
+"""Variables that a library reads only when it is loaded."""
 
 
 @contextmanager
@@ -129,7 +129,7 @@ def untold(step: str, share: float = 0.0) -> None:
 
 
 class Expected(NamedTuple):
-    """What a job is expected to take: seconds on a usual computer, and bytes of memory at the most. Both are rough.
+    """Expected cost of a job: seconds on a usual computer, and bytes of memory at the most. Both are rough.
 
     `makes` says in words what comes of it, where that is known beforehand.
     """

@@ -40,7 +40,7 @@ __all__ = [
 
 
 class Symbol(NamedTuple):
-    """How one quantity is written: the standard's symbol, its unit ("" for numbers), the clause, and plain words."""
+    """Symbol of one quantity: the standard's symbol, its unit ("" for numbers), the clause, and plain words."""
 
     symbol: str
     unit: str
@@ -177,13 +177,13 @@ RACK_PAIR = {
     "active_root_diameter": Symbol("d_Nf", "mm", "5.4", "active root diameter of the pinion"),
     "active_root_depth": Symbol("h_Nf", "mm", "", "active flank of the rack ends below"),
 }
-"""Of a pinion and a rack, beside those that they have in common with PAIR."""
+"""Symbols of a pinion and a rack, beside those that they have in common with PAIR."""
 
 DRIVE = {
     "rack_force": Symbol("F", "N", "", "force along the rack, without losses"),
     "rack_speed": Symbol("v", "m/s", "", "speed of the rack"),
 }
-"""What a load comes to on a rack."""
+"""Symbols of a load on a rack."""
 
 PLANETARY = {
     "set_type": Symbol("", "", "", "type of the set, A to D"),
@@ -200,14 +200,14 @@ PLANETARY = {
     "frequency_2": Symbol("f_2", "Hz", "", "second natural frequency"),
     "frequency_3": Symbol("f_3", "Hz", "", "third natural frequency"),
 }
-"""What data.json and planetary.json have of a planetary train beside its inputs, as tables of results have it."""
+"""Symbols of a planetary train in data.json and planetary.json beside its inputs, as tables of results have it."""
 
 PLANETARY_MEMBER = {
     "meshes": Symbol("", "", "", "rim that it meshes with"),
     "speed": Symbol("n", "rpm", "", "speed"),
     "torque": Symbol("T", "N·m", "", "torque from outside"),
 }
-"""Of each member and shaft, likewise."""
+"""Symbols of each member and shaft, likewise."""
 
 PER_GEAR = ("working_pitch_diameters", "active_root_diameters", "tip_clearances")
 """Keys of PAIR that pinion and wheel each have."""
@@ -290,7 +290,7 @@ TOLERANCES = {
         for key, (symbol, _, words) in _OF_FLANKS.items()
     },
 }
-"""Of flanks, by the editions of 1995 and of 2013."""
+"""Symbols of flank tolerances, by the editions of 1995 and of 2013."""
 
 STRENGTH = {
     "K_A": RATING["K_A"],
@@ -330,7 +330,7 @@ STRENGTH = {
     "S_B": Symbol("S_B", "", "ISO/TR 13989-1", "safety against scuffing, flash temperature"),
     "N_L": Symbol("N_L", "", "ISO 6336-2, 11", "load cycles of a tooth"),
 }
-"""Of a full rating: symbols, clauses and words of its factors, stresses and safeties."""
+"""Symbols of a full rating: symbols, clauses and words of its factors, stresses and safeties."""
 
 STRENGTH_FIGURES = {
     "passed": Symbol("", "", "", "whether all required safeties are reached; empty where that was not judged or not asked for"),
@@ -347,7 +347,7 @@ STRENGTH_FIGURES = {
     **{key: STRENGTH[key] for key in ("K_v", "K_Hbeta", "K_Fbeta", "K_Halpha", "K_Falpha")},
     **{key: STRENGTH[key] for key in ("sigma_H", "sigma_HG", "sigma_F", "sigma_FG")},
 }
-"""What a table of results has of a rating."""
+"""Symbols of a rating in a table of results."""
 
 RING_FORMULA = {
     "rho_fPv": Symbol("ρ_fPv", "mm", "ISO 6336-3", "tip radius of the rack that stands for a ring's cutter, by formula"),
@@ -495,7 +495,7 @@ STIFFNESS = {
     "c_gamma_alpha": Symbol("c_γα", "N/(mm·µm)", "ISO 6336-1", "mean tangent mesh stiffness per common face width"),
     "deviation_from_3d": Symbol("", "", "", "deviation of the mean from that of solid bodies"),
 }
-"""Of each method, as stiffness.json has them."""
+"""Symbols of each method, as stiffness.json has them."""
 
 DYNAMICS = {
     "stiffness_method": Symbol("", "", "", "method of the mesh stiffness"),
@@ -513,7 +513,7 @@ DYNAMICS = {
     "kv_errors_upper": Symbol("K_v", "", "", "highest 95 % quantile of the dynamic factor with tooth errors"),
     "kv_highest_mesh": Symbol("", "", "", "mesh of the highest dynamic factor"),
 } | {f"frequency_{n}": Symbol(f"f_{n}", "Hz", "", f"natural frequency {n} of those that twist the train") for n in range(1, 7)}
-"""Of a pair or a train, beside what its options have."""
+"""Symbols of a pair or a train, beside what its options have."""
 
 TRAIN = {"held": Symbol("", "", "", "whether a shaft holds the train")}
 
@@ -532,7 +532,7 @@ TRAIN_PARTS = {
         "static_force": Symbol("F", "N", "", "mean force between the flanks"),
     },
 }
-"""Of a train and its parts, beside what is given of them, as data.json has them."""
+"""Symbols of a train and its parts, beside what is given of them, as data.json has them."""
 
 TRAIN_DYNAMICS = {
     "kv": DYNAMICS["kv"],
@@ -543,7 +543,7 @@ TRAIN_DYNAMICS = {
     "shaft_overload": Symbol("", "", "", "greatest torque of the chart over the static one"),
     "shaft_overload_speed": Symbol("n_1", "rpm", "", "speed of that torque"),
 }
-"""Of each mesh or shaft of a train, whose name stands behind."""
+"""Symbols of each mesh or shaft of a train, whose name stands behind."""
 
 DRAW = {"sheets": Symbol("", "", "", "sheets that were drawn")}
 
@@ -559,7 +559,7 @@ MESH = {
     "face_deviation": Symbol("", "µm", "", "flanks and fillets between nodes from the exact ones, at the most"),
     "mean_offset": Symbol("", "µm", "", "surface from the exact one on the mean"),
 }
-"""Of all meshes of a design, as mesh.json has them."""
+"""Symbols of all meshes of a design, as mesh.json has them."""
 
 MODIFY = {
     "torque": Symbol("T_1", "N·m", "", "torque of the modifications, on the pinion"),
@@ -577,4 +577,4 @@ MODIFY_FIGURES = {
         "face_load_factor",
     )
 } | {"edge_positions": Symbol("", "", "", "positions where the edge of a tip touches")}
-"""What a mesh comes to before and after."""
+"""Symbols of a mesh before and after a modification."""

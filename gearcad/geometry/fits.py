@@ -17,7 +17,7 @@ from gearcad.geometry.involute import involute
 
 
 class LimitDeviations(NamedTuple):
-    """What a size may be off by at the most and at the least (µm)."""
+    """Greatest and least deviation of a size (µm)."""
 
     upper: float
     lower: float

@@ -67,7 +67,7 @@ _ROUNDING = 1e-9
 
 
 class ReliefShape(Enum):
-    """How a relief grows from its start: in proportion to the distance, or to its square."""
+    """Growth of a relief from its start: in proportion to the distance, or to its square."""
 
     LINEAR = "linear"
     PARABOLIC = "parabolic"
@@ -85,7 +85,7 @@ class ReliefShape(Enum):
 
 
 class TransitionSource(Enum):
-    """Where the transition of a linear relief comes from; SHORTENED is the assumed one cut to what fits the flank."""
+    """Source of the transition of a linear relief; SHORTENED is the assumed one cut to what fits the flank."""
 
     GIVEN = "given"
     ASSUMED = "assumed"

@@ -32,7 +32,7 @@ _FULL = PerGear(1.0, 1.0)
 
 
 class ShiftSplit(Enum):
-    """How a shift sum is shared: equal shifts, all of it on the pinion, or equal specific sliding at both roots."""
+    """Split of a shift sum: equal shifts, all of it on the pinion, or equal specific sliding at both roots."""
 
     EQUAL = "equal"
     PINION = "pinion"
@@ -260,7 +260,7 @@ class BaseTangent:
 
 @dataclass(frozen=True)
 class ContactZone:
-    """Where flanks touch in the plane of action: a rectangle, the path of contact times the common face width (mm).
+    """Zone where flanks touch in the plane of action: a rectangle, the path of contact times the common face width (mm).
 
     Lines cross it at the base helix angle (degrees), one transverse base pitch apart; `base_diameter` is the pinion's.
     A double helical pair has two such rectangles, of the width of one half; `phases` (base pitches) is how far lines are on

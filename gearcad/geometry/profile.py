@@ -26,7 +26,7 @@ AIM = 0.98
 
 
 class CurveKind(Enum):
-    """What a piece of the outline is."""
+    """Kind of a piece of the outline."""
 
     ROOT = "root"
     FILLET = "trochoid"

@@ -15,10 +15,10 @@ from gearcad.core.quantities import Range, Whole, Words
 from gearcad.core.records import Notice
 
 LENGTH, ANGLE = Range("mm", 0, 1e6, ends="(]"), Range("deg", -60, 60, ends="()")
-"""What can be read."""
+"""Kinds of readings."""
 
 UNCERTAINTY, ANGLE_UNCERTAINTY = Range("mm", 1e-5, 100), Range("deg", 1e-5, 45)
-"""From what gauge blocks have to a guess."""
+"""Uncertainty, from that of gauge blocks to a guess."""
 
 TEETH = Whole(3, 2000, negative=(-10, "a ring"))
 
@@ -36,13 +36,13 @@ class Gauge(StrEnum):
     BETWEEN_PINS = "between_pins"
     BETWEEN_BALLS = "between_balls"
     HELIX_ANGLE = "helix_angle"
-    """On the reference circle, as a drawing has it."""
+    """Angle on the reference circle, as a drawing has it."""
 
     TIP_HELIX_ANGLE = "tip_helix_angle"
-    """On the tip circle, as a gear rolled over paper shows it."""
+    """Angle on the tip circle, as a gear rolled over paper shows it."""
 
     CHORDAL_THICKNESS = "chordal_thickness"
-    """By a tooth caliper, at a height below the tip."""
+    """Chord by a tooth caliper, at a height below the tip."""
 
     LEAD = "lead"
     CENTRE_DISTANCE = "centre_distance"

@@ -36,7 +36,7 @@ _SOUGHT = 1
 """How often a size of no series is sought again about where it was found."""
 
 _ANGLES = ((Gauge.HELIX_ANGLE, 1.0), (Gauge.TIP_HELIX_ANGLE, 0.95))
-"""What tells a helix angle, and what part of the reading that is about."""
+"""Gauges that tell a helix angle, and what part of the reading that is about."""
 
 _HELICES = (8.0, 18.0, 30.0, 42.0)
 """Helix angles (degrees) about which sizes of the transverse section are sought where none was measured."""
@@ -177,7 +177,7 @@ def _pitch_miss(flanks: list[Reading], off: Floats, one: int, other: int) -> flo
 
 _FURTHER_MOST = 3
 _RIVALS = 4
-"""How many candidates are told apart."""
+"""Number of candidates that are told apart."""
 
 _FURTHER_REACH = 6
 """How many teeth more or fewer than the suggested span."""
@@ -197,7 +197,9 @@ _ANGLE = 0.5
 
 
 class Further(NamedTuple):
-    """What would decide, most telling first; and those of the others whose flanks are those of the first within uncertainty."""
+    """Gauges that would decide, most telling first; and those of the others whose flanks are those of the first within
+    uncertainty.
+    """
 
     deciding: tuple[Deciding, ...]
     alike: tuple[Candidate, ...]

@@ -59,7 +59,7 @@ class Gate:
 
 @dataclass(frozen=True)
 class JudgedMesh:
-    """What was found of the mesh of one gear, in the gear's own coordinates.
+    """Judgement of the mesh of one gear, in the gear's own coordinates.
 
     `teeth` are those that are meshed; `others` are the sides that are no flanks and fillets; `unmatched` is by how much (mm)
     nodes of cuts miss each other; `exact` is the area (mm²) of a section or the volume (mm³) of a body that the gear has there.

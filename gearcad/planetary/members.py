@@ -171,7 +171,7 @@ class Central(NamedPart):
 
 @dataclass(frozen=True, kw_only=True)
 class Carrier(NamedPart):
-    """What holds the pins on which the planets turn.
+    """Carrier, which holds the pins on which the planets turn.
 
     `support_stiffness`, `torsional_stiffness`, `mass`, `inertia` and `run_out` (of its bearing) as of a Central; without mass
     and inertia there are no dynamics. `pin_diameter` (mm) of the pins, None takes the bores of the planets. `pin_stiffness`

@@ -131,7 +131,7 @@ def _degrees(rotation: float) -> float:
 
 
 class _Axis(NamedTuple):
-    """Where a shaft stands (mm), and how far it has turned (degrees)."""
+    """Place of a shaft (mm), and its rotation (degrees)."""
 
     turn: float
     x: float
@@ -177,7 +177,7 @@ _ROUNDING = 1e-10
 
 @dataclass(frozen=True, kw_only=True)
 class MeshPhases:
-    """Where the contacts of a mesh are, in base pitches from 0 to 1, by planets.
+    """Phases of the contacts of a mesh, in base pitches from 0 to 1, by planets.
 
     `ahead`: how far contact is past the pitch point in the direction in which it moves, in the middle plane of the teeth (of
     double helical ones, of the lower half), with the backlash closed towards the flanks that carry, and the planets as they
@@ -207,7 +207,7 @@ class MeshPhases:
 
 
 class Drive(NamedTuple):
-    """How a set is driven: the torque on the first central from outside, and its motion against the carrier.
+    """Drive of a set: the torque on the first central from outside, and its motion against the carrier.
 
     1 is counter-clockwise, -1 clockwise; where the two are equal the first central drives the planets.
     """

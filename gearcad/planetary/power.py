@@ -132,7 +132,7 @@ _WATT = math.pi / 30
 
 @dataclass(frozen=True, kw_only=True)
 class PowerFlow:
-    """What acts on a train from outside, in N·m, rpm and W; torques and speeds are positive counter-clockwise seen from +z.
+    """Loads on a train from outside, in N·m, rpm and W; torques and speeds are positive counter-clockwise seen from +z.
 
     `torques` and `powers` (positive where power goes in) by the names of members and shafts, 0 where nothing acts: those of
     the fixed member are what holds it. `set_torques` act on the members of the set, through stages too; `stage_torques` on

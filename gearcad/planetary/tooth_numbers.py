@@ -60,7 +60,7 @@ _USUAL = {
 
 @dataclass(frozen=True, kw_only=True)
 class SearchTask:
-    """What to look for. Lengths in mm, angles in degrees.
+    """Task of a search. Lengths in mm, angles in degrees.
 
     `ratio` is speed of the input over speed of the output, negative where they turn against each other, met within
     `tolerance` (%). `planets`, `teeth` (of suns and planets) and `ring_teeth` are least and most. `module_2` is that of the

@@ -45,7 +45,9 @@ class SetTeeth(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """How planets stand: rotations (rad) of central a and of both rims of each planet; how many pitches mesh a is off there."""
+    """Positions of planets: rotations (rad) of central a and of both rims of each planet; how many pitches mesh a is off
+    there.
+    """
 
     central_a: float
     rims_a: tuple[float, ...]

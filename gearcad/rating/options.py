@@ -19,7 +19,7 @@ from gearcad.rating.tolerances import Accuracy, FlankTolerances, flank_tolerance
 _SAFETY = Range("", 0.1, 100.0)
 _MOST_BINS = 1000
 _WHOLE = 1e-6
-"""By how much the shares of life may miss 1: what rounding of their digits leaves."""
+"""Permitted error of the sum of the shares of life: what rounding of their digits leaves."""
 
 _PERMITTED = (
     "must be a list of [share of life, share of torque], or [share of life, share of torque, share of speed];"
@@ -120,14 +120,14 @@ _DEVIATION = Range("µm", 0.0, 1e4)
 
 
 class HelixModification(StrEnum):
-    """How flanks are taken back along the face width: B_1 and B_2 of ISO 6336-1, table 8."""
+    """Modification of flanks along the face width: B_1 and B_2 of ISO 6336-1, table 8."""
 
     NONE = "none"
     CROWNING = "crowning"
-    """By half of f_ma."""
+    """Compensation by half of f_ma."""
 
     FULL_CROWNING = "full crowning"
-    """By half of f_ma + f_sh."""
+    """Compensation by half of f_ma + f_sh."""
 
     HELIX_CORRECTION = "helix correction"
     """To what the load makes of the shafts."""
@@ -144,7 +144,7 @@ class ContactPattern(StrEnum):
 
 
 class BearingArrangement(StrEnum):
-    """Where the pinion stands on its shaft: figure 13 of ISO 6336-1."""
+    """Place of the pinion on its shaft: figure 13 of ISO 6336-1."""
 
     BETWEEN_NEAR = "a"
     """Between bearings, torque from the side of the nearer one."""
@@ -235,7 +235,7 @@ class OilType(StrEnum):
 
 
 class Lubrication(StrEnum):
-    """How oil comes to the teeth."""
+    """Way of the oil to the teeth."""
 
     DIP = "dip"
     SPRAY = "spray"

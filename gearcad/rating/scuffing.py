@@ -38,7 +38,7 @@ LEAST_MARGIN = 50.0
 
 
 class Risk(StrEnum):
-    """How likely flanks scuff."""
+    """Risk of scuffing."""
 
     HIGH = "high"
     CRITICAL = "critical"

@@ -33,7 +33,7 @@ _TORQUE = Range("N·m", 1e-6, 1e9)
 
 @dataclass(frozen=True, kw_only=True)
 class SetSizeTask:
-    """What a set has to do: `sets` has the ratio and what its teeth may be, in modules of 1 mm; the torque (N·m) is
+    """Task of a set: `sets` has the ratio and what its teeth may be, in modules of 1 mm; the torque (N·m) is
     `input_torque` or `output_torque`, and `speed` (rpm) is that of the input. `torque` is the old name of `input_torque`.
 
     All gears are of one `material`, rings of `ring_material` if there is one. K_gamma is that of rules for the number of

@@ -183,7 +183,8 @@ _FIGURES = (
 
 @dataclass(frozen=True, kw_only=True)
 class Sizing(Pictured):
-    """What a search found: the best, a pair for each combination of teeth, module and helix angle; and what became of the rest.
+    """Proposals of a search: the best, a pair for each combination of teeth, module and helix angle; and what became of the
+    rest.
 
     Of `considered` variants `removed` has how many each condition took, in the order in which it was asked; `rated` were rated.
     `unmade` says of good ones why they cannot be made. `cloud` has masses (kg) and margins (2, n) of the best of each

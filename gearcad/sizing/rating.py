@@ -298,7 +298,7 @@ def _larger(values: PerGear[Numbers]) -> Numbers:
 
 
 FLANK, ROOT, SCUFFING, MASS = REQUIRED = ("flank safety", "root safety", "scuffing safety", "mass")
-"""What is required of variants that have a rating, in words."""
+"""Requirements of variants that have a rating, in words."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -262,7 +262,7 @@ STEP = "variants"
 
 WIDTH = "face width"
 CONDITIONS = (*LIMITS, WIDTH, RATED, *REQUIRED)
-"""What variants must meet, in the order in which it is asked of them."""
+"""Conditions of variants, in the order in which it is asked of them."""
 
 _SAFETIES = tuple(name for name in REQUIRED if name != MASS)
 
@@ -317,7 +317,7 @@ def _search_first(rated: list[Rated], key: Callable[[Rated], Floats]) -> list[Ra
 
 
 class Survey(NamedTuple):
-    """What a search saw: the best of each combination of teeth, module and helix angle; the front of mass and safety; how many
+    """Result of a search: the best of each combination of teeth, module and helix angle; the front of mass and safety; how many
     variants there were, and how many each condition removed;
     the strongest, if any was rated, and the lightest that is safe, of any mass."""
 

@@ -58,7 +58,7 @@ class Criterion(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class SizeTask:
-    """What to look for: an external pair that drives the wheel `ratio` times slower than the pinion, under the `load` of the
+    """Task of a search: an external pair that drives the wheel `ratio` times slower than the pinion, under the `load` of the
     pinion, with the safeties, the life and all else of `rating`. Lengths in mm, helix angles in degrees, magnitudes.
 
     Tuples are what is tried: `teeth` of the pinion are least and most, `modules` normal modules, `width_ratios` b/d_1, `shifts`

@@ -194,7 +194,7 @@ class StiffnessMethod(ABC):
     load_positions: ClassVar[int] = 48
     """Positions, 0 for as many as ever, at which other loads than that of the pair are tried."""
     seconds: ClassVar[float] = 0.2
-    """What the method is expected to take."""
+    """Expected cost of the method."""
 
     def __post_init__(self) -> None:
         if not (isinstance(self.positions, int) and self.positions == 0):

@@ -61,10 +61,10 @@ _CLOSED: tuple[type[StiffnessMethod], ...] = (PotentialEnergy, WeberBanaschek, M
 _ELEMENTS: tuple[type[StiffnessMethod], ...] = (StrainEnergy, PlaneStressContact, PlaneStrainContact, SolidContact)
 
 METHODS = {method.name: method for method in (*_CLOSED, *_ELEMENTS)}
-"""From name to class."""
+"""Classes of methods by name."""
 
 CLOSED_FORMS = tuple(method.name for method in _CLOSED)
-"""Those without finite elements: milliseconds."""
+"""Methods without finite elements, which take milliseconds."""
 
 
 _WHAT = "a mesh stiffness"
@@ -141,7 +141,7 @@ def expected_methods(
 
 
 class _MethodInputs(NamedTuple):
-    """What methods are made of."""
+    """Inputs of all methods."""
 
     pair: GearPair
     material: Materials

@@ -264,7 +264,7 @@ _SOFT = 4000.0
 """A stiffness (N/mm per mm of width) that no pair of teeth falls below: bounds how far a tip corner can get."""
 
 _BENT = 0.02
-"""How far (normal modules) teeth under great loads give way, so that pairs touch whose flanks are no further apart."""
+"""Deflection (normal modules) of teeth under great loads, so that pairs touch whose flanks are no further apart."""
 
 _SINGLE = 25
 """Positions of one pair of teeth along its path of contact, among which it is stiffest."""

@@ -71,7 +71,7 @@ class Arrived(NamedTuple):
 
 @dataclass(frozen=True)
 class Dissected:
-    """What is left of a mesh of so many `dofs`: its `matrix` on the dofs `kept`, which go up."""
+    """Condensed mesh of so many `dofs`: its `matrix` on the dofs `kept`, which go up."""
 
     dofs: int
     kept: Wholes

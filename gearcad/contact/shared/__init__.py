@@ -1,1 +1,1 @@
-"""What contact in the plane and of solid bodies have in common."""
+"""Common parts of contact in the plane and of solid bodies."""

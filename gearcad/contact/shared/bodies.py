@@ -26,7 +26,7 @@ from gearcad.rating.tooth_stiffness import RIM_LIMIT
 
 
 class Cuts(Enum):
-    """What holds the outer cuts of a body that is not a full ring."""
+    """Support of the outer cuts of a body that is not a full ring."""
 
     FIXED = "fixed"
     SLIDING = "sliding"
@@ -141,7 +141,7 @@ _FEWEST_BOLTS = 2
 
 
 class Hold(Enum):
-    """What holds the bore of a gear, or the rim of a ring."""
+    """Support of the bore of a gear, or of the rim of a ring."""
 
     AUTO = "auto"
     """Rigid where the rim is thick; else free, or by the key if there is a keyway."""
@@ -159,12 +159,12 @@ class Hold(Enum):
     """Shear all round, as from splines or a thin web, gives torque and force; nothing keeps the bore round."""
 
     BOLTS = "bolts"
-    """Of a ring: held from its bolt circle outwards where there are bolts, free between them."""
+    """Support of a ring: held from its bolt circle outwards where there are bolts, free between them."""
 
 
 @dataclass(frozen=True)
 class Support:
-    """What holds the bore of a body of `teeth` sectors, or the rim of a ring (not AUTO).
+    """Support of the bore of a body of `teeth` sectors, or the rim of a ring (not AUTO).
 
     `shaft` is the shaft's material and `shaft_bore` (mm) its own bore; `key` the half width (rad) of the keyway, seen from the
     axis. Of a ring on `bolts` those have `bolt_circle` (mm), and the loaded tooth stands midway between two.

@@ -73,7 +73,7 @@ class FlankCompliance(ABC):
 
     flank: LoadedFlank
     torques: Floats
-    """On the hub, by each unit load."""
+    """Torques on the hub by each unit load."""
 
     @property
     @abstractmethod
@@ -206,10 +206,12 @@ _LEAST_GAP = 1e-4
 """Distance of two positions, in base pitches, below which nothing is sought between them."""
 
 _UP, _BEND, _MOST_UP = 1.25, 4.0, 10.0
-"""How many times steeper than in the interval beside a curve can rise: more where it has bent already, and at the most."""
+"""Factor by which a curve can rise more steeply than in the interval beside: more where it has bent already, and at the
+most.
+"""
 
 _BEYOND = 1.5
-"""How many times steeper than beyond the higher position it can have come down to it."""
+"""Factor by which a curve can fall to the higher position more steeply than beyond it."""
 
 _ASIDE = 0.25
 """Least part of an interval that a new position takes off it."""
@@ -223,7 +225,7 @@ _MOST = 20
 
 @dataclass(frozen=True)
 class Quantity(Generic[Seen]):
-    """What is to be greatest, or `least`: `value` gives it at a position, NaN where it has none there.
+    """Quantity that is to be greatest, or `least`: `value` gives it at a position, NaN where it has none there.
 
     `swing` measures tolerance and error by how far the quantity goes up and down, not by its size.
     """
@@ -413,7 +415,7 @@ class PairContact(ABC):
     """Normal force: N, per mm of width in the plane."""
 
     share: float
-    """Of the load that all pairs carry."""
+    """Share of the load that all pairs carry."""
 
     start_pressures: PerGear[float]
     """The greatest (MPa) at the starts of each gear's linear reliefs, NaN where none is told."""
@@ -603,4 +605,4 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
 
 
 Cycle: TypeAlias = LoadedCycle[FlexiblePair[FlankCompliance], LoadedPosition[PairContact], PairContact]
-"""That of any model."""
+"""The model."""

@@ -312,7 +312,7 @@ _VTK = [0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 12, 13, 14, 15, 16, 17, 18, 19]
 """Our nodes of a hexahedron in VTK's order: corners below, corners above, then the middles below, above and between."""
 
 _OVER = 1.1
-"""How far pictures show stresses, in greatest von Mises stresses of the fillets."""
+"""Range of stresses in pictures, in greatest von Mises stresses of the fillets."""
 
 _DEFORMED, _ROOT = "displacement_mm", "von_mises_root_MPa"
 """The fields of a .vtu that show what one looks for."""

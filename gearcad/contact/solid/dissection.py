@@ -25,7 +25,7 @@ PARITIES = np.array([1.0, -1.0])
 """Even and odd, in the order of all that has both."""
 
 TURNED = np.array([1.0, -1.0, -1.0])
-"""What becomes of the components of a vector, along the axis and square to it: polar ones at the cuts too."""
+"""Signs of the components of a vector under the half turn, along the axis and square to it: polar ones at the cuts too."""
 
 _SAME = 1e-8
 """Differences of places, over the radius or the face width, that are rounding."""

@@ -30,7 +30,7 @@ PLACES = np.array(
 """Our order of the nodes in the unit cube: lower face, upper face, half-way up."""
 
 _ORDER = 5
-"""Of quadrature: 3 x 3 x 3 points. Fewer leave hexahedra with zero-energy modes, more change nothing that shows."""
+"""Order of quadrature: 3 x 3 x 3 points. Fewer leave hexahedra with zero-energy modes, more change nothing that shows."""
 
 
 class _Quadrature(NamedTuple):

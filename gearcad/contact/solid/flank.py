@@ -228,8 +228,8 @@ class NodalForces(NamedTuple):
 
 
 class Remaining(NamedTuple):
-    """Of unit loads: the `forces` that leave a smooth rest, and displacements (n, 3, loads) in mm, in turning axes, at the same
-    nodes by the fields that are `taken_off`.
+    """Rest of unit loads: the `forces` that leave a smooth rest, and displacements (n, 3, loads) in mm, in turning axes, at
+    the same nodes by the fields that are `taken_off`.
     """
 
     forces: NodalForces

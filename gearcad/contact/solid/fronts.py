@@ -32,7 +32,7 @@ _BLOCK = 128
 """Rows of a block on the diagonal of a factor."""
 
 _BYTES = 8
-"""Of a double."""
+"""Bytes of a double."""
 
 
 def factorise(matrix: Floats) -> int:

@@ -191,7 +191,7 @@ def start_distances(line: ContactLine, action: LineOfAction) -> PerGear[Floats]:
 
 
 class Gaps(NamedTuple):
-    """Of all cells: the gap (n,) along the normal in mm, and the reduced radius (n,) in the normal section in mm."""
+    """Gaps of all cells: the gap (n,) along the normal in mm, and the reduced radius (n,) in the normal section in mm."""
 
     normal: Floats
     radii: Floats
@@ -334,7 +334,7 @@ _LONGEST = 1.5
 
 @dataclass(frozen=True)
 class Responses:
-    """What one position needs of both bodies: `smooth` (n, n) normal displacements (mm/N) without the half-space's part.
+    """Responses of both bodies at one position: `smooth` (n, n) normal displacements (mm/N) without the half-space's part.
 
     `apart` (n, n) are the distances (mm) of cells on the same flank, infinite on different ones; `lengths` (n,) of the cells
     (mm); `modulus` E_r (MPa), 1/E_r = sum (1 - nu^2)/E.

@@ -106,7 +106,7 @@ _STEP = 0.05
 
 
 _BENT = 0.02
-"""How far (normal modules) teeth under great loads give way, so that pairs touch whose flanks are no further apart."""
+"""Deflection (normal modules) of teeth under great loads, so that pairs touch whose flanks are no further apart."""
 
 _SINGLE = 15
 """Positions of one pair of teeth along its path of contact, among which it is stiffest."""

@@ -21,7 +21,7 @@ _SURE = 0.9
 
 
 class ToothLaw(Enum):
-    """How pairs of teeth carry."""
+    """Law of load sharing between pairs of teeth."""
 
     SMOOTH = "smooth"
     """As one spring, whose error goes over gradually from one pair to the next: the law of the other charts."""

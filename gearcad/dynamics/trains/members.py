@@ -123,7 +123,7 @@ _NO_RADII, _NO_TEETH = _DerivedRadii(math.nan, math.nan), DerivedCount(0)
 
 
 class StiffnessWave(Enum):
-    """How the stiffness of a mesh varies over one tooth."""
+    """Course of the stiffness of a mesh over one tooth."""
 
     COSINE = "cosine"
     SQUARE = "square"

@@ -20,7 +20,7 @@ from gearcad.dynamics.trains.shaft_lines import System
 
 
 class Direction(Enum):
-    """How the speed changes in a sweep."""
+    """Direction of the speed in a sweep."""
 
     UP = "up"
     DOWN = "down"

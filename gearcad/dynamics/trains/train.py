@@ -19,7 +19,7 @@ from gearcad.dynamics.trains.members import GROUND, Graph, Inertia, Mesh, MeshCo
 
 
 class TrainModel(Enum):
-    """How much of the shafts a train knows: the levels of modelling of Osinski's paper, and what lies beyond them."""
+    """Model of the shafts of a train: the levels of modelling of Osinski's paper, and what lies beyond them."""
 
     ISOLATED = "isolated"
     """No shafts: the meshes and the inertias in them, loaded by the mesh forces of the whole train."""

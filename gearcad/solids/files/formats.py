@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class FileOptions:
-    """How files are made; which of it matters to a format stands with the format.
+    """Options of files; a format names the options that matter to it.
 
     `chord_error` (mm) bounds the facets; `bracket` puts a pair on two shafts with a bracket; `circles` draws the tip,
     reference, base and root circles beside a section. Of a planetary train, `carrier` makes a carrier with pins, `exploded`
