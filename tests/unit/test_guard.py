@@ -23,6 +23,7 @@ from gearcad.core.output import staged_files
 from support import jobs
 
 def work():
+    {first}
     with staged_files(Path("out/deep")) as staging:
         (staging / "half").write_text("made")
         {inside}
@@ -30,14 +31,17 @@ def work():
 guarded(work)
 sys.exit(3)
 """
-KERNEL = "jobs.hold_the_interpreter(60)"
+KERNEL = "jobs.hold_the_interpreter(600)"
 """Holds the interpreter: no handler in Python has a say."""
 
 
-def start(folder: Path, inside: str, halves: int = 1) -> subprocess.Popen[str]:
-    """Start minded work in `folder`, as the leader of a group as a terminal does, and wait for so many half files."""
+def start(folder: Path, inside: str, halves: int = 1, first: str = "pass") -> subprocess.Popen[str]:
+    """Start minded work in `folder`, as the leader of a group as a terminal does, and wait for so many half files.
+
+    The code `first` runs before the half file is there, `inside` after it.
+    """
     process = subprocess.Popen(
-        [sys.executable, "-c", WORK.format(inside=inside)],
+        [sys.executable, "-c", WORK.format(inside=inside, first=first)],
         cwd=folder,
         env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
         stdout=subprocess.PIPE,
@@ -70,7 +74,7 @@ def test_signal_ends_a_kernel_call_at_once_and_leaves_nothing(
     with start(tmp_path, KERNEL) as process:
         (worker,) = psutil.Process(process.pid).children()
         send(process, number)
-        output, errors = process.communicate(timeout=5)
+        output, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, output, errors) == (128 + number, "", "Aborted!\n")
     assert list(tmp_path.iterdir()) == []
     assert wait_for_end([worker], 1) == []
@@ -78,9 +82,10 @@ def test_signal_ends_a_kernel_call_at_once_and_leaves_nothing(
 
 def test_worker_to_whom_nobody_listens_goes_without_a_word(tmp_path: Path) -> None:
     """As behind `| head`, where a library has taken SIGPIPE from Python."""
-    with start(tmp_path, f"import signal; signal.signal(signal.SIGPIPE, signal.SIG_DFL); {KERNEL}") as process:
+    default = "import signal; signal.signal(signal.SIGPIPE, signal.SIG_DFL)"
+    with start(tmp_path, KERNEL, first=default) as process:
         to_worker(process, signal.SIGPIPE)
-        assert (process.communicate(timeout=5), process.returncode) == (("", ""), 141)
+        assert (process.communicate(timeout=PATIENCE), process.returncode) == (("", ""), 141)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -99,7 +104,7 @@ def test_worker_to_whom_nobody_listens_goes_without_a_word(tmp_path: Path) -> No
 def test_worker_that_dies_is_buried_and_said_to_be_dead(tmp_path: Path, number: signal.Signals, status: int, said: str) -> None:
     with start(tmp_path, KERNEL) as process:
         to_worker(process, number)
-        output, errors = process.communicate(timeout=5)
+        output, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, output, errors) == (status, "", said)
     assert list(tmp_path.iterdir()) == []
 
@@ -128,7 +133,7 @@ def test_worker_dies_with_its_keeper_and_the_next_one_clears_up(tmp_path: Path) 
 
 def start_and_end(folder: Path) -> subprocess.Popen[str]:
     """Minded work that has its way, and an exit status of its own."""
-    ends = WORK.format(inside="pass").replace("guarded(work)", "guarded(work); sys.exit(7)")
+    ends = WORK.format(inside="pass", first="pass").replace("guarded(work)", "guarded(work); sys.exit(7)")
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     return subprocess.Popen([sys.executable, "-c", ends], cwd=folder, env=environment, text=True)
 
@@ -148,7 +153,7 @@ def test_renames_that_belong_together_are_not_divided(tmp_path: Path) -> None:
 
 def test_signal_that_the_caller_ignores_is_ignored(tmp_path: Path) -> None:
     """As for a program that a shell has started in the background."""
-    command = [sys.executable, "-c", WORK.format(inside="__import__('time').sleep(1)")]
+    command = [sys.executable, "-c", WORK.format(inside="__import__('time').sleep(1)", first="pass")]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     with subprocess.Popen(
         command,
