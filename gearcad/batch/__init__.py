@@ -9,7 +9,7 @@ table.py (designs)  ->  run.py: check all rows, make them, write the results
 
 """
 
-from gearcad.batch.run import InterruptedRunError, Summary, run_table
+from gearcad.batch.run import BatchSummary, InterruptedRunError, run_table
 from gearcad.designs.cells import Decimal
 
-__all__ = ["Decimal", "InterruptedRunError", "Summary", "run_table"]
+__all__ = ["BatchSummary", "Decimal", "InterruptedRunError", "run_table"]

@@ -25,7 +25,7 @@ from gearcad.core.records import PerGear
 from gearcad.core.runtime import PACKAGE
 from gearcad.core.symbols import PER_GEAR
 from gearcad.designs import Design
-from gearcad.designs.table import Row
+from gearcad.designs.table import DesignRow
 from gearcad.jobs import VERBS
 from gearcad.jobs.job import Data, Job
 from gearcad.version import __version__
@@ -38,7 +38,7 @@ _OUR_FILE = re.compile(rf"[^\s.\-{_NO_NAME}][^{_NO_NAME}]{{0,200}}\.[a-z0-9]{{1,
 
 
 @dataclass(frozen=True)
-class Part:
+class RowPart:
     """One part of a row: the options it was made with, and its files with their sizes in bytes."""
 
     options: Mapping[str, Any]
@@ -54,7 +54,7 @@ class Manifest:
     """Hash of the inputs and of gearcad, the finished parts, and files that a killed run may have left unfinished."""
 
     inputs: str
-    parts: Mapping[str, Part] = field(default_factory=dict)
+    parts: Mapping[str, RowPart] = field(default_factory=dict)
     unfinished: tuple[str, ...] = ()
 
     @property
@@ -91,7 +91,7 @@ def read_manifest(folder: Path) -> Manifest | None:
     try:
         document = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
         parts = {
-            str(name): Part(dict(part["options"]), {_plain(file): int(size) for file, size in part["files"].items()})
+            str(name): RowPart(dict(part["options"]), {_plain(file): int(size) for file, size in part["files"].items()})
             for name, part in document["parts"].items()
         }
         unfinished = tuple(_plain(file) for file in document.get("unfinished", ()))
@@ -198,7 +198,7 @@ class Checked:
 class Task:
     """One row and the jobs to do on it: in `folder`/NAME, by way of `workspace` on the same file system."""
 
-    row: Row
+    row: DesignRow
     stages: tuple[Job[Any, Any], ...]
     folder: Path
     workspace: Path
@@ -227,12 +227,12 @@ class Record:
     stop: bool = False
 
 
-def check_rows(rows: list[Row]) -> list[Checked]:
+def check_rows(rows: list[DesignRow]) -> list[Checked]:
     """Check each row; runs in a worker."""
     return list(map(_checked, rows))
 
 
-def _checked(row: Row) -> Checked:
+def _checked(row: DesignRow) -> Checked:
     inputs = inputs_hash(row.inputs)  # before the design: what changes in between makes another hash
     found = row.design_or_faults()
     return Checked(faults=tuple(found)) if isinstance(found, list) else Checked(inputs=inputs, design=pickle.dumps(found))
@@ -305,7 +305,7 @@ class _Update(NamedTuple):
     """Whether anything was made now, and the parts of a stage, all of which are there now."""
 
     made: bool
-    parts: list[Part]
+    parts: list[RowPart]
 
 
 def _update(task: Task, folder: Path, job: Job[Any, Any]) -> _Update:
@@ -342,18 +342,18 @@ def _staging(task: Task, folder: Path) -> Iterator[Path]:
         shutil.rmtree(staging, ignore_errors=True)
 
 
-def _kept(before: Manifest | None, inputs: str, folder: Path) -> dict[str, Part]:
+def _kept(before: Manifest | None, inputs: str, folder: Path) -> dict[str, RowPart]:
     """The parts that are there and still true."""
     if before is None or before.inputs != inputs:
         return {}
     return {name: part for name, part in before.parts.items() if part.is_there(folder)}
 
 
-def _parts_in(staging: Path, job: Job[Any, Any]) -> dict[str, Part]:
+def _parts_in(staging: Path, job: Job[Any, Any]) -> dict[str, RowPart]:
     options, files = job.parts, dict[str, dict[str, int]]()
     for file in sorted(staging.iterdir()):
         files.setdefault(job.part_of(file.name), {})[file.name] = file.stat().st_size
-    return {name: Part(options[name], of) for name, of in files.items()}
+    return {name: RowPart(options[name], of) for name, of in files.items()}
 
 
 _INPUTS_ALONE = ("drawing", "drawings")

@@ -29,13 +29,13 @@ from gearcad.core.records import Verdict
 from gearcad.core.runtime import Progress
 from gearcad.core.symbols import Symbol
 from gearcad.designs.cells import Decimal, cell_text, write_csv
-from gearcad.designs.table import Row, Table, open_table
+from gearcad.designs.table import DesignRow, Table, open_table
 from gearcad.designs.variations import column_of_train, column_symbol
 from gearcad.jobs.job import Job
 
 
 @dataclass(frozen=True, kw_only=True)
-class Summary:
+class BatchSummary:
     """Result of a run: its files, rows by status, a line for each failed row, and the reason if it stopped early.
 
     `short` of the rows that are ok have a check with a gate that is not passed, or a rating that is not.
@@ -53,7 +53,7 @@ class Summary:
 class InterruptedRunError(KeyboardInterrupt):
     """Ctrl-C, and how far the run was: a row that is not finished counts as not run."""
 
-    def __init__(self, summary: Summary) -> None:
+    def __init__(self, summary: BatchSummary) -> None:
         super().__init__()
         self.summary = summary
 
@@ -71,7 +71,7 @@ _ROWS_PER_GROUP = 300
 class Results(Protocol):
     """Something that yields every row with its record, again on each call."""
 
-    def results(self) -> Iterator[tuple[Row, Record]]: ...
+    def results(self) -> Iterator[tuple[DesignRow, Record]]: ...
 
 
 def write_results(journal: Results, folder: Path, workspace: Path, decimal: Decimal = Decimal.POINT) -> list[Path]:
@@ -92,7 +92,7 @@ def write_results(journal: Results, folder: Path, workspace: Path, decimal: Deci
         return [folder / name for name in FILES if (staging / name).exists()]
 
 
-def _groups(row: Row, record: Record) -> tuple[dict[str, Any], ...]:
+def _groups(row: DesignRow, record: Record) -> tuple[dict[str, Any], ...]:
     """One line under its headings: how the row ended, its files, its inputs, and what is derived.
 
     What was derived stands in the place of the input it came from, such as "auto".
@@ -110,7 +110,7 @@ def _groups(row: Row, record: Record) -> tuple[dict[str, Any], ...]:
     return states, files, inputs, derived
 
 
-def _cells(row: Row, record: Record) -> dict[str, Any]:
+def _cells(row: DesignRow, record: Record) -> dict[str, Any]:
     return {heading: value for group in _groups(row, record) for heading, value in group.items()}
 
 
@@ -182,7 +182,7 @@ class Journal:
         """Remove the database."""
         self._database.close()
 
-    def add(self, row: Row) -> list[str]:
+    def add(self, row: DesignRow) -> list[str]:
         """Note a row of the table; faults of its name beside the other names."""
         folded = unicodedata.normalize("NFC", row.name).casefold() or None
         taken = self._execute("SELECT number, name FROM rows WHERE folded = ?", (folded,)).fetchone()
@@ -205,7 +205,7 @@ class Journal:
         """Note how a row ended."""
         self._execute("UPDATE rows SET record = ?, checked = NULL WHERE number = ?", (pickle.dumps(record), record.number))
 
-    def open_rows(self) -> Iterator[tuple[Row, Checked]]:
+    def open_rows(self) -> Iterator[tuple[DesignRow, Checked]]:
         """The rows without a record, in the order of the table, with what their checks have found."""
         last = -1
         query = "SELECT number, row, checked FROM rows WHERE record IS NULL AND number > ? ORDER BY number LIMIT 1"
@@ -213,7 +213,7 @@ class Journal:
             last = found[0]
             yield pickle.loads(found[1]), pickle.loads(found[2]) if found[2] else Checked()
 
-    def results(self) -> Iterator[tuple[Row, Record]]:
+    def results(self) -> Iterator[tuple[DesignRow, Record]]:
         """Every row and its record, in the order of the table."""
         with _writable():
             for number, row, record in self._execute("SELECT number, row, record FROM rows ORDER BY number"):
@@ -254,7 +254,7 @@ def run_table(
     keep_going: bool = False,
     decimal: Decimal = Decimal.POINT,
     progress: Progress | None = None,
-) -> Summary:
+) -> BatchSummary:
     """Do the `wanted` jobs on every row of the design table at `path`, each row in a folder of its own inside `folder`.
 
     Their documents and the files of `build` are kept there, and the table of results has their figures.
@@ -322,7 +322,7 @@ class _Run:
         self.done = self.failed = len(faults)
         return [line for number in sorted(faults) for line in faults[number]]
 
-    def _chunks(self, table: Table, faults: dict[int, list[str]]) -> Iterator[list[Row]]:
+    def _chunks(self, table: Table, faults: dict[int, list[str]]) -> Iterator[list[DesignRow]]:
         rows = table.rows()
         while chunk := list(islice(rows, _ROWS_PER_CHECK)):
             for row in chunk:
@@ -357,7 +357,7 @@ class _Run:
             self.stopped = self.stopped or str(error)
             return []
 
-    def summary(self, results: list[Path]) -> Summary:
+    def summary(self, results: list[Path]) -> BatchSummary:
         """Return the summary of the run for the user."""
         states = dict.fromkeys(Status, 0)
         errors, short = [], 0
@@ -366,7 +366,7 @@ class _Run:
             short += falls_short(record.values)
             if record.error:
                 errors.append(record.error)
-        return Summary(
+        return BatchSummary(
             results=tuple(results),
             ok=states[Status.OK],
             failed=states[Status.FAILED],
@@ -384,7 +384,7 @@ def falls_short(values: Mapping[str, Any]) -> bool:
     return values.get("rate.passed", True) is not True and values.get("rate.strength") != Verdict.NOT_ASKED.value
 
 
-def _checked(outcome: Outcome[list[Row], list[Checked]]) -> list[Checked]:
+def _checked(outcome: Outcome[list[DesignRow], list[Checked]]) -> list[Checked]:
     try:
         return outcome.future.result()
     except WorkerLostError:

@@ -21,7 +21,7 @@ from gearcad.designs.cells import guarded_text, list_text
 from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, names_file
 from gearcad.designs.keys import Cell, DesignKind
 from gearcad.designs.table import open_table
-from gearcad.designs.variations import MOST_ROWS, Choices, Span, read_variations, spec_values, without_varied
+from gearcad.designs.variations import MOST_ROWS, Choices, KeyRange, read_variations, spec_values, without_varied
 
 if TYPE_CHECKING:
     import numpy as np
@@ -77,7 +77,7 @@ class Study:
     kind: DesignKind
     name: str
     base: dict[str, Cell]
-    variations: tuple[Choices | Span, ...]
+    variations: tuple[Choices | KeyRange, ...]
     sample: Sample | None = None
 
     @property

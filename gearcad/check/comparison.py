@@ -14,7 +14,7 @@ from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
 from gearcad.core.records import PerGear, Role, Verdict
 from gearcad.rating.load_factors import LoadFactors
-from gearcad.rating.strength import Part, PartStrength, StrengthRating
+from gearcad.rating.strength import PartStrength, RatedPart, StrengthRating
 from gearcad.rating.strength.duty import stresses_of
 
 
@@ -254,23 +254,23 @@ class CheckStrength:
         return {symbol: value for symbol, value in self.summary.own_face_factors.items() if symbol not in self.contained}
 
     @cached_property
-    def applied(self) -> Mapping[Part, Mapping[str, float]]:
+    def applied(self) -> Mapping[RatedPart, Mapping[str, float]]:
         """Load factors that raise the stresses of flanks, and of roots."""
         factors = self.rating.load_factors
         if factors is None:
-            return {part: {} for part in Part}
+            return {part: {} for part in RatedPart}
         return {
             part: {k: self._lacking(k, v) for k, v in _factors(factors, part).items() if k not in self.contained}
-            for part in Part
+            for part in RatedPart
         }
 
     def _lacking(self, symbol: str, factor: float) -> float:
         """Return the part of a factor, at least 1, that is still to be applied beyond the model's own factor."""
         return max(factor / self.own[symbol], 1.0) if symbol in self.own else factor
 
-    def applied_words(self, part: Part) -> str:
+    def applied_words(self, part: RatedPart) -> str:
         """Return in words the factors by which the stress of a part is multiplied."""
-        of_flank = {"Z_eps": self.contact_ratio_factor} if part is Part.FLANK else {}
+        of_flank = {"Z_eps": self.contact_ratio_factor} if part is RatedPart.FLANK else {}
         factors = {**self.applied[part], **of_flank}
         words = (f"{name}{' beyond its own' if name in self.own else ''} {value:.4g}" for name, value in factors.items())
         return ", ".join(words)
@@ -300,25 +300,25 @@ class CheckStrength:
     def flank(self) -> PerGear[FoundStrength]:
         """Strength of the flank of each gear by the greatest pressure, which is that of both flanks."""
         missing = self.summary.missing.get("contact_pressure", "")
-        return PerGear.each(lambda role: self._found(Part.FLANK, role, self.summary.contact_pressure, missing))
+        return PerGear.each(lambda role: self._found(RatedPart.FLANK, role, self.summary.contact_pressure, missing))
 
     @property
     def root(self) -> PerGear[FoundStrength]:
         """Strength of the root of each gear by the greatest tension in its fillets."""
-        return PerGear.each(lambda role: self._found(Part.ROOT, role, self.summary.root_tension.pick(role)))
+        return PerGear.each(lambda role: self._found(RatedPart.ROOT, role, self.summary.root_tension.pick(role)))
 
     @property
-    def parts(self) -> Mapping[Part, PerGear[FoundStrength]]:
+    def parts(self) -> Mapping[RatedPart, PerGear[FoundStrength]]:
         """Flanks and roots."""
-        return {Part.FLANK: self.flank, Part.ROOT: self.root}
+        return {RatedPart.FLANK: self.flank, RatedPart.ROOT: self.root}
 
-    def _found(self, part: Part, role: Role, stress: float | None, missing: str = "") -> FoundStrength:
+    def _found(self, part: RatedPart, role: Role, stress: float | None, missing: str = "") -> FoundStrength:
         """Pressure goes with the square root of the load, tension with the load; pressure has its part of Z_eps, too."""
         raised = rated_stress = None
         factors = self.rating.load_factors
         if stress is not None and factors is not None and not factors.unknown:
             product = math.prod(self.applied[part].values())
-            raised = stress * (math.sqrt(product) * self.contact_ratio_factor if part is Part.FLANK else product)
+            raised = stress * (math.sqrt(product) * self.contact_ratio_factor if part is RatedPart.FLANK else product)
             rated_stress = stresses_of(self.rating.nominal, factors)[part].pick(role)
         rated = self.rating.parts[part].pick(role)
         return FoundStrength(rated=rated, rated_stress=rated_stress, stress=stress, raised=raised, missing=missing)
@@ -355,10 +355,10 @@ def _scuffing_comparisons(rating: StrengthRating) -> Iterator[Comparison]:
             yield at_least(words, safety, required, "scuffing temperature of the oil over that of the teeth")
 
 
-def _factors(of: LoadFactors, part: Part) -> dict[str, float]:
+def _factors(of: LoadFactors, part: RatedPart) -> dict[str, float]:
     """All but K_A, which every model contains, by symbols."""
     common = {"K_gamma": of.mesh_load, "K_v": of.dynamic}
-    if part is Part.FLANK:
+    if part is RatedPart.FLANK:
         return {**common, "K_Hbeta": of.face_flank, "K_Halpha": of.transverse_flank}
     return {**common, "K_Fbeta": of.face_root, "K_Falpha": of.transverse_root}
 
@@ -370,8 +370,8 @@ def strength_comparisons(strength: CheckStrength) -> Iterator[Comparison]:
     """
     edition = strength.rating.options.standard
     for part, both in strength.parts.items():
-        symbol, clause = f"S_{part.index}", edition.dated_part(2 if part is Part.FLANK else 3)
-        where = f"by {_FE}, of both flanks" if part is Part.FLANK else f"by {_FE}"
+        symbol, clause = f"S_{part.index}", edition.dated_part(2 if part is RatedPart.FLANK else 3)
+        where = f"by {_FE}, of both flanks" if part is RatedPart.FLANK else f"by {_FE}"
         for role, found in both.items():
             rated = found.rated
             if rated.safety is None:

@@ -15,7 +15,7 @@ from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.shared.loaded import Cycle
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.core.records import Floats, PerGear, Role
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.rating.tooth_stiffness import mesh_stiffness_alpha
 
 
@@ -198,7 +198,7 @@ def root_at_single_contact(cycle: PlaneCycle, role: Role) -> float:
     model, path = cycle.model, cycle.model.pair.path_of_contact
     length = PerGear(path.D, model.line.whole - path.B).pick(role)
     load = (0, length, model.force(cycle.torque))
-    return model.fillets.pick(role).extreme(Side.LEFT_FILLET, [load]).stress
+    return model.fillets.pick(role).extreme(OutlineSide.LEFT_FILLET, [load]).stress
 
 
 def explain_plane_roots(

@@ -32,7 +32,7 @@ from gearcad.contact.solid.cycle import (
 )
 from gearcad.core.records import Bools, Floats, PerGear, Role, Wholes
 from gearcad.geometry import Gear
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.rating.contact_stress import LineContact, Stresses
 
 ShownPlane: TypeAlias = ShownContact[PlanePosition, PlanePairContact]
@@ -94,14 +94,14 @@ def fillet_curves(cycle: PlaneCycle) -> PerGear[FilletCurves]:
 def _fillets_of(cycle: PlaneCycle, role: Role) -> FilletCurves:
     fillets = cycle.model.fillets.pick(role)
     seen = root_loads(cycle.worst_position(role).contacts, role)
-    worst = max(seen, key=lambda loads: fillets.greatest(Side.LEFT_FILLET, loads).stress)
+    worst = max(seen, key=lambda loads: fillets.greatest(OutlineSide.LEFT_FILLET, loads).stress)
 
-    def curve(side: Side) -> FilletCurve:
+    def curve(side: OutlineSide) -> FilletCurve:
         angles = fillets.places(side)[1]
         order = np.argsort(angles)
         return FilletCurve(angles[order], fillets.stresses(side, worst)[order])
 
-    return FilletCurves(curve(Side.LEFT_FILLET), curve(Side.RIGHT_FILLET))
+    return FilletCurves(curve(OutlineSide.LEFT_FILLET), curve(OutlineSide.RIGHT_FILLET))
 
 
 def depth_profile(cycle: PlaneCycle, contact: PlanePairContact) -> DepthProfile:

@@ -54,7 +54,7 @@ from gearcad.load import Load
 from gearcad.material import Materials, by_gear, materials_document
 from gearcad.mounting import Mounting
 from gearcad.rating.nominal_rating import Rating
-from gearcad.rating.strength import Part
+from gearcad.rating.strength import RatedPart
 from gearcad.stiffness import (
     CLOSED_FORMS,
     PlaneStrainContact,
@@ -262,8 +262,8 @@ class CheckResult(Pictured, ABC):
     def without_limit(self) -> tuple[str, ...]:
         """Stresses, in words, for which the material has no limit and which the rating does not judge."""
         limits = {
-            "contact pressure": ("contact_limit", Part.FLANK),
-            "root stress": ("root_limit", Part.ROOT),
+            "contact pressure": ("contact_limit", RatedPart.FLANK),
+            "root stress": ("root_limit", RatedPart.ROOT),
             "von Mises stress below the flank": ("yield_strength", None),
         }
         return tuple(
@@ -273,7 +273,7 @@ class CheckResult(Pictured, ABC):
             if getattr(material, limit) is None and not self._rates(part)
         )
 
-    def _rates(self, part: Part | None) -> bool:
+    def _rates(self, part: RatedPart | None) -> bool:
         """Whether the rating judges this of both gears."""
         return part is not None and all(each.rated.safety is not None for each in self.safeties.parts[part])
 

@@ -17,51 +17,56 @@ from gearcad.contact.plane.cycle import (
     greatest_von_mises,
     tooth_field,
 )
-from gearcad.contact.shared.loaded import INTERIOR, Cycle, Extreme, LoadedPosition, Quantity, RootStress
+from gearcad.contact.shared.loaded import INTERIOR, Cycle, Extreme, ExtremeQuantity, LoadedPosition, RootStress
 from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact, SolidPosition
 from gearcad.core.records import Floats, PerGear, Role
 from gearcad.rating.contact_stress import LineContact
 
 _Position: TypeAlias = LoadedPosition[Any]
-_Quantities: TypeAlias = tuple[Quantity[_Position], ...]
+_Quantities: TypeAlias = tuple[ExtremeQuantity[_Position], ...]
 
 Extremes: TypeAlias = dict[str, Extreme | None]
 """Figures by name; None for a figure without a value at any position."""
 
 
-def _tension(role: Role) -> Quantity[_Position]:
-    return Quantity(f"root_tension_{role.value}", lambda position: position.tension.pick(role).stress)
+def _tension(role: Role) -> ExtremeQuantity[_Position]:
+    return ExtremeQuantity(f"root_tension_{role.value}", lambda position: position.tension.pick(role).stress)
 
 
-def _compression(role: Role) -> Quantity[_Position]:
-    return Quantity(f"root_compression_{role.value}", lambda position: position.compression.pick(role).stress, least=True)
+def _compression(role: Role) -> ExtremeQuantity[_Position]:
+    return ExtremeQuantity(
+        f"root_compression_{role.value}", lambda position: position.compression.pick(role).stress, least=True
+    )
 
 
-def _bore(role: Role) -> Quantity[_Position]:
+def _bore(role: Role) -> ExtremeQuantity[_Position]:
     def tension(position: _Position) -> float:
         found = position.bore_tension.pick(role)
         return math.nan if found is None else found
 
-    return Quantity(f"bore_tension_{role.value}", tension)
+    return ExtremeQuantity(f"bore_tension_{role.value}", tension)
 
 
 ROOTS: _Quantities = PerGear.each(_tension)
-PRESSURE: Quantity[_Position] = Quantity("contact_pressure", lambda position: position.contact_pressure)
+PRESSURE: ExtremeQuantity[_Position] = ExtremeQuantity("contact_pressure", lambda position: position.contact_pressure)
 STRESSES: _Quantities = (*ROOTS, PRESSURE)
 
 ERRORS: _Quantities = (
-    Quantity("transmission_error_max", lambda position: position.transmission_error, swing=True),
-    Quantity("transmission_error_min", lambda position: position.transmission_error, least=True, swing=True),
+    ExtremeQuantity("transmission_error_max", lambda position: position.transmission_error, swing=True),
+    ExtremeQuantity("transmission_error_min", lambda position: position.transmission_error, least=True, swing=True),
 )
 _COURSES: _Quantities = (
     *ERRORS,
-    Quantity("mesh_stiffness_max", lambda position: position.stiffness, swing=True),
-    Quantity("mesh_stiffness_min", lambda position: position.stiffness, least=True, swing=True),
+    ExtremeQuantity("mesh_stiffness_max", lambda position: position.stiffness, swing=True),
+    ExtremeQuantity("mesh_stiffness_min", lambda position: position.stiffness, least=True, swing=True),
 )
 """Quantities that go up and down over the mesh; their swing is told."""
 
 PLANE: _Quantities = (*STRESSES, *PerGear.each(_compression), *PerGear.each(_bore), *_COURSES)
-SOLID: tuple[Quantity[SolidPosition], ...] = (*PLANE, Quantity("line_load_max", lambda position: position.line_load))
+SOLID: tuple[ExtremeQuantity[SolidPosition], ...] = (
+    *PLANE,
+    ExtremeQuantity("line_load_max", lambda position: position.line_load),
+)
 """All that a summary tells."""
 
 
@@ -135,7 +140,7 @@ class Summary:
         return by_name({name: value for name, value in vars(self).items() if name not in _ABOUT})
 
 
-class Figures(NamedTuple):
+class SummaryFigures(NamedTuple):
     """The few that a sweep or a refinement needs, as in Summary."""
 
     mesh_stiffness: float
@@ -148,11 +153,11 @@ def root_peaks(cycle: Cycle) -> PerGear[RootStress]:
     return PerGear.each(lambda role: cycle.worst_position(role).tension.pick(role))
 
 
-def figures(cycle: Cycle) -> Figures:
+def figures(cycle: Cycle) -> SummaryFigures:
     """Mean mesh stiffness, greatest interior pressure and root tensions of a cycle."""
     worst = cycle.worst_contact
     tension = root_peaks(cycle).map(lambda peak: peak.stress)
-    return Figures(float(cycle.mean("stiffness")[0]), worst[1].interior_pressure if worst else None, tension)
+    return SummaryFigures(float(cycle.mean("stiffness")[0]), worst[1].interior_pressure if worst else None, tension)
 
 
 class AtPitchPoint(NamedTuple):

@@ -134,11 +134,11 @@ def open(
     """
     from gearcad.designs.design import spec_text
     from gearcad.designs.reader import starter_text
-    from gearcad.page.runs import GIGABYTE, Limits, Runs
+    from gearcad.page.runs import GIGABYTE, RunLimits, Runs
     from gearcad.page.server import serve
 
     given = {"seconds": time_limit, "memory": None if memory_limit is None else memory_limit * GIGABYTE}
-    Runs.permitted = Limits(**{name: value for name, value in given.items() if value is not None})
+    Runs.permitted = RunLimits(**{name: value for name, value in given.items() if value is not None})
     if spec is None:
         name, text = starter_text(_STARTER)
         spec = Path(name)

@@ -17,7 +17,7 @@ from gearcad.solids import FileOptions, Format
 from gearcad.version import __version__
 
 if TYPE_CHECKING:
-    from gearcad.batch import Summary
+    from gearcad.batch import BatchSummary
     from gearcad.batch.study import Sample, Study
 
 
@@ -99,7 +99,7 @@ def _verbs(text: str) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def _report(summary: Summary, seconds: float, *, as_json: bool, quiet: bool) -> None:
+def _report(summary: BatchSummary, seconds: float, *, as_json: bool, quiet: bool) -> None:
     from gearcad.core.output import json_text
 
     results = [str(path) for path in summary.results]
@@ -122,7 +122,7 @@ def _report(summary: Summary, seconds: float, *, as_json: bool, quiet: bool) -> 
         click.echo(f"{_counts(summary)} in {seconds:.1f} s ({rate:.3g} rows/s)", err=True)
 
 
-def _counts(summary: Summary) -> str:
+def _counts(summary: BatchSummary) -> str:
     rest = f", {summary.not_run} not run" if summary.not_run else ""
     rest += f", {summary.short} with checks or ratings not passed" if summary.short else ""
     return f"{summary.ok} rows ok, {summary.failed} failed{rest}"

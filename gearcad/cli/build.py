@@ -190,14 +190,14 @@ def picture(
     from gearcad.core.output import json_text
     from gearcad.designs import read_spec
     from gearcad.jobs.draw import Background, Picture
-    from gearcad.solids.files.cutaway import Cutaway, View
+    from gearcad.solids.files.cutaway import Cutaway, SceneView
     from gearcad.solids.files.studio import Animation
 
     if output is not None and output.suffix.lower() in _OTHERS and not output.is_dir():
         permitted = f"must end in {', '.join(_IMAGES[:-1])} or {_IMAGES[-1]}, or be a folder"
         raise ParameterError("output", str(output), permitted)
     job = Picture(
-        view=as_choice("view", view.lower(), View),
+        view=as_choice("view", view.lower(), SceneView),
         size=None if size is None else _pixels(size),
         cutaway=None if cutaway is None else as_choice("cutaway", cutaway.lower(), Cutaway),
         explode=explode,

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gearcad.dynamics.planetary.planetary_result import PlanetaryStudy
     from gearcad.dynamics.response.chart_findings import GreatestFactor
     from gearcad.jobs.planetary import Studied
-    from gearcad.planetary.search import Candidate, SearchResult
+    from gearcad.planetary.search import PlanetarySet, SearchResult
     from gearcad.planetary.tooth_numbers import SearchTask
 
 
@@ -159,7 +159,7 @@ def _table(result: SearchResult) -> Iterator[str]:
 _HEADING = ("set", "ratio", "off %", "diameter mm", "a mm", "N", "q", "z mod N", "gcd", "efficiency", "error share")
 
 
-def _row(each: Candidate) -> tuple[str, ...]:
+def _row(each: PlanetarySet) -> tuple[str, ...]:
     return (
         each.name,
         f"{each.ratio:.6g}",

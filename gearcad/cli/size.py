@@ -308,10 +308,10 @@ def _table(result: SizedSets) -> Iterator[str]:
 
 
 def _row(each: SizedSet) -> tuple[str, ...]:
-    from gearcad.rating.strength import Part
+    from gearcad.rating.strength import RatedPart
 
     own = each.candidate
-    worst = min(each.margins, key=lambda part: each.margins[part] ** (2 if part is Part.FLANK else 1))
+    worst = min(each.margins, key=lambda part: each.margins[part] ** (2 if part is RatedPart.FLANK else 1))
     places = [(least, name) for name, gear in each.strength.members.items() if (least := gear.least(worst)) is not None]
     least, gear = min(places)
     return (
@@ -325,7 +325,7 @@ def _row(each: SizedSet) -> tuple[str, ...]:
         str(own.planets),
         f"{each.load.mesh_load_factor:g}",
         f"{each.mass:.3g}",
-        *(f"{each.least[part]:.3f}" for part in Part),
+        *(f"{each.least[part]:.3f}" for part in RatedPart),
         f"{worst.value} of {gear} in {least.mesh}",
     )
 

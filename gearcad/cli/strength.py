@@ -32,10 +32,10 @@ _LONGEST_LIFE = 1e6
 
 def train_strength_lines(strength: TrainStrength, *, verdict: bool = True) -> Iterator[str]:
     """A line for each gear that was judged, scuffing of each mesh, the life, and the verdict unless it stands elsewhere."""
-    from gearcad.rating.strength import Part
+    from gearcad.rating.strength import RatedPart
 
     for name, gear in strength.members.items():
-        found = ((part, gear.least(part)) for part in Part)
+        found = ((part, gear.least(part)) for part in RatedPart)
         texts = [f"S_{part.index} {least.safety:.4g} in {least.mesh}" for part, least in found if least is not None]
         if texts:
             yield f"{f'safety of {name}':<22}{', '.join(texts)}"

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.contact.modification_variants import AMOUNTS, Condition, Outcomes, Variants, with_amounts
+from gearcad.contact.modification_variants import AMOUNTS, Condition, FlankVariants, Outcomes, with_amounts
 from gearcad.contact.solid.pair import KnownResponses, SolidPair
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats, Wholes
@@ -269,7 +269,7 @@ def conditions(torque: float) -> tuple[Condition, ...]:
 
 
 @dataclass(frozen=True)
-class Found:
+class FoundModification:
     """Result of a search: the amounts (6,), the bound (MPa), and what becomes of the flanks.
 
     `tried` variants were solved for it under the torque, roughly or in full, those that were known before included.
@@ -304,7 +304,7 @@ class Search:
     `surveyed` are places that were solved roughly before.
     """
 
-    variants: Variants
+    variants: FlankVariants
     torque: float
     low: Floats
     high: Floats
@@ -321,7 +321,7 @@ class Search:
         """Return the outcomes of variants (v, 6) under a condition, or under the torque of the search without one."""
         return self.variants.outcomes(amounts, condition or Condition(self.torque))
 
-    def best(self, bounds: Sequence[float]) -> Found:
+    def best(self, bounds: Sequence[float]) -> FoundModification:
         """The proposal for the first of the bounds (MPa) that can be kept, else for the last.
 
         Without contact on the edges of the tips, unless that costs more than half of what is gained.
@@ -340,13 +340,13 @@ class Search:
         variants = replace(self.variants, more=(*self.variants.more, *angles.tolist()))
         return replace(self, variants=variants, surveyed=self._rough)
 
-    def again(self, found: Found, bound: float) -> Found:
+    def again(self, found: FoundModification, bound: float) -> FoundModification:
         """Return the proposal for another bound (MPa), from `found` and the best places of the survey on."""
         places = self._rough.places
         settled = self._worth_its_price(self._settled(bound, places, first=found), places)
         return replace(settled, tried=found.tried + self._full.count)
 
-    def better(self, found: Found, bound: float, count: int) -> list[Found]:
+    def better(self, found: FoundModification, bound: float, count: int) -> list[FoundModification]:
         """Return at most `count` proposals near `found` that are better and keep to a bound (MPa), the best first."""
         places, here = self._lattice.near(_nearest(found.amounts)), _nearest(found.amounts)[None]
         goal = self._goal(self._full, bound, edges=not found.edges_free)
@@ -358,7 +358,7 @@ class Search:
             for each in _amounts(places[best])
         ]
 
-    def _worth_its_price(self, found: Found, places: Wholes) -> Found:
+    def _worth_its_price(self, found: FoundModification, places: Wholes) -> FoundModification:
         """The proposal that leaves the edges of tips free, if it is worth that; else the one with contact there."""
         if found.edges_free or not found.bounded:
             return found
@@ -392,7 +392,9 @@ class Search:
         """Places (v, 6) all over, the most of them where variants are good."""
         return self._lattice.survey(self._goal(self._rough, bound, edges=True), _GENERATIONS, _nearest(self.start))
 
-    def _settled(self, bound: float, places: Wholes, *, edges: bool = True, first: Found | None = None) -> Found:
+    def _settled(
+        self, bound: float, places: Wholes, *, edges: bool = True, first: FoundModification | None = None
+    ) -> FoundModification:
         """The proposal to which the best of the places lead, and that which was found `first`."""
         lattice, goal = self._lattice, self._goal(self._full, bound, edges=edges)
         rough = self._goal(self._rough, bound, edges=edges)
@@ -408,7 +410,7 @@ class Search:
             if values.min() >= goal.at(best[None])[0]:
                 break
         amounts = self._robust(ends, values, bound)
-        return Found(amounts, bound, self.outcomes(amounts[None]))
+        return FoundModification(amounts, bound, self.outcomes(amounts[None]))
 
     def _robust(self, places: Wholes, scores: Floats, bound: float) -> Floats:
         """Return the amounts (6,) of the variant near the best that bears the `conditions` from half the torque up best.
@@ -495,10 +497,10 @@ def start_search(model: SolidPair, torque: float, shape: ReliefShape) -> Search:
         model.remade(with_amounts(model.pair, nothing, shape), model.mounting), cells=sampling.cells, known=KnownResponses()
     )
     start = np.array([0.0, 0.0, 0.0, 0.0, 0.0, _aligning(bare)])
-    plain = Variants(bare, shape, sampling.positions, torque, sampling.at_ends).outcomes(start[None], Condition(torque))
+    plain = FlankVariants(bare, shape, sampling.positions, torque, sampling.at_ends).outcomes(start[None], Condition(torque))
     low, high = _bounds(bare, shape, float(plain.transmission_errors.max()))
     roomy = bare.remade(with_amounts(bare.pair, high, shape), bare.mounting)
-    variants = Variants(roomy, shape, sampling.positions, torque, sampling.at_ends)
+    variants = FlankVariants(roomy, shape, sampling.positions, torque, sampling.at_ends)
     return Search(variants, torque, low, high, start, variants.outcomes(start[None], Condition(torque)))
 
 

@@ -266,7 +266,7 @@ class _Flanks:
 
 
 @dataclass(frozen=True)
-class Variants:
+class FlankVariants:
     """Variants of the flanks of a solid pair, at `count` positions over a base pitch, and as many as `at_ends` more where a tip
     comes into contact, and where one leaves it, and at `more` roll angles (deg); what varies replaces the pair's own.
 

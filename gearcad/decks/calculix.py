@@ -238,7 +238,7 @@ def displacements(path: Path, nodes: int) -> Floats:
 
 
 @dataclass(frozen=True)
-class Deviations:
+class CalculixDeviations:
     """In % of our own figures; the load share in % of the load, of the pair of teeth where it is farthest off.
 
     That of the pressure is the greatest of all pairs of teeth away from edges, None if there are none.
@@ -250,7 +250,7 @@ class Deviations:
     contact_pressure: float | None
 
 
-def deviations(expected: dict[str, Any], found: dict[str, Any]) -> Deviations:
+def deviations(expected: dict[str, Any], found: dict[str, Any]) -> CalculixDeviations:
     """Return the deviations of the figures `found` from those `expected`, both as a deck has them."""
     theirs = {pair["pinion"]: pair for pair in found["pairs"]}
     ours = {pair["pinion"]: pair for pair in expected["pairs"]}
@@ -262,7 +262,7 @@ def deviations(expected: dict[str, Any], found: dict[str, Any]) -> Deviations:
     ]
     roots = PerGear.each(lambda role: _root(found, expected, role))
     error = _relative(found["transmission_error"], expected["transmission_error"])
-    return Deviations(error, 100 * max(shares, key=abs), roots, max(pressures, key=abs, default=None))
+    return CalculixDeviations(error, 100 * max(shares, key=abs), roots, max(pressures, key=abs, default=None))
 
 
 def _value(pairs: dict[str, Any], name: str, figure: str) -> float:

@@ -30,7 +30,7 @@ from gearcad.geometry import GearPair
 from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.bodies.body_mesh import posed, poses
 from gearcad.meshing.bodies.element_mesh import BORE, RIM
-from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.files import element_type, write_elements, write_nodes
 
 _PAIR = """\
@@ -167,13 +167,13 @@ class PairDecks(ABC):
         """Pairs of teeth, as our solution counts them, that may touch."""
 
     @abstractmethod
-    def zones(self, roll_angle: float, role: Role) -> Mapping[int, ContactZone]:
+    def zones(self, roll_angle: float, role: Role) -> Mapping[int, ContactRefinement]:
         """Return the zones where the loaded flanks of a gear are fine, tooth by tooth. Raises ParameterError for narrow
         contacts.
         """
 
     @abstractmethod
-    def mesh(self, role: Role, zones: Mapping[int, ContactZone]) -> ElementMesh:
+    def mesh(self, role: Role, zones: Mapping[int, ContactRefinement]) -> ElementMesh:
         """A gear, or what the check has of it, in coordinates of its own."""
 
     @abstractmethod

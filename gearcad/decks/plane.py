@@ -22,7 +22,7 @@ from gearcad.decks.pair import PairDecks, ToothDeck, require_same_flanks
 from gearcad.meshing.bodies import Element, ElementMesh, Faces
 from gearcad.meshing.bodies.element_mesh import joined
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.outline import MeshSizes
 from gearcad.meshing.quads import GAUSS, edge_slopes
 
@@ -71,7 +71,7 @@ class PlaneDecks(PairDecks):
     def teeth_near(self, roll_angle: float) -> Iterable[int]:
         return [pair.tooth for pair in self.solution(roll_angle).pairs]
 
-    def zones(self, roll_angle: float, role: Role) -> Mapping[int, ContactZone]:
+    def zones(self, roll_angle: float, role: Role) -> Mapping[int, ContactRefinement]:
         solution = self.solution(roll_angle)
         centres, halves = dict[int, float](), dict[int, float]()
         for pair, pressures in zip(solution.pairs, solution.pressures, strict=True):
@@ -82,7 +82,7 @@ class PlaneDecks(PairDecks):
         self._require_wide(widest)
         wide = {tooth: max(half, _NARROWEST * widest) for tooth, half in halves.items()}
         return {
-            self.tooth(role, tooth): ContactZone(
+            self.tooth(role, tooth): ContactRefinement(
                 length=centres[tooth], half_width=_REACH * half, edge=half / _EDGES, left=self.left
             )
             for tooth, half in wide.items()
@@ -98,7 +98,7 @@ class PlaneDecks(PairDecks):
             why = f"the contact is only {2 * half:.2g} mm wide"
             raise ParameterError("load.torque", self.task.torque, f"{permitted}: {why}", "N·m")
 
-    def mesh(self, role: Role, zones: Mapping[int, ContactZone]) -> ElementMesh:
+    def mesh(self, role: Role, zones: Mapping[int, ContactRefinement]) -> ElementMesh:
         body, gear = self.task.body, self.pair.gears.pick(role)
         teeth = body.teeth_held(gear)
         if teeth is not None:

@@ -26,14 +26,14 @@ from gearcad.material import Material
 from gearcad.meshing.bodies import Element, ElementMesh
 from gearcad.meshing.bodies.body_mesh import mesh_body
 from gearcad.meshing.bodies.element_mesh import joined, rises, shape_slopes, shape_values
-from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.outline import MeshSizes
 from gearcad.meshing.quads import GAUSS
 from gearcad.meshing.sector import layer_planes
 
 
 @dataclass(frozen=True)
-class Fillet:
+class FilletFace:
     """A fillet over the whole face of a posed body of hexahedra. The middle of its tooth is at the angle `turn` (rad) about the
     gear's axis where the gear begins, and turns by `rate` (rad/mm). `upward` is 1, or -1 for a ring's tooth, which points
     inwards.
@@ -46,7 +46,7 @@ class Fillet:
     upward: int = 1
 
 
-def root_tension(fillet: Fillet, moved: Floats, material: Material) -> float:
+def root_tension(fillet: FilletFace, moved: Floats, material: Material) -> float:
     """Greatest principal tension (MPa) of a fillet by displacements (n, 3) in mm of the nodes of its mesh.
 
     Half-way along each edge of the profile, at the Gauss points over the face; from a tangent angle on, as our own check.
@@ -61,7 +61,7 @@ def root_tension(fillet: Fillet, moved: Floats, material: Material) -> float:
     return float(_greater(bases, slopes, material)[at_root].max())
 
 
-def _tangent_angles(fillet: Fillet, along: Floats, z: Floats) -> Floats:
+def _tangent_angles(fillet: FilletFace, along: Floats, z: Floats) -> Floats:
     """Angles (n,) in degrees between the profile's tangents (n, 3) at heights (n,) of the gear and the middle of the tooth."""
     own = (along[:, 0] + 1j * along[:, 1]) * np.exp(-1j * (fillet.turn + fillet.rate * z))
     result: Floats = np.degrees(np.arctan2(fillet.upward * own.imag, np.abs(own.real)))
@@ -154,7 +154,7 @@ class SolidDecks(PairDecks):
         """Teeth beside tooth 0 that both bodies have."""
         return min((self.task.body.teeth_held(gear) or gear.tooth_count) for gear in self.pair.gears) // 2
 
-    def zones(self, roll_angle: float, role: Role) -> Mapping[int, ContactZone]:
+    def zones(self, roll_angle: float, role: Role) -> Mapping[int, ContactRefinement]:
         contacts, diameter = self._contacts(roll_angle), abs(self.pair.gears.pick(role).base_diameter)
         squares = [contact.line.places.pick(role)[0][contact.forces > 0] ** 2 for contact in contacts]
         half = max(float(contact.half_widths.max()) for contact in contacts)
@@ -162,7 +162,7 @@ class SolidDecks(PairDecks):
         edge = max(_EDGE * half, 2 * max(reaches) / _MOST_EDGES, _SHORTEST * self.pair.pinion.normal_module)
         self._require_wide(half, edge)
         return {
-            self.tooth(role, contact.tooth): ContactZone(
+            self.tooth(role, contact.tooth): ContactRefinement(
                 length=math.sqrt((float(each.min()) + float(each.max())) / 2), half_width=reach, edge=edge, left=self.left
             )
             for contact, each, reach in zip(contacts, squares, reaches, strict=True)
@@ -185,7 +185,7 @@ class SolidDecks(PairDecks):
         planes[[0, -1]] = 0.0, gear.face_width
         return planes
 
-    def mesh(self, role: Role, zones: Mapping[int, ContactZone]) -> ElementMesh:
+    def mesh(self, role: Role, zones: Mapping[int, ContactRefinement]) -> ElementMesh:
         body, gear = self.task.body, self.pair.gears.pick(role)
         return mesh_body(
             gear,
@@ -201,7 +201,7 @@ class SolidDecks(PairDecks):
         """Return the greatest tension (MPa) of the fillet's surface by strains, as our own check has it."""
         gear = self.pair.gears.pick(role)
         upward, around = -1 if gear.internal else 1, turn + 2 * math.pi * tooth / gear.tooth_count
-        fillet = Fillet(mesh, self.side(role, tooth, "fillet"), around, twist(gear), upward)
+        fillet = FilletFace(mesh, self.side(role, tooth, "fillet"), around, twist(gear), upward)
         return root_tension(fillet, moved, self.task.materials.pick(role))
 
 

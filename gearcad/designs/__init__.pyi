@@ -12,7 +12,7 @@ from .reader import design_from_tables as design_from_tables
 from .reader import read_spec as read_spec
 from .spec_writers import MeshPairs as MeshPairs
 from .spec_writers import read_measurements as read_measurements
-from .table import Row as Row
+from .table import DesignRow as DesignRow
 from .table import Table as Table
 from .table import open_table as open_table
 from .train_designs import TrainDesign as TrainDesign

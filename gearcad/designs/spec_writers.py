@@ -38,7 +38,7 @@ from gearcad.load import Load
 from gearcad.material import Grade, Material, Materials, grade_of
 from gearcad.planetary.members import mesh_material, stage_material
 from gearcad.planetary.power import FactorSource, MeshLoad, PowerFlow, mesh_loads, power_flow, stage_loads
-from gearcad.planetary.search import Candidate, SearchResult
+from gearcad.planetary.search import PlanetarySet, SearchResult
 from gearcad.sizing import SizedPair, SizeTask, Sizing
 from gearcad.sizing.planetary_sets import SizedSet, SizedSets
 
@@ -394,12 +394,12 @@ def _columns(rows: Sequence[dict[str, str]]) -> list[str]:
     return sorted(keys, key=lambda key: tables.index(key.partition(".")[0]))
 
 
-def _found_sets_cells(candidate: Candidate) -> dict[str, str]:
+def _found_sets_cells(candidate: PlanetarySet) -> dict[str, str]:
     """A row by its columns."""
     return {"name": candidate.name} | {key: _plain(value) for key, value in set_keys(candidate).items()}
 
 
-def set_keys(candidate: Candidate) -> dict[str, object]:
+def set_keys(candidate: PlanetarySet) -> dict[str, object]:
     """Return the values of a set's spec by full key. The shifts of centrals follow from the centre distance.
 
     The thinning is listed so that the user can fill it in: without it no set has backlash.
@@ -427,7 +427,7 @@ def _plain(value: object) -> str:
     return f"{value:.12g}" if isinstance(value, float) else str(value)
 
 
-def _of_gear(candidate: Candidate, name: str) -> dict[str, object]:
+def _of_gear(candidate: PlanetarySet, name: str) -> dict[str, object]:
     """Return the values that belong to one gear of the set, by key."""
     own: dict[str, object] = {"teeth": candidate.teeth[name]}
     rim = name.startswith("planet")

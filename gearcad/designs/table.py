@@ -28,7 +28,7 @@ from gearcad.designs.cells import (
 from gearcad.designs.design import Design, names_file, require_plain_name, with_files_found
 from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_SETS, SHARED, Cell, DesignKind
 from gearcad.designs.reader import design_from_values
-from gearcad.designs.table_files import Record, Sheet, open_sheet
+from gearcad.designs.table_files import Record, RecordFile, open_sheet
 from gearcad.designs.train_designs import missing_fault, missing_keys
 from gearcad.designs.train_keys import ALL, TrainKey, general_key
 from gearcad.geometry.gear_parts import MODULE_OR_PITCH
@@ -193,7 +193,7 @@ _LONGEST_SHOWN = 60
 
 
 @dataclass(frozen=True)
-class Row:
+class DesignRow:
     """One design of a table: its values under their full keys, blank cells left out.
 
     `number` counts rows as a spreadsheet does. `faults` are whole messages about cells that could not be read, `unread` the
@@ -307,14 +307,14 @@ class Table:
 
     path: Path
     columns: tuple[str, ...]
-    sheet: Sheet
+    sheet: RecordFile
 
     @property
     def keys(self) -> tuple[str, ...]:
         """Full key of every column with a heading, in order; "name" is one."""
         return tuple(key for key in self.columns if key)
 
-    def rows(self) -> Iterator[Row]:
+    def rows(self) -> Iterator[DesignRow]:
         """The designs, from the first with every call. Raises SpecError where the file cannot be read on."""
         reader = CellReader(self.sheet.layout)
         with _readable(self.path):
@@ -323,7 +323,7 @@ class Table:
             for number, cells in records:
                 yield self._row(number, cells, reader)
 
-    def _row(self, number: int, cells: Sequence[RawCell], reader: CellReader) -> Row:
+    def _row(self, number: int, cells: Sequence[RawCell], reader: CellReader) -> DesignRow:
         name = self._name(cells)
         values: dict[str, Cell] = {}
         faults: list[str] = []
@@ -342,7 +342,7 @@ class Table:
         if stray := self._stray(number, cells, name):
             # The cells may have moved: none can be trusted.
             values, faults, unread = {}, [stray], []
-        return Row(number, name, values, tuple(faults), tuple(unread), str(self.path), self.columns)
+        return DesignRow(number, name, values, tuple(faults), tuple(unread), str(self.path), self.columns)
 
     def _name(self, cells: Sequence[RawCell]) -> str:
         index = self.columns.index("name")
@@ -388,7 +388,7 @@ def _readable(path: Path) -> Iterator[None]:
         raise SpecError(f"{shown_path(path)}: cannot be read ({error.strerror or error}); {hint}") from error
 
 
-def _filled(sheet: Sheet) -> Iterator[Record]:
+def _filled(sheet: RecordFile) -> Iterator[Record]:
     """The records that are neither blank nor a comment."""
     for number, cells in sheet.records():
         if not is_comment(cells) and not all(map(is_blank, cells)):

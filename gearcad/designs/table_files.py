@@ -149,7 +149,7 @@ _SEPARATOR_LINE = re.compile(r'"?sep=([,;\t])"?[\s,;]*', re.IGNORECASE)
 """A first line that Excel reads, and some programs write."""
 
 
-class Sheet(Protocol):
+class RecordFile(Protocol):
     """A file of records; `records` begins anew with every call. Raises SpecError for broken contents, OSError."""
 
     @property
@@ -158,7 +158,7 @@ class Sheet(Protocol):
     def records(self) -> Iterator[Record]: ...
 
 
-def open_sheet(path: Path) -> Sheet:
+def open_sheet(path: Path) -> RecordFile:
     """The sheet in a file: of a workbook the one in front. Raises SpecError for what is no table, OSError."""
     if path.exists() and not path.is_file() and not path.is_dir():
         raise SpecError(f"{path}: must be an ordinary file: it is read more than once")

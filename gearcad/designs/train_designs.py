@@ -20,7 +20,7 @@ from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.spec import Given
 from gearcad.designs.train_keys import ALL, MAIN, TORQUES, TRAIN, TRAIN_PARTS, TrainKey, explain_unknown_key_of_train
 from gearcad.dynamics.options import OF_PAIRS, OF_TRAINS_OF_PAIRS, DynamicsOptions
-from gearcad.dynamics.trains.members import BESIDE_PAIR, Mesh, MeshPair
+from gearcad.dynamics.trains.members import BESIDE_PAIR, MeshPair, ToothMesh
 from gearcad.dynamics.trains.train import Train, TrainModel, train_document
 from gearcad.material import Material
 from gearcad.mounting import Mounting
@@ -403,7 +403,7 @@ class _Reader:
         for number, each in enumerate(listed):
             owner = f"train.{key}[{number}]"
             given = self._table(each, owner, tuple(schema))
-            if kind is Mesh:
+            if kind is ToothMesh:
                 self._read_pair(given, owner)
             with self.blame(owner, str(given.get("name", ""))):
                 missing = [name for name, field in schema.items() if field.needed(given)]

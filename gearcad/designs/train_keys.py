@@ -29,7 +29,7 @@ from gearcad.designs.keys import (
     nearest_of,
 )
 from gearcad.dynamics.options import OF_PAIRS, OF_TRAINS_OF_PAIRS, DynamicsOptions
-from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.train import Train
 from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
 
@@ -94,7 +94,7 @@ MAIN = "train"
 ALL = "*"
 """Stands in place of a name for all parts of a kind. A part's own value counts before it."""
 
-TRAIN_PARTS: dict[str, type[DataclassInstance]] = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
+TRAIN_PARTS: dict[str, type[DataclassInstance]] = {"inertia": Inertia, "shaft": Shaft, "mesh": ToothMesh}
 """Types of the parts of a train, by the tables of its spec."""
 
 TORQUES = "torques"

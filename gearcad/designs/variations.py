@@ -286,7 +286,7 @@ class Choices:
 
 
 @dataclass(frozen=True)
-class Span:
+class KeyRange:
     """A key that takes any value between two ends, or any whole one."""
 
     key: str
@@ -302,14 +302,14 @@ class Span:
             return [int(low) + int(fraction * (high - low + 1)) for fraction in fractions]
         return [float(low + fraction * (high - low)) for fraction in fractions]
 
-    def found_from(self, _folder: Path) -> Span:
+    def found_from(self, _folder: Path) -> KeyRange:
         """Numbers are no files."""
         return self
 
 
 def read_variations(
     texts: Sequence[str], kind: DesignKind, base: Collection[str], *, sampled: bool = False
-) -> tuple[Choices | Span, ...]:
+) -> tuple[Choices | KeyRange, ...]:
     """Return the variations that several texts `KEY=VALUES` describe. Raises ParameterError, also if a key is varied twice.
 
     `base` holds the keys that the spec of the design has.
@@ -322,7 +322,7 @@ def read_variations(
     return read
 
 
-def read_variation(text: str, kind: DesignKind, base: Collection[str] = (), *, sampled: bool) -> Choices | Span:
+def read_variation(text: str, kind: DesignKind, base: Collection[str] = (), *, sampled: bool) -> Choices | KeyRange:
     """Return the variation that one text `KEY=VALUES` describes. Raises ParameterError.
 
     The keys `base` of its spec say which parts a train has.
@@ -337,7 +337,7 @@ def read_variation(text: str, kind: DesignKind, base: Collection[str] = (), *, s
     if not sampled:
         return _choices(text, key, values, _spaced(text, first, last, count))
     _require_whole(text, key, (first, last))
-    return Span(key, values, first, last, whole=general_key(key) in COUNTS)
+    return KeyRange(key, values, first, last, whole=general_key(key) in COUNTS)
 
 
 def _parted(text: str, kind: DesignKind, base: Collection[str]) -> tuple[str, str, str]:

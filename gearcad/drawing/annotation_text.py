@@ -25,7 +25,7 @@ from gearcad.drawing.shapes import (
     reach,
     text_width,
 )
-from gearcad.drawing.words import Size, Words
+from gearcad.drawing.words import SheetWords, Size
 
 _SMALL, _LEAST = 0.7, 1.8
 """Height of limit deviations and of subscripts over that of the text, and the least (mm) that one can read."""
@@ -173,7 +173,7 @@ _MOST_DECIMALS = 4
 _OF_CAD = {"\\": "\\\\", "{": "\\{", "}": "\\}", "⌀": "%%c", "±": "%%p", "°": "%%d"}
 
 
-def written_size(size: Size, words: Words, height: float = 3.5) -> Written:
+def written_size(size: Size, words: SheetWords, height: float = 3.5) -> Written:
     """Return a size as a text: value, fit, limit deviations and the E in a ring. Deviations stand one above the other, or
     behind ± if equal. An exact size is in a box.
     """
@@ -193,7 +193,7 @@ def written_size(size: Size, words: Words, height: float = 3.5) -> Written:
     return boxed(whole) if size.exact else whole
 
 
-def cad_words(size: Size, words: Words, measured: float) -> str:
+def cad_words(size: Size, words: SheetWords, measured: float) -> str:
     """Return the text of a CAD program's dimension: "%%c<> H7 {\\S+0.025^0;}".
 
     "<>" stands for what it measures, where that (mm) is what the size is.
@@ -214,11 +214,11 @@ def cad_words(size: Size, words: Words, measured: float) -> str:
     return " ".join(parts) + closing
 
 
-def _nominal(size: Size, words: Words) -> str:
+def _nominal(size: Size, words: SheetWords) -> str:
     return size.prefix + words.shortest(size.value, size.decimals) + size.suffix
 
 
-def _limits(size: Size, words: Words) -> tuple[str, str, str] | None:
+def _limits(size: Size, words: SheetWords) -> tuple[str, str, str] | None:
     """Return the deviation if both are alike (else ""), the upper and the lower deviation; None without deviations."""
     if size.upper is None or size.lower is None:
         return None
@@ -228,7 +228,7 @@ def _limits(size: Size, words: Words) -> tuple[str, str, str] | None:
     return alike, upper, lower
 
 
-def _deviation(value: float, decimals: int, words: Words) -> str:
+def _deviation(value: float, decimals: int, words: SheetWords) -> str:
     text = words.number(value, decimals, signed=True)
     return text if text[:1] in "+−" else "0"
 

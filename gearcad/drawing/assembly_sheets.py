@@ -8,8 +8,8 @@ from functools import cached_property
 
 from gearcad.core.records import Notice
 from gearcad.drawing.drawing_subjects import DrawnGear, DrawnPair, DrawnTrain, material_text
-from gearcad.drawing.gear_data_rows import Row
-from gearcad.drawing.gear_sheet import Sheet, mass_of_pair
+from gearcad.drawing.gear_data_rows import GearDataRow
+from gearcad.drawing.gear_sheet import DrawingSheet, mass_of_pair
 from gearcad.drawing.layout import Arrangement, Fixed, View, Views, arranged
 from gearcad.drawing.options import DrawingOptions, PartDrawing, SheetSize
 from gearcad.drawing.requirements import grade_of
@@ -17,8 +17,8 @@ from gearcad.drawing.sheet_frame import Furnished, Furniture, title_values
 from gearcad.drawing.sheet_tables import PartLine
 from gearcad.drawing.sheet_template import SheetTemplate
 from gearcad.drawing.views.pair_views import PairPlaces, pair_face, pair_section
-from gearcad.drawing.views.train_views import TrainPlan, pitch_radii, train_face, train_section
-from gearcad.drawing.words import Draughting, Words, titled
+from gearcad.drawing.views.train_views import PosedTrain, pitch_radii, train_face, train_section
+from gearcad.drawing.words import Draughting, SheetWords, titled
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.planetary import PlanetaryTrain
 from gearcad.solids.train_plan import stage_keys
@@ -35,14 +35,14 @@ class AssemblySheet:
     """
 
     furniture: Furniture
-    rows: Sequence[Row]
+    rows: Sequence[GearDataRow]
     views: Callable[[Draughting], tuple[View, ...]]
     title: str
     document_type: str
     extent: float
     mass: float | None = None
 
-    def drawn(self, name: str, notices: Sequence[Notice] = ()) -> Sheet:
+    def drawn(self, name: str, notices: Sequence[Notice] = ()) -> DrawingSheet:
         """Return the sheet on the paper and at the scale that the options ask for, else at those the layout finds.
 
         If the options ask for neither and the assembly would be small, larger paper is taken. Raises ParameterError where the
@@ -52,7 +52,7 @@ class AssemblySheet:
         shown = {key: value for row in self.rows for key, value in row.numbers.items()}
         if self.mass is not None:
             shown["mass"] = self.mass
-        return Sheet(
+        return DrawingSheet(
             name=name,
             title=options.title or self.title,
             number=options.number,
@@ -108,7 +108,9 @@ class Item(PartLine):
     key: str
 
 
-def pair_items(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, PartDrawing], words: Words) -> tuple[Item, ...]:
+def pair_items(
+    drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, PartDrawing], words: SheetWords
+) -> tuple[Item, ...]:
     """Return the parts list lines of a pair: the pinion, then its mate."""
     return tuple(
         _item(number, 1, part.role, part, "pinion" if number == 1 else _kind(part.gear), options, parts, words)
@@ -117,7 +119,7 @@ def pair_items(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, Pa
 
 
 def train_items(
-    drawn: DrawnTrain, plan: TrainPlan, options: DrawingOptions, parts: Mapping[str, PartDrawing], words: Words
+    drawn: DrawnTrain, plan: PosedTrain, options: DrawingOptions, parts: Mapping[str, PartDrawing], words: SheetWords
 ) -> tuple[Item, ...]:
     """Return the parts list lines of a train: its gears in their order, planets with their number, and the carrier if it is
     drawn.
@@ -135,14 +137,14 @@ def train_items(
     return tuple(found)
 
 
-def member_title(train: PlanetaryTrain, name: str, words: Words) -> str:
+def member_title(train: PlanetaryTrain, name: str, words: SheetWords) -> str:
     """Return the title of a member: a central gear or the carrier."""
     internal = {central.name: central.gear.internal for central in train.centrals}
     kind = "carrier" if name not in internal else "ring" if internal[name] else "sun"
     return titled(words, kind, name)
 
 
-def _kinds(plan: TrainPlan) -> Iterator[tuple[str, str]]:
+def _kinds(plan: PosedTrain) -> Iterator[tuple[str, str]]:
     """Yield the key of each gear with the word for its kind."""
     train = plan.train
     for central in train.centrals:
@@ -166,7 +168,7 @@ def _item(
     kind: str,
     options: DrawingOptions,
     parts: Mapping[str, PartDrawing],
-    words: Words,
+    words: SheetWords,
 ) -> Item:
     own = options.of_part(parts.get(key), alone=False)
     return Item(
@@ -179,12 +181,12 @@ def _item(
     )
 
 
-def pair_rows(drawn: DrawnPair, words: Words) -> tuple[Row, ...]:
+def pair_rows(drawn: DrawnPair, words: SheetWords) -> tuple[GearDataRow, ...]:
     """Return the rows of a pair's data table in order: axes, teeth, backlash, accuracy."""
     return tuple(_pair_rows(drawn, words))
 
 
-def _pair_rows(drawn: DrawnPair, words: Words) -> Iterator[Row]:
+def _pair_rows(drawn: DrawnPair, words: SheetWords) -> Iterator[GearDataRow]:
     pair = drawn.pair
     first = drawn.parts[0].gear
     yield distance_row(pair, words)
@@ -217,7 +219,7 @@ def _pair_rows(drawn: DrawnPair, words: Words) -> Iterator[Row]:
         yield _pair_row("accuracy", words, "", text, {f"{part.role}.tolerances.grade": grade}, item=str(number))
 
 
-def distance_row(pair: GearPair | RackPair, words: Words) -> Row:
+def distance_row(pair: GearPair | RackPair, words: SheetWords) -> GearDataRow:
     """Return the row of the centre distance with its allowance, or of a pinion's mounting distance from a rack's reference
     line (mm).
     """
@@ -231,7 +233,7 @@ def distance_row(pair: GearPair | RackPair, words: Words) -> Row:
     return _pair_row("centre_distance", words, "a", text, numbers)
 
 
-def backlash_row(name: str, symbol: str, pair: GearPair | RackPair, words: Words) -> Row:
+def backlash_row(name: str, symbol: str, pair: GearPair | RackPair, words: SheetWords) -> GearDataRow:
     """Return the row of a backlash (mm) by its name ("normal_backlash"): limits if tolerances are known, else the nominal
     value.
     """
@@ -242,17 +244,17 @@ def backlash_row(name: str, symbol: str, pair: GearPair | RackPair, words: Words
     kind = name.removesuffix("_backlash")
     found = {f"pair.backlash_limits.{kind}_{end}": getattr(limits, f"{kind}_{end}") for end in ("greatest", "least")}
     greatest, least = (words.number(value, 3) for value in found.values())
-    return Row(key=name, words=words[f"assembly.{name}"], symbol=symbol, limits=(greatest, least), numbers=found)
+    return GearDataRow(key=name, words=words[f"assembly.{name}"], symbol=symbol, limits=(greatest, least), numbers=found)
 
 
-def _teeth(drawn: DrawnPair, words: Words) -> Row:
+def _teeth(drawn: DrawnPair, words: SheetWords) -> GearDataRow:
     """Return the row with the numbers of teeth of both parts; a ring's number is negative, as in its own table."""
     counts = {f"{part.role}.teeth": float(part.gear.teeth or 0) for part in drawn.parts}
     text = " / ".join(words.number(count, 0) for count in counts.values())
     return _pair_row("teeth", words, "z_1 / z_2", text, counts, first="1", second="2")
 
 
-def _helix(gear: Gear | Rack, pair: GearPair | RackPair, words: Words) -> Row:
+def _helix(gear: Gear | Rack, pair: GearPair | RackPair, words: SheetWords) -> GearDataRow:
     """Return the row of the pinion's helix angle (degrees) and hand; a double helical pinion has both hands."""
     angle = gear.helix_angle
     hand = "right" if angle > 0 else "left"
@@ -262,9 +264,9 @@ def _helix(gear: Gear | Rack, pair: GearPair | RackPair, words: Words) -> Row:
     return _pair_row("helix_angle", words, "β", text, {"pinion.helix_angle": angle}, item="1")
 
 
-def _pair_row(key: str, words: Words, symbol: str, text: str, numbers: Mapping[str, float], **named: str) -> Row:
+def _pair_row(key: str, words: SheetWords, symbol: str, text: str, numbers: Mapping[str, float], **named: str) -> GearDataRow:
     label = words[f"assembly.{key}"].format(**named)
-    return Row(key=key, words=label, symbol=symbol, text=text, numbers=numbers)
+    return GearDataRow(key=key, words=label, symbol=symbol, text=text, numbers=numbers)
 
 
 NAME = "assembly"
@@ -277,7 +279,7 @@ _SAME_PITCH = 5e-4
 """Difference of diameters (mm) that three decimals do not show."""
 
 
-def draw_pair(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, PartDrawing] | None = None) -> Sheet:
+def draw_pair(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, PartDrawing] | None = None) -> DrawingSheet:
     """Return the sheet of a pair; `parts` are the options of the parts' own sheets, by their roles ("pinion", "wheel",
     "rack").
 
@@ -308,7 +310,7 @@ def draw_pair(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, Par
     return sheet.drawn(NAME, tuple(_pair_notices(pair)))
 
 
-def _pair_remarks(drawn: DrawnPair, words: Words) -> Iterator[str]:
+def _pair_remarks(drawn: DrawnPair, words: SheetWords) -> Iterator[str]:
     """Yield notes on the views: pitch circles that differ from the reference circles, and an outside diameter that is
     assumed.
     """
@@ -338,14 +340,14 @@ def _pair_notices(pair: GearPair | RackPair) -> Iterator[Notice]:
         yield Notice("rim-assumed", "the outside that is drawn is assumed: body.rim_diameter is not given", where="wheel")
 
 
-def train_rows(plan: TrainPlan, items: Mapping[str, int], words: Words) -> tuple[Row, ...]:
+def train_rows(plan: PosedTrain, items: Mapping[str, int], words: SheetWords) -> tuple[GearDataRow, ...]:
     """Return the rows of a train's data table in order: train, meshes, stages. `items` are item numbers by the keys of
     gears.
     """
     return tuple(_train_rows(plan.train, items, words))
 
 
-def _train_rows(train: PlanetaryTrain, items: Mapping[str, int], words: Words) -> Iterator[Row]:
+def _train_rows(train: PlanetaryTrain, items: Mapping[str, int], words: SheetWords) -> Iterator[GearDataRow]:
     titles = {name: member_title(train, name, words) for name in (train.input, train.output)}
     if train.ratio is not None:
         numbers = {"planetary.ratio": train.ratio}
@@ -366,11 +368,13 @@ def _train_rows(train: PlanetaryTrain, items: Mapping[str, int], words: Words) -
         row = distance_row(stage.pair, words)
         label = words["assembly.stage_distance"].format(**_pair_of(gears, items))
         numbers = {name.replace("pair", of_stage, 1): value for name, value in row.numbers.items()}
-        yield Row(key="stage_distance", words=label, symbol=row.symbol, text=row.text, numbers=numbers)
+        yield GearDataRow(key="stage_distance", words=label, symbol=row.symbol, text=row.text, numbers=numbers)
         yield from _mesh(gears, stage.pair, of_stage, items, words)
 
 
-def _mesh(gears: Mapping[str, Gear], pair: GearPair, where: str, items: Mapping[str, int], words: Words) -> Iterator[Row]:
+def _mesh(
+    gears: Mapping[str, Gear], pair: GearPair, where: str, items: Mapping[str, int], words: SheetWords
+) -> Iterator[GearDataRow]:
     """Yield the rows of two gears in mesh: module, teeth and backlash. `where` is the path of the pair in documents."""
     first, _ = gears
     numbers = {f"{first}.normal_module": pair.pinion.normal_module}
@@ -381,7 +385,7 @@ def _mesh(gears: Mapping[str, Gear], pair: GearPair, where: str, items: Mapping[
     row = backlash_row("normal_backlash", "j_bn", pair, words)
     found = {name.replace("pair", where, 1): value for name, value in row.numbers.items()}
     label = words["assembly.mesh_backlash"].format(**_pair_of(gears, items))
-    yield Row(key="mesh_backlash", words=label, symbol="j_bn", text=row.text, limits=row.limits, numbers=found)
+    yield GearDataRow(key="mesh_backlash", words=label, symbol="j_bn", text=row.text, limits=row.limits, numbers=found)
 
 
 def _pair_of(gears: Mapping[str, Gear], items: Mapping[str, int]) -> dict[str, str]:
@@ -390,22 +394,22 @@ def _pair_of(gears: Mapping[str, Gear], items: Mapping[str, int]) -> dict[str, s
     return {"first": first, "second": second}
 
 
-def _train_row(key: str, words: Words, symbol: str, text: str, numbers: Mapping[str, float], **named: str) -> Row:
-    return Row(key=key, words=words[f"assembly.{key}"].format(**named), symbol=symbol, text=text, numbers=numbers)
+def _train_row(key: str, words: SheetWords, symbol: str, text: str, numbers: Mapping[str, float], **named: str) -> GearDataRow:
+    return GearDataRow(key=key, words=words[f"assembly.{key}"].format(**named), symbol=symbol, text=text, numbers=numbers)
 
 
 _EVEN = 1e-3
 """Difference (degrees) up to which planets are equally spaced."""
 
 
-def draw_train(drawn: DrawnTrain, options: DrawingOptions, parts: Mapping[str, PartDrawing] | None = None) -> Sheet:
+def draw_train(drawn: DrawnTrain, options: DrawingOptions, parts: Mapping[str, PartDrawing] | None = None) -> DrawingSheet:
     """Return the sheet of a train; `parts` are the options of the gears' own sheets, by the names of members, rims and stage
     gears.
 
     Raises ParameterError where sheet or scale asked for have no room for it.
     """
     template = SheetTemplate.of(options.template)
-    words, plan = template.words(options.language), TrainPlan(drawn.train)
+    words, plan = template.words(options.language), PosedTrain(drawn.train)
     lines = train_items(drawn, plan, options, parts or {}, words)
     items = {line.key: line.item for line in lines}
     rows = train_rows(plan, items, words)
@@ -429,7 +433,7 @@ def draw_train(drawn: DrawnTrain, options: DrawingOptions, parts: Mapping[str, P
     return sheet.drawn(NAME, tuple(_train_notices(plan)))
 
 
-def _train_remarks(plan: TrainPlan, items: Mapping[str, int], words: Words) -> Iterator[str]:
+def _train_remarks(plan: PosedTrain, items: Mapping[str, int], words: SheetWords) -> Iterator[str]:
     """Yield notes on the views: their section, the carrier, stages, planet angles, pitch circles and assumed outside
     diameters.
     """
@@ -455,7 +459,7 @@ def _train_remarks(plan: TrainPlan, items: Mapping[str, int], words: Words) -> I
             yield words["assembly.note_rim"].format(item=items[key])
 
 
-def _differs(key: str, plan: TrainPlan) -> bool:
+def _differs(key: str, plan: PosedTrain) -> bool:
     """Return whether a gear has a pitch circle that differs from its reference circle."""
     body = plan.layout.bodies.get(key)
     if body is None:
@@ -464,12 +468,12 @@ def _differs(key: str, plan: TrainPlan) -> bool:
     return any(abs(radius - reference) > _SAME_PITCH / 2 for radius in pitch_radii(plan.train, key))
 
 
-def _pitch(key: str, plan: TrainPlan, items: Mapping[str, int], words: Words) -> str:
+def _pitch(key: str, plan: PosedTrain, items: Mapping[str, int], words: SheetWords) -> str:
     """Return the item number and working pitch diameters (mm) of a gear as a text."""
     return f"{items[key]}: " + " / ".join(f"⌀{words.number(2 * radius, 3)}" for radius in pitch_radii(plan.train, key))
 
 
-def _train_notices(plan: TrainPlan) -> Iterator[Notice]:
+def _train_notices(plan: PosedTrain) -> Iterator[Notice]:
     yield Notice(
         "no-limits", "the sheet has it without limits: trains have none here, say them in notes", where="centre distance"
     )

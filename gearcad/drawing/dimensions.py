@@ -16,7 +16,7 @@ from gearcad.drawing.shapes import (
     Figure,
     Filled,
     Line,
-    Measured,
+    MeasuredDistance,
     Pen,
     Point,
     Polyline,
@@ -495,7 +495,7 @@ class _Drawn:
         upright = self.side.is_upright
         place = (out - lift, middle) if upright else (middle, out + lift)
         texts = text.at(place, Anchor.CENTRE, 90.0 if upright else 0.0)
-        measured = Measured.VERTICAL if upright else Measured.HORIZONTAL
+        measured = MeasuredDistance.VERTICAL if upright else MeasuredDistance.HORIZONTAL
         length = abs(self.side.along(self.second) - self.side.along(self.first)) / self.draughting.scale
         words = cad_words(self.size, self.draughting.words, length)
         on_line = self.side.point(middle, out)

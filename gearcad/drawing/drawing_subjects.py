@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from gearcad.core.records import is_assumed
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.words import Words
+from gearcad.drawing.words import SheetWords
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.gear_parts import HubSide
 from gearcad.material import Material, MaterialGroup, grade_of
@@ -88,7 +88,7 @@ _STEEL = Material().name
 """The name of a material that nobody named."""
 
 
-def material_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> str:
+def material_text(drawn: DrawnGear, options: DrawingOptions, words: SheetWords) -> str:
     """Return the material as the sheet names it: as given for the sheet, else the name of the material; "" if unknown.
 
     A material without a name is called by its group. Without a group either, the text says that steel is assumed.
@@ -106,7 +106,7 @@ def material_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> st
     return f"{words['data.steel']} ({words['data.assumed']})" if unknown else words["data.steel"]
 
 
-def treatment_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> str:
+def treatment_text(drawn: DrawnGear, options: DrawingOptions, words: SheetWords) -> str:
     """Return the heat treatment as given, else the treatment of the material group with its hardness; "" if unknown. The case
     depth follows.
     """
@@ -117,7 +117,7 @@ def treatment_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> s
     return ", ".join(filter(None, (text, depth)))
 
 
-def _of_group(material: Material, words: Words) -> str:
+def _of_group(material: Material, words: SheetWords) -> str:
     group = material.group
     treated = "" if group is None else words[f"data.group_{group.name.lower()}"]
     if material.hardness is None:

@@ -19,7 +19,7 @@ from gearcad.drawing.shapes import (
     Filled,
     Hatching,
     Line,
-    Measured,
+    MeasuredDistance,
     Pen,
     Polyline,
     Shape,
@@ -136,7 +136,7 @@ def add_dimension(dimension: Dimension, space: BaseLayout, attributes: dict[str,
 
 def _points(dimension: Dimension) -> dict[str, Any]:
     """Return the DXF attributes of a dimension's type, direction, measured points and line."""
-    upright = dimension.measured is Measured.VERTICAL
+    upright = dimension.measured is MeasuredDistance.VERTICAL
     end = (dimension.line[0], dimension.second[1]) if upright else (dimension.second[0], dimension.line[1])
     kind = _LINEAR | _OWN_BLOCK | _TEXT_STAYS
     return {
@@ -162,7 +162,7 @@ def is_drawn_alike(dimension: Dimension) -> bool:
 
 def _axis(dimension: Dimension) -> int:
     """Return the axis along which a dimension measures: 0 for x, 1 for y."""
-    return 1 if dimension.measured is Measured.VERTICAL else 0
+    return 1 if dimension.measured is MeasuredDistance.VERTICAL else 0
 
 
 def _length(dimension: Dimension) -> float:

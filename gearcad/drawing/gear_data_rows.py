@@ -11,7 +11,7 @@ from gearcad.core.records import Notice
 from gearcad.drawing.drawing_subjects import DrawnGear, Mate, material_text, treatment_text
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import flank_roughness, grade_of
-from gearcad.drawing.words import Words, kind_of, titled
+from gearcad.drawing.words import SheetWords, kind_of, titled
 from gearcad.geometry import NAMED_RACKS, FlankModification, Gear, Rack, RackPair, ReliefShape
 from gearcad.geometry.gear_data import corner_radius, shaped
 from gearcad.geometry.gear_parts import HALF_PITCH
@@ -20,7 +20,7 @@ from gearcad.rating.tolerances import Accuracy, covered, gear_tolerances
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class GearDataRow:
     """A row of the table: a quantity by its words, its symbol ("d_b" has an index) and its value as a text. Lengths are in mm.
 
     `limits` are the greatest and the least value (or allowance), one above the other behind the text, which may be empty.
@@ -42,37 +42,39 @@ class RowWriter:
     key.
     """
 
-    words: Words
+    words: SheetWords
     decimals: int = 3
 
     def word(self, key: str) -> str:
         """Return the words of a key."""
         return self.words[f"data.{key}"]
 
-    def text(self, key: str, text: str, symbol: str = "", numbers: Mapping[str, float] | None = None, **named: str) -> Row:
+    def text(
+        self, key: str, text: str, symbol: str = "", numbers: Mapping[str, float] | None = None, **named: str
+    ) -> GearDataRow:
         """Return a row with a text; the `named` values replace names in braces in its words."""
-        return Row(key=key, words=self.word(key).format(**named), symbol=symbol, text=text, numbers=numbers or {})
+        return GearDataRow(key=key, words=self.word(key).format(**named), symbol=symbol, text=text, numbers=numbers or {})
 
-    def length(self, key: str, value: float, symbol: str = "", name: str = "") -> Row:
+    def length(self, key: str, value: float, symbol: str = "", name: str = "") -> GearDataRow:
         """Return the row of a length (mm), a ring's without its sign, under its name in data.json (else the key)."""
         return self.text(key, self.words.number(abs(value), self.decimals), symbol, {name or key: value})
 
-    def plain(self, key: str, value: float, symbol: str = "", unit: str = "", name: str = "") -> Row:
+    def plain(self, key: str, value: float, symbol: str = "", unit: str = "", name: str = "") -> GearDataRow:
         """Return the row of a number with no more digits than it has, at most six of them decimals."""
         return self.text(key, f"{self.words.shortest(value, 6)}{unit}", symbol, {name or key: value})
 
-    def between(self, key: str, symbol: str, limits: Mapping[str, float], **named: str) -> Row:
+    def between(self, key: str, symbol: str, limits: Mapping[str, float], **named: str) -> GearDataRow:
         """Return the row of the greatest and the least length (mm), each under its name."""
         greatest, least = (self.words.number(value, self.decimals) for value in limits.values())
         words = self.word(key).format(**named)
-        return Row(key=key, words=words, symbol=symbol, limits=(greatest, least), numbers=limits)
+        return GearDataRow(key=key, words=words, symbol=symbol, limits=(greatest, least), numbers=limits)
 
 
 _SAME = 1e-9
 """Difference of coefficients that is rounding."""
 
 
-def teeth_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
+def teeth_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the rows that gears and racks have in common: kind, module, teeth, basic rack, pressure angle, helix angle and
     hand.
     """
@@ -98,7 +100,7 @@ def _double(part: Gear | Rack) -> bool:
     return isinstance(part, Gear) and part.double_helix.present
 
 
-def _hand(drawn: DrawnGear, write: RowWriter) -> Row:
+def _hand(drawn: DrawnGear, write: RowWriter) -> GearDataRow:
     """Return the row of the hand: right if the helix angle is positive. A double helical gear has two, in the order of the
     section; the half at z = 0 has the hand of the angle.
     """
@@ -109,7 +111,7 @@ def _hand(drawn: DrawnGear, write: RowWriter) -> Row:
     return write.text("hand", hands[0])
 
 
-def rack_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
+def rack_rows(part: Gear | Rack, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the rows of the basic rack: its name in ISO 53, else its coefficients."""
     dedendum = part.dedendum if isinstance(part, Gear) else part.rack.dedendum
     own = abs(dedendum - part.rack.dedendum) < _SAME
@@ -127,7 +129,7 @@ def rack_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
         yield write.plain("rack_root_radius", float(part.rack.root_radius), "ρ_fP*", name="rack.root_radius")
 
 
-def diameter_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
+def diameter_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the rows of profile shift, reference, base and root circle, tip alteration, and start of the involute."""
     shift = write.words.number(gear.profile_shift, 4, signed=True)
     sign = "profile_shift_of_ring" if gear.internal else "profile_shift"
@@ -150,13 +152,13 @@ _UNFIT = {
 """Notices of a gear that a gauge does not fit, and the keys of the words for the reason."""
 
 
-def thickness_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
+def thickness_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the rows of a gear's tooth thickness: allowance, thickness, span, and size over or between balls and pins."""
     allowance = gear.thickness_allowance
     if allowance is not None and gear.tooth_allowance is not None:
         bounds = {"thickness_limits.allowance_upper": allowance.upper, "thickness_limits.allowance_lower": allowance.lower}
         upper, lower = (f"{write.words.number(value, 0, signed=True)} µm" for value in bounds.values())
-        yield Row(
+        yield GearDataRow(
             key="tooth_allowance",
             words=write.word("tooth_allowance"),
             symbol="A_sn",
@@ -177,7 +179,7 @@ def thickness_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
         yield _gauge(gear, write, "over_pins", "M_dR")
 
 
-def _gauge(gear: Gear, write: RowWriter, name: str, symbol: str, *, words: str = "", **named: str) -> Row:
+def _gauge(gear: Gear, write: RowWriter, name: str, symbol: str, *, words: str = "", **named: str) -> GearDataRow:
     """Return the row of a gauge's reading (mm): its limits, else the one value, else the reason why there is none."""
     key = words or name
     if (reason := _reason(gear, name)) is not None:
@@ -218,14 +220,14 @@ _TOLERANCES = {
 """Tolerances of the table: their keys in documents, and their symbols."""
 
 
-def grade_row(drawn: DrawnGear, write: RowWriter) -> Row:
+def grade_row(drawn: DrawnGear, write: RowWriter) -> GearDataRow:
     """Return the row of accuracy grade, standard and year; a grade that was not given is marked as assumed."""
     grade = grade_of(drawn)
     assumed = f" ({write.word('assumed')})" if drawn.grade is None else ""
     return write.text("accuracy", f"{grade}{assumed}", "", {"tolerances.grade": grade}, standard=drawn.accuracy.value)
 
 
-def tolerance_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
+def tolerance_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the rows of the tolerances (µm) of pitch, profile, helix and run-out. Where the standard does not cover the gear,
     the row names the exceeded limit.
     """
@@ -271,7 +273,7 @@ def _why(error: ParameterError, accuracy: Accuracy, write: RowWriter) -> str:
 _SYMBOLS = symbols_of(FlankModification)
 
 
-def roughness_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
+def roughness_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the rows of the roughness (µm) of flanks, and of roots if it is given."""
     flanks = flank_roughness(drawn)
     text = f"{flanks.text(write.words.shortest(flanks.value, 2))} µm"
@@ -281,7 +283,7 @@ def roughness_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
         yield write.text("root_roughness", f"Rz {write.words.shortest(root, 2)} µm", "", {"root_roughness": root})
 
 
-def modification_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
+def modification_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the rows of the modifications in use: amount (µm), length of a relief and its transition (mm). A last row refers
     to the diagram.
     """
@@ -303,7 +305,7 @@ def modification_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
         yield write.text("modifications", write.word("see_diagram"))
 
 
-def cutter_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
+def cutter_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the row of the corner radius that makes the fillets of a shaped gear or a ring. Rows of the shaper cutter follow
     if there is one.
     """
@@ -318,14 +320,14 @@ def cutter_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
     yield write.length("cutter_tip_diameter", gear.cutter_tip_diameter, "d_a0")
 
 
-def chamfer_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
+def chamfer_rows(part: Gear | Rack, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the row of the chamfer along the tip edges of every tooth (mm), if there is one."""
     name, height = ("tip_chamfer", part.tip_chamfer) if isinstance(part, Rack) else ("body.tip_chamfer", part.body.tip_chamfer)
     if height:
         yield write.text("tip_chamfer", f"{write.words.shortest(height)} × 45°", "h_K", {name: height})
 
 
-def double_helix_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
+def double_helix_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the row of the offset between the halves' teeth: of the left half in the section to the right one.
 
     It is positive counter-clockwise as seen from the left. This is the direction of the upper half as seen from beyond it, or
@@ -337,7 +339,7 @@ def double_helix_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
         yield write.text("half_offset", shown, "", {"double_helix.offset": offset})
 
 
-def material_rows(drawn: DrawnGear, write: RowWriter, options: DrawingOptions) -> Iterator[Row]:
+def material_rows(drawn: DrawnGear, write: RowWriter, options: DrawingOptions) -> Iterator[GearDataRow]:
     """Yield the rows of material and heat treatment, as far as they are known."""
     for key, text in (
         ("material", material_text(drawn, options, write.words)),
@@ -347,7 +349,7 @@ def material_rows(drawn: DrawnGear, write: RowWriter, options: DrawingOptions) -
             yield write.text(key, text)
 
 
-def mate_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
+def mate_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the rows of each mate: its distance (mm), and its teeth and number, or title. With several mates the keys begin
     with their names.
 
@@ -363,19 +365,19 @@ def mate_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
         yield _led(_teeth(mate, write), lead)
 
 
-def _led(row: Row, lead: str) -> Row:
+def _led(row: GearDataRow, lead: str) -> GearDataRow:
     """Return a row with `lead` before its key and the keys of its numbers."""
     return replace(row, key=f"{lead}{row.key}", numbers={f"{lead}{key}": value for key, value in row.numbers.items()})
 
 
-def _teeth(mate: Mate, write: RowWriter) -> Row:
+def _teeth(mate: Mate, write: RowWriter) -> GearDataRow:
     teeth = mate.gear.teeth
     assert teeth is not None  # a rack has counted its own
     name = mate.number or titled(write.words, kind_of(mate.name, mate.gear), mate.gear.name, mate.name)
     return write.text("mate", f"{write.words.number(teeth, 0)} / {name}", "z", {"mate.teeth": teeth})
 
 
-def _distance(mate: Mate, write: RowWriter) -> Row:
+def _distance(mate: Mate, write: RowWriter) -> GearDataRow:
     pair = mate.pair
     if isinstance(pair, RackPair):
         return write.length("mounting_distance", pair.mounting_distance, "H", "pair.mounting_distance")
@@ -392,7 +394,7 @@ _SMALL_MODULE = 0.3
 """Module (mm) below which lengths have one more decimal."""
 
 
-def gear_rows(drawn: DrawnGear, words: Words, options: DrawingOptions | None = None) -> tuple[Row, ...]:
+def gear_rows(drawn: DrawnGear, words: SheetWords, options: DrawingOptions | None = None) -> tuple[GearDataRow, ...]:
     """Return the rows of an external gear, a ring, a rack or a double helical gear; every key stands once.
 
     `options` are those that hold for it (`DrawingOptions.of_part`), in whose words material and heat treatment stand.
@@ -402,7 +404,7 @@ def gear_rows(drawn: DrawnGear, words: Words, options: DrawingOptions | None = N
     return (*own, *material_rows(drawn, write, options or DrawingOptions()))
 
 
-def _gear(drawn: DrawnGear, gear: Gear, write: RowWriter) -> Iterator[Row]:
+def _gear(drawn: DrawnGear, gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
     yield from teeth_rows(drawn, write)
     yield from diameter_rows(gear, write)
     yield from double_helix_rows(gear, write)
@@ -416,7 +418,7 @@ def _gear(drawn: DrawnGear, gear: Gear, write: RowWriter) -> Iterator[Row]:
     yield from chamfer_rows(gear, write)
 
 
-def _rack(drawn: DrawnGear, rack: Rack, write: RowWriter) -> Iterator[Row]:
+def _rack(drawn: DrawnGear, rack: Rack, write: RowWriter) -> Iterator[GearDataRow]:
     yield from teeth_rows(drawn, write)
     yield write.length("normal_pitch", rack.normal_pitch, "p_n")
     if rack.helix_angle:

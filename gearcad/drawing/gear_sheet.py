@@ -12,7 +12,7 @@ from gearcad.core.records import Notice
 from gearcad.drawing.drawing_subjects import DrawnGear, DrawnPair
 from gearcad.drawing.drawing_symbols import general_roughness
 from gearcad.drawing.dxf_export import sheet_document
-from gearcad.drawing.gear_data_rows import Row, gear_notices, gear_rows
+from gearcad.drawing.gear_data_rows import GearDataRow, gear_notices, gear_rows
 from gearcad.drawing.layout import Arrangement, Fixed, View, Views, arranged
 from gearcad.drawing.options import DrawingOptions, PartDrawing, SheetSize
 from gearcad.drawing.requirements import Requirements
@@ -22,7 +22,7 @@ from gearcad.drawing.sheet_template import SheetTemplate
 from gearcad.drawing.views import gear_views, rack_views, ring_views
 from gearcad.drawing.views.modification_diagrams import modification_figures
 from gearcad.drawing.views.tooth_detail import detail_mark, detail_scale, tooth_figure
-from gearcad.drawing.words import Draughting, Language, Size, Words, kind_of, titled
+from gearcad.drawing.words import Draughting, Language, SheetWords, Size, kind_of, titled
 from gearcad.geometry import Gear, Rack
 from gearcad.solids import tessellate, tessellate_rack
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sheet:
+class DrawingSheet:
     """One sheet of a drawing: `name` is the name of its files ("pinion", "assembly"), `number` its identification number.
 
     `size` is width and height of the paper (mm); `scale` is mm of paper for a mm of the part. `shown` are the numbers on the
@@ -64,7 +64,7 @@ class Drawing:
     """The sheets of a design, in order."""
 
     name: str
-    sheets: tuple[Sheet, ...]
+    sheets: tuple[DrawingSheet, ...]
 
     @property
     def notices(self) -> tuple[Notice, ...]:
@@ -126,7 +126,7 @@ def _with_detail(view: View, drawn: DrawnGear, draughting: Draughting) -> View:
     return replace(view, annotations=(*view.annotations, lambda: detail_mark(drawn, view.figure, draughting.scale)))
 
 
-def detail_blocks(drawn: DrawnGear, words: Words) -> tuple[View, ...]:
+def detail_blocks(drawn: DrawnGear, words: SheetWords) -> tuple[View, ...]:
     """Return the detail of a tooth, then the diagrams of its modifications; these views have scales of their own."""
     detail = tooth_figure(drawn, Draughting(words, detail_scale(drawn)))
     diagrams = modification_figures(drawn, Draughting(words))
@@ -143,7 +143,9 @@ _USUAL_CHAMFER = 45.0
 """Angle (degrees) of chamfers that is the same from either side."""
 
 
-def draw_gear(drawn: DrawnGear, options: DrawingOptions, part: PartDrawing | None = None, *, alone: bool = True) -> Sheet:
+def draw_gear(
+    drawn: DrawnGear, options: DrawingOptions, part: PartDrawing | None = None, *, alone: bool = True
+) -> DrawingSheet:
     """Return the sheet of an external gear, a ring or a rack, with the options of [drawing] and of the gear's own table.
 
     `alone` means that it is the only gear of its design: it then takes number, title and revisions from [drawing]. Raises
@@ -152,7 +154,7 @@ def draw_gear(drawn: DrawnGear, options: DrawingOptions, part: PartDrawing | Non
     content = _Content.of(drawn, options.of_part(part, alone=alone))
     own = content.options
     found, notices = content.arranged()
-    return Sheet(
+    return DrawingSheet(
         name=drawn.role,
         title=content.title,
         number=own.number,
@@ -172,9 +174,9 @@ class _Content:
     drawn: DrawnGear
     options: DrawingOptions
     template: SheetTemplate
-    words: Words
+    words: SheetWords
     requirements: Requirements
-    rows: tuple[Row, ...]
+    rows: tuple[GearDataRow, ...]
 
     @classmethod
     def of(cls, drawn: DrawnGear, options: DrawingOptions) -> _Content:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from gearcad.core.errors import ParameterError
 from gearcad.drawing.options import SCALES, Projection, SheetSize
 from gearcad.drawing.placement import Occupied, Room
-from gearcad.drawing.shapes import Box, Dimension, Figure, Measured, Point
+from gearcad.drawing.shapes import Box, Dimension, Figure, MeasuredDistance, Point
 
 Candidates = Callable[[], Iterable[Figure]]
 """One mark in all places where it may stand, best first."""
@@ -129,7 +129,7 @@ class _Places:
 class _Beside(NamedTuple):
     """Order of a linear dimension: its direction, whether its line is above (right of) the measured points, and its length."""
 
-    measured: Measured
+    measured: MeasuredDistance
     above: bool
     length: float
 
@@ -152,7 +152,7 @@ def _beside(first: Figure) -> _Beside | None:
     dimension = first.shapes[0]
     if not isinstance(dimension, Dimension):
         return None
-    axis = 0 if dimension.measured is Measured.HORIZONTAL else 1
+    axis = 0 if dimension.measured is MeasuredDistance.HORIZONTAL else 1
     above = 2 * dimension.line[1 - axis] > dimension.first[1 - axis] + dimension.second[1 - axis]
     return _Beside(dimension.measured, above, abs(dimension.second[axis] - dimension.first[axis]))
 

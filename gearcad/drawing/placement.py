@@ -8,7 +8,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gearcad.core.records import Bools, Floats
-from gearcad.drawing.shapes import Box, Dimension, Figure, Hatching, Line, Measured, Pen, Point, Polyline, Segment, Shape
+from gearcad.drawing.shapes import (
+    Box,
+    Dimension,
+    Figure,
+    Hatching,
+    Line,
+    MeasuredDistance,
+    Pen,
+    Point,
+    Polyline,
+    Segment,
+    Shape,
+)
 
 _AIR = 0.6
 """Least distance of a text from other texts and lines."""
@@ -40,7 +52,9 @@ class Occupied:
         """Occupy the places of figures. Nothing may enter the `taken` areas or leave the area `within`."""
         self._texts, self._symbols = _no_rows(), _no_rows()
         self._segments, self._marks = _no_rows(), _no_rows()
-        self._spans: dict[Measured, Floats] = {each: _no_rows(3) for each in (Measured.HORIZONTAL, Measured.VERTICAL)}
+        self._spans: dict[MeasuredDistance, Floats] = {
+            each: _no_rows(3) for each in (MeasuredDistance.HORIZONTAL, MeasuredDistance.VERTICAL)
+        }
         self._hatched: list[Floats] = []
         self._taken, self._within = list(taken), within
         for figure in figures:
@@ -86,10 +100,10 @@ class Occupied:
         lines = _mark_lines(figure)
         return int(_intersecting(lines, self._marks).sum() + _doubled(lines, self._marks).sum())
 
-    def _too_near(self, figure: Figure, measured: Measured) -> bool:
+    def _too_near(self, figure: Figure, measured: MeasuredDistance) -> bool:
         """Return whether a dimension line would run beside another, or beside any other line."""
         spans = _spans(figure, measured)
-        lines = self._segments if measured is Measured.HORIZONTAL else self._segments[:, [1, 0, 3, 2]]
+        lines = self._segments if measured is MeasuredDistance.HORIZONTAL else self._segments[:, [1, 0, 3, 2]]
         level = lines[np.abs(lines[:, 1] - lines[:, 3]) <= _LEVEL * np.abs(lines[:, 0] - lines[:, 2])]
         heights = (level[:, 1] + level[:, 3]) / 2
         others = np.stack([np.minimum(level[:, 0], level[:, 2]), np.maximum(level[:, 0], level[:, 2]), heights], axis=1)
@@ -129,14 +143,14 @@ def _mark_lines(figure: Figure) -> Floats:
     return _as_rows([(line.start, line.end) for line in lines])
 
 
-def _spans(figure: Figure, measured: Measured) -> Floats:
+def _spans(figure: Figure, measured: MeasuredDistance) -> Floats:
     """Return the dimension lines of one direction as (from, to, height), shape (n, 3). For vertical lines y is along, x the
     height.
     """
     found = []
     for shape in figure.shapes:
         if isinstance(shape, Dimension) and shape.measured is measured:
-            turn = 1 if measured is Measured.HORIZONTAL else -1
+            turn = 1 if measured is MeasuredDistance.HORIZONTAL else -1
             for part in shape.parts:
                 if isinstance(part, Line):
                     (low, height), (high, other) = part.start[::turn], part.end[::turn]

@@ -15,7 +15,7 @@ from gearcad.core.quantities import is_given
 from gearcad.core.records import Notice
 from gearcad.drawing.drawing_subjects import DrawnGear, material_text, treatment_text
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.words import Size, Words, as_hole, diameter, half_tolerance, toleranced
+from gearcad.drawing.words import SheetWords, Size, as_hole, diameter, half_tolerance, toleranced
 from gearcad.geometry import Body, Gear, Rack
 from gearcad.geometry.fits import LARGEST_SIZE, grade_of_class, require_shaft, standard_tolerance
 from gearcad.geometry.gear_parts import HALF_PITCH, depth_allowance
@@ -181,15 +181,15 @@ class Requirements:
             **deviations,
         )
 
-    def material(self, words: Words) -> str:
+    def material(self, words: SheetWords) -> str:
         """Return the material as the sheet names it; "" if unknown."""
         return material_text(self.drawn, self.options, words)
 
-    def heat_treatment(self, words: Words) -> str:
+    def heat_treatment(self, words: SheetWords) -> str:
         """Return the heat treatment in the words of a language; "" if unknown."""
         return treatment_text(self.drawn, self.options, words)
 
-    def tooth_notes(self, words: Words) -> tuple[str, ...]:
+    def tooth_notes(self, words: SheetWords) -> tuple[str, ...]:
         """Return the notes on facts that have no place in the table.
 
         These are undercut fillets, the offset direction of a double helical gear's halves, and values that follow from the

@@ -510,7 +510,7 @@ def _texts_of(shape: Shape) -> Iterable[Text]:
     return (each for each in getattr(shape, "parts", ()) if isinstance(each, Text))
 
 
-class Measured(Enum):
+class MeasuredDistance(Enum):
     """The distance of two points that a dimension gives."""
 
     HORIZONTAL = "horizontal"
@@ -526,7 +526,7 @@ class Dimension(Shape):
     paper for a mm of the part, None for the scale of the sheet: details have their own.
     """
 
-    measured: Measured
+    measured: MeasuredDistance
     first: Point
     second: Point
     line: Point

@@ -23,7 +23,7 @@ from gearcad.drawing.sheet_tables import (
     shortened_notice,
 )
 from gearcad.drawing.sheet_template import CAPTION_TOP, DataTableSizes, FrameSizes, SheetTemplate, TitleCell
-from gearcad.drawing.words import Words
+from gearcad.drawing.words import SheetWords
 
 _AIR = 6.0
 """Least distance of views from the frame, where centring marks reach."""
@@ -139,7 +139,7 @@ _OWNER = "the title block"
 
 def title_values(
     options: DrawingOptions,
-    words: Words,
+    words: SheetWords,
     *,
     title: str,
     document_type: str,
@@ -180,7 +180,7 @@ def title_values(
     }
 
 
-def _mass(mass: float, words: Words) -> str:
+def _mass(mass: float, words: SheetWords) -> str:
     """Return a mass (kg) as a text with three digits, in kg, or in g below 0.1 kg."""
     value, unit = (mass, "kg") if mass >= 0.1 else (mass * 1e3, "g")
     digits = f"{value:.3g}"
@@ -188,7 +188,7 @@ def _mass(mass: float, words: Words) -> str:
     return f"{words.number(float(digits), decimals)} {unit}"
 
 
-def title_block(values: Mapping[str, str], template: SheetTemplate, words: Words, projection: Projection) -> Framed:
+def title_block(values: Mapping[str, str], template: SheetTemplate, words: SheetWords, projection: Projection) -> Framed:
     """Return the title block, its lower right corner at (0, 0)."""
     sizes = template.title
     whole = Box(0.0, 0.0, sizes.width, sizes.height)
@@ -224,7 +224,7 @@ def _joined(spans: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def _cell(
-    name: str, cell: TitleCell, values: Mapping[str, str], words: Words, caption_height: float, projection: Projection
+    name: str, cell: TitleCell, values: Mapping[str, str], words: SheetWords, caption_height: float, projection: Projection
 ) -> Framed:
     """Return the caption and the value, or the symbol, of a cell."""
     box, room = cell.box, cell.width - 2 * _MARGIN
@@ -260,7 +260,7 @@ def _between(figure: Figure, floor: float, ceiling: float) -> Figure:
     return figure.moved(0.0, min(0.0, ceiling - box.top) + max(0.0, floor - box.bottom))
 
 
-def _caption(name: str, cell: TitleCell, words: Words) -> str:
+def _caption(name: str, cell: TitleCell, words: SheetWords) -> str:
     """Return the caption of a cell: the word of [frame] that the cell names, or its own text."""
     asked = name if cell.caption is None else cell.caption
     return words.labels.get(f"frame.{asked}", "" if cell.caption is None else asked)
@@ -281,7 +281,7 @@ _MOST_LINES = 12
 """Largest number of lines of one note."""
 
 
-def common_notes(options: DrawingOptions, template: SheetTemplate, words: Words) -> Iterator[str]:
+def common_notes(options: DrawingOptions, template: SheetTemplate, words: SheetWords) -> Iterator[str]:
     """Yield the notes on general tolerances (unless the title block has them), on edges, and on the standards for sizes."""
     if options.general_tolerance and not any("general_tolerance" in cell.names for cell in template.cells.values()):
         yield f"{words['frame.general_tolerance']} {options.general_tolerance}"
@@ -336,7 +336,7 @@ class Furniture:
 
     options: DrawingOptions
     template: SheetTemplate
-    words: Words
+    words: SheetWords
     rows: Sequence[TableRow] = ()
     table_title: str = ""
     notes: Sequence[str] = ()

@@ -14,7 +14,7 @@ from gearcad.drawing.annotation_text import deviations, symbol
 from gearcad.drawing.options import Revision
 from gearcad.drawing.shapes import STRETCH, Anchor, Box, Figure, Line, Pen, Point, Polyline, Shape, Text, text_width
 from gearcad.drawing.sheet_template import LEAST, DataTableSizes, SheetTemplate
-from gearcad.drawing.words import Words
+from gearcad.drawing.words import SheetWords
 
 CLOSEST = 0.65
 """Width of the narrowest letters over that of the font."""
@@ -360,7 +360,7 @@ class PartLine:
         return str(self.item), str(self.quantity), self.number, self.title, self.material, self.remarks
 
 
-def parts_list(parts: Sequence[PartLine], template: SheetTemplate, words: Words) -> Framed:
+def parts_list(parts: Sequence[PartLine], template: SheetTemplate, words: SheetWords) -> Framed:
     """Return the parts list with its heading at the bottom and the first item above it; the lower right corner at (0, 0).
     Empty without parts.
     """
@@ -374,7 +374,7 @@ def parts_list(parts: Sequence[PartLine], template: SheetTemplate, words: Words)
     return found.moved(-sum(sizes.columns), 0.0)
 
 
-def revisions(changes: Sequence[Revision], template: SheetTemplate, words: Words) -> Framed:
+def revisions(changes: Sequence[Revision], template: SheetTemplate, words: SheetWords) -> Framed:
     """Return the table of revisions with its heading at the bottom and the first revision above it; the lower right corner at
     (0, 0). Empty without revisions.
     """

@@ -18,7 +18,7 @@ from gearcad.core.quantities import Choice, Range, Whole, require_fields, schema
 from gearcad.core.runtime import templates
 from gearcad.drawing.options import one_line
 from gearcad.drawing.shapes import Box
-from gearcad.drawing.words import Language, Words
+from gearcad.drawing.words import Language, SheetWords
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -269,9 +269,9 @@ class SheetTemplate:
         }
         return cls(cells=_cells(content["title"]["cells"], made["title"]), **made)
 
-    def words(self, language: Language) -> Words:
+    def words(self, language: Language) -> SheetWords:
         """Return the words of a language, with the company's own words in their place."""
-        words = Words.of(language)
+        words = SheetWords.of(language)
         return replace(words, labels={**words.labels, **self.other_words[language.value]})
 
 
@@ -411,4 +411,4 @@ def _table(content: Any, where: str) -> Mapping[str, Any]:
 
 @cache
 def _known_words() -> Mapping[str, str]:
-    return Words.of(Language.ENGLISH).labels
+    return SheetWords.of(Language.ENGLISH).labels

@@ -31,7 +31,7 @@ _FILE = "drawing_words.toml"
 
 
 @dataclass(frozen=True)
-class Words:
+class SheetWords:
     """The words of one language. A key is the heading of a part of the template and a name in it: "data.normal_module"."""
 
     language: Language
@@ -75,7 +75,7 @@ class Words:
 class Draughting:
     """The words and the scale of a drawing. `scale` is mm of paper for a mm of the part: 0.5 for 1:2."""
 
-    words: Words
+    words: SheetWords
     scale: float = 1.0
 
     def paper(self, length: float) -> float:
@@ -152,7 +152,7 @@ def kind_of(role: str, gear: Gear | Rack) -> str:
     return "ring" if gear.internal else "wheel"
 
 
-def titled(words: Words, kind: str, *names: str) -> str:
+def titled(words: SheetWords, kind: str, *names: str) -> str:
     """Return the word for a kind, followed by the first of the names that is not itself only such a word."""
     word, name = words[f"assembly.{kind}"], next((name for name in names if name not in _UNNAMED), "")
     return f"{word} {name}" if name else word

@@ -10,9 +10,9 @@ from .train_study import study_modes as study_modes
 from .train_study import study_train as study_train
 from .train_study import study_undamped as study_undamped
 from .trains.members import Inertia as Inertia
-from .trains.members import Mesh as Mesh
 from .trains.members import MeshPair as MeshPair
 from .trains.members import Shaft as Shaft
 from .trains.members import StiffnessWave as StiffnessWave
+from .trains.members import ToothMesh as ToothMesh
 from .trains.train import Train as Train
 from .trains.train import TrainModel as TrainModel

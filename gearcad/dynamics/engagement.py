@@ -14,7 +14,7 @@ from gearcad.core.errors import InputError, ParameterError, SolverError
 from gearcad.core.quantities import TORQUE
 from gearcad.core.records import Floats, Notice, Role
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.trains.members import Mesh, MeshCourse, MeshPair
+from gearcad.dynamics.trains.members import MeshCourse, MeshPair, ToothMesh
 from gearcad.dynamics.trains.train import EngagedMesh, Train, pressing_forces
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -90,7 +90,7 @@ def _lumped(train: Train, stiffness: Mapping[int, float]) -> Train:
     meshes = list(train.meshes)
     for j, each in stiffness.items():
         mesh = meshes[j]
-        meshes[j] = Mesh(
+        meshes[j] = ToothMesh(
             name=mesh.name,
             pinion=mesh.pinion,
             wheel=mesh.wheel,
@@ -103,17 +103,17 @@ def _lumped(train: Train, stiffness: Mapping[int, float]) -> Train:
     return replace(train, meshes=tuple(meshes))
 
 
-def _pair(mesh: Mesh) -> MeshPair:
+def _pair(mesh: ToothMesh) -> MeshPair:
     assert isinstance(mesh.pair, MeshPair)  # a GearPair became one when the mesh was made
     return mesh.pair
 
 
-def _torque(mesh: Mesh, force: float) -> float:
+def _torque(mesh: ToothMesh, force: float) -> float:
     """Return the torque on the pinion (N·m) of a force along the line of action (N)."""
     return float(force) * mesh.base_radii.pinion / 1000
 
 
-def _cycle_of(mesh: Mesh, force: float, greatest: float, options: DynamicsOptions) -> MeshCycle:
+def _cycle_of(mesh: ToothMesh, force: float, greatest: float, options: DynamicsOptions) -> MeshCycle:
     """Return the mesh cycle of a mesh under a force (N); `greatest` is the greatest of all mesh forces (N).
 
     Raises ParameterError if the mesh carries no force.
@@ -128,7 +128,7 @@ def _cycle_of(mesh: Mesh, force: float, greatest: float, options: DynamicsOption
         raise error.within(mesh.name) from error
 
 
-def _in_range(mesh: Mesh, torque: float) -> float:
+def _in_range(mesh: ToothMesh, torque: float) -> float:
     """Return a torque (N·m) on the pinion of a mesh, or the end of the permitted range if it is outside by rounding only.
 
     Raises ParameterError for a torque outside the range that a pair can have.
@@ -162,10 +162,12 @@ def _method(name: str, pair: GearPair, material: Materials, body: BodyModel, mou
     return METHODS[name](pair=pair, material=material, body=body, mounting=mounting)
 
 
-def _engaged(mesh: Mesh, cycle: MeshCycle, torque: float, driver: Role, rounds: int, options: DynamicsOptions) -> EngagedMesh:
+def _engaged(
+    mesh: ToothMesh, cycle: MeshCycle, torque: float, driver: Role, rounds: int, options: DynamicsOptions
+) -> EngagedMesh:
     from gearcad.stiffness.methods import METHODS
 
-    given = {each.name: getattr(mesh, each.name) for each in fields(Mesh)}
+    given = {each.name: getattr(mesh, each.name) for each in fields(ToothMesh)}
     if mesh.damping is None and mesh.damping_ratio is None:
         given["damping_ratio"] = options.damping_ratio
     if options.accuracy_grade is not None:

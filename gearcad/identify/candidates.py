@@ -10,7 +10,7 @@ from gearcad.core.errors import InputError, SolverError
 from gearcad.core.quantities import NOT_GIVEN
 from gearcad.core.records import Floats, Notice, Pictured, texts
 from gearcad.geometry import BasicRack, Gear
-from gearcad.identify.fit import Fit, read_off, touches
+from gearcad.identify.fit import FittedHypothesis, read_off, touches
 from gearcad.identify.measurements import Measured, Reading
 from gearcad.identify.standards import FREE, StandardRack, Unknown
 
@@ -32,7 +32,7 @@ class Candidate:
     """
 
     gear: Gear
-    fit: Fit
+    fit: FittedHypothesis
     rack: StandardRack
     probability: float
     chi_square: float
@@ -98,7 +98,7 @@ class Candidate:
         }
 
     @classmethod
-    def of(cls, measured: Measured, fit: Fit, probability: float) -> Candidate | None:
+    def of(cls, measured: Measured, fit: FittedHypothesis, probability: float) -> Candidate | None:
         """Return the candidate of a fit, or None if no such gear can be made."""
         gear = _gear(measured, fit)
         if gear is None:
@@ -130,7 +130,7 @@ def on_involute(gear: Gear, place: Reading) -> bool:
     return diameter is None or lowest - slack <= diameter <= highest + slack
 
 
-def _gear(measured: Measured, fit: Fit) -> Gear | None:
+def _gear(measured: Measured, fit: FittedHypothesis) -> Gear | None:
     """The gear of a fit, its numbers rounded, with the largest root radius up to its rack's that can be made."""
     values, rack, size = fit.unknowns, fit.ways.racks[fit.best], fit.hypothesis.size
     sign = -1 if measured.left_hand else 1
@@ -163,7 +163,7 @@ def _gear(measured: Measured, fit: Fit) -> Gear | None:
         return None
 
 
-def variance(slopes: Floats, fit: Fit) -> float:
+def variance(slopes: Floats, fit: FittedHypothesis) -> float:
     """Return the variance of a reading that a fit leaves open, for these derivatives (u,) of the reading."""
     return float(slopes @ fit.covariance @ slopes)
 

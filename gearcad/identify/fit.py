@@ -171,7 +171,7 @@ _LONGEST = np.array([np.inf, 5.0, 8.0, 1.0, 1.0, 1.0, 2.0, 1.0])
 
 
 @dataclass(frozen=True)
-class Fit:
+class FittedHypothesis:
     """A hypothesis fitted: its `best` way and the `unknowns` by that, the logarithm of the probability of readings and
     hypothesis by each way (w,), the sum of squares, and means (w, u) and covariances (w, u, u) of the unknowns by each way.
     """
@@ -218,14 +218,14 @@ class Fit:
         return spread
 
 
-def fitted(measured: Measured, hypothesis: Hypothesis, start: Floats, steps: int = _MOST_STEPS) -> Fit | None:
+def fitted(measured: Measured, hypothesis: Hypothesis, start: Floats, steps: int = _MOST_STEPS) -> FittedHypothesis | None:
     """The fit of a hypothesis from first values of the unknowns (u,); None where no such gear has these readings."""
     made = ways(hypothesis, measured.mate_teeth is not None)
     read = np.array([abs(each.value) for each in measured.readings])
     noise = np.diag([each.uncertainty**2 for each in measured.readings])
     spreads = np.sqrt(np.einsum("wij,wij->wi", made.roots, made.roots).max(axis=0))
     unknowns, before, taken = start, None, 0
-    found: Fit | None = None
+    found: FittedHypothesis | None = None
     for _ in range(steps + _MOST_RETREATS):
         here, slopes = sensitivity(measured, measured.readings, unknowns, made.varied)
         if not (np.all(np.isfinite(here)) and np.all(np.isfinite(slopes))):
@@ -260,7 +260,7 @@ def _retreat(measured: Measured, unknowns: Floats, before: Floats | None) -> Flo
 
 def _step(
     hypothesis: Hypothesis, made: Ways, unknowns: Floats, off: Floats, slopes: Floats, noise: Floats, way: int | None
-) -> Fit:
+) -> FittedHypothesis:
     """The least of the sum of squares for readings that are linear in the unknowns, by every way; the best if none is set."""
     bent = slopes @ made.roots
     variance = noise + bent @ bent.transpose(0, 2, 1)
@@ -272,4 +272,4 @@ def _step(
     means = made.means + np.einsum("wun,wn->wu", gain, weighed)
     covariances = made.roots @ made.roots.transpose(0, 2, 1) - gain @ np.linalg.solve(variance, gain.transpose(0, 2, 1))
     best = int(np.argmax(log_evidences)) if way is None else way
-    return Fit(hypothesis, made, best, means[best], log_evidences, float(squares[best]), means, covariances)
+    return FittedHypothesis(hypothesis, made, best, means[best], log_evidences, float(squares[best]), means, covariances)

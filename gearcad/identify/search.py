@@ -13,7 +13,7 @@ import numpy as np
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats
 from gearcad.identify.candidates import Candidate, Deciding, Identification, on_involute, variance
-from gearcad.identify.fit import Fit, fitted, read_off, sensitivity
+from gearcad.identify.fit import FittedHypothesis, fitted, read_off, sensitivity
 from gearcad.identify.measurements import Gauge, Measured, Reading
 from gearcad.identify.standards import FREE, Hypothesis, Unknown, hypotheses, transverse_hypotheses, ways
 
@@ -58,9 +58,9 @@ _DIAMETERS = (
 )
 
 
-def fits(measured: Measured) -> list[Fit]:
+def fits(measured: Measured) -> list[FittedHypothesis]:
     """Return the fits of all hypotheses that the readings do not rule out, the most probable first."""
-    found: list[Fit] = []
+    found: list[FittedHypothesis] = []
     nearest: dict[tuple[float, bool], tuple[float, Hypothesis]] = {}
     for hypothesis in hypotheses(measured.spur):
         start = _start(measured, hypothesis)
@@ -76,7 +76,7 @@ def fits(measured: Measured) -> list[Fit]:
     return sorted(found, key=lambda fit: -fit.log_evidence)
 
 
-def _free(measured: Measured, near: Iterable[Hypothesis]) -> Iterator[Fit]:
+def _free(measured: Measured, near: Iterable[Hypothesis]) -> Iterator[FittedHypothesis]:
     """Yield fits of sizes of no series near the nearest standard one, at each pressure angle and at any other."""
     for hypothesis in near:
         for any_angle in (False, True) if hypothesis.pressure_angle == 20.0 else (False,):
@@ -91,7 +91,7 @@ def _free(measured: Measured, near: Iterable[Hypothesis]) -> Iterator[Fit]:
                 yield fit
 
 
-def _transverse(measured: Measured) -> Iterator[Fit]:
+def _transverse(measured: Measured) -> Iterator[FittedHypothesis]:
     """Standard sizes of the transverse section, each about the helix angle that it was found to have."""
     said = [part * abs(each.value) for gauge, part in _ANGLES if (each := measured.find(gauge)) is not None]
     for family in transverse_hypotheses(said[:1] or _HELICES):

@@ -28,7 +28,7 @@ from gearcad.designs import (
 from gearcad.drawing.assembly_sheets import draw_pair, draw_train
 from gearcad.drawing.drawing_subjects import DrawnGear, DrawnPair, DrawnTrain, Mate
 from gearcad.drawing.dxf_export import sheet_document
-from gearcad.drawing.gear_sheet import Drawing, Sheet, draw_gear
+from gearcad.drawing.gear_sheet import Drawing, DrawingSheet, draw_gear
 from gearcad.drawing.options import SCALES, DrawingOptions, PartDrawing, SheetSize
 from gearcad.drawing.page_export import unshown, write_pdf, write_svg
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
@@ -40,7 +40,7 @@ from gearcad.planetary import TrainLoad
 from gearcad.planetary.members import material_of
 from gearcad.rating.options import RatingOptions
 from gearcad.solids import FileOptions
-from gearcad.solids.files.cutaway import Cutaway, View
+from gearcad.solids.files.cutaway import Cutaway, SceneView
 from gearcad.solids.files.shot import Shot, loop_of
 from gearcad.solids.files.studio import Animation
 from gearcad.version import __version__
@@ -173,7 +173,7 @@ class Draw(Job[ToothedDesign, Drawing]):
             sheets = tuple(replace(sheet, notices=(*sheet.notices, *unshown(sheet.figure))) for sheet in sheets)
         return Drawing(name=design.name, sheets=sheets)
 
-    def _sheets(self, design: ToothedDesign) -> Iterator[Sheet]:
+    def _sheets(self, design: ToothedDesign) -> Iterator[DrawingSheet]:
         """Yield the sheet of the assembly, then those of the gears. Raises InputError."""
         gears, assembly = drawn_gears(design), drawn_assembly(design)
         options = overridden(design.drawing or DrawingOptions(), self.given)
@@ -213,7 +213,7 @@ class Draw(Job[ToothedDesign, Drawing]):
         notices = (Notice(**each) for each in document["notices"])
         return {"sheets": len(document["sheets"]), "warnings": [str(each) for each in notices]}
 
-    def _pages(self, result: Drawing) -> dict[str, tuple[Sheet, ...]]:
+    def _pages(self, result: Drawing) -> dict[str, tuple[DrawingSheet, ...]]:
         """Names of files, and the sheets in each."""
         alone = len(result.sheets) == 1
         found = {
@@ -247,7 +247,7 @@ def overridden(options: Drawn, given: Mapping[str, Any]) -> Drawn:
     return replace(options, **{name: value for name, value in given.items() if name in known})
 
 
-def _assembled(assembly: DrawnPair | DrawnTrain, options: DrawingOptions, own: Mapping[str, PartDrawing]) -> Sheet:
+def _assembled(assembly: DrawnPair | DrawnTrain, options: DrawingOptions, own: Mapping[str, PartDrawing]) -> DrawingSheet:
     sheet = draw_pair(assembly, options, own) if isinstance(assembly, DrawnPair) else draw_train(assembly, options, own)
     return replace(sheet, number=options.number)
 
@@ -268,7 +268,7 @@ def _formats(given: object) -> tuple[SheetFormat, ...]:
     return tuple(dict.fromkeys(as_choice("format", each, SheetFormat) for each in found))
 
 
-def _write(pages: tuple[Sheet, ...], made: dict[str, Document], path: Path) -> None:
+def _write(pages: tuple[DrawingSheet, ...], made: dict[str, Document], path: Path) -> None:
     """Write a file with these sheets, in the format of its name; documents are `made` once for all files."""
     for sheet in pages:
         if sheet.name not in made:
@@ -280,13 +280,13 @@ def _write(pages: tuple[Sheet, ...], made: dict[str, Document], path: Path) -> N
         _OF_ONE[kind](documents[0], path)
 
 
-def paper_of(sheet: Sheet) -> str:
+def paper_of(sheet: DrawingSheet) -> str:
     """ "A3", or what its sides are."""
     sizes = {kind.size: kind.value for kind in SheetSize if kind is not SheetSize.AUTO}
     return sizes.get(sheet.size, "{:g} x {:g}".format(*sheet.size))
 
 
-def scale_of(sheet: Sheet) -> str:
+def scale_of(sheet: DrawingSheet) -> str:
     return next((name for name, factor in SCALES.items() if factor == sheet.scale), f"{sheet.scale:g}:1")
 
 
@@ -340,7 +340,7 @@ class Background(Enum):
 
 
 @dataclass(frozen=True)
-class Pictured:
+class PictureShot:
     """A design, and the shot that is taken of it."""
 
     design: ToothedDesign
@@ -348,7 +348,7 @@ class Pictured:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Picture(Job[ToothedDesign, Pictured]):
+class Picture(Job[ToothedDesign, PictureShot]):
     """`picture.png` of a design, or `picture.gif` and so on of one that turns, and picture.json, which says what is on it.
 
     Raises ParameterError for a size that no picture can have.
@@ -360,7 +360,7 @@ class Picture(Job[ToothedDesign, Pictured]):
     solves = False
     writes_long = True
 
-    view: View = View.CORNER
+    view: SceneView = SceneView.CORNER
     size: tuple[int, int] | None = None
     cutaway: Cutaway | None = None
     explode: bool = False
@@ -376,7 +376,7 @@ class Picture(Job[ToothedDesign, Pictured]):
                 require_whole(f"size.{name}", value, at_least=_LEAST, at_most=_MOST)
             self._require_memory(1)
 
-    def _run(self, design: ToothedDesign, _progress: Progress | None) -> Pictured:
+    def _run(self, design: ToothedDesign, _progress: Progress | None) -> PictureShot:
         self._require_parts(design)
         module = min(each.normal_module for each in _toothed(design))
         options = FileOptions(chord_error=_FINE * module, exploded=self.explode and isinstance(design, PlanetaryDesign))
@@ -394,7 +394,7 @@ class Picture(Job[ToothedDesign, Pictured]):
             transparent=self.background is Background.TRANSPARENT,
             loop=loop,
         )
-        return Pictured(design, shot)
+        return PictureShot(design, shot)
 
     @property
     def pixels(self) -> tuple[int, int]:
@@ -412,7 +412,7 @@ class Picture(Job[ToothedDesign, Pictured]):
             return
         if self.explode:
             raise GeometryError("explode", True, "needs a pair or a train: there is only one part")
-        if self.view is View.MESH:
+        if self.view is SceneView.MESH:
             raise GeometryError("view", self.view, "needs a pair or a train: one part has no mesh")
 
     def _require_memory(self, frames: int) -> None:
@@ -421,7 +421,7 @@ class Picture(Job[ToothedDesign, Pictured]):
         if width * height * frames > most:
             raise ParameterError("size", f"{width}x{height}", f"must be at most {most / 1e6:.0f} million pixels{words}")
 
-    def document(self, result: Pictured) -> dict[str, Any]:
+    def document(self, result: PictureShot) -> dict[str, Any]:
         """Return the content of picture.json."""
         loop = result.shot.loop
         turning = loop and {
@@ -445,18 +445,18 @@ class Picture(Job[ToothedDesign, Pictured]):
             "notices": [notice.to_dict() for notice in self.notices(result)],
         }
 
-    def notices(self, result: Pictured) -> Sequence[Notice]:
+    def notices(self, result: PictureShot) -> Sequence[Notice]:
         return result.shot.loop.notices if result.shot.loop else ()
 
-    def files(self, result: Pictured) -> dict[str, Writer]:
+    def files(self, result: PictureShot) -> dict[str, Writer]:
         """The image and the document."""
         return {self.file: self.writer(result), "picture.json": partial(self.write_document, result)}
 
-    def writer(self, result: Pictured) -> Writer:
+    def writer(self, result: PictureShot) -> Writer:
         """Return the writer of the image."""
         return partial(result.shot.write_animation, self.turning) if self.turning else result.shot.write_png
 
-    def write_image(self, result: Pictured, path: Path) -> None:
+    def write_image(self, result: PictureShot, path: Path) -> None:
         """Write the image alone. Raises ParameterError for a suffix of another format, OutputError."""
         suffixes = {".png", ".apng"} if self.turning is Animation.APNG else {Path(self.file).suffix}
         if path.suffix.lower() not in suffixes:
@@ -479,7 +479,7 @@ def picture(
     subject: Subject,
     file: Path | str,
     *,
-    view: View | str = View.CORNER,
+    view: SceneView | str = SceneView.CORNER,
     size: tuple[int, int] | None = None,
     cutaway: Cutaway | str | None = None,
     explode: bool = False,
@@ -494,7 +494,7 @@ def picture(
     "transparent". Raises ParameterError, GeometryError, OutputError where there is no OpenGL.
     """
     job = Picture(
-        view=as_choice("view", view, View),
+        view=as_choice("view", view, SceneView),
         size=size,
         cutaway=None if cutaway is None else as_choice("cutaway", cutaway, Cutaway),
         explode=explode,

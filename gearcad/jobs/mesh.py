@@ -21,7 +21,7 @@ from gearcad.load import Load
 from gearcad.material import Material, Materials
 from gearcad.meshing.bodies.body_mesh import contacts
 from gearcad.meshing.bodies.element_mesh import Element
-from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.options import SUFFIXES, DeckKind, MeshOptions
 from gearcad.meshing.plan import MeshPlan, expected_mesh, plan_mesh, require_room
 from gearcad.meshing.result import Deck, MeshResult, mesh_document, run_mesh
@@ -37,7 +37,9 @@ _SHORTEST = 0.002
 """Shortest edge in normal modules: near the base circle flanks are curved most, and contacts narrower than is of any use."""
 
 
-def contact_zones(pair: GearPair, material: Materials, load: Load, roll_angle: float) -> PerGear[Mapping[int, ContactZone]]:
+def contact_zones(
+    pair: GearPair, material: Materials, load: Load, roll_angle: float
+) -> PerGear[Mapping[int, ContactRefinement]]:
     """Zones of the teeth of pinion and wheel that touch at a roll angle (deg), which share the load evenly.
 
     A negative torque presses right flanks. No torque makes no zones.
@@ -49,10 +51,10 @@ def contact_zones(pair: GearPair, material: Materials, load: Load, roll_angle: f
     touching = contacts(pair, roll_angle, left=left)
     force = base_normal_force(pair, torque) / max(len(touching.pinion), 1)
 
-    def zone(place: float, own: float) -> ContactZone:
+    def zone(place: float, own: float) -> ContactRefinement:
         half = contact_at(pair, material, distance=place, force=force).half_width
         edge = max(half / _EDGES, _SHORTEST * pair.pinion.normal_module)
-        return ContactZone(length=own, half_width=_REACH * half, edge=edge, left=left)
+        return ContactRefinement(length=own, half_width=_REACH * half, edge=edge, left=left)
 
     whole = pair.base_tangent.length
     return PerGear(
@@ -183,7 +185,9 @@ def _pressed(plan: MeshPlan, pair: GearPair, material: Materials, load: Load) ->
     In helical bodies the lines of contact run across whole flanks, which are as fine as their edges are everywhere.
     """
     across = plan.solid and pair.pinion.helix_angle and plan.element is not Element.TET10
-    zones = PerGear[Mapping[int, ContactZone]]({}, {}) if across else contact_zones(pair, material, load, plan.options.roll)
+    zones = (
+        PerGear[Mapping[int, ContactRefinement]]({}, {}) if across else contact_zones(pair, material, load, plan.options.roll)
+    )
     return plan.pressed(zones, left=load.torque >= 0)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.relief_start import start_notice
 from gearcad.check.summary import ERRORS, PRESSURE, SOLID
-from gearcad.contact.modification_search import Found, Search, conditions, start_search
+from gearcad.contact.modification_search import FoundModification, Search, conditions, start_search
 from gearcad.contact.modification_variants import AMOUNTS, Condition, with_amounts
 from gearcad.contact.shared.line_of_action import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
@@ -318,7 +318,7 @@ class _Tried(NamedTuple):
     """A search, what it found, and the mesh cycle of that with the figures of a check; `bound` (MPa) is that asked for."""
 
     search: Search
-    found: Found
+    found: FoundModification
     cycle: SolidCycle
     figures: CycleFigures
     bound: float
@@ -357,7 +357,7 @@ def _tried(model: SolidPair, torque: float, shape: ReliefShape, limits: list[flo
         bounds = bounds[1:]
 
 
-def _closer(model: SolidPair, search: Search, found: Found, bound: float, count: int) -> list[_Tried]:
+def _closer(model: SolidPair, search: Search, found: FoundModification, bound: float, count: int) -> list[_Tried]:
     """Check proposals and search again, at the positions where their extremes are and for a pressure that the search sees."""
     every: list[_Tried] = []
     while True:

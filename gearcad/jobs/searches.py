@@ -12,7 +12,7 @@ from gearcad.identify.candidates import Identification
 from gearcad.identify.measurements import Measurements, Value
 from gearcad.identify.search import identify_gear
 from gearcad.plots.ratings import save_front
-from gearcad.rating.strength import Part
+from gearcad.rating.strength import RatedPart
 from gearcad.sizing import SizedPair, Sizing
 from gearcad.sizing.planetary_sets import SizedSet, SizedSets
 from gearcad.sizing.proposals import unjudged_scuffing
@@ -66,7 +66,7 @@ def _set_sizes_comments(result: SizedSets, best: SizedSet) -> Iterator[str]:
     task = result.task
     life = "the endurance limit" if task.rating.life is None else f"{task.rating.life:g} h"
     yield f"{task.torque_words} at {task.speed:g} rpm, i = {task.sets.ratio:g}, {life}: the lightest found"
-    flank, root = (best.least[part] for part in (Part.FLANK, Part.ROOT))
+    flank, root = (best.least[part] for part in (RatedPart.FLANK, RatedPart.ROOT))
     safeties = f"S_H {flank:.3f}, S_F {root:.3f}"
     yield f"{best.mass:.3g} kg without bores, {safeties}; no backlash yet: planetary.tooth_thinning gives it"
     if (why := unjudged_scuffing(task.rating)) is not None:

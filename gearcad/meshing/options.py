@@ -29,7 +29,7 @@ class MeshFormat(Enum):
     XDMF = "xdmf"
 
     @property
-    def entry(self) -> Entry:
+    def entry(self) -> MeshFileFormat:
         """Entry of this format: words, writer, names of other files and required library."""
         return _ENTRIES[self]
 
@@ -41,7 +41,7 @@ class MeshFormat(Enum):
 
 
 @dataclass(frozen=True)
-class Entry:
+class MeshFileFormat:
     """One format of mesh files: contents in words, writer, endings of further files, and required library.
 
     `beside` has the endings of names of files that are written beside; `library` is one that gearcad does without.
@@ -98,13 +98,13 @@ def _xdmf(mesh: ElementMesh, path: Path) -> None:
 
 
 _ENTRIES = {
-    MeshFormat.MSH: Entry("gmsh, FEniCS; parts and sides are physical groups", _msh),
-    MeshFormat.VTU: Entry("ParaView, PyVista; sides are fields of the nodes", _vtu),
-    MeshFormat.INP: Entry("CalculiX, Abaqus; element sets, node sets and surfaces", _inp),
-    MeshFormat.BDF: Entry("Nastran; properties, and sets of nodes", _bdf),
-    MeshFormat.MED: Entry("Code_Aster, Salome; groups of elements and of sides", _with_gmsh),
-    MeshFormat.UNV: Entry("Salome, FreeCAD and others; groups of elements, sides and nodes", _with_gmsh),
-    MeshFormat.XDMF: Entry(
+    MeshFormat.MSH: MeshFileFormat("gmsh, FEniCS; parts and sides are physical groups", _msh),
+    MeshFormat.VTU: MeshFileFormat("ParaView, PyVista; sides are fields of the nodes", _vtu),
+    MeshFormat.INP: MeshFileFormat("CalculiX, Abaqus; element sets, node sets and surfaces", _inp),
+    MeshFormat.BDF: MeshFileFormat("Nastran; properties, and sets of nodes", _bdf),
+    MeshFormat.MED: MeshFileFormat("Code_Aster, Salome; groups of elements and of sides", _with_gmsh),
+    MeshFormat.UNV: MeshFileFormat("Salome, FreeCAD and others; groups of elements, sides and nodes", _with_gmsh),
+    MeshFormat.XDMF: MeshFileFormat(
         "FEniCS, ParaView; sides in a file of their own", _xdmf, beside=(".h5", "_sides.xdmf"), library="h5py"
     ),
 }

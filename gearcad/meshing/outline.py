@@ -103,7 +103,7 @@ def _measured(curve: Curve, last: float) -> float:
     return float(np.hypot(*np.diff(curve.points(np.linspace(0.0, last, _FINE)), axis=0).T).sum())
 
 
-class Side(Enum):
+class OutlineSide(Enum):
     """Kind of a stretch of the outline. The left flank, y > 0 for tooth 0 on +x, is the loaded one."""
 
     RIGHT_ROOT = "right root land"
@@ -126,7 +126,7 @@ class SectorSides(ABC):
     """
 
     points: Floats
-    sides: Mapping[Side, Wholes]
+    sides: Mapping[OutlineSide, Wholes]
 
     @property
     @abstractmethod
@@ -136,12 +136,12 @@ class SectorSides(ABC):
     @property
     def ahead(self) -> Wholes:
         """Nodes of the cut at plus half a pitch, from the root to the held circle."""
-        return self.sides[Side.AHEAD]
+        return self.sides[OutlineSide.AHEAD]
 
     @property
     def behind(self) -> Wholes:
         """Nodes of the cut at minus half a pitch, from the root to the held circle: the k-th meets the k-th of `ahead`."""
-        return self.sides[Side.BEHIND][::-1]
+        return self.sides[OutlineSide.BEHIND][::-1]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,7 +191,7 @@ class MeshSizes:
 class Stretch:
     """One stretch of the outline: `points` (2 n + 1, 2) in mm in order, exactly on it: ends and middles of its edges."""
 
-    side: Side
+    side: OutlineSide
     points: Floats
 
     @property
@@ -204,11 +204,11 @@ class Stretch:
         """Middles of the edges (n, 2)."""
         return self.points[1::2]
 
-    def backwards(self, side: Side | None = None) -> Stretch:
+    def backwards(self, side: OutlineSide | None = None) -> Stretch:
         """The same stretch run through from its end."""
         return Stretch(side or self.side, self.points[::-1])
 
-    def mirrored(self, side: Side) -> Stretch:
+    def mirrored(self, side: OutlineSide) -> Stretch:
         """The mirror image about the x axis."""
         return Stretch(side, self.points * np.array([1.0, -1.0]))
 
@@ -238,7 +238,7 @@ def sector_outline(
     first = _half_tooth(gear, right or edge_lengths(gear, sizes, loaded=False))
     second = _half_tooth(gear, left or edge_lengths(gear, sizes, loaded=True))
     cut = _cut(gear.profile.root_diameter / 2, held_radius, half_pitch, sizes, gear.normal_module)
-    behind = cut.mirrored(Side.BEHIND).backwards()
+    behind = cut.mirrored(OutlineSide.BEHIND).backwards()
     last = float(np.hypot(*(cut.ends[-1] - cut.ends[-2])))
     held = _arc(held_radius, half_pitch, last)
     return [
@@ -251,18 +251,18 @@ def sector_outline(
 
 
 OTHER_SIDE = {
-    Side.LEFT_ROOT: Side.RIGHT_ROOT,
-    Side.LEFT_FILLET: Side.RIGHT_FILLET,
-    Side.LEFT_FLANK: Side.RIGHT_FLANK,
-    Side.TIP: Side.TIP,
+    OutlineSide.LEFT_ROOT: OutlineSide.RIGHT_ROOT,
+    OutlineSide.LEFT_FILLET: OutlineSide.RIGHT_FILLET,
+    OutlineSide.LEFT_FLANK: OutlineSide.RIGHT_FLANK,
+    OutlineSide.TIP: OutlineSide.TIP,
 }
 
 _SIDES = {
-    CurveKind.ROOT: Side.LEFT_ROOT,
-    CurveKind.FILLET: Side.LEFT_FILLET,
-    CurveKind.INVOLUTE: Side.LEFT_FLANK,
-    CurveKind.CHAMFER: Side.TIP,
-    CurveKind.TIP: Side.TIP,
+    CurveKind.ROOT: OutlineSide.LEFT_ROOT,
+    CurveKind.FILLET: OutlineSide.LEFT_FILLET,
+    CurveKind.INVOLUTE: OutlineSide.LEFT_FLANK,
+    CurveKind.CHAMFER: OutlineSide.TIP,
+    CurveKind.TIP: OutlineSide.TIP,
 }
 
 
@@ -314,14 +314,14 @@ def _cut(root: float, held: float, angle: float, sizes: MeshSizes, module: float
         return result
 
     grading = graded(points, lambda run, _whole: np.minimum(rim, cut + sizes.growth * run))
-    return Stretch(Side.AHEAD, points(grading.with_middles(max(2, math.ceil(grading.edges)))))
+    return Stretch(OutlineSide.AHEAD, points(grading.with_middles(max(2, math.ceil(grading.edges)))))
 
 
 def _arc(radius: float, half_angle: float, size: float) -> Stretch:
     """The held circle from plus to minus half a pitch."""
     edges = max(1, math.ceil(2 * half_angle * radius / size))
     angles = np.linspace(half_angle, -half_angle, 2 * edges + 1)
-    return Stretch(Side.HELD, radius * np.stack([np.cos(angles), np.sin(angles)], -1))
+    return Stretch(OutlineSide.HELD, radius * np.stack([np.cos(angles), np.sin(angles)], -1))
 
 
 _EDGE_LENGTHS_FINE = 1025

@@ -18,7 +18,7 @@ from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
 from gearcad.meshing.bodies.exactness import exact_area, exact_volume
 from gearcad.meshing.bodies.gear_faces import FILLET_ANGLE, Stage, TetrahedronGrading
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.bodies.tetrahedra import mesh_tetrahedra
 from gearcad.meshing.options import AUTO, Extent, MeshOptions, What
 from gearcad.meshing.outline import MeshSizes, held_radius
@@ -72,7 +72,7 @@ class SectorsPlan(GearPlan):
     teeth: int | None
     held_radius: float
     sizes: MeshSizes
-    contacts: Mapping[int, ContactZone] = field(default_factory=dict)
+    contacts: Mapping[int, ContactRefinement] = field(default_factory=dict)
 
     @property
     def count(self) -> int:
@@ -203,7 +203,7 @@ class MeshPlan:
         """Notices to read before the meshes are used."""
         return tuple(notice.within(name) for name, each in self.gears.items() for notice in each.notices)
 
-    def pressed(self, zones: PerGear[Mapping[int, ContactZone]], *, left: bool) -> MeshPlan:
+    def pressed(self, zones: PerGear[Mapping[int, ContactRefinement]], *, left: bool) -> MeshPlan:
         """The plan of a pair whose left or right flanks are pressed: they are fine in zones, by teeth."""
         fine = {role.value: _with_zones(self.gears[role.value], each) for role, each in zones.items()}
         return replace(self, gears=fine, left=left)
@@ -233,7 +233,7 @@ class MeshPlan:
         }
 
 
-def _with_zones(plan: GearPlan, zones: Mapping[int, ContactZone]) -> GearPlan:
+def _with_zones(plan: GearPlan, zones: Mapping[int, ContactRefinement]) -> GearPlan:
     """A gear that is fine where it touches: in zones, or on the whole teeth of a part."""
     if isinstance(plan, PartPlan):
         return replace(plan, refined_teeth=(*plan.refined_teeth, *zones))

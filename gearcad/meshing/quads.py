@@ -31,8 +31,8 @@ from gearcad.meshing.outline import (
     Grading,
     HalfLengths,
     MeshSizes,
+    OutlineSide,
     SectorSides,
-    Side,
     edge_lengths,
     graded,
     require_fillet,
@@ -251,13 +251,13 @@ class LogPlane:
 
 
 @dataclass(frozen=True)
-class Piece:
+class CurvePiece:
     """A part of one of the outline's curves, graded; the side of the outline to which it belongs, on the left.
 
     It has at least so many edges.
     """
 
-    side: Side
+    side: OutlineSide
     curve: Curve
     grading: Grading
     least: int = 1
@@ -267,17 +267,17 @@ class Piece:
         return self.curve.points(self.grading.with_middles(count))
 
 
-def edges_of(pieces: tuple[Piece, ...]) -> float:
+def edges_of(pieces: tuple[CurvePiece, ...]) -> float:
     """Edges that the sizes ask for on some pieces."""
     return sum(piece.grading.edges for piece in pieces)
 
 
-def least_of(pieces: tuple[Piece, ...]) -> int:
+def least_of(pieces: tuple[CurvePiece, ...]) -> int:
     """Edges that some pieces have at least."""
     return sum(piece.least for piece in pieces)
 
 
-def shares(pieces: tuple[Piece, ...], count: int) -> list[tuple[Piece, int]]:
+def shares(pieces: tuple[CurvePiece, ...], count: int) -> list[tuple[CurvePiece, int]]:
     """Each piece with its edges, of `count` in all, in proportion to what is wanted (Webster's divisors)."""
     given = [piece.least for piece in pieces]
     for _ in range(count - sum(given)):
@@ -318,44 +318,50 @@ class SectorLayout:
         return {curve.kind: curve for curve in self.gear.profile.curves}
 
     @cached_property
-    def root(self) -> tuple[Piece, ...]:
+    def root(self) -> tuple[CurvePiece, ...]:
         """Pieces of the outline from the cut along root land, if there is one, and lower fillet to the split."""
         lengths = self._lengths
-        land = self._piece(lengths, Side.LEFT_ROOT, CurveKind.ROOT) if CurveKind.ROOT in self._curves else ()
-        return (*land, *self._piece(lengths, Side.LEFT_FILLET, CurveKind.FILLET, 0.0, self.split))
+        land = self._piece(lengths, OutlineSide.LEFT_ROOT, CurveKind.ROOT) if CurveKind.ROOT in self._curves else ()
+        return (*land, *self._piece(lengths, OutlineSide.LEFT_FILLET, CurveKind.FILLET, 0.0, self.split))
 
     @cached_property
-    def flank(self) -> tuple[Piece, ...]:
+    def flank(self) -> tuple[CurvePiece, ...]:
         """Pieces of the outline from the split along upper fillet, flank and tip chamfer, if there is one, to the tip land.
 
         A chamfer turns more from the land than from the flank, so the block has its corner there.
         """
         return self._flank(self.rows or self._lengths)
 
-    def _flank(self, lengths: HalfLengths) -> tuple[Piece, ...]:
-        fillet = self._piece(lengths, Side.LEFT_FILLET, CurveKind.FILLET, self.split, 1.0)
-        chamfer = self._piece(lengths, Side.TIP, CurveKind.CHAMFER) if CurveKind.CHAMFER in self._curves else ()
+    def _flank(self, lengths: HalfLengths) -> tuple[CurvePiece, ...]:
+        fillet = self._piece(lengths, OutlineSide.LEFT_FILLET, CurveKind.FILLET, self.split, 1.0)
+        chamfer = self._piece(lengths, OutlineSide.TIP, CurveKind.CHAMFER) if CurveKind.CHAMFER in self._curves else ()
         involute = lengths.parts(self._curves[CurveKind.INVOLUTE])
-        flank = [self._piece(lengths, Side.LEFT_FLANK, CurveKind.INVOLUTE, *part)[0] for part in involute]
+        flank = [self._piece(lengths, OutlineSide.LEFT_FLANK, CurveKind.INVOLUTE, *part)[0] for part in involute]
         return (*fillet, *flank, *chamfer)
 
     @cached_property
-    def tip(self) -> tuple[Piece, ...]:
+    def tip(self) -> tuple[CurvePiece, ...]:
         """The tip land from its left end to its right one, graded alike from both."""
         half, size = self._curves[CurveKind.TIP], self._lengths.curves[CurveKind.TIP]
         (radius,), (angle,) = half.polar(np.zeros(1))
         land = Land(CurveKind.TIP, float(radius), float(angle), -float(angle))
-        return (Piece(Side.TIP, land, graded(land.points, lambda run, whole: size(np.minimum(run, whole - run), whole))),)
+        return (
+            CurvePiece(
+                OutlineSide.TIP, land, graded(land.points, lambda run, whole: size(np.minimum(run, whole - run), whole))
+            ),
+        )
 
     @cached_property
     def _lengths(self) -> HalfLengths:
         return self.lengths or edge_lengths(self.gear, self.sizes, loaded=True)
 
-    def _piece(self, lengths: HalfLengths, side: Side, kind: CurveKind, first: float = 0.0, last: float = 1.0) -> tuple[Piece]:
+    def _piece(
+        self, lengths: HalfLengths, side: OutlineSide, kind: CurveKind, first: float = 0.0, last: float = 1.0
+    ) -> tuple[CurvePiece]:
         curve = self._curves[kind]
         grading = lengths.graded(curve, first, last)
         least = 1 if self.lengths is None else max(1, math.ceil(grading.edges - 1e-9))
-        return (Piece(side, curve, grading, least),)
+        return (CurvePiece(side, curve, grading, least),)
 
     @cached_property
     def split(self) -> float:
@@ -483,7 +489,7 @@ class QuadMesh(SectorSides):
     points: Floats
     vertices: int
     quads: Wholes
-    sides: Mapping[Side, Wholes]
+    sides: Mapping[OutlineSide, Wholes]
 
     @property
     def cells(self) -> Wholes:
@@ -582,7 +588,7 @@ class _Blocks:
         return quads[:, ::-1] if self._plane.inward else quads
 
     @cached_property
-    def sides(self) -> list[tuple[Side, Wholes, Floats]]:
+    def sides(self) -> list[tuple[OutlineSide, Wholes, Floats]]:
         """The outline in order: vertices (n + 1,), and the ends and middles (2 n + 1, 2) of their edges (mm)."""
         body, tooth = self.numbers
         outer = self.layout.counts.outer
@@ -599,18 +605,18 @@ class _Blocks:
         arc = np.stack([_with_middles(angles), np.full(2 * len(angles) - 1, self.body[0, 0, 1])], -1)
         return [
             *((OTHER_SIDE[side], right[ends], mirrored(points[both])) for side, ends, both in up),
-            (Side.TIP, tooth[-1, ::-1], self.tip[::-1]),
+            (OutlineSide.TIP, tooth[-1, ::-1], self.tip[::-1]),
             *((side, left[ends][::-1], points[both][::-1]) for side, ends, both in reversed(up)),
-            (Side.AHEAD, body[::-1, 0], self._straight(self.body[::-1, 0])),
-            (Side.HELD, body[0], self._plane.points(arc)),
-            (Side.BEHIND, body[:, -1], self._straight(self.body[:, -1])),
+            (OutlineSide.AHEAD, body[::-1, 0], self._straight(self.body[::-1, 0])),
+            (OutlineSide.HELD, body[0], self._plane.points(arc)),
+            (OutlineSide.BEHIND, body[:, -1], self._straight(self.body[:, -1])),
         ]
 
     def _straight(self, places: Floats) -> Floats:
         return _with_middles(self._plane.points(places))
 
 
-def _along(pieces: tuple[Piece, ...], count: int) -> Floats:
+def _along(pieces: tuple[CurvePiece, ...], count: int) -> Floats:
     """Ends and middles (2 count + 1, 2) of the edges of pieces that follow each other (mm)."""
     every = [piece.points(own) for piece, own in shares(pieces, count)]
     return np.concatenate([*(points[:-1] for points in every[:-1]), every[-1]])
@@ -636,7 +642,7 @@ def _quadratic(blocks: _Blocks) -> QuadMesh:
     edges, which = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)
     middles = points[edges].mean(axis=1)
     keys = edges[:, 0] * len(points) + edges[:, 1]
-    sides: dict[Side, Wholes] = {}
+    sides: dict[OutlineSide, Wholes] = {}
     for side, chain, exact in blocks.sides:
         low, high = np.minimum(chain[1:], chain[:-1]), np.maximum(chain[1:], chain[:-1])
         between = np.searchsorted(keys, low * len(points) + high)

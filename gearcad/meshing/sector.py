@@ -14,7 +14,7 @@ from gearcad.core.errors import SolverError
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
 from gearcad.geometry.gear_data import twist
-from gearcad.meshing.outline import HalfLengths, MeshSizes, SectorSides, Side, Stretch, sector_outline
+from gearcad.meshing.outline import HalfLengths, MeshSizes, OutlineSide, SectorSides, Stretch, sector_outline
 from gearcad.meshing.quads import QuadMesh
 
 _INSTEAD = 'solid checks (model = "3d"), stiffness "potential-energy" and all that is not meshed do without'
@@ -46,7 +46,7 @@ class SectorMesh(SectorSides):
 
     points: Floats
     triangles: Wholes
-    sides: Mapping[Side, Wholes]
+    sides: Mapping[OutlineSide, Wholes]
 
     @property
     def cells(self) -> Wholes:
@@ -128,7 +128,7 @@ def _quadratic(points: Floats, triangles: Wholes, outline: list[Stretch]) -> Sec
     edges, which = np.unique(pairs, axis=0, return_inverse=True)
     middles = points[edges].mean(axis=1)
     number = {(int(a), int(b)): index for index, (a, b) in enumerate(edges)}
-    sides: dict[Side, Wholes] = {}
+    sides: dict[OutlineSide, Wholes] = {}
     count, start = sum(len(stretch.mids) for stretch in outline), 0
     for stretch in outline:
         ends = (start + np.arange(len(stretch.ends))) % count
@@ -158,15 +158,15 @@ def with_shaft(mesh: SectorMesh, shaft_bore: float) -> SectorMesh:
 
     The sector's nodes and triangles come first; its cuts go on through the shaft, and it is held in the shaft's bore.
     """
-    arc = mesh.sides[Side.HELD]
+    arc = mesh.sides[OutlineSide.HELD]
     outer, angle = np.hypot(*mesh.points[arc[0]]), 2 * np.arctan2(*mesh.points[arc[0], ::-1])
     radii = _radii(float(outer), max(shaft_bore / 2, _HOLLOW * float(outer)), float(angle) / (len(arc) // 2))
     added = (radii[1:, None, None] / outer) * mesh.points[arc]
     numbers = np.concatenate([arc[None], len(mesh.points) + np.arange(added[..., 0].size).reshape(added.shape[:2])])
     sides = dict(mesh.sides)
-    sides[Side.AHEAD] = np.r_[sides[Side.AHEAD], numbers[1:, 0]]
-    sides[Side.BEHIND] = np.r_[numbers[:0:-1, -1], sides[Side.BEHIND]]
-    sides[Side.HELD] = numbers[-1]
+    sides[OutlineSide.AHEAD] = np.r_[sides[OutlineSide.AHEAD], numbers[1:, 0]]
+    sides[OutlineSide.BEHIND] = np.r_[numbers[:0:-1, -1], sides[OutlineSide.BEHIND]]
+    sides[OutlineSide.HELD] = numbers[-1]
     return SectorMesh(np.r_[mesh.points, added.reshape(-1, 2)], np.r_[mesh.triangles, _triangles(numbers)], sides)
 
 
@@ -318,7 +318,7 @@ class SweptMesh:
         """Vectors (n, 3, ...) at the nodes, or some of them, from fixed axes to the turning ones."""
         return _turned_vectors(vectors, -self.rate * self.heights[nodes])
 
-    def side(self, side: Side) -> Wholes:
+    def side(self, side: OutlineSide) -> Wholes:
         """Section nodes of a side of the outline."""
         return self.section.sides[side]
 

@@ -46,7 +46,7 @@ def _most_memory() -> float:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Limits:
+class RunLimits:
     """Limits of one run: seconds, and bytes of memory (Linux)."""
 
     seconds: float = 3600.0
@@ -58,7 +58,7 @@ class Limits:
             require_number("memory_limit", self.memory / GIGABYTE, "GB", above=0)
 
 
-class State(Enum):
+class RunState(Enum):
     """State of a run."""
 
     WAITING = "waiting"
@@ -69,7 +69,7 @@ class State(Enum):
 
     @property
     def ended(self) -> bool:
-        return self in (State.DONE, State.FAILED, State.CANCELLED)
+        return self in (RunState.DONE, RunState.FAILED, RunState.CANCELLED)
 
 
 @dataclass
@@ -81,7 +81,7 @@ class Run:
     given: Mapping[str, str]
     """Values of the spec under its keys, by which runs are told apart."""
 
-    state: State = State.WAITING
+    state: RunState = RunState.WAITING
     step: str = ""
     share: float = 0.0
     left: str = ""
@@ -104,7 +104,7 @@ class Run:
 
     def file(self, name: str) -> Path | None:
         """The path of one of its files, if it has one of this name."""
-        return self.folder / name if name in self.files and self.state is State.DONE else None
+        return self.folder / name if name in self.files and self.state is RunState.DONE else None
 
 
 _LOOK = 0.2
@@ -113,9 +113,9 @@ _LOOK = 0.2
 _PAGE_SIZE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
 
 
-def do_run(run: Run, limits: Limits) -> None:
+def do_run(run: Run, limits: RunLimits) -> None:
     """Start the process of a run, hear it, and see that it keeps to its limits."""
-    run.state = State.RUNNING
+    run.state = RunState.RUNNING
     process = _started()
     lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
     assert process.stdin is not None and process.stdout is not None  # Popen was asked for pipes
@@ -132,17 +132,17 @@ def do_run(run: Run, limits: Limits) -> None:
         status = process.wait()
     if not run.state.ended:
         why = death(-status) if status < 0 else f"ended its process (exit status {status})"
-        run.state, run.line = State.FAILED, why
+        run.state, run.line = RunState.FAILED, why
 
 
-def _follow(run: Run, process: subprocess.Popen[bytes], lines: queue.SimpleQueue[bytes], limits: Limits) -> None:
+def _follow(run: Run, process: subprocess.Popen[bytes], lines: queue.SimpleQueue[bytes], limits: RunLimits) -> None:
     """Follow the process of a run until it ends, is cancelled or exceeds a limit."""
     end, clock = time.monotonic() + limits.seconds, Clock(None)
     while not run.state.ended:
         if run.stop.is_set():
-            run.state = State.CANCELLED
+            run.state = RunState.CANCELLED
         elif why := _excess(process, end, limits):
-            run.line, run.state = why, State.FAILED
+            run.line, run.state = why, RunState.FAILED
         else:
             with suppress(queue.Empty):
                 line = lines.get(timeout=_LOOK)
@@ -151,7 +151,7 @@ def _follow(run: Run, process: subprocess.Popen[bytes], lines: queue.SimpleQueue
                 clock = _take(run, json.loads(line), clock)
 
 
-def _excess(process: subprocess.Popen[bytes], end: float, limits: Limits) -> str:
+def _excess(process: subprocess.Popen[bytes], end: float, limits: RunLimits) -> str:
     """Which limit it exceeds, in words; "" for none."""
     if time.monotonic() > end:
         return f"was stopped at its time limit of {format_number(limits.seconds)} s"
@@ -169,12 +169,12 @@ def _take(run: Run, told: Mapping[str, Any], clock: Clock) -> Clock:
         run.share = min(told["done"] / told["whole"], 1.0) if told["whole"] else 0.0
         run.left = clock.left(run.share)
     elif "error" in told:
-        run.line, run.state = told["error"], State.FAILED
+        run.line, run.state = told["error"], RunState.FAILED
     else:
         result = told["result"]
         run.line, run.figures = result["conclusion"], dict(_flat(result["figures"]))
         run.name, run.notices, run.files = result["name"], tuple(result["notices"]), tuple(result["files"])
-        run.share, run.state = 1.0, State.DONE
+        run.share, run.state = 1.0, RunState.DONE
     return clock
 
 
@@ -234,7 +234,7 @@ _MOST_KEPT = 40
 """Runs whose files a session keeps: the eldest lose theirs."""
 
 
-class Turns:
+class RunPermits:
     """Permits for a limited number of runs of all sessions at a time; waiting sessions are served in order of arrival."""
 
     def __init__(self, count: int) -> None:
@@ -260,7 +260,7 @@ class Turns:
                 self._changed.notify_all()
 
 
-_TURNS = Turns(max(cores(), 1))
+_TURNS = RunPermits(max(cores(), 1))
 
 
 _OPEN: dict[str, Runs] = {}
@@ -286,9 +286,9 @@ class Runs:
     `permitted` holds the limits of each run of any session.
     """
 
-    permitted: ClassVar[Limits] = Limits()
+    permitted: ClassVar[RunLimits] = RunLimits()
 
-    def __init__(self, limits: Limits | None = None) -> None:
+    def __init__(self, limits: RunLimits | None = None) -> None:
         self.limits = limits or self.permitted
         self.all: list[Run] = []
         self.key = secrets.token_urlsafe(16)
@@ -345,8 +345,8 @@ class Runs:
                 if has:
                     do_run(run, self.limits)
                 else:
-                    run.state = State.CANCELLED
-            if run.state is not State.DONE:
+                    run.state = RunState.CANCELLED
+            if run.state is not RunState.DONE:
                 shutil.rmtree(run.folder, ignore_errors=True)
             run.ended.set()
         self._folder.cleanup()
@@ -397,7 +397,7 @@ def _run(key: str, number: int) -> Run | None:
     """A run that has files."""
     runs = runs_of(key)
     found = runs.all[number] if runs is not None and 0 <= number < len(runs.all) else None
-    return found if found is not None and found.state is State.DONE and found.files else None
+    return found if found is not None and found.state is RunState.DONE and found.files else None
 
 
 def _attached(run: Run) -> Response:

@@ -208,7 +208,7 @@ _LONGEST = 500
 _MORE = " (what else goes wrong within a minute is not told)"
 
 
-class Lines(logging.Filter):
+class LogLimiter(logging.Filter):
     """Lets so many records through within so many seconds, each as one printable line: a browser sends what it likes.
 
     The last of them says that others are not told.
@@ -404,7 +404,7 @@ def serve(
         Session.of(text, name, folder)
         return None
 
-    lines = Lines()
+    lines = LogLimiter()
     for logger in ("nicegui", "uvicorn.error", "asyncio"):
         logging.getLogger(logger).addFilter(lines)
     core.sio.eio.cors_allowed_origins = sorted(f"http://{each}" for each in hosts)

@@ -24,7 +24,7 @@ from gearcad.page.panels.table import TablePanel
 from gearcad.page.panels.views import BodiesPanel, RollPanel, SectionPanel, SharesPanel, SheetPanel
 from gearcad.page.run_process import found_aside
 from gearcad.page.runs import Runs
-from gearcad.page.words import Language, Words, language_of
+from gearcad.page.words import PageLanguage, PageWords, language_of
 from gearcad.page.workbench import DESIGN, TEXT, BesideDesign, linked_bench
 
 _SECONDS = 60.0
@@ -217,7 +217,7 @@ class Session:
 
     open: ClassVar[set[Session]] = set()
 
-    def __init__(self, beside: BesideDesign, words: Words, runs: Runs | None = None) -> None:
+    def __init__(self, beside: BesideDesign, words: PageWords, runs: Runs | None = None) -> None:
         self.bench, self.beside, self.words = beside.bench, beside, words
         bench = self.bench
         self.key = secrets.token_urlsafe(12)
@@ -267,12 +267,12 @@ class Session:
     def of(cls, text: str, name: str, folder: Path) -> Session:
         """The page that the browser asks for, with the workbench that it had in the other language, if it comes from there."""
         query, headers = ui.context.client.request.query_params, ui.context.client.request.headers
-        words = Words.of(language_of(query.get("lang"), headers.get("accept-language", "")))
+        words = PageWords.of(language_of(query.get("lang"), headers.get("accept-language", "")))
         if (found := take_over(query.get("from", ""))) is not None:
             return cls(found.beside, words, found.runs)
         return cls(BesideDesign(linked_bench(query.get(DESIGN, ""), text, name, folder)), words)
 
-    def speak(self, language: Language) -> None:
+    def speak(self, language: PageLanguage) -> None:
         """Open the page in another language, with this workbench."""
         key = hand_over(Handed(self.beside, self._runs.hand_over()))
         ui.navigate.to(f"/?lang={language.value}&from={key}")
@@ -285,7 +285,7 @@ class Session:
         self._redo = self._button("redo", words["redo"], forth=True)
         BesidePanel(self.beside, words, self.kept)
         ui.element("div").classes("rest")
-        for language in Language:
+        for language in PageLanguage:
             spoken = ui.button(language.value, on_click=lambda _, language=language: self.speak(language))
             spoken.props["title"] = spoken.props["aria-label"] = language.endonym
             spoken.props("flat dense").classes("language").set_enabled(language is not words.language)

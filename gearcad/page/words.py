@@ -12,7 +12,7 @@ from typing import Any
 
 from gearcad.core.runtime import templates
 
-__all__ = ["Language", "Words", "language_of"]
+__all__ = ["PageLanguage", "PageWords", "language_of"]
 
 _FILE = "page_words.toml"
 
@@ -26,7 +26,7 @@ _LONG_WORD = re.compile(rf"\w{{{_LONG},}}")
 _SOFT_HYPHEN = "\u00ad"
 
 
-class Language(StrEnum):
+class PageLanguage(StrEnum):
     """A language that the page speaks, by its code."""
 
     ENGLISH = "en"
@@ -39,7 +39,7 @@ class Language(StrEnum):
 
 
 @dataclass(frozen=True)
-class Words:
+class PageWords:
     """`words["find a key"]` is what stands for these words in the language of the page.
 
     Fields and derived quantities are found by the words that the schema and `symbols` have for them. What has no other words
@@ -47,14 +47,14 @@ class Words:
     patterns of the ends of lines.
     """
 
-    language: Language
+    language: PageLanguage
     table: Mapping[str, str] = field(repr=False)
     parts: tuple[str, ...] = field(default=(), repr=False)
     notices: Mapping[str, str] = field(default_factory=dict, repr=False)
     permitted: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     @classmethod
-    def of(cls, language: Language) -> Words:
+    def of(cls, language: PageLanguage) -> PageWords:
         """Return the words of a language from the shipped template."""
         tables = _tables()
         code = language.value
@@ -91,14 +91,14 @@ def _tables() -> Mapping[str, Any]:
     return tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
 
 
-def language_of(asked: str | None, accepted: str) -> Language:
+def language_of(asked: str | None, accepted: str) -> PageLanguage:
     """The language that the address asks for, else the first of ours that the browser would take (its Accept-Language)."""
-    ours = {each.value: each for each in Language}
+    ours = {each.value: each for each in PageLanguage}
     if asked in ours:
         return ours[asked]
     ranked = sorted(accepted.split(","), key=_rank, reverse=True)
     codes = (each.partition(";")[0].strip().lower()[:2] for each in ranked)
-    return next((ours[code] for code in codes if code in ours), Language.ENGLISH)
+    return next((ours[code] for code in codes if code in ours), PageLanguage.ENGLISH)
 
 
 def _rank(accepted: str) -> float:

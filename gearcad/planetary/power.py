@@ -13,7 +13,7 @@ from gearcad.core.records import PerGear, Role, is_assumed
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.planetary.members import PairStage, SetMesh, TrainLoad, base_radius
-from gearcad.planetary.train_data import Link, Shaft, Speeds, TrainData, shafts_of, speeds, willis_row
+from gearcad.planetary.train_data import Link, Speeds, TrainData, TrainShaft, shafts_of, speeds, willis_row
 
 ROUNDING = 1e-12
 """Share of a speed below which a difference of speeds is rounding."""
@@ -33,7 +33,7 @@ class Balance:
 
 
 def balance(
-    train: TrainData, speeds: Mapping[str, float], ends: Mapping[str, Shaft], known: Shaft, torque: float, eta: float
+    train: TrainData, speeds: Mapping[str, float], ends: Mapping[str, TrainShaft], known: TrainShaft, torque: float, eta: float
 ) -> Balance:
     """Return all torques, from the `torque` on the shaft `known`; of `speeds` only the signs and the zeros matter.
 
@@ -254,10 +254,10 @@ def _balance(
     return balance(train, signs, _ends(train, shafts, given), shafts[at], torque, eta)
 
 
-def _ends(train: TrainData, shafts: Mapping[str, Shaft], given: Mapping[str, float]) -> dict[str, Shaft]:
+def _ends(train: TrainData, shafts: Mapping[str, TrainShaft], given: Mapping[str, float]) -> dict[str, TrainShaft]:
     """Return the shaft through which each member is held or driven: one of a role, of a given speed, or the member itself."""
     spoken = [train.input, train.output, train.fixed, *given, *train.members]
-    ends: dict[str, Shaft] = {}
+    ends: dict[str, TrainShaft] = {}
     for name in spoken:
         if name is not None:
             ends.setdefault(shafts[name].member, shafts[name])

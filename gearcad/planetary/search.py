@@ -19,7 +19,7 @@ RIMS = ("planet", "planet_2")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Candidate:
+class PlanetarySet:
     """One set that was found. Lengths in mm, `deviation` of its ratio in %.
 
     `teeth`, `profile_shifts` and `tip_alterations` by the names of its gears. `phases` are z mod N of each mesh, 0 where all
@@ -147,7 +147,7 @@ class SearchResult:
     """
 
     task: SearchTask
-    found: tuple[Candidate, ...]
+    found: tuple[PlanetarySet, ...]
     considered: int
     removed: dict[str, int]
     unmade: tuple[str, ...]
@@ -207,9 +207,9 @@ def _meeting(task: SearchTask) -> _Meeting:
     return _Meeting(kept, considered, removed)
 
 
-def _made(kept: list[ManySets], count: int) -> tuple[list[Candidate], list[str], int]:
+def _made(kept: list[ManySets], count: int) -> tuple[list[PlanetarySet], list[str], int]:
     """The best that can be made, what those say that cannot, and how many are left."""
-    found: list[Candidate] = []
+    found: list[PlanetarySet] = []
     unmade: list[str] = []
     for candidate in _ranked(kept):
         if len(found) == count or len(found) + len(unmade) == MOST_TRIALS * count:
@@ -262,7 +262,7 @@ ROUNDING = 1e-12
 """Of a ratio, relative to it."""
 
 
-def _ranked(kept: list[ManySets]) -> Iterator[Candidate]:
+def _ranked(kept: list[ManySets]) -> Iterator[PlanetarySet]:
     """Yield the sets of all types, best first."""
     keys = [np.concatenate(parts) for parts in zip(*(_keys(sets) for sets in kept), strict=True)]
     starts = np.cumsum([0, *(len(sets.planets) for sets in kept)])
@@ -282,7 +282,7 @@ def _keys(sets: ManySets) -> tuple[np.ndarray[Any, Any], ...]:
     return deviation, diameter, sets.in_phase, sets.common, -np.round(sets.efficiency, 9), *last
 
 
-def _candidate(sets: ManySets, place: int) -> Candidate:
+def _candidate(sets: ManySets, place: int) -> PlanetarySet:
     """Return one of the sets as a candidate."""
     one = sets.picked(np.array([place]))
     kind, sizes, stepped = sets.kind, one.sizes, sets.kind is not SetType.A
@@ -294,7 +294,7 @@ def _candidate(sets: ManySets, place: int) -> Candidate:
     tips, own = sizes.tip_alterations, sizes.central_alterations
     alterations = (own[0], tips[0], tips[1], own[1])
     common = (np.gcd(a, rim_a), np.gcd(b, rim_b))
-    return Candidate(
+    return PlanetarySet(
         task=sets.task,
         kind=kind,
         planets=planets,

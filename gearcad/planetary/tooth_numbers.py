@@ -239,7 +239,7 @@ RACK = BasicRack()
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeshSizes:
+class MeshedTeeth:
     """The meshes of centrals with rims, by their signed teeth (n,), at a centre distance that may not be known yet.
 
     What is an array has one value for each of them (n,); lengths in mm, angles in rad.
@@ -326,7 +326,7 @@ class MeshSizes:
 class SetSizes:
     """Sets of one type with their centre distance and profile shifts; what is not `coaxial` has no meaning."""
 
-    meshes: tuple[MeshSizes, MeshSizes]
+    meshes: tuple[MeshedTeeth, MeshedTeeth]
     stepped: bool
 
     @classmethod
@@ -335,7 +335,7 @@ class SetSizes:
         helix = math.radians(task.helix_angle)
         pairs = ((teeth.a, teeth.rim_a), (teeth.b, teeth.rim_b))
         first, second = (
-            MeshSizes(central=central, rim=rim, module=module, helix_angle=helix)
+            MeshedTeeth(central=central, rim=rim, module=module, helix_angle=helix)
             for (central, rim), module in zip(pairs, task.modules, strict=True)
         )
         return cls(meshes=(first, second), stepped=stepped)
@@ -370,7 +370,7 @@ class SetSizes:
         first = self._rim_shift(self.meshes[0])
         return first, self._rim_shift(self.meshes[1]) if self.stepped else first
 
-    def _rim_shift(self, mesh: MeshSizes) -> Floats:
+    def _rim_shift(self, mesh: MeshedTeeth) -> Floats:
         """Return x of the rims: SHIFT in a ring, half of the sum at a sun; more or less to avoid undercut of either gear."""
         total, least = mesh.shift_sum_at(self.distance), mesh.least_shift(mesh.rim)
         at_sun = np.minimum(total / 2, total - mesh.least_shift(mesh.central))
@@ -391,7 +391,7 @@ class SetSizes:
         first, second = (self._tip_alteration(mesh) for mesh in self.meshes)
         return first, second
 
-    def _tip_alteration(self, mesh: MeshSizes) -> Floats:
+    def _tip_alteration(self, mesh: MeshedTeeth) -> Floats:
         change = (self.distance - mesh.reference_distance) / mesh.module - mesh.shift_sum_at(self.distance)
         result: Floats = np.where(mesh.ring, 0.0, np.minimum(change, 0.0))
         return result
@@ -403,7 +403,7 @@ class SetSizes:
         first, second = (np.where(mesh.ring, self._clear_alteration(mesh, rim, central), k) for mesh, k, rim, central in parts)
         return first, second
 
-    def _clear_alteration(self, mesh: MeshSizes, rim_shift: Floats, central_shift: Floats) -> Floats:
+    def _clear_alteration(self, mesh: MeshedTeeth, rim_shift: Floats, central_shift: Floats) -> Floats:
         """Return k of a ring that keeps |d_a2| >= 2 sqrt(r_b2^2 + (|T1T2| + t_Ff1)^2)."""
         tangent = self.distance * np.sin(mesh.working_angle(self.distance)) + mesh.form_reach(mesh.rim, rim_shift)
         least = np.hypot(mesh.base_radius(mesh.central), tangent)
@@ -447,7 +447,7 @@ def rounded_up(value: Floats, digits: int) -> Floats:
     return result
 
 
-def tip_radius(mesh: MeshSizes, teeth: Wholes, rise: Floats) -> Floats:
+def tip_radius(mesh: MeshedTeeth, teeth: Wholes, rise: Floats) -> Floats:
     """Signed r_a with x + k."""
     result: Floats = mesh.transverse_module * teeth / 2 + mesh.module * (RACK.addendum + rise)
     return result
@@ -551,14 +551,14 @@ def _meshing(sets: ManySets) -> Bools:
     return good
 
 
-def _reach(mesh: MeshSizes, teeth: Wholes, tip: Floats) -> Floats:
+def _reach(mesh: MeshedTeeth, teeth: Wholes, tip: Floats) -> Floats:
     """Length of the base tangent out to a tip circle; 0 inside the base circle."""
     base = mesh.base_radius(teeth)
     result: Floats = np.sqrt(np.maximum((tip - base) * (tip + base), 0.0))
     return result
 
 
-def _tip_margin(mesh: MeshSizes, distance: Floats, tips: tuple[Floats, Floats], shifts: tuple[Floats, Floats]) -> Floats:
+def _tip_margin(mesh: MeshedTeeth, distance: Floats, tips: tuple[Floats, Floats], shifts: tuple[Floats, Floats]) -> Floats:
     """Angle by which the tips of planet and ring pass each other where their tip circles cross; infinite where they do not."""
     outer, inner = tips
     half = []  # tooth angle of the rim, space angle of the ring, at the tips

@@ -243,7 +243,7 @@ class Link:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Shaft:
+class TrainShaft:
     """A member of the set, or a shaft that turns with the `member` through the stages of `path`, from the set outwards.
 
     `speed_ratio` is its speed over that of the member, exact.
@@ -254,17 +254,17 @@ class Shaft:
     speed_ratio: Fraction = Fraction(1)
     path: tuple[Link, ...] = ()
 
-    def behind(self, stage: PairStage) -> Shaft:
+    def behind(self, stage: PairStage) -> TrainShaft:
         """The shaft at the other end of a stage that is on this one."""
         link = Link(stage=stage, outer=Role.WHEEL if stage.pinion == self.name else Role.PINION)
         inner, outer = link.teeth
         ratio, name = -Fraction(inner, outer), link.shafts[1]
-        return Shaft(name=name, member=self.member, speed_ratio=self.speed_ratio * ratio, path=(*self.path, link))
+        return TrainShaft(name=name, member=self.member, speed_ratio=self.speed_ratio * ratio, path=(*self.path, link))
 
 
-def shafts_of(train: TrainData) -> dict[str, Shaft]:
+def shafts_of(train: TrainData) -> dict[str, TrainShaft]:
     """Every shaft by its name, the members of the set first. Raises GeometryError where a stage is not on one other shaft."""
-    found = {name: Shaft(name=name, member=name) for name in train.members}
+    found = {name: TrainShaft(name=name, member=name) for name in train.members}
     waiting = list(train.stages)
     while waiting:
         stage = next((each for each in waiting if each.pinion in found or each.wheel in found), None)
@@ -351,7 +351,7 @@ def check_speeds(train: TrainData, given: Mapping[str, float]) -> None:
     _told(train, shafts_of(train), given)
 
 
-def _known(train: TrainData, shafts: Mapping[str, Shaft], given: Mapping[str, float]) -> dict[str, float]:
+def _known(train: TrainData, shafts: Mapping[str, TrainShaft], given: Mapping[str, float]) -> dict[str, float]:
     """The two speeds of members that were given. Raises ParameterError."""
     known, by = _told(train, shafts, given)
     if len(known) < 2:
@@ -361,7 +361,9 @@ def _known(train: TrainData, shafts: Mapping[str, Shaft], given: Mapping[str, fl
     return known
 
 
-def _told(train: TrainData, shafts: Mapping[str, Shaft], given: Mapping[str, float]) -> tuple[dict[str, float], dict[str, str]]:
+def _told(
+    train: TrainData, shafts: Mapping[str, TrainShaft], given: Mapping[str, float]
+) -> tuple[dict[str, float], dict[str, str]]:
     """The speeds of members that were given, at the most two, and by the name of which shaft each. Raises ParameterError."""
     told = {train.fixed: 0.0} if train.fixed else {}
     known: dict[str, float] = {}

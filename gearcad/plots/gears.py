@@ -14,7 +14,7 @@ from gearcad.core.records import Floats
 from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.gear_data import shaped, twist
 from gearcad.geometry.involute import involute, root_between
-from gearcad.meshing.bodies.element_mesh import ElementMesh, Shape
+from gearcad.meshing.bodies.element_mesh import ElementMesh, ElementShape
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared
 from gearcad.rating.tooth_stiffness import outer_diameter
 
@@ -351,7 +351,7 @@ def plot_body_mesh(mesh: ElementMesh, ax: Axes | None = None, *, yaw: float = 35
     return axes
 
 
-def _rim(shape: Shape) -> list[int]:
+def _rim(shape: ElementShape) -> list[int]:
     """Nodes of a plane element all round: vertices and those between them in turn."""
     return [node for k in range(shape.vertices) for node in (k, shape.vertices + k)]
 

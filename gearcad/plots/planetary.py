@@ -11,7 +11,7 @@ import numpy as np
 
 from gearcad.core.records import Floats, Role
 from gearcad.dynamics.planetary.load_sharing import LoadSharing
-from gearcad.dynamics.planetary.planetary_excitation import MeshStiffness
+from gearcad.dynamics.planetary.planetary_excitation import PlanetMeshStiffness
 from gearcad.dynamics.planetary.planetary_statics import TorsionalStiffness, TwistSource
 from gearcad.geometry import Gear
 from gearcad.geometry.gear_data import section_turn
@@ -323,7 +323,7 @@ _NAMED = 12
 """Most planets whose numbers have room beside their rows."""
 
 
-def phases_inches(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness] | None) -> tuple[float, float]:
+def phases_inches(train: PlanetaryTrain, stiffness: Mapping[str, PlanetMeshStiffness] | None) -> tuple[float, float]:
     """Size of the picture: rows for the planets, and curves below where stiffnesses are known."""
     return FIGURE_INCHES[0], 1.3 + 0.17 * min(train.planets, _NAMED) + (2.0 if stiffness else 0.0)
 
@@ -331,7 +331,7 @@ def phases_inches(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness] 
 def plot_phases(
     train: PlanetaryTrain,
     phases: Mapping[str, MeshPhases],
-    stiffness: Mapping[str, MeshStiffness] | None = None,
+    stiffness: Mapping[str, PlanetMeshStiffness] | None = None,
     figure: Figure | None = None,
 ) -> Figure:
     """A column for each mesh over one base pitch: dots where planets meet the pitch point, below the sum of stiffnesses."""
@@ -367,7 +367,7 @@ def _draw_rows(axes: Axes, train: PlanetaryTrain, ahead: tuple[float, ...], mesh
     axes.set_title(plain(mesh.name), fontsize=10, loc="left")
 
 
-def _draw_sum(axes: Axes, train: PlanetaryTrain, ahead: tuple[float, ...], stiffness: MeshStiffness) -> None:
+def _draw_sum(axes: Axes, train: PlanetaryTrain, ahead: tuple[float, ...], stiffness: PlanetMeshStiffness) -> None:
     prepared(axes, "", "")
     places = np.linspace(0, 1, _PLACES)
     for place in ahead:
@@ -379,7 +379,7 @@ def _draw_sum(axes: Axes, train: PlanetaryTrain, ahead: tuple[float, ...], stiff
     axes.set_ylim(bottom=0)
 
 
-def stiffness_sum(ahead: tuple[float, ...], stiffness: MeshStiffness, places: Floats) -> Floats:
+def stiffness_sum(ahead: tuple[float, ...], stiffness: PlanetMeshStiffness, places: Floats) -> Floats:
     """Stiffness (N/µm) of all planets together at places (n,) of a base pitch."""
     found: Floats = sum((stiffness.stiffness_at(place + places) for place in ahead), np.zeros_like(places))
     return found

@@ -196,7 +196,7 @@ class Weight(Enum):
     AXIS = 0.6
 
 
-class Stroke(NamedTuple):
+class SchemeLine(NamedTuple):
     """A line of a part; that of the axis belongs to none."""
 
     part: str
@@ -232,7 +232,7 @@ class Callout(NamedTuple):
 class Plan:
     """The complete content of the drawing; `ways` gives "in" or "out" for members and shafts, the direction of power there."""
 
-    strokes: tuple[Stroke, ...]
+    strokes: tuple[SchemeLine, ...]
     grounds: tuple[Ground, ...]
     arrows: tuple[Arrow, ...]
     callouts: tuple[Callout, ...]
@@ -256,7 +256,7 @@ class _Draft:
 
     def __init__(self, train: PlanetaryTrain, ways: Mapping[str, str]) -> None:
         self.train, self.places, self.ways = train, Places(train), ways
-        self.strokes: list[Stroke] = []
+        self.strokes: list[SchemeLine] = []
         self.grounds: list[Ground] = []
         self.arrows: list[Arrow] = []
         self.callouts: list[Callout] = []
@@ -277,7 +277,7 @@ class _Draft:
         return Plan(tuple(self.strokes), tuple(self.grounds), tuple(self.arrows), tuple(self.callouts), self.ways)
 
     def _line(self, part: str, weight: Weight, *points: Point) -> None:
-        self.strokes.append(Stroke(part, points, weight))
+        self.strokes.append(SchemeLine(part, points, weight))
 
     def _teeth(self, part: str, left: float, right: float, height: float) -> None:
         self._line(part, Weight.TEETH, (left, height), (right, height))

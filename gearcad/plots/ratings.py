@@ -12,7 +12,7 @@ from gearcad.core.records import Role
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, plain, prepared, short
 from gearcad.rating.scuffing import Scuffing
-from gearcad.rating.strength import Part, StrengthRating
+from gearcad.rating.strength import RatedPart, StrengthRating
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,14 +29,14 @@ _BAR = 0.36
 """Width of a bar, of the distance between gears."""
 
 
-def plot_life(rating: StrengthRating, part: Part = Part.FLANK, ax: Axes | None = None) -> Axes:
+def plot_life(rating: StrengthRating, part: RatedPart = RatedPart.FLANK, ax: Axes | None = None) -> Axes:
     """Strength over load cycles in logarithms, with the loads: stress and cycles of each gear.
 
     Raises GeometryError where no strength is known.
     """
     if all(of.resistance is None for of in rating.parts[part]):
         raise GeometryError("material", rating.name, f"must have limits of the {part.value}, for its life to be drawn")
-    axes = prepared(ax, "load cycles of a tooth", f"{'contact' if part is Part.FLANK else 'root'} stress in MPa")
+    axes = prepared(ax, "load cycles of a tooth", f"{'contact' if part is RatedPart.FLANK else 'root'} stress in MPa")
     axes.set_xscale("log")
     axes.set_yscale("log")
     seen: list[float] = []
@@ -60,7 +60,7 @@ def plot_life(rating: StrengthRating, part: Part = Part.FLANK, ax: Axes | None =
     return axes
 
 
-def _loads(axes: Axes, rating: StrengthRating, part: Part, role: Role) -> list[float]:
+def _loads(axes: Axes, rating: StrengthRating, part: RatedPart, role: Role) -> list[float]:
     """A mark for each load of a gear; a line where its cycles are not known. Returns the stresses (MPa)."""
     (_, colour, marker), cycles = GEARS.pick(role), rating.parts[part].pick(role).cycles
     stresses = [case.stresses[part].pick(role) for case in rating.cases]
@@ -78,7 +78,7 @@ def plot_safeties(strength: TrainStrength, ax: Axes | None = None) -> Axes:
 
     Raises GeometryError where none was judged.
     """
-    gears, columns = strength.members, tuple(Part)
+    gears, columns = strength.members, tuple(RatedPart)
     known = [each for gear in gears.values() for each in map(gear.least, columns) if each is not None]
     if not known:
         raise GeometryError("material", strength.name, "must have limits, for safeties to be drawn")

@@ -1,7 +1,7 @@
 from .contact_stress import FlankRating as FlankRating
 from .contact_stress import LineContact as LineContact
-from .contact_stress import Peak as Peak
 from .contact_stress import Stresses as Stresses
+from .contact_stress import StressPeak as StressPeak
 from .contact_stress import base_normal_force as base_normal_force
 from .contact_stress import contact_at as contact_at
 from .contact_stress import pitch_point_contact as pitch_point_contact

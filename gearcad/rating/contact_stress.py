@@ -27,7 +27,7 @@ Size = TypeVar("Size", float, Floats)
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
-class Peak(NamedTuple):
+class StressPeak(NamedTuple):
     """The greatest value of a stress on the axis of symmetry (MPa), and the depth (mm) where it occurs."""
 
     depth: float
@@ -136,7 +136,7 @@ class LineContact:
         return Stresses(*arrays)
 
     @property
-    def greatest_shear(self) -> Peak:
+    def greatest_shear(self) -> StressPeak:
         """The largest shear stress on the axis: 0.30028 p_0 at 0.78615 a for steel (Johnson 4.48: 0.30 p_0 at 0.78 a).
 
         With z = a sinh t the shear in the plane x-z is p_0 sinh t e^-t/cosh t, greatest where tanh t is the golden
@@ -149,7 +149,7 @@ class LineContact:
         return self._greatest("largest_shear", (in_section, along))
 
     @property
-    def greatest_von_mises(self) -> Peak:
+    def greatest_von_mises(self) -> StressPeak:
         """The largest von Mises stress on the axis: 0.55752 p_0 at 0.70429 a for nu = 0.3.
 
         With z = a sinh t and T = tanh t it is p_0 e^-t sqrt((1 - 2 nu)^2 + 3 T^2), stationary where
@@ -159,12 +159,12 @@ class LineContact:
         inside = [float(root.real) for root in roots if abs(root.imag) < 1e-9 and 0 < root.real < 1]
         return self._greatest("von_mises", (0.0, *(math.atanh(root) for root in inside)))
 
-    def _greatest(self, name: str, candidates: tuple[float, ...]) -> Peak:
+    def _greatest(self, name: str, candidates: tuple[float, ...]) -> StressPeak:
         """The largest value of one of the `stresses` among the candidates t = arsinh(z/a)."""
         found = self.stresses(self.half_width * np.sinh(candidates))
         values = getattr(found, name)
         best = int(np.argmax(values))
-        return Peak(float(found.depth[best]), float(values[best]))
+        return StressPeak(float(found.depth[best]), float(values[best]))
 
 
 def base_normal_force(pair: GearPair, torque: float) -> float:

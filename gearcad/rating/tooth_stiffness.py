@@ -63,7 +63,7 @@ def ring_rim_factor(ratio: float, edition: Edition) -> float:
 
 
 @dataclass(frozen=True)
-class Rim(ABC):
+class RatedRim(ABC):
     """Rim of one gear; `ratio` is its relative thickness, None for a ring whose rim is not given."""
 
     ratio: float | None
@@ -81,7 +81,7 @@ class Rim(ABC):
         """Return the reason why the standard has no Y_B for the rim; "" if it has."""
 
 
-class ExternalRim(Rim):
+class ExternalRim(RatedRim):
     """Rim below the teeth of an external gear; `ratio` is s_R/h_t."""
 
     ratio: float
@@ -101,7 +101,7 @@ class ExternalRim(Rim):
         return f"Y_B holds for rims of more than {THINNEST:g} tooth heights under the root, here {self.ratio:.3g}"
 
 
-class RingRim(Rim):
+class RingRim(RatedRim):
     """Rim outside the teeth of a ring; `ratio` is s_R/m_n."""
 
     def factor(self, edition: Edition) -> float:
@@ -122,12 +122,12 @@ class RingRim(Rim):
         return f"Y_B holds for rims of more than {THINNEST_RING:g} m_n outside the root, here {self.ratio:.3g}"
 
 
-def _known(rim: Rim, edition: Edition) -> str:
+def _known(rim: RatedRim, edition: Edition) -> str:
     factor = rim.factor(edition)
     return f"Y_B = {factor:.4g}" if factor > 1 else "the standard chosen has no factor for it"
 
 
-def rim_of(gear: Gear) -> Rim:
+def rim_of(gear: Gear) -> RatedRim:
     """The rim of a gear or a ring."""
     return RingRim(ring_rim_ratio(gear)) if gear.internal else ExternalRim(rim_thickness_ratio(gear))
 

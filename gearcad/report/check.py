@@ -45,8 +45,8 @@ from gearcad.plots.check import (
 from gearcad.plots.paper import short
 from gearcad.plots.stiffness import parts_inches, plot_load_dependence, plot_parts_of_all, plot_stiffness
 from gearcad.report.document import (
-    Picture,
-    Row,
+    ReportFigure,
+    ReportRow,
     figure_address,
     gear_rows,
     load_rows,
@@ -92,7 +92,7 @@ class StiffnessSection(NamedTuple):
 
     rows: list[_MethodRow]
     referred: bool
-    curves: Picture
+    curves: ReportFigure
     notes: list[tuple[str, tuple[str, ...]]]
     left_out: list[tuple[str, str]]
 
@@ -126,7 +126,7 @@ def _section(comparison: StiffnessComparison) -> StiffnessSection:
     return StiffnessSection(
         rows=[_report_row(comparison, cycle) for cycle in comparison.cycles],
         referred=comparison.reference is not None,
-        curves=Picture(
+        curves=ReportFigure(
             "Mesh stiffness along the line of action",
             picture_address(partial(plot_stiffness, comparison), "svg", _TALL),
             _caption(comparison, "curves"),
@@ -153,7 +153,7 @@ def _report_row(comparison: StiffnessComparison, cycle: MeshCycle) -> _MethodRow
     )
 
 
-def _figures(comparison: StiffnessComparison) -> list[Picture]:
+def _figures(comparison: StiffnessComparison) -> list[ReportFigure]:
     """Return the figures of the comparison: parts of the compliance, and influence of the load.
 
     Figures that would show nothing are left out.
@@ -161,10 +161,10 @@ def _figures(comparison: StiffnessComparison) -> list[Picture]:
     found = []
     if comparison.divided:
         address = figure_address(partial(plot_parts_of_all, comparison), "svg", parts_inches(comparison))
-        found.append(Picture("Parts of the compliance", address, _caption(comparison, "parts")))
+        found.append(ReportFigure("Parts of the compliance", address, _caption(comparison, "parts")))
     if len(comparison.load_points) > len(comparison.cycles):
         address = picture_address(partial(plot_load_dependence, comparison), "svg", _TALL)
-        found.append(Picture("Mean mesh stiffness over the load", address, _caption(comparison, "load")))
+        found.append(ReportFigure("Mean mesh stiffness over the load", address, _caption(comparison, "load")))
     return found
 
 
@@ -305,13 +305,13 @@ class CheckSections(ABC, Generic[Checked]):
     # ------------------------------------------------------------------ figures
 
     @property
-    def pair(self) -> Picture:
+    def pair(self) -> ReportFigure:
         """The gears in mesh."""
         return pair_picture(self.result.pair)
 
     @cached_property
     @abstractmethod
-    def figures(self) -> list[Picture]:
+    def figures(self) -> list[ReportFigure]:
         """Return the figures in the order of the report."""
 
     @cached_property
@@ -319,16 +319,18 @@ class CheckSections(ABC, Generic[Checked]):
         """Teeth to be turned by hand; only solid bodies have some."""
         return []
 
-    def figure(self, title: str, draw: Callable[[Axes], Axes], caption: str, kind: str = "svg", *values: object) -> Picture:
+    def figure(
+        self, title: str, draw: Callable[[Axes], Axes], caption: str, kind: str = "svg", *values: object
+    ) -> ReportFigure:
         """One with a caption of the model's own, of the result and of other values."""
-        return Picture(title, picture_address(draw, kind), self.caption(caption, *values))
+        return ReportFigure(title, picture_address(draw, kind), self.caption(caption, *values))
 
     def caption(self, name: str, *values: object) -> str:
         """Return the caption of this name, from the model's own template."""
         return sentences(self.captions, name, self.result, *values)
 
     @property
-    def over_mesh(self) -> list[Picture]:
+    def over_mesh(self) -> list[ReportFigure]:
         """Courses over one base pitch."""
         of = self.result
         return [
@@ -338,7 +340,7 @@ class CheckSections(ABC, Generic[Checked]):
         ]
 
     @property
-    def over_torque_and_mesh_size(self) -> list[Picture]:
+    def over_torque_and_mesh_size(self) -> list[ReportFigure]:
         """Return the figures over torque, and over mesh size if a convergence study was made."""
         of = self.result
         found = [
@@ -362,28 +364,28 @@ class CheckSections(ABC, Generic[Checked]):
     # ------------------------------------------------------------------ inputs and rating
 
     @property
-    def gear_rows(self) -> list[Row]:
+    def gear_rows(self) -> list[ReportRow]:
         """Return the rows of both gears."""
         return gear_rows(self.result.pair)
 
     @property
-    def pair_rows(self) -> list[Row]:
+    def pair_rows(self) -> list[ReportRow]:
         """Return the rows of the pair."""
         return pair_rows(self.result.pair)
 
     @property
-    def load_rows(self) -> list[Row]:
+    def load_rows(self) -> list[ReportRow]:
         """Return the rows of material, load and mounting."""
         return load_rows(self.result.material, self.result.load, self.result.mounting)
 
     @property
-    def rating_rows(self) -> list[Row]:
+    def rating_rows(self) -> list[ReportRow]:
         """Return the rows of the rating."""
         return rating_rows(self.result)
 
 
-def _common(title: str, draw: Callable[[Axes], Axes], caption: str, of: object) -> Picture:
-    return Picture(title, picture_address(draw, "svg"), sentences("captions_check.txt", caption, of))
+def _common(title: str, draw: Callable[[Axes], Axes], caption: str, of: object) -> ReportFigure:
+    return ReportFigure(title, picture_address(draw, "svg"), sentences("captions_check.txt", caption, of))
 
 
 def _row(comparison: Comparison) -> ComparisonRow:
@@ -441,7 +443,7 @@ class PlaneSections(CheckSections[PlaneCheck]):
         return [sentences("reasons_plane.txt", "root_stress", of, role, part, leans.pick(role)) for role, of in roots.items()]
 
     @cached_property
-    def figures(self) -> list[Picture]:
+    def figures(self) -> list[ReportFigure]:
         of, inside = self.result, self.result.shown.interior
         figure = self.figure
         return [
@@ -476,7 +478,7 @@ class SolidSections(CheckSections[SolidCheck]):
         return [sentences("reasons_solid.txt", macro, of) for macro in ("pressure", "lines", "along_face")]
 
     @cached_property
-    def figures(self) -> list[Picture]:
+    def figures(self) -> list[ReportFigure]:
         of, figure = self.result, self.figure
         patterns = [
             figure(f"Contact pattern, {role.value}", partial(plot_contact_pattern, of, role), "contact_pattern", "png", role)

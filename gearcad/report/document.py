@@ -159,7 +159,7 @@ _PACKED = 4
 """Level at which zlib packs them: half the time of the usual 6, and 6 % more bytes."""
 
 
-class Picture(NamedTuple):
+class ReportFigure(NamedTuple):
     """A figure: its title, its address (the picture itself), and what it shows in sentences."""
 
     title: str
@@ -167,10 +167,10 @@ class Picture(NamedTuple):
     caption: str
 
 
-def pair_picture(pair: GearPair) -> Picture:
+def pair_picture(pair: GearPair) -> ReportFigure:
     """Both gears as they stand in mesh."""
     address = picture_address(partial(plot_pair, pair), "svg", pair_inches(pair))
-    return Picture("The pair in mesh", address, sentences("captions_check.txt", "pair", pair))
+    return ReportFigure("The pair in mesh", address, sentences("captions_check.txt", "pair", pair))
 
 
 def picture_address(draw: Callable[[Axes], Axes], kind: str, inches: tuple[float, float] = FIGURE_INCHES) -> str:
@@ -205,7 +205,7 @@ _ROUNDING = 1e-9
 """Below this a length or number is rounding."""
 
 
-class Row(NamedTuple):
+class ReportRow(NamedTuple):
     """One line of a table; `values` are those of pinion and wheel, or one for both."""
 
     words: str
@@ -215,7 +215,7 @@ class Row(NamedTuple):
     source: str
 
 
-def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[Row]:
+def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[ReportRow]:
     """Return the rows of both gears: their fields `keys`, and the modifications of their flanks."""
     gears = (pair.pinion, pair.wheel)
     values = [_flat(gear.to_dict() | {"modification": gear.flank_form.in_use}) for gear in gears]
@@ -224,14 +224,14 @@ def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[Row]:
     return [_row(written[key], *(gear.get(key) for gear in values)) for key in (*keys.split(), *present)]
 
 
-def pair_rows(pair: GearPair) -> list[Row]:
+def pair_rows(pair: GearPair) -> list[ReportRow]:
     """Return the rows of the pair."""
     values = _flat(pair.to_dict())
     written = symbols_of(GearPair) | symbols.PAIR
     return [_row(written[key], values[key]) for key in _PAIR.split()]
 
 
-def load_rows(material: Materials, load: Load, mounting: Mounting) -> list[Row]:
+def load_rows(material: Materials, load: Load, mounting: Mounting) -> list[ReportRow]:
     """Material and load, and the mounting where it is not that of the drawing."""
     words = symbols_of(Material)
     rows: list[tuple[Symbol, Any]] = [
@@ -244,7 +244,7 @@ def load_rows(material: Materials, load: Load, mounting: Mounting) -> list[Row]:
     return [_row(symbol, value) for symbol, value in rows if value is not None]
 
 
-def rating_rows(result: CheckResult) -> list[Row]:
+def rating_rows(result: CheckResult) -> list[ReportRow]:
     """The rating by symbols: values of the pair, then those of each gear, then what the formulas say of a ring."""
     values = result.rating.to_dict()
     rows = [_row(symbol, values[key]) for key, symbol in symbols.RATING.items()]
@@ -255,9 +255,9 @@ def rating_rows(result: CheckResult) -> list[Row]:
     return rows
 
 
-def _row(symbol: symbols.Symbol, *values: Any) -> Row:
+def _row(symbol: symbols.Symbol, *values: Any) -> ReportRow:
     unit = {"deg": "°"}.get(symbol.unit, symbol.unit)
-    return Row(symbol.words, symbol.symbol, tuple(_text(value) for value in values), unit, symbol.source)
+    return ReportRow(symbol.words, symbol.symbol, tuple(_text(value) for value in values), unit, symbol.source)
 
 
 def _text(value: Any) -> str:

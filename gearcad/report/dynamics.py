@@ -55,7 +55,7 @@ from gearcad.plots.trains import (
     shapes_inches,
 )
 from gearcad.report.document import (
-    Picture,
+    ReportFigure,
     figure_address,
     gear_rows,
     page_html,
@@ -103,16 +103,16 @@ def displacement_table(study: TrainStudy) -> WordTable:
     return WordTable(("greatest amplitude", "", "", "pinion, rpm", "tooth frequency, 1/s"), rows)
 
 
-def displacement_figures(study: TrainStudy) -> list[Picture]:
+def displacement_figures(study: TrainStudy) -> list[ReportFigure]:
     """Over speed; the dynamic transmission error at one speed and over all, where it has lines."""
     drawn = figure_address(partial(plot_displacements, study), "svg", displacement_inches(study))
-    found = [Picture("Displacements over speed", drawn, _said("displacements", study))]
+    found = [ReportFigure("Displacements over speed", drawn, _said("displacements", study))]
     if len(study.course.order):
         lines = picture_address(partial(plot_lines, study), "svg", _DISPLACEMENTS_WIDE)
-        found.append(Picture("Dynamic transmission error at one speed", lines, _said("transmission_lines", study)))
+        found.append(ReportFigure("Dynamic transmission error at one speed", lines, _said("transmission_lines", study)))
     if len(study.up.transmission.orders):
         waterfall = figure_address(partial(plot_waterfall, study), "svg", waterfall_inches(study))
-        found.append(Picture("Dynamic transmission error over speed", waterfall, _said("waterfall", study)))
+        found.append(ReportFigure("Dynamic transmission error over speed", waterfall, _said("waterfall", study)))
     return found
 
 
@@ -154,12 +154,12 @@ def bearing_table(study: TrainStudy) -> WordTable:
     )
 
 
-def bearing_figures(study: TrainStudy) -> list[Picture]:
+def bearing_figures(study: TrainStudy) -> list[ReportFigure]:
     """Forces on bearings over speed; none of gears that do not travel."""
     if study.up.bearings is None:
         return []
     drawn = figure_address(partial(plot_bearings, study), "svg", bearing_inches())
-    return [Picture("Forces on the bearings over speed", drawn, _said("bearings", study))]
+    return [ReportFigure("Forces on the bearings over speed", drawn, _said("bearings", study))]
 
 
 def _said(macro: str, *values: object) -> str:
@@ -198,7 +198,7 @@ def resonance_table(of: SideBySide) -> WordTable:
     return WordTable(heads, rows, 3)
 
 
-def beside_figures(of: SideBySide) -> list[Picture]:
+def beside_figures(of: SideBySide) -> list[ReportFigure]:
     """K_v of all meshes, also with errors of teeth, and overload of the shafts that carry something, approach of the flanks."""
     drawn = [("Dynamic factor over speed", plot_factors_beside, "factors_beside", len(of.mesh_names))]
     if of.errors:
@@ -207,7 +207,7 @@ def beside_figures(of: SideBySide) -> list[Picture]:
         drawn.append(("Overload of the shafts over speed", plot_overloads_beside, "overloads_beside", len(of.shaft_names)))
     drawn.append(("Approach of the flanks over speed", plot_approaches_beside, "approaches_beside", len(of.mesh_names)))
     return [
-        Picture(
+        ReportFigure(
             title,
             figure_address(partial(plot, of), "svg", beside_inches(panels, len(of.studies))),
             sentences("captions_dynamics.txt", macro, of),
@@ -295,7 +295,7 @@ def _shapes(modes: NaturalModes) -> dict[str, WordTable | None]:
     return {"shapes": shape_table(modes), "components": None if components is None else component_table(components)}
 
 
-def _shape_figures(study: TrainStudy | ModalStudy) -> list[Picture]:
+def _shape_figures(study: TrainStudy | ModalStudy) -> list[ReportFigure]:
     train, modes = study.train, study.modes
     shapes, energies = partial(plot_shapes, train, modes), partial(plot_energies, modes)
     return [
@@ -332,11 +332,11 @@ def _parts(study: TrainStudy) -> list[WordTable]:
     return [inertia_table(study), *shafts, mesh_table(study), *([pair_table(study)] if study.pairs else [])]
 
 
-def _pair_figures(study: TrainStudy) -> list[Picture]:
+def _pair_figures(study: TrainStudy) -> list[ReportFigure]:
     """The stiffness of each pair over one base pitch."""
     courses = {name: mesh.course for name, mesh in study.pairs.items()}
     return [
-        Picture(
+        ReportFigure(
             f"Mesh stiffness of {name}", picture_address(partial(plot_cycle, course.cycle), "svg"), _said("pair_course", course)
         )
         for name, course in courses.items()
@@ -394,7 +394,7 @@ def _pair_html(study: PairStudy, name: str) -> str:
         gear_rows=gear_rows(study.pair, _GEAR),
         pair_rows=pair_rows(study.pair),
         rows=pair_dynamics_rows(study),
-        curve=Picture("Mesh stiffness", curve, _said("cycle", study)),
+        curve=ReportFigure("Mesh stiffness", curve, _said("cycle", study)),
         most=MOST_PEAKS,
         peaks=peak_table(of),
         errors=error_table(of),
@@ -423,39 +423,39 @@ def _contact_html(study: ContactStudy, name: str) -> str:
         rows=contact_rows(study),
         speeds=speed_table(study.study),
         figures=[
-            Picture("Campbell diagram", diagram, _said("campbell", study)),
+            ReportFigure("Campbell diagram", diagram, _said("campbell", study)),
             _figure("Speeds over time", partial(plot_motion, history), MOTION_INCHES, _said("motion", study)),
             _figure("Angles over time", partial(plot_angles, history), MOTION_INCHES, _said("angles", study)),
-            Picture("Spectrum at one speed", spectrum, _said("spectrum", study)),
+            ReportFigure("Spectrum at one speed", spectrum, _said("spectrum", study)),
         ],
         warnings=study.warnings,
     )
 
 
-def _speed_figures(study: TrainStudy) -> list[Picture]:
+def _speed_figures(study: TrainStudy) -> list[ReportFigure]:
     """Over speed and at one speed; none that would show nothing."""
     chart = picture_address(partial(plot_factors, study), "svg", _WIDE)
-    found = [Picture("Dynamic factor over speed", chart, _said("factors", study))]
+    found = [ReportFigure("Dynamic factor over speed", chart, _said("factors", study))]
     if study.up.referred_shafts:
         address = picture_address(partial(plot_shaft_overload, study), "svg", _WIDE)
-        found.append(Picture("Overload of the shafts over speed", address, _said("shaft_overload", study)))
+        found.append(ReportFigure("Overload of the shafts over speed", address, _said("shaft_overload", study)))
     if study.errors is not None:
         address = picture_address(partial(plot_tooth_errors, study), "svg", _WIDE)
-        found.append(Picture("Dynamic factor with tooth errors", address, _said("tooth_errors", study)))
+        found.append(ReportFigure("Dynamic factor with tooth errors", address, _said("tooth_errors", study)))
     found.append(_figure("Course at one speed", partial(plot_course, study), course_inches(study), _said("course", study)))
     return found + _transient_figures(study) + _campbell_figures(study)
 
 
-def _campbell_figures(study: TrainStudy) -> list[Picture]:
+def _campbell_figures(study: TrainStudy) -> list[ReportFigure]:
     """Spectra over speed, where there are any."""
     of = study.campbell
     if of is None:
         return []
     diagram = picture_address(partial(plot_campbell, of, highest=float(of.frequency[-1])), "svg", _TALL)
-    return [Picture("Campbell diagram", diagram, _said("mesh_campbell", of))]
+    return [ReportFigure("Campbell diagram", diagram, _said("mesh_campbell", of))]
 
 
-def _transient_figures(study: TrainStudy | ModalStudy) -> list[Picture]:
+def _transient_figures(study: TrainStudy | ModalStudy) -> list[ReportFigure]:
     """Return the figures of a run with changing speed or torque; empty if there is none."""
     run, found = study.transient, []
     if run is not None and run.speed_changes:
@@ -467,5 +467,5 @@ def _transient_figures(study: TrainStudy | ModalStudy) -> list[Picture]:
     return found
 
 
-def _figure(title: str, draw: Callable[[Figure], object], inches: tuple[float, float], caption: str) -> Picture:
-    return Picture(title, figure_address(draw, "svg", inches), caption)
+def _figure(title: str, draw: Callable[[Figure], object], inches: tuple[float, float], caption: str) -> ReportFigure:
+    return ReportFigure(title, figure_address(draw, "svg", inches), caption)

@@ -13,12 +13,12 @@ from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.response.chart_findings import MetMode
 from gearcad.dynamics.time_domain.spectra import SpeedSpectra
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
-from gearcad.dynamics.trains.members import Mesh, Shaft, StiffnessWave
+from gearcad.dynamics.trains.members import Shaft, StiffnessWave, ToothMesh
 from gearcad.dynamics.trains.pair_on_bearings import PairOnBearings
 from gearcad.dynamics.trains.train import EngagedMesh, TrainModel
 from gearcad.dynamics.trains.train_modes import ComponentModes, NaturalModes
 from gearcad.plots.paper import short
-from gearcad.report.document import Row
+from gearcad.report.document import ReportRow
 
 _NONE = "–"  # an en dash where there is no value
 
@@ -128,7 +128,7 @@ def pair_table(study: TrainStudy) -> WordTable:
     return WordTable(heads, rows, 4)
 
 
-def _wave(mesh: Mesh) -> str:
+def _wave(mesh: ToothMesh) -> str:
     if isinstance(mesh, EngagedMesh):
         words = "of its pair"
     elif mesh.shape is StiffnessWave.SQUARE and mesh.contact_ratio is not None:
@@ -240,64 +240,72 @@ def _or_none(value: float) -> str:
     return short(value) if value else _NONE
 
 
-def pair_dynamics_rows(study: PairStudy) -> list[Row]:
+def pair_dynamics_rows(study: PairStudy) -> list[ReportRow]:
     """Inertias, mesh stiffness, damping, backlash and resonance of a pair by itself."""
     cycle, of = study.cycle, study.study
     mesh, modes = of.train.meshes[0], of.modes
     row, ratio = modes.rigid, of.options.damping_ratio
     rows = [
-        Row("moment of inertia", "J", tuple(map(short, study.inertias)), "kg·m²", ""),
-        Row("torque on the pinion", "T_1", (short(cycle.torque),), "N·m", ""),
-        Row("force along the line of action, at rest", "F_bt", (short(float(of.up.static_forces[0])),), "N", ""),
-        Row("mesh stiffness, mean secant", "k", (short(cycle.mean),), "N/µm", study.method),
-        Row("mesh stiffness, mean tangent", "k", (short(cycle.tangent_mean),), "N/µm", "that of small vibrations"),
-        Row("damping ratio of the pair", "ζ", (short(ratio),), "", "assumed" if is_assumed(ratio) else "given"),
-        Row("damping of the mesh", "c", (short(float(of.system.mesh_damping[0])),), "N·s/m", "2 ζ √(k m)"),
-        Row("backlash along the line of action", "", (_NONE if mesh.backlash is None else short(mesh.backlash),), "µm", ""),
+        ReportRow("moment of inertia", "J", tuple(map(short, study.inertias)), "kg·m²", ""),
+        ReportRow("torque on the pinion", "T_1", (short(cycle.torque),), "N·m", ""),
+        ReportRow("force along the line of action, at rest", "F_bt", (short(float(of.up.static_forces[0])),), "N", ""),
+        ReportRow("mesh stiffness, mean secant", "k", (short(cycle.mean),), "N/µm", study.method),
+        ReportRow("mesh stiffness, mean tangent", "k", (short(cycle.tangent_mean),), "N/µm", "that of small vibrations"),
+        ReportRow("damping ratio of the pair", "ζ", (short(ratio),), "", "assumed" if is_assumed(ratio) else "given"),
+        ReportRow("damping of the mesh", "c", (short(float(of.system.mesh_damping[0])),), "N·s/m", "2 ζ √(k m)"),
+        ReportRow(
+            "backlash along the line of action", "", (_NONE if mesh.backlash is None else short(mesh.backlash),), "µm", ""
+        ),
     ]
     if study.bearings is not None:
         rows += _bearing_rows(study.bearings)
     elif row < len(modes):
         rows += [
-            Row("natural frequency", f"f_{row + 1}", (short(modes.frequency[row]),), "Hz", f"{short(modes.circular[row])} 1/s"),
-            Row("speed that meets it", "", (short(modes.rpm[row, 0]),), "rpm", "one tooth a vibration"),
+            ReportRow(
+                "natural frequency", f"f_{row + 1}", (short(modes.frequency[row]),), "Hz", f"{short(modes.circular[row])} 1/s"
+            ),
+            ReportRow("speed that meets it", "", (short(modes.rpm[row, 0]),), "rpm", "one tooth a vibration"),
         ]
     if of.method_b is not None:
         speed = short(of.method_b.resonance_speed)
-        rows.append(Row("resonance speed", "n_E1", (speed,), "rpm", "ISO 6336-1:2006 (6)"))
+        rows.append(ReportRow("resonance speed", "n_E1", (speed,), "rpm", "ISO 6336-1:2006 (6)"))
     return rows
 
 
-def _bearing_rows(of: PairOnBearings) -> list[Row]:
+def _bearing_rows(of: PairOnBearings) -> list[ReportRow]:
     listed = ", ".join(short(each) for each in of.frequencies() if each)
     return [
-        Row("mass", "m", tuple(map(short, of.masses)), "kg", ""),
-        Row("stiffness of the bearings", "", tuple(short(each[0]) for each in of.bearing_stiffness), "N/µm", "across the axis"),
-        Row("damping of a bearing", "", (short(of.bearing_damping),), "N·s/m", ""),
-        Row("natural frequencies on bearings", "f_2 to f_6", (listed,), "Hz", "besides 0 Hz: turns as a whole"),
+        ReportRow("mass", "m", tuple(map(short, of.masses)), "kg", ""),
+        ReportRow(
+            "stiffness of the bearings", "", tuple(short(each[0]) for each in of.bearing_stiffness), "N/µm", "across the axis"
+        ),
+        ReportRow("damping of a bearing", "", (short(of.bearing_damping),), "N·s/m", ""),
+        ReportRow("natural frequencies on bearings", "f_2 to f_6", (listed,), "Hz", "besides 0 Hz: turns as a whole"),
     ]
 
 
-def contact_rows(study: ContactStudy) -> list[Row]:
+def contact_rows(study: ContactStudy) -> list[ReportRow]:
     """Parameters of a contact model, and what follows from them."""
     of = study.model
     radii = tuple(map(short, of.base_radii))
     whole = of.contact_ratio
     rows = [
-        Row("moment of inertia", "J", tuple(map(short, of.inertias)), "kg·m²", ""),
-        Row("base radius", "R_b", radii, "mm", ""),
-        Row("reduced mass", "m", (short(of.reduced_mass),), "kg", "of J over squared base radius"),
-        Row("torque on the pinion", "T_1", (short(of.torque),), "N·m", ""),
-        Row("force along the line of action", "F", (short(of.force),), "N", "torque over base radius"),
-        Row("stiffness of a pair of teeth", "k", (short(of.pair_stiffness),), "N/µm", ""),
-        Row("damping", "b", (short(of.damping),), "N·s/m", "acts also where flanks have parted"),
-        Row("damping ratio, one pair", "ζ", (short(of.damping_ratio),), "", "b/(2 √(k m))"),
-        Row("approach at rest, one pair", "y_0", (short(of.static_approach),), "µm", "F/k"),
-        Row("pairs that carry, on the mean", "", (short(whole),), "", of.zone.value),
-        Row("natural frequency, one pair", "", (short(of.natural_frequency()),), "Hz", "√(k/m)/(2π)"),
+        ReportRow("moment of inertia", "J", tuple(map(short, of.inertias)), "kg·m²", ""),
+        ReportRow("base radius", "R_b", radii, "mm", ""),
+        ReportRow("reduced mass", "m", (short(of.reduced_mass),), "kg", "of J over squared base radius"),
+        ReportRow("torque on the pinion", "T_1", (short(of.torque),), "N·m", ""),
+        ReportRow("force along the line of action", "F", (short(of.force),), "N", "torque over base radius"),
+        ReportRow("stiffness of a pair of teeth", "k", (short(of.pair_stiffness),), "N/µm", ""),
+        ReportRow("damping", "b", (short(of.damping),), "N·s/m", "acts also where flanks have parted"),
+        ReportRow("damping ratio, one pair", "ζ", (short(of.damping_ratio),), "", "b/(2 √(k m))"),
+        ReportRow("approach at rest, one pair", "y_0", (short(of.static_approach),), "µm", "F/k"),
+        ReportRow("pairs that carry, on the mean", "", (short(whole),), "", of.zone.value),
+        ReportRow("natural frequency, one pair", "", (short(of.natural_frequency()),), "Hz", "√(k/m)/(2π)"),
     ]
     if whole != 1.0:
-        rows.append(Row("natural frequency, mean stiffness", "", (short(of.natural_frequency(whole)),), "Hz", "at high speed"))
+        rows.append(
+            ReportRow("natural frequency, mean stiffness", "", (short(of.natural_frequency(whole)),), "Hz", "at high speed")
+        )
     return rows
 
 

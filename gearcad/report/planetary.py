@@ -49,7 +49,7 @@ from gearcad.plots.planetary_vibration import (
 )
 from gearcad.rating.nominal_rating import Rating
 from gearcad.rating.strength import StrengthRating
-from gearcad.report.document import Picture, Row, figure_address, page_html, sentences
+from gearcad.report.document import ReportFigure, ReportRow, figure_address, page_html, sentences
 from gearcad.report.dynamics_tables import WordTable
 from gearcad.report.planetary_tables import (
     assembly_rows,
@@ -69,26 +69,26 @@ if TYPE_CHECKING:
     from gearcad.dynamics.planetary.planetary_result import PlanetaryStudy
 
 
-class Table(NamedTuple):
+class ReportTable(NamedTuple):
     """A table with a title and a note: of quantities in `rows`, or any `grid`.
 
     `symbols`: an underscore in a head begins an index; else it is that of a name.
     """
 
     title: str
-    rows: list[Row] | None = None
+    rows: list[ReportRow] | None = None
     grid: WordTable | None = None
     note: str = ""
     symbols: bool = False
 
 
-class Section(NamedTuple):
+class ReportSection(NamedTuple):
     """Sentences, tables and figures under one title."""
 
     title: str
     words: tuple[str, ...] = ()
-    tables: tuple[Table, ...] = ()
-    figures: tuple[Picture, ...] = ()
+    tables: tuple[ReportTable, ...] = ()
+    figures: tuple[ReportFigure, ...] = ()
 
 
 def said(macro: str, *values: object) -> str:
@@ -96,9 +96,9 @@ def said(macro: str, *values: object) -> str:
     return sentences("captions_planetary.txt", macro, *values)
 
 
-def figure(title: str, draw: Callable[[Figure], object], inches: tuple[float, float], caption: str) -> Picture:
+def figure(title: str, draw: Callable[[Figure], object], inches: tuple[float, float], caption: str) -> ReportFigure:
     """A picture with its caption."""
-    return Picture(title, figure_address(draw, "svg", inches), caption)
+    return ReportFigure(title, figure_address(draw, "svg", inches), caption)
 
 
 def on_axes(draw: Callable[..., object]) -> Callable[[Figure], object]:
@@ -106,27 +106,27 @@ def on_axes(draw: Callable[..., object]) -> Callable[[Figure], object]:
     return lambda of: draw(ax=of.subplots())
 
 
-def sections_of_build(study: PlanetaryStudy) -> Iterator[Section]:
+def sections_of_build(study: PlanetaryStudy) -> Iterator[ReportSection]:
     """Scheme, gears, assembly."""
     train, flow = study.train, study.flow
     draw = on_axes(partial(plot_scheme, train, flow=flow))
     scheme = figure("Scheme", draw, scheme_inches(train, flow), said("scheme", train, flow))
-    yield Section("Scheme", figures=(scheme,))
+    yield ReportSection("Scheme", figures=(scheme,))
     speeds = study.speeds
     turning = {} if speeds is None else {**speeds.members, "planet": speeds.planet}
     front = partial(plot_front, train, study.pose, turning)
-    yield Section(
+    yield ReportSection(
         "Gears",
         tables=(
-            Table("", grid=gear_table(train), note=said("gear_note"), symbols=True),
-            Table("Meshes", grid=mesh_table(train), note=said("mesh_note"), symbols=True),
+            ReportTable("", grid=gear_table(train), note=said("gear_note"), symbols=True),
+            ReportTable("Meshes", grid=mesh_table(train), note=said("mesh_note"), symbols=True),
         ),
         figures=(figure("In mesh", front, front_inches(train), said("front", train, turning)),),
     )
-    yield Section("Assembly", words=(said("assembly", train),), tables=(Table("", rows=assembly_rows(train)),))
+    yield ReportSection("Assembly", words=(said("assembly", train),), tables=(ReportTable("", rows=assembly_rows(train)),))
 
 
-def sections_of_load(study: PlanetaryStudy) -> Iterator[Section]:
+def sections_of_load(study: PlanetaryStudy) -> Iterator[ReportSection]:
     """Speeds and torques, power, phases, forces: those that are known."""
     train, speeds, flow = study.train, study.speeds, study.flow
     if speeds is not None:
@@ -136,23 +136,25 @@ def sections_of_load(study: PlanetaryStudy) -> Iterator[Section]:
             (6.6, 3.7),
             said("ladder", train),
         )
-        yield Section(
+        yield ReportSection(
             "Speeds and torques",
-            tables=(Table("", grid=speed_table(train, speeds, flow, "rpm"), note=said("speed_note", train, flow)),),
+            tables=(ReportTable("", grid=speed_table(train, speeds, flow, "rpm"), note=said("speed_note", train, flow)),),
             figures=(lever,) if study.turning is not None else (),
         )
     if flow is not None:
-        yield Section("Power", words=(said("power", train, flow),), tables=(Table("", rows=power_rows(train, flow)),))
+        yield ReportSection(
+            "Power", words=(said("power", train, flow),), tables=(ReportTable("", rows=power_rows(train, flow)),)
+        )
     yield _phases(study)
     if study.forces is not None:
-        yield Section(
+        yield ReportSection(
             "Forces",
             words=(said("forces", train),),
-            tables=(Table("Meshes", grid=force_table(study.forces)), Table("One pin", rows=pin_rows(study.forces))),
+            tables=(ReportTable("Meshes", grid=force_table(study.forces)), ReportTable("One pin", rows=pin_rows(study.forces))),
         )
 
 
-def _phases(study: PlanetaryStudy) -> Section:
+def _phases(study: PlanetaryStudy) -> ReportSection:
     train, phases, stiffness = study.train, study.phases, study.stiffness
     words = tuple(said("phase_words", name, each.relative) for name, each in phases.items())
     picture = figure(
@@ -161,16 +163,16 @@ def _phases(study: PlanetaryStudy) -> Section:
         phases_inches(train, stiffness),
         said("phases", train, stiffness),
     )
-    table = Table("", grid=phase_table(train, phases), note=said("phase_note"))
-    sums = Table("What their harmonics do", grid=harmonic_table(train, phases), note=said("harmonic_sum_note"))
-    return Section("Phases of the meshes", tuple(filter(None, words)), (table, sums), (picture,))
+    table = ReportTable("", grid=phase_table(train, phases), note=said("phase_note"))
+    sums = ReportTable("What their harmonics do", grid=harmonic_table(train, phases), note=said("harmonic_sum_note"))
+    return ReportSection("Phases of the meshes", tuple(filter(None, words)), (table, sums), (picture,))
 
 
 _ROUNDING = 1e-9
 """Greatest rounding error of shares, µm and arc seconds."""
 
 
-def sections_of_bending(study: PlanetaryStudy) -> Iterator[Section]:
+def sections_of_bending(study: PlanetaryStudy) -> Iterator[ReportSection]:
     """Load sharing, torsional stiffness, the run: those that are known."""
     if study.sharing is not None:
         yield _sharing(study.sharing)
@@ -180,15 +182,15 @@ def sections_of_bending(study: PlanetaryStudy) -> Iterator[Section]:
         yield _running(study.running)
 
 
-def _sharing(sharing: LoadSharing) -> Section:
+def _sharing(sharing: LoadSharing) -> ReportSection:
     picture = figure("Load sharing", on_axes(partial(plot_sharing, sharing)), FIGURE_INCHES, said("sharing", sharing))
-    return Section(
+    return ReportSection(
         "Load sharing",
         words=(said("sharing_words", sharing),),
         tables=(
-            Table("", grid=_share_table(sharing)),
-            Table("Mesh load factor", rows=_factor_rows(sharing)),
-            Table("Where members go", grid=_place_table(sharing), note=said("place_note")),
+            ReportTable("", grid=_share_table(sharing)),
+            ReportTable("Mesh load factor", rows=_factor_rows(sharing)),
+            ReportTable("Where members go", grid=_place_table(sharing), note=said("place_note")),
         ),
         figures=(picture,),
     )
@@ -206,14 +208,16 @@ def _share_table(sharing: LoadSharing) -> WordTable:
     return WordTable(heads, rows)
 
 
-def _factor_rows(sharing: LoadSharing) -> list[Row]:
+def _factor_rows(sharing: LoadSharing) -> list[ReportRow]:
     """K_gamma as computed and as published."""
     rows = [
-        Row("computed here", "K_γ", (f"{sharing.mesh_load_factor:.4f}",), "", "the greatest share of a planet over all turns")
+        ReportRow(
+            "computed here", "K_γ", (f"{sharing.mesh_load_factor:.4f}",), "", "the greatest share of a planet over all turns"
+        )
     ]
     for each in sharing.published:
         how = "recalled, not read in the source: verify it" if each.recalled else "read in the source named"
-        rows.append(Row(each.source, "K_γ", (short(each.factor),), "", how))
+        rows.append(ReportRow(each.source, "K_γ", (short(each.factor),), "", how))
     return rows
 
 
@@ -225,11 +229,11 @@ def _place_table(sharing: LoadSharing) -> WordTable:
     return WordTable(("member", "x, µm", "y, µm", "farthest over all turns, µm"), rows)
 
 
-def _torsion(torsion: TorsionalStiffness) -> Section:
+def _torsion(torsion: TorsionalStiffness) -> ReportSection:
     rows = [
-        Row("torque on the output", "T", (short(torsion.torque),), "N·m", ""),
-        Row("twist of the output", "θ", (short(torsion.twist),), "°", f"{short(3600 * torsion.twist)} arcsec"),
-        Row("torsional stiffness, T/θ", "", (short(torsion.stiffness),), "N·m/rad", "secant, at this torque"),
+        ReportRow("torque on the output", "T", (short(torsion.torque),), "N·m", ""),
+        ReportRow("twist of the output", "θ", (short(torsion.twist),), "°", f"{short(3600 * torsion.twist)} arcsec"),
+        ReportRow("torsional stiffness, T/θ", "", (short(torsion.stiffness),), "N·m/rad", "secant, at this torque"),
     ]
     table = WordTable(
         ("spring", "", "twist, °", "share, %"),
@@ -240,25 +244,29 @@ def _torsion(torsion: TorsionalStiffness) -> Section:
         2,
     )
     draw = on_axes(partial(plot_torsion, torsion))
-    return Section(
+    return ReportSection(
         "Torsional stiffness",
         words=(said("torsion_words", torsion),),
-        tables=(Table("", rows=rows), Table("", grid=table)),
+        tables=(ReportTable("", rows=rows), ReportTable("", grid=table)),
         figures=(figure("Parts of the twist", draw, torsion_inches(torsion), said("torsion")),),
     )
 
 
-def _running(running: Running) -> Section:
+def _running(running: Running) -> ReportSection:
     rows = [
-        Row("greatest share of a planet in this run", "K_γ", (f"{running.mesh_load_factor:.4f}",), "", ""),
-        Row("least share of a planet", "", (f"{float(running.shares.min()):.4f}",), "", ""),
-        Row("share of a planet, peak to peak, by the meshes alone", "", (_small(running.mesh_share_ripple),), "", ""),
-        Row("twist of the output, peak to peak", "", (_small(3600 * running.twist_ripple),), "arcsec", ""),
-        Row("the same by the meshes alone", "", (_small(3600 * running.mesh_ripple),), "arcsec", ""),
-        Row("the same by what else turns", "", (_small(3600 * running.slow_ripple),), "arcsec", ", ".join(running.turning)),
+        ReportRow("greatest share of a planet in this run", "K_γ", (f"{running.mesh_load_factor:.4f}",), "", ""),
+        ReportRow("least share of a planet", "", (f"{float(running.shares.min()):.4f}",), "", ""),
+        ReportRow("share of a planet, peak to peak, by the meshes alone", "", (_small(running.mesh_share_ripple),), "", ""),
+        ReportRow("twist of the output, peak to peak", "", (_small(3600 * running.twist_ripple),), "arcsec", ""),
+        ReportRow("the same by the meshes alone", "", (_small(3600 * running.mesh_ripple),), "arcsec", ""),
+        ReportRow(
+            "the same by what else turns", "", (_small(3600 * running.slow_ripple),), "arcsec", ", ".join(running.turning)
+        ),
     ]
     if (speed := running.ripple.speed) is not None:
-        rows.append(Row("ripple of the output's speed, peak to peak", "", (_small(100 * speed),), "%", said("ripple_source")))
+        rows.append(
+            ReportRow("ripple of the output's speed, peak to peak", "", (_small(100 * speed),), "%", said("ripple_source"))
+        )
     amplitudes = dict(running.ripple.amplitude)
     first, *others = amplitudes.values()
     if all(np.array_equal(first, other) for other in others):  # of one frequency: the twist does not tell whose it is
@@ -267,10 +275,13 @@ def _running(running: Running) -> Section:
     rows_of = [(str(number), *(f"{3600 * float(each):.4f}" for each in row)) for number, row in harmonics]
     grid = WordTable(("harmonic", *amplitudes), rows_of)
     caption = said("running", running, shown_pitches(running))
-    return Section(
+    return ReportSection(
         "Running",
         words=(said("running_words", running),),
-        tables=(Table("", rows=rows), Table("Twist by harmonics of the meshes, arcsec", grid=grid, note=said("harmonic_note"))),
+        tables=(
+            ReportTable("", rows=rows),
+            ReportTable("Twist by harmonics of the meshes, arcsec", grid=grid, note=said("harmonic_note")),
+        ),
         figures=(figure("Shares and twist as it runs", partial(plot_running, running), RUNNING_INCHES, caption),),
     )
 
@@ -283,15 +294,15 @@ def _small(value: float) -> str:
 _NONE = "–"  # an en dash where there is no value
 
 
-def section_of_rating(train: PlanetaryTrain, rating: TrainRating) -> Section:
+def section_of_rating(train: PlanetaryTrain, rating: TrainRating) -> ReportSection:
     """Stresses of all gears, load factors, and what cannot be rated."""
     heads = ("mesh", "gear", "K_A", "K_γ", "K_v", "σ_H0, MPa", "σ_H, MPa", "σ_F0, MPa", "σ_F, MPa", "Y_M")
     rows = [*_of_set(train, rating), *_of_stages(train, rating)]
     unread = [each.verify for each in rating.meshes.values()] + [each.verify for each in rating.stages.values()]
     note = said("rating_note", list(dict.fromkeys(chain.from_iterable(unread))))
-    tables = (Table("", grid=WordTable(heads, rows, 2), note=note, symbols=True),) if rows else ()
+    tables = (ReportTable("", grid=WordTable(heads, rows, 2), note=note, symbols=True),) if rows else ()
     unrated = tuple(said("unrated", name, why) for name, why in rating.unrated.items())
-    return Section("Rating of the meshes", words=(said("rating_words", rating), *unrated), tables=tables)
+    return ReportSection("Rating of the meshes", words=(said("rating_words", rating), *unrated), tables=tables)
 
 
 def _of_set(train: PlanetaryTrain, rating: TrainRating) -> Iterator[tuple[str, ...]]:
@@ -336,18 +347,18 @@ _FACTORS = ("mesh", "K_A", "K_γ", "K_v", "K_Hβ", "K_Fβ", "K_Hα", "K_Fα")
 _SCUFFING = ("mesh", "risk", "θ_int, °C", "θ_intS, °C", "S_int", "Θ_B, °C", "Θ_S, °C", "S_B")
 
 
-def section_of_strength(strength: TrainStrength) -> Section:
+def section_of_strength(strength: TrainStrength) -> ReportSection:
     """Safeties, load factors, scuffing; what was assumed, and what was not judged."""
     factors = [(mesh, *_load_factors(each)) for mesh, each in strength.meshes.items() if each.load_factors is not None]
     scuffed = [(mesh, *_scuffing(each)) for mesh, each in strength.meshes.items() if each.scuffing is not None]
-    tables = [Table("", grid=WordTable(_GEARS, list(_rows(strength)), 2), symbols=True)]
+    tables = [ReportTable("", grid=WordTable(_GEARS, list(_rows(strength)), 2), symbols=True)]
     if factors:
-        tables.append(Table("Load factors", grid=WordTable(_FACTORS, factors), symbols=True))
+        tables.append(ReportTable("Load factors", grid=WordTable(_FACTORS, factors), symbols=True))
     if scuffed:
-        tables.append(Table("Scuffing", grid=WordTable(_SCUFFING, scuffed, 2), symbols=True))
+        tables.append(ReportTable("Scuffing", grid=WordTable(_SCUFFING, scuffed, 2), symbols=True))
     missing = tuple(said("not_judged", name, why) for name, why in strength.not_judged.items())
     words = tuple(filter(None, (said("strength_words", strength), *missing, said("strength_note", strength))))
-    return Section("Strength", words=words, tables=tuple(tables) if strength.meshes else ())
+    return ReportSection("Strength", words=words, tables=tuple(tables) if strength.meshes else ())
 
 
 def _rows(strength: TrainStrength) -> Iterator[tuple[str, ...]]:
@@ -399,7 +410,7 @@ _MOST_RESONANCES = 24
 """Resonances that are listed: those in which most of what the meshes could do is done, of the lowest harmonics."""
 
 
-def sections_of_vibration(study: PlanetaryStudy) -> Iterator[Section]:
+def sections_of_vibration(study: PlanetaryStudy) -> Iterator[ReportSection]:
     """Natural modes, Campbell diagram, loads over speed: those that are known."""
     if study.modes is not None:
         yield _modes(study.train, study.modes)
@@ -409,15 +420,15 @@ def sections_of_vibration(study: PlanetaryStudy) -> Iterator[Section]:
         yield _response(study.response)
 
 
-def _modes(train: PlanetaryTrain, modes: PlanetaryModes) -> Section:
-    pictures: tuple[Picture, ...] = ()
+def _modes(train: PlanetaryTrain, modes: PlanetaryModes) -> ReportSection:
+    pictures: tuple[ReportFigure, ...] = ()
     if shown_families(modes):
         caption = said("modes", modes, MOST_MODES)
         pictures = (figure("Natural modes", partial(plot_modes, train, modes), modes_inches(modes), caption),)
-    return Section(
+    return ReportSection(
         "Natural frequencies and modes",
         words=(said("mode_words", modes),),
-        tables=(Table("", grid=_mode_table(modes), note=said("mode_note")),),
+        tables=(ReportTable("", grid=_mode_table(modes), note=said("mode_note")),),
         figures=pictures,
     )
 
@@ -460,20 +471,20 @@ def _most(names: list[str], shares: Floats) -> str:
     return f"{most}, {100 * summed[most]:.0f} %"
 
 
-def _campbell(train: PlanetaryTrain, campbell: PlanetaryCampbell) -> Section:
+def _campbell(train: PlanetaryTrain, campbell: PlanetaryCampbell) -> ReportSection:
     draw, table = on_axes(partial(plot_train_campbell, train, campbell)), _resonance_table(campbell)
     note = said("resonance_note", campbell, _MOST_RESONANCES)
-    return Section(
+    return ReportSection(
         "Campbell diagram",
         words=(said("campbell_words", train, campbell),),
-        tables=(Table("Excited modes", grid=table, note=note),) if table.rows else (),
+        tables=(ReportTable("Excited modes", grid=table, note=note),) if table.rows else (),
         figures=(figure("Campbell diagram", draw, CAMPBELL_INCHES, said("campbell", campbell, highest_drawn(campbell))),),
     )
 
 
-def _response(response: PlanetaryResponse) -> Section:
+def _response(response: PlanetaryResponse) -> ReportSection:
     draw = on_axes(partial(plot_response, response))
-    return Section(
+    return ReportSection(
         "Loads over speed",
         words=(said("response_words", response),),
         figures=(figure("Loads over speed", draw, RESPONSE_INCHES, said("response", response)),),

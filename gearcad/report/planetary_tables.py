@@ -14,7 +14,7 @@ from gearcad.planetary.train import least_gap
 from gearcad.planetary.train_data import Speeds
 from gearcad.plots.paper import short
 from gearcad.plots.planetary import power_ways, role_words, stage_gear
-from gearcad.report.document import Row
+from gearcad.report.document import ReportRow
 from gearcad.report.dynamics_tables import WordTable
 
 _LISTED = 6
@@ -76,33 +76,37 @@ def _mesh(name: str, gears: tuple[Gear, Gear], pair: GearPair) -> tuple[str, ...
     return (name, " / ".join(str(gear.teeth) for gear in gears), *map(short, numbers))
 
 
-def assembly_rows(train: PlanetaryTrain) -> list[Row]:
+def assembly_rows(train: PlanetaryTrain) -> list[ReportRow]:
     """Return the rows of the conditions for assembly of the train, with their numbers."""
     distance = float(train.centre_distance)
-    rows = [Row("centre distance of both meshes", "a", (short(distance),), "mm", "planets turn on one axis")]
+    rows = [ReportRow("centre distance of both meshes", "a", (short(distance),), "mm", "planets turn on one axis")]
     if train.planets > 1:
         gap = least_gap(train)
         apart = 2 * distance * math.sin(math.radians(gap.angle) / 2)
         first, second = (planet + 1 for planet in gap.planets)
         rows.append(
-            Row(f"axes of planets {first} and {second}, the nearest", "", (short(apart),), "mm", f"{short(gap.angle)}° apart")
+            ReportRow(
+                f"axes of planets {first} and {second}, the nearest", "", (short(apart),), "mm", f"{short(gap.angle)}° apart"
+            )
         )
         for rim in train.rims:
             tip = rim.gear.tip_diameter
             rows.append(
-                Row(f"room between tips of {rim.name}", "", (short(apart - tip),), "mm", f"tip diameter {short(tip)} mm")
+                ReportRow(f"room between tips of {rim.name}", "", (short(apart - tip),), "mm", f"tip diameter {short(tip)} mm")
             )
     rows += [
-        Row(
+        ReportRow(
             "places where the teeth let a planet stand",
             "q",
             (str(train.positions),),
             "",
             "of a full turn, by the teeth of all gears",
         ),
-        Row("places for a planet", "q/N", (short(train.positions / train.planets),), "", _spacing(train)),
-        Row("angles of the planets", "ψ", (_angles(train),), "°", "from +x, counter-clockwise"),
-        Row("pull of the planets outwards, of one", "|Σ exp(iψ)|", (short(_rounded(train.unbalance)),), "", _balance(train)),
+        ReportRow("places for a planet", "q/N", (short(train.positions / train.planets),), "", _spacing(train)),
+        ReportRow("angles of the planets", "ψ", (_angles(train),), "°", "from +x, counter-clockwise"),
+        ReportRow(
+            "pull of the planets outwards, of one", "|Σ exp(iψ)|", (short(_rounded(train.unbalance)),), "", _balance(train)
+        ),
     ]
     return rows
 
@@ -157,24 +161,26 @@ def speed_table(train: PlanetaryTrain, speeds: Speeds, flow: PowerFlow | None, u
     return WordTable(heads, rows, 2)
 
 
-def power_rows(train: PlanetaryTrain, flow: PowerFlow) -> list[Row]:
+def power_rows(train: PlanetaryTrain, flow: PowerFlow) -> list[ReportRow]:
     """Efficiencies, losses, and how much rolls through the meshes."""
     assumed = is_assumed(flow.load.mesh_efficiency)
     source, losses = ("assumed", ": mesh_efficiency is not given, no losses are counted") if assumed else ("given", "")
     rows = [
-        Row(
+        ReportRow(
             f"efficiency of a mesh, {source}", "η", (short(flow.load.mesh_efficiency),), "", f"with the carrier at rest{losses}"
         ),
-        Row(_from_to(train), "", (_percent(flow.efficiency),), "%", "without losses, assumed" if assumed else ""),
+        ReportRow(_from_to(train), "", (_percent(flow.efficiency),), "%", "without losses, assumed" if assumed else ""),
     ]
     if flow.efficiency_back is not None:
         words = "self-locking: the output cannot drive" if flow.self_locking else "not self-locking"
         words = "whether it is self-locking is not known: mesh_efficiency is not given" if assumed else words
-        rows.append(Row(f"efficiency, {train.output} to {train.input}", "", (_percent(flow.efficiency_back),), "%", words))
+        rows.append(
+            ReportRow(f"efficiency, {train.output} to {train.input}", "", (_percent(flow.efficiency_back),), "%", words)
+        )
     rolling = _NONE if flow.rolling_ratio is None else short(flow.rolling_ratio)
-    rows.append(Row("power that rolls, seen from the carrier", "", (short(flow.rolling_power),), "W", ""))
-    rows.append(Row("the same over what goes into the set", "", (rolling,), "", flow.circulation))
-    rows += [Row(f"lost in {name}", "", (short(lost),), "W", "") for name, lost in flow.losses.items()]
+    rows.append(ReportRow("power that rolls, seen from the carrier", "", (short(flow.rolling_power),), "W", ""))
+    rows.append(ReportRow("the same over what goes into the set", "", (rolling,), "", flow.circulation))
+    rows += [ReportRow(f"lost in {name}", "", (short(lost),), "W", "") for name, lost in flow.losses.items()]
     return rows
 
 
@@ -226,16 +232,16 @@ def force_table(forces: TrainForces) -> WordTable:
     return WordTable(heads, rows, 2)
 
 
-def pin_rows(forces: TrainForces) -> list[Row]:
+def pin_rows(forces: TrainForces) -> list[ReportRow]:
     """Forces on one pin."""
     pin = forces.pin
     rows = [
-        Row("radial, outwards", "", (short(pin.radial),), "N", "from the teeth"),
-        Row("tangential, counter-clockwise", "", (short(pin.tangential),), "N", "from the teeth"),
+        ReportRow("radial, outwards", "", (short(pin.radial),), "N", "from the teeth"),
+        ReportRow("tangential, counter-clockwise", "", (short(pin.tangential),), "N", "from the teeth"),
     ]
     if pin.centrifugal is not None:
         rows.append(
-            Row(
+            ReportRow(
                 "centrifugal, outwards",
                 "",
                 (short(pin.centrifugal),),
@@ -244,7 +250,9 @@ def pin_rows(forces: TrainForces) -> list[Row]:
             )
         )
     known = "" if pin.centrifugal is not None else "without centrifugal force: the planet's mass is not known"
-    rows.append(Row("size in the plane of rotation", "", (short(pin.size),), "N", known))
-    rows.append(Row("axial", "", (short(pin.axial),), "N", ""))
-    rows.append(Row("tilting moment on the planet", "", (short(pin.tilting_moment),), "N·m", "about the middle of its teeth"))
+    rows.append(ReportRow("size in the plane of rotation", "", (short(pin.size),), "N", known))
+    rows.append(ReportRow("axial", "", (short(pin.axial),), "N", ""))
+    rows.append(
+        ReportRow("tilting moment on the planet", "", (short(pin.tilting_moment),), "N·m", "about the middle of its teeth")
+    )
     return rows

@@ -20,10 +20,10 @@ from gearcad.plots.gears import plot_sliding
 from gearcad.plots.paper import short
 from gearcad.plots.ratings import plot_flash, plot_life
 from gearcad.rating.options import RatingOptions
-from gearcad.rating.strength import INFINITE, Part, StrengthRating
+from gearcad.rating.strength import INFINITE, RatedPart, StrengthRating
 from gearcad.report.document import (
-    Picture,
-    Row,
+    ReportFigure,
+    ReportRow,
     gear_rows,
     page_html,
     pair_picture,
@@ -41,10 +41,10 @@ class Group(NamedTuple):
     """Rows of factors that belong together."""
 
     title: str
-    rows: list[Row]
+    rows: list[ReportRow]
 
 
-def safety_rows(rating: StrengthRating, document: Mapping[str, Any]) -> list[Row]:
+def safety_rows(rating: StrengthRating, document: Mapping[str, Any]) -> list[ReportRow]:
     """Return the rows of the safeties: of flanks and roots, then of scuffing.
 
     Of flanks and roots they are the safety, the required safety, torque, damage, life and cycles.
@@ -58,12 +58,12 @@ def factor_groups(rating: StrengthRating, document: Mapping[str, Any]) -> list[G
     return [Group(title, [_row(each, rating.names) for each in quantities]) for title, quantities in groups.items()]
 
 
-def option_rows(options: RatingOptions) -> list[Row]:
+def option_rows(options: RatingOptions) -> list[ReportRow]:
     """Return the rows of [rating] options that differ from their defaults, and of the standards."""
     written = symbols_of(RatingOptions)
     always = ("standard", "accuracy", "accuracy_grade")
     return [
-        Row(
+        ReportRow(
             written[each.name].words,
             written[each.name].symbol,
             (_listed(value),),
@@ -76,12 +76,12 @@ def option_rows(options: RatingOptions) -> list[Row]:
     ]
 
 
-def material_rows(materials: PerGear[Material]) -> list[Row]:
+def material_rows(materials: PerGear[Material]) -> list[ReportRow]:
     """Return the rows of the known properties of both materials."""
     written = symbols_of(Material)
     found = ((written[each.name], [getattr(of, each.name) for of in materials]) for each in fields(Material))
     return [
-        Row(of.words, of.symbol, tuple(map(_listed, values)), of.unit, of.source)
+        ReportRow(of.words, of.symbol, tuple(map(_listed, values)), of.unit, of.source)
         for of, values in found
         if any(value is not None for value in values)
     ]
@@ -101,8 +101,8 @@ def spectrum_rows(rating: StrengthRating) -> list[tuple[str, ...]]:
                     case.load.speed,
                     case.factors.dynamic,
                     case.factors.face_flank,
-                    *case.stresses[Part.FLANK],
-                    *case.stresses[Part.ROOT],
+                    *case.stresses[RatedPart.FLANK],
+                    *case.stresses[RatedPart.ROOT],
                 ),
             )
         )
@@ -110,7 +110,7 @@ def spectrum_rows(rating: StrengthRating) -> list[tuple[str, ...]]:
     ]
 
 
-def tolerance_rows(document: Mapping[str, Any], names: PerGear[str]) -> list[Row]:
+def tolerance_rows(document: Mapping[str, Any], names: PerGear[str]) -> list[ReportRow]:
     """Return the rows of flank tolerances by accuracy grade, and of limits of dimensions by tooth thickness allowance."""
     both = names.map(lambda name: document["tolerances"][name] or {})
     thickness = PerGear(*(values.get("thickness_limits", {}) for values in both))
@@ -125,7 +125,7 @@ def uncovered_tolerances(rating: StrengthRating, document: Mapping[str, Any]) ->
     return [f"{own}: {why}" for own, values in found for why in values.get("not_covered", ())]
 
 
-def backlash_rows(document: Mapping[str, Any]) -> list[Row]:
+def backlash_rows(document: Mapping[str, Any]) -> list[ReportRow]:
     """Between what the backlash is, where tolerances say."""
     return _given(_below("backlash_limits", symbols.PAIR), [document["tolerances"].get("backlash_limits", {})])
 
@@ -135,7 +135,9 @@ def _below(part: str, written: Mapping[str, Symbol]) -> dict[str, Symbol]:
     return {key.removeprefix(f"{part}."): symbol for key, symbol in written.items() if key.startswith(f"{part}.")}
 
 
-def _given(written: Mapping[str, Symbol], columns: Sequence[Mapping[str, Any]], doubtful: Collection[str] = ()) -> list[Row]:
+def _given(
+    written: Mapping[str, Symbol], columns: Sequence[Mapping[str, Any]], doubtful: Collection[str] = ()
+) -> list[ReportRow]:
     """Rows of what some column has, each under its symbol."""
     rows = []
     for key, of in written.items():
@@ -143,7 +145,7 @@ def _given(written: Mapping[str, Symbol], columns: Sequence[Mapping[str, Any]], 
         if any(value is not None for value in values):
             text = _length if of.unit == "mm" else _text
             source = f"{of.source} (verify)" if key in doubtful else of.source
-            rows.append(Row(of.words, of.symbol, tuple(map(text, values)), of.unit, source))
+            rows.append(ReportRow(of.words, of.symbol, tuple(map(text, values)), of.unit, source))
     return rows
 
 
@@ -152,11 +154,11 @@ def _length(value: float | None) -> str:
     return _NONE if value is None else f"{value:.4f}"
 
 
-def _row(of: Quantity, names: PerGear[str]) -> Row:
+def _row(of: Quantity, names: PerGear[str]) -> ReportRow:
     text = _hours if of.symbol.unit == "h" else _text
     values = tuple(text(of.value[name]) for name in names) if isinstance(of.value, Mapping) else (text(of.value),)
     source = f"{of.symbol.source} (verify)" if of.verify else of.symbol.source
-    return Row(of.symbol.words, of.symbol.symbol, values, of.symbol.unit, source)
+    return ReportRow(of.symbol.words, of.symbol.symbol, values, of.symbol.unit, source)
 
 
 def _hours(value: float | str | None) -> str:
@@ -209,25 +211,27 @@ def rate_html(rating: StrengthRating, design_name: str) -> str:
     )
 
 
-def _figures(rating: StrengthRating) -> list[Picture]:
+def _figures(rating: StrengthRating) -> list[ReportFigure]:
     """Specific sliding, what flanks and roots bear over load cycles, and temperatures along the path of contact."""
     sliding = picture_address(partial(plot_sliding, rating.pair), "svg")
     found = [
-        Picture("Specific sliding along the path of contact", sliding, sentences("captions_rate.txt", "sliding", rating.pair)),
+        ReportFigure(
+            "Specific sliding along the path of contact", sliding, sentences("captions_rate.txt", "sliding", rating.pair)
+        ),
         *_lives(rating),
     ]
     if (scuffing := rating.scuffing) is not None and scuffing.flash is not None:
         address = picture_address(partial(plot_flash, scuffing), "svg")
         found.append(
-            Picture("Temperature along the path of contact", address, sentences("captions_rate.txt", "flash", scuffing))
+            ReportFigure("Temperature along the path of contact", address, sentences("captions_rate.txt", "flash", scuffing))
         )
     return found
 
 
-def _lives(rating: StrengthRating) -> list[Picture]:
+def _lives(rating: StrengthRating) -> list[ReportFigure]:
     """Return the figures of the strength of flanks and roots over load cycles, where it is known."""
     return [
-        Picture(
+        ReportFigure(
             f"What the {part.value}s bear",
             picture_address(partial(plot_life, rating, part), "svg"),
             sentences("captions_rate.txt", "life", rating, part),
@@ -237,7 +241,7 @@ def _lives(rating: StrengthRating) -> list[Picture]:
     ]
 
 
-_PARTS = {Part.FLANK: "contact", Part.ROOT: "root"}
+_PARTS = {RatedPart.FLANK: "contact", RatedPart.ROOT: "root"}
 
 
 class StrengthRow(NamedTuple):
@@ -283,9 +287,9 @@ def strength_section(of: CheckStrength) -> StrengthSection:
     return StrengthSection(rows, reasons, [each for each in told if each], groups, of.rating.assumed, of.rating.verify)
 
 
-def _strength_row(of: CheckStrength, part: Part, role: Role, found: FoundStrength) -> StrengthRow:
+def _strength_row(of: CheckStrength, part: RatedPart, role: Role, found: FoundStrength) -> StrengthRow:
     rated, nominal = found.rated, of.rating.nominal
-    stress = nominal.contact_stresses if part is Part.FLANK else nominal.root_stresses
+    stress = nominal.contact_stresses if part is RatedPart.FLANK else nominal.root_stresses
     style = "" if rated.safety is None else "good" if rated.safety >= rated.required else "bad"
     return StrengthRow(
         words=f"{_PARTS[part]}, {role.value}",

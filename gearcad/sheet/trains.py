@@ -14,7 +14,7 @@ from gearcad.core.symbols import Symbol
 from gearcad.designs.train_keys import MAIN, TORQUES, TRAIN, TRAIN_PARTS
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
-from gearcad.rating.strength import Part, StrengthRating
+from gearcad.rating.strength import RatedPart, StrengthRating
 from gearcad.sheet.blocks import ABSENT, Block, Row, Section, block, flattened, pair_section, value_text
 
 _TRAIN_KEYS = (
@@ -89,7 +89,7 @@ _TOLD = {
     "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety"),
 }
 
-_CYCLES = {Part.FLANK: "ISO 6336-2, 11", Part.ROOT: "ISO 6336-3, 12"}
+_CYCLES = {RatedPart.FLANK: "ISO 6336-2, 11", RatedPart.ROOT: "ISO 6336-3, 12"}
 """Clause in which the standard counts load cycles."""
 
 _BEHIND = "Behind the load factors"
@@ -137,7 +137,7 @@ def safety_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> It
 
     Of flanks and roots they are the safety, the required safety, torque, damage, life and cycles.
     """
-    for part in Part:
+    for part in RatedPart:
         name, safety = part.value, symbols.STRENGTH[f"S_{part.index}"]
         yield Quantity(f"safety.{name}", safety, document["safety"][name])
         required = Symbol(f"{safety.symbol}min", "", "", f"required safety of the {name}")
@@ -188,11 +188,11 @@ def train_strength_sections(strength: TrainStrength) -> tuple[Section, ...]:
     """The least safeties of every gear, each with its mesh, then the sections of each mesh."""
     rows = []
     for name, gear in strength.members.items():
-        least = [gear.least(part) for part in Part]
+        least = [gear.least(part) for part in RatedPart]
         texts = tuple(ABSENT if each is None else f"{_text(each.safety)} ({each.mesh})" for each in least)
         values = tuple(None if each is None else each.safety for each in least)
         rows.append(Row(f"least.{name}", Symbol("", "", "", name), values, texts))
-    sections = [Section(tuple(f"S_{part.index}" for part in Part), block("Least safeties", filter(_is_known, rows)))]
+    sections = [Section(tuple(f"S_{part.index}" for part in RatedPart), block("Least safeties", filter(_is_known, rows)))]
     for name, rating in strength.meshes.items():
         sections += strength_sections(rating, name)
     return tuple(sections)

@@ -21,11 +21,11 @@ from gearcad.material import Material
 from gearcad.planetary import Central, PlanetaryTrain, TrainLoad
 from gearcad.planetary.members import old_torque_notice, torque_key
 from gearcad.planetary.power import mesh_loads, power_flow
-from gearcad.planetary.search import Candidate, search
+from gearcad.planetary.search import PlanetarySet, search
 from gearcad.planetary.tooth_numbers import SearchTask
 from gearcad.rating.material_limits import EnduranceLimits, endurance_limits
 from gearcad.rating.options import RatingOptions
-from gearcad.rating.strength import Part
+from gearcad.rating.strength import RatedPart
 from gearcad.sizing.proposals import unjudged_scuffing
 
 _TORQUE = Range("N·m", 1e-6, 1e9)
@@ -116,7 +116,7 @@ def _limits(name: str, material: Material) -> EnduranceLimits:
 class SizedSet:
     """A set with its module and face width, made: the `train`, its `load`, and what it bears."""
 
-    candidate: Candidate
+    candidate: PlanetarySet
     train: PlanetaryTrain
     load: TrainLoad
     materials: dict[str, Material]
@@ -129,17 +129,17 @@ class SizedSet:
         return self.train.name
 
     @cached_property
-    def margins(self) -> dict[Part, float]:
+    def margins(self) -> dict[RatedPart, float]:
         """The least safety of flanks and of roots over what is required."""
         options = self.strength.options
-        required = {Part.FLANK: options.required_safety_flank, Part.ROOT: options.required_safety_root}
+        required = {RatedPart.FLANK: options.required_safety_flank, RatedPart.ROOT: options.required_safety_root}
         return {part: least / required[part] for part, least in self.least.items()}
 
     @cached_property
-    def least(self) -> dict[Part, float]:
+    def least(self) -> dict[RatedPart, float]:
         """The least safety of all flanks, and of all roots."""
         found = {}
-        for part in Part:
+        for part in RatedPart:
             known = [gear.least(part) for gear in self.strength.members.values()]
             found[part] = min((each.safety for each in known if each is not None), default=0.0)
         return found
@@ -147,7 +147,7 @@ class SizedSet:
     @property
     def bears(self) -> float:
         """Permissible torque over the load's torque, approximately: flank stress grows with the square root of torque."""
-        return min(self.margins[Part.FLANK] ** 2, self.margins[Part.ROOT])
+        return min(self.margins[RatedPart.FLANK] ** 2, self.margins[RatedPart.ROOT])
 
     @property
     def holds(self) -> bool:
@@ -272,7 +272,7 @@ def _nothing(task: SetSizeTask, considered: int, refused: dict[str, str]) -> str
 # ---------------------------------------------------------------------- one set
 
 
-def made(task: SetSizeTask, candidate: Candidate, module: float, width: float) -> SizedSet:
+def made(task: SetSizeTask, candidate: PlanetarySet, module: float, width: float) -> SizedSet:
     """A set of a module and a face width (mm), rated. Raises InputError where it cannot be made."""
     own = replace(
         candidate,
@@ -302,7 +302,7 @@ def made(task: SetSizeTask, candidate: Candidate, module: float, width: float) -
     )
 
 
-def _train(candidate: Candidate, name: str) -> PlanetaryTrain:
+def _train(candidate: PlanetarySet, name: str) -> PlanetaryTrain:
     """Return the train of a candidate, its rings with a rim that is as good as a solid one."""
     train = candidate.train()
 
@@ -357,10 +357,10 @@ class _Rough(NamedTuple):
 
     mass: float
     module: float
-    candidate: Candidate
+    candidate: PlanetarySet
 
 
-def _rough(task: SetSizeTask, candidate: Candidate) -> _Rough:
+def _rough(task: SetSizeTask, candidate: PlanetarySet) -> _Rough:
     """Return a rough size of a set, from one of its sizes.
 
     Mass, and the torque that it bears, grow with the cube of the module, and with the width.
@@ -391,7 +391,7 @@ def _sized(task: SetSizeTask, rough: _Rough) -> SizedSet | None:
     return best
 
 
-def _widest(task: SetSizeTask, candidate: Candidate, module: float) -> float:
+def _widest(task: SetSizeTask, candidate: PlanetarySet, module: float) -> float:
     """The most face width (mm), on its grid."""
     teeth = min(abs(each) for each in candidate.teeth.values())
     return max(_on_grid(task.width_ratio * teeth * module, math.floor), LEAST_WIDTH * module)
@@ -402,7 +402,7 @@ def _on_grid(width: float, rounded: Any) -> float:
     return float(rounded(width / step) * step)
 
 
-def _narrowest(task: SetSizeTask, candidate: Candidate, module: float, widest: float) -> SizedSet | None:
+def _narrowest(task: SetSizeTask, candidate: PlanetarySet, module: float, widest: float) -> SizedSet | None:
     """The least width that holds; None if the most does not."""
     found = made(task, candidate, module, widest)
     if not found.holds:

@@ -35,7 +35,7 @@ _COARSENESS = 0.25
 
 
 @dataclass(frozen=True)
-class Grid:
+class VariantGrid:
     """The product of all that a task lets vary but the widths; `len` is how many pairs that makes."""
 
     task: SizeTask
@@ -332,7 +332,7 @@ class Survey(NamedTuple):
 
 def survey(task: SizeTask, tell: Tell = untold) -> Survey:
     """Go through all variants of a task."""
-    grid, widths = Grid(task), len(task.width_ratios)
+    grid, widths = VariantGrid(task), len(task.width_ratios)
     keeper, removed = _Keeper(task, grid.variants_of_a_group), dict.fromkeys(CONDITIONS, 0)
     done = rated = 0
     for pairs in grid.chunks():

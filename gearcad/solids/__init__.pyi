@@ -13,7 +13,7 @@ from .files.formats import Format as Format
 from .files.formats import write_stl as write_stl
 from .files.points import write_points as write_points
 from .files.points import write_rack_points as write_rack_points
-from .files.scenes import Part as Part
+from .files.scenes import ScenePart as ScenePart
 from .files.scenes import write_3mf as write_3mf
 from .files.scenes import write_glb as write_glb
 from .files.scenes import write_scene as write_scene

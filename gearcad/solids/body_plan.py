@@ -169,7 +169,7 @@ class RackSide(Enum):
 
 
 @dataclass(frozen=True)
-class Piece:
+class OutlinePiece:
     """A piece of the outline at z = 0 between two points (c, y), c rising; `fillet` where it is an arc, of a tooth at `middle`.
 
     The arc of a right half of a tooth is `mirrored`.
@@ -197,31 +197,31 @@ class Piece:
         return self.fillet.y - math.sqrt((self.fillet.radius - across) * (self.fillet.radius + across))
 
 
-def outline_pieces(rack: Rack) -> list[Piece]:
+def outline_pieces(rack: Rack) -> list[OutlinePiece]:
     """The outline over all c that the rectangle has, from left to right, each land in one piece."""
     shift = rack.drift * rack.face_width
     low, high = min(0.0, -shift), max(rack.length, rack.length - shift)
     first, last = (math.floor(c / rack.transverse_pitch) for c in (low, high))
-    pieces: list[Piece] = []
+    pieces: list[OutlinePiece] = []
     for j in range(first - 1, last + 2):
         tooth = _tooth(rack, (j + 0.5) * rack.transverse_pitch)
         if pieces and rack.profile.root_land:
-            pieces.append(Piece(pieces[-1].end, tooth[0].start))
+            pieces.append(OutlinePiece(pieces[-1].end, tooth[0].start))
         pieces += tooth
     return pieces
 
 
-def _tooth(rack: Rack, middle: float) -> list[Piece]:
+def _tooth(rack: Rack, middle: float) -> list[OutlinePiece]:
     """One tooth without root lands."""
-    left, right = list[Piece](), list[Piece]()
+    left, right = list[OutlinePiece](), list[OutlinePiece]()
     for curve in rack.profile.curves:
         (x, y), (to_x, to_y) = curve.points(np.array([0.0, 1.0])).tolist()
         fillet = curve if isinstance(curve, FilletArc) else None
         if curve.kind is RackCurveKind.TIP:
-            left.append(Piece((middle + x, y), (middle - x, y)))
+            left.append(OutlinePiece((middle + x, y), (middle - x, y)))
         elif curve.kind is not RackCurveKind.ROOT:
-            left.append(Piece((middle + x, y), (middle + to_x, to_y), fillet, middle))
-            right.insert(0, Piece((middle - to_x, to_y), (middle - x, y), fillet, middle, mirrored=True))
+            left.append(OutlinePiece((middle + x, y), (middle + to_x, to_y), fillet, middle))
+            right.insert(0, OutlinePiece((middle - to_x, to_y), (middle - x, y), fillet, middle, mirrored=True))
     return left + right
 
 

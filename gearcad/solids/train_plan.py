@@ -162,7 +162,7 @@ _Extent = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class Sweep:
+class SweptSpace:
     """Room that a part of a body sweeps: between two radii about its own axis, between two heights (mm)."""
 
     standing: Standing
@@ -225,19 +225,19 @@ def _require_apart(parameter: str, value: float, moved: Sequence[Standing], othe
     raise GeometryError(parameter, value, f"must be at least {at_least(above)} or at most {at_most(below)} mm: {names}", "mm")
 
 
-def sweeps(standing: Standing) -> Iterator[Sweep]:
+def sweeps(standing: Standing) -> Iterator[SweptSpace]:
     """The teeth of a gear down to its bore, or out to its rim, and its hubs."""
     gear, body = standing.body.gear, standing.body.gear.body
     bottom, top = standing.z, standing.z + gear.face_width
     tip, bore = abs(gear.tip_diameter) / 2, body.bore / 2
-    yield Sweep(standing, (tip, require_rim(gear) / 2) if gear.internal else (bore, tip), (bottom, top))
+    yield SweptSpace(standing, (tip, require_rim(gear) / 2) if gear.internal else (bore, tip), (bottom, top))
     back, front = body.hub_ends
     for low, high in ((bottom - back, bottom), (top, top + front)):
         if high > low:
-            yield Sweep(standing, (bore, body.hub_diameter / 2), (low, high))
+            yield SweptSpace(standing, (bore, body.hub_diameter / 2), (low, high))
 
 
-def _side_by_side(one: Sweep, other: Sweep) -> bool:
+def _side_by_side(one: SweptSpace, other: SweptSpace) -> bool:
     """Whether two would be in each other at one height."""
     if _off_axis(one) and _off_axis(other):
         axles = one.standing.axle, other.standing.axle
@@ -247,7 +247,7 @@ def _side_by_side(one: Sweep, other: Sweep) -> bool:
     return overlap(one.about_the_train(), other.about_the_train())
 
 
-def _off_axis(sweep: Sweep) -> bool:
+def _off_axis(sweep: SweptSpace) -> bool:
     """Whether it turns about an axis of its own that stands still."""
     return sweep.distance > _TOUCHING and sweep.standing.axle.on is None
 
@@ -313,7 +313,7 @@ def carrier_plan(layout: TrainLayout) -> CarrierPlan:
     return CarrierPlan(tuple((planet.x, planet.y) for planet in layout.pose.planets), diameter, *radii, reach, plates)
 
 
-def _free(sides: tuple[_Extent, ...], radii: _Extent, gaps: tuple[_Extent, ...], stages: list[Sweep]) -> Iterator[_Extent]:
+def _free(sides: tuple[_Extent, ...], radii: _Extent, gaps: tuple[_Extent, ...], stages: list[SweptSpace]) -> Iterator[_Extent]:
     """The plates in whose way, and in whose pins' way, nothing stands."""
     for plate, gap in zip(sides, gaps, strict=True):
         reach = min(*plate, *gap), max(*plate, *gap)

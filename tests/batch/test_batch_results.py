@@ -10,7 +10,7 @@ import pytest
 from support import jobs
 from support.batches import GEARS, MIXED, PAIRS, read_results, rows_of, write_table
 
-from gearcad.batch import Decimal, Summary, run_table
+from gearcad.batch import BatchSummary, Decimal, run_table
 from gearcad.batch import run as run_module
 from gearcad.core.errors import OutputError, ParameterError
 from gearcad.designs import read_spec
@@ -30,7 +30,7 @@ FIRST = ["name", "status", "error", "warnings", "seconds"]
 TEXTS = ("name", "rack", "hub_side", "profile_shift_split")
 
 
-def make(folder: Path, lines: tuple[str, ...], wanted: tuple[Job[Any, Any], ...] = DATA, **options: Any) -> Summary:
+def make(folder: Path, lines: tuple[str, ...], wanted: tuple[Job[Any, Any], ...] = DATA, **options: Any) -> BatchSummary:
     return run_table(write_table(folder / "table.csv", lines), folder / "out", wanted, **({"jobs": 1} | options))
 
 

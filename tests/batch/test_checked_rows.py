@@ -12,7 +12,7 @@ from support.designs import starter_specs
 
 from gearcad.batch.row import Checked, Status, Task, check_rows, inputs_hash, make_row, stages
 from gearcad.designs import read_spec
-from gearcad.designs.table import Row, open_table
+from gearcad.designs.table import DesignRow, open_table
 from gearcad.jobs.job import Data
 
 SPECS = starter_specs()
@@ -24,7 +24,7 @@ def test_design_of_any_kind_arrives_as_it_was_sent(spec: Path) -> None:
     assert pickle.loads(pickle.dumps(design)).to_dict() == design.to_dict()
 
 
-def task(row: Row, checked: Checked, folder: Path) -> Task:
+def task(row: DesignRow, checked: Checked, folder: Path) -> Task:
     workspace = folder / ".work"
     workspace.mkdir(parents=True, exist_ok=True)
     return Task(row, stages([Data()]), folder, workspace, True, checked)

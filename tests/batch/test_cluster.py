@@ -21,7 +21,7 @@ from support import jobs
 from support.batches import GEARS, MIXED, lies, read_results, snapshot, write_table
 from support.processes import PATIENCE, below, run_batch, start_batch, wait_for_end, wait_until
 
-from gearcad.batch import Summary, run_table
+from gearcad.batch import BatchSummary, run_table
 from gearcad.batch import pool as pool_module
 from gearcad.batch import run as run_module
 from gearcad.batch.row import Status, Task, make_row
@@ -176,9 +176,9 @@ def test_ctrl_c_ends_the_run_on_the_cluster_too(address: str, many: Path, tmp_pa
     assert lies(folder) == [] and not list(folder.glob(".*"))
 
 
-def run_here(table: Path, folder: Path, address: str) -> tuple[list[Summary], threading.Thread]:
+def run_here(table: Path, folder: Path, address: str) -> tuple[list[BatchSummary], threading.Thread]:
     """A run in a thread, so that something can happen to the cluster meanwhile."""
-    found: list[Summary] = []
+    found: list[BatchSummary] = []
     formats = (Build(formats=(Format.STL,)),)
     thread = threading.Thread(target=lambda: found.append(run_table(table, folder, formats, cluster=address)))
     thread.start()

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from support.batches import lies, made_now, read_results, write_table
 
-from gearcad.batch import Summary, run_table
+from gearcad.batch import BatchSummary, run_table
 from gearcad.designs.variations import column_symbol
 from gearcad.jobs import VERBS, job_of
 from gearcad.jobs.strength import Stiffness
@@ -27,7 +27,7 @@ LINES = (
 METHODS = ("iso6336", "weber-banaschek")
 
 
-def make(folder: Path, job: Stiffness) -> Summary:
+def make(folder: Path, job: Stiffness) -> BatchSummary:
     return run_table(write_table(folder / "table.csv", LINES), folder / "out", [job], jobs=1)
 
 

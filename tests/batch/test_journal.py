@@ -10,9 +10,9 @@ import psutil
 
 from gearcad.batch.row import Record, Status
 from gearcad.batch.run import Journal
-from gearcad.designs.table import Row
+from gearcad.designs.table import DesignRow
 
-ROW = Row(2, "a", {"gear.teeth": 20}, (), (), "table.csv", ("name", "gear.teeth"))
+ROW = DesignRow(2, "a", {"gear.teeth": 20}, (), (), "table.csv", ("name", "gear.teeth"))
 LARGE = {"gear.rack": "x" * 100_000}
 
 

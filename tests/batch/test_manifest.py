@@ -14,7 +14,7 @@ from support.batches import GEARS, made_now, snapshot, write_table
 
 import gearcad
 from gearcad.batch import run_table
-from gearcad.batch.row import MANIFEST, Manifest, Part, inputs_hash, read_manifest
+from gearcad.batch.row import MANIFEST, Manifest, RowPart, inputs_hash, read_manifest
 from gearcad.jobs.build import Build
 from gearcad.solids import Format
 
@@ -40,11 +40,11 @@ def test_manifest_names_gearcad_the_parts_and_every_file_with_its_size(tmp_path:
 def test_files_may_be_called_as_gears_are(tmp_path: Path) -> None:
     """Else every run would make them again, and none would remove what a changed row has no longer."""
     names = ("drawing-assembly.dxf", "drawing-rim_3.pdf", "S1.step", "Großrad (2).step")
-    manifest = Manifest("x", {"draw": Part({}, dict.fromkeys(names, 7))})
+    manifest = Manifest("x", {"draw": RowPart({}, dict.fromkeys(names, 7))})
     (tmp_path / MANIFEST).write_text(manifest.text(), encoding="utf-8")
     assert read_manifest(tmp_path) == manifest
     for name in ("../x.dxf", "a/b.dxf", "a\\b.dxf", ".hidden.dxf", "C:x.dxf", "a\ud800.dxf", "a\x00.dxf", "a.dxf/"):
-        (tmp_path / MANIFEST).write_text(Manifest("x", {"draw": Part({}, {name: 7})}).text(), encoding="utf-8")
+        (tmp_path / MANIFEST).write_text(Manifest("x", {"draw": RowPart({}, {name: 7})}).text(), encoding="utf-8")
         assert read_manifest(tmp_path) is None, name
 
 
@@ -60,7 +60,7 @@ def test_hash_is_of_the_source_too(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     copy = Path(shutil.copytree(Path(gearcad.__file__).parent, tmp_path / "gearcad"))
 
     def hash_there() -> str:
-        code = "from gearcad.batch.row import MANIFEST, Manifest, Part, inputs_hash, read_manifest; print(inputs_hash({}))"
+        code = "from gearcad.batch.row import MANIFEST, Manifest, RowPart, inputs_hash, read_manifest; print(inputs_hash({}))"
         environment = os.environ | {"PYTHONPATH": str(tmp_path)}
         return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment).stdout
 

@@ -10,7 +10,7 @@ import pytest
 from support import jobs
 from support.batches import GEARS, PAIRS, lies, made_now, read_results, snapshot, times, write_table
 
-from gearcad.batch import Summary, run_table
+from gearcad.batch import BatchSummary, run_table
 from gearcad.batch import run as run_module
 from gearcad.jobs.build import Build
 from gearcad.jobs.job import Data, Job
@@ -22,7 +22,9 @@ POINTS = (Build(formats=(Format.CSV,)),)
 DATA = (Data(),)
 
 
-def make(folder: Path, lines: tuple[str, ...] = GEARS, wanted: tuple[Job[Any, Any], ...] = POINTS, **options: Any) -> Summary:
+def make(
+    folder: Path, lines: tuple[str, ...] = GEARS, wanted: tuple[Job[Any, Any], ...] = POINTS, **options: Any
+) -> BatchSummary:
     summary = run_table(write_table(folder / "table.csv", lines), folder / "out", wanted, jobs=1, **options)
     assert lies(folder / "out") == []
     return summary

@@ -14,7 +14,7 @@ import pytest
 
 from gearcad.designs import read_spec
 from gearcad.designs.train_designs import TrainDesign
-from gearcad.dynamics.time_domain.motion import Course, MovingSystem
+from gearcad.dynamics.time_domain.motion import MovingSystem, RunCourse
 from gearcad.dynamics.trains.mesh_excitation import train_excitation
 from gearcad.dynamics.trains.shaft_lines import system
 
@@ -35,7 +35,7 @@ def test_a_step_of_three_modes(benchmark: Any) -> None:
     assert of.mesh.shape == (3, 1)
     moving = MovingSystem.lumped(of, train_excitation(design.train))
     benchmark.group = f"motion in time: {STEPS} steps of three modes and one mesh"
-    benchmark.pedantic(lambda: moving.run(Course.steady(3000.0), 1e-6, STEPS, ends=[STEPS]), rounds=7, warmup_rounds=1)
+    benchmark.pedantic(lambda: moving.run(RunCourse.steady(3000.0), 1e-6, STEPS, ends=[STEPS]), rounds=7, warmup_rounds=1)
     step = 1e9 * benchmark.stats.stats.median / STEPS
     benchmark.extra_info["nanoseconds"] = step
     print(f"\n{step:.0f} ns a step")

@@ -14,7 +14,7 @@ from gearcad.cli import main
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.time_domain.transient_result import TransientOptions
 from gearcad.dynamics.train_study import study_train
-from gearcad.dynamics.trains.members import Inertia, Mesh
+from gearcad.dynamics.trains.members import Inertia, ToothMesh
 from gearcad.dynamics.trains.train import Train
 from gearcad.report.dynamics import dynamics_html
 
@@ -130,7 +130,7 @@ def test_runs_and_spectra_are_in_the_report() -> None:
     train = Train(
         inertias=(Inertia(name="pinion", inertia=0.004), Inertia(name="wheel", inertia=0.03)),
         meshes=(
-            Mesh(
+            ToothMesh(
                 name="mesh",
                 pinion="pinion",
                 wheel="wheel",

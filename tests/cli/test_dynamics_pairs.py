@@ -17,7 +17,7 @@ from gearcad.designs import PairDesign, TrainDesign, read_spec
 from gearcad.designs.train_designs import DesignedPair
 from gearcad.dynamics.engagement import engaged
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.trains.members import Inertia, Mesh
+from gearcad.dynamics.trains.members import Inertia, ToothMesh
 from gearcad.dynamics.trains.shaft_lines import system
 from gearcad.dynamics.trains.steady_response import flexibility
 from gearcad.dynamics.trains.train import EngagedMesh, Train
@@ -236,7 +236,7 @@ def test_a_mesh_without_damping_is_named() -> None:
     """At its resonance: sqrt(k (r²/J + R²/I)) = 12000/s."""
     train_of = Train(
         inertias=(Inertia(name="a", inertia=0.01), Inertia(name="b", inertia=0.02)),
-        meshes=(Mesh(name="m", pinion="a", wheel="b", base_radii=PerGear(40.0, 80.0), stiffness=300.0, teeth=20),),
+        meshes=(ToothMesh(name="m", pinion="a", wheel="b", base_radii=PerGear(40.0, 80.0), stiffness=300.0, teeth=20),),
         torques={"a": 10.0, "b": 20.0},
     )
     with pytest.raises(SolverError, match=r"^m\.damping = 0 N·s/m: must be above 0"):

@@ -16,7 +16,7 @@ from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.pair_study import study_contact, study_pair
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.train_study import study_train
-from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft, StiffnessWave
+from gearcad.dynamics.trains.members import Inertia, Shaft, StiffnessWave, ToothMesh
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.plots.paper import short
 from gearcad.plots.speeds import plot_course, plot_cycle, plot_factors, plot_shaft_overload
@@ -41,8 +41,8 @@ def two_wheels(model: TrainModel = TrainModel.ELEMENTS, damping_ratio: float = 0
             Shaft(name="coupling", start="right", end="load 2", torsional_stiffness=2e4, damping=2.0),
         ),
         meshes=(
-            Mesh(name="L", wheel="left", variation=0.2, **mesh),  # type: ignore[arg-type]
-            Mesh(name="R", wheel="right", shape=StiffnessWave.SQUARE, contact_ratio=1.6, **mesh),  # type: ignore[arg-type]
+            ToothMesh(name="L", wheel="left", variation=0.2, **mesh),  # type: ignore[arg-type]
+            ToothMesh(name="R", wheel="right", shape=StiffnessWave.SQUARE, contact_ratio=1.6, **mesh),  # type: ignore[arg-type]
         ),
         torques={"motor": 300.0, "load $1$": 400.0, "load 2": 200.0},
     )

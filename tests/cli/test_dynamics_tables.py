@@ -14,7 +14,7 @@ from gearcad.cli import main
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.result_tables import stacked
 from gearcad.dynamics.train_study import study_train
-from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.jobs.dynamics import Dynamics, table_files
 
@@ -111,7 +111,9 @@ def test_names_are_no_formulas_and_every_table_is_known(tmp_path: Path) -> None:
         model=TrainModel.MASSLESS,
         inertias=(Inertia(name="=1+2", inertia=0.01), Inertia(name="b", inertia=0.02)),
         shafts=(Shaft(name="s", start="ground", end="=1+2", torsional_stiffness=1e4),),
-        meshes=(Mesh(name="m", pinion="=1+2", wheel="b", teeth=20, stiffness=1.0, base_radii=(40.0, 80.0), damping_ratio=0.1),),
+        meshes=(
+            ToothMesh(name="m", pinion="=1+2", wheel="b", teeth=20, stiffness=1.0, base_radii=(40.0, 80.0), damping_ratio=0.1),
+        ),
         torques={"=1+2": 100.0, "b": 200.0},
     )
     study = study_train(train, DynamicsOptions(speeds=4))

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad import read
-from gearcad.batch import Summary
+from gearcad.batch import BatchSummary
 from gearcad.batch.run import falls_short
 from gearcad.cli import main
 from gearcad.core.runtime import templates
@@ -86,7 +86,7 @@ def test_rows_that_fall_short(values: dict[str, bool | None], short: bool) -> No
 
 
 def test_a_table_with_a_row_that_falls_short(monkeypatch: pytest.MonkeyPatch) -> None:
-    summary = Summary(results=(), ok=2, failed=0, not_run=0, short=1, errors=())
+    summary = BatchSummary(results=(), ok=2, failed=0, not_run=0, short=1, errors=())
     monkeypatch.setattr("gearcad.batch.run_table", lambda *_, **__: summary)
     result = CliRunner().invoke(main, ["batch", "table.csv", "--do", "rate"])
     assert result.exit_code == 1

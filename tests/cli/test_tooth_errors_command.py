@@ -26,7 +26,7 @@ from gearcad.dynamics.tooth_errors.error_sources import engaged_teeth, mesh_teet
 from gearcad.dynamics.tooth_errors.error_study import ErrorPlan, Sampling, study_errors
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.train_study import study_train
-from gearcad.dynamics.trains.members import Inertia, Mesh
+from gearcad.dynamics.trains.members import Inertia, ToothMesh
 from gearcad.dynamics.trains.mesh_excitation import train_excitation
 from gearcad.dynamics.trains.shaft_lines import system
 from gearcad.dynamics.trains.tooth_deviations import ErrorDistribution
@@ -209,7 +209,7 @@ def test_a_pair_has_its_own_teeth_and_tolerances() -> None:
 
 
 def test_the_mesh_of_a_pair_in_a_train_has_the_teeth_of_the_pair() -> None:
-    mesh = Mesh(name="m", pinion="p", wheel="w", pair=spur_pair(), phase=0.25)
+    mesh = ToothMesh(name="m", pinion="p", wheel="w", pair=spur_pair(), phase=0.25)
     inertias = (Inertia(name="p", inertia=2e-5), Inertia(name="w", inertia=1.4e-4))
     train = Train(model="isolated", inertias=inertias, meshes=(mesh,), torques={"p": 60.0, "w": 90.0}, speed=9000.0)
     own = engaged(train, DynamicsOptions(stiffness="potential-energy")).meshes[0]

@@ -13,13 +13,13 @@ from support.awaited import awaited
 
 from gearcad.designs.reader import starter_text
 from gearcad.page.panels.runs import changes_between, figures_beside, verb_of
-from gearcad.page.runs import Runs, State
-from gearcad.page.words import Language, Words
+from gearcad.page.runs import Runs, RunState
+from gearcad.page.words import PageLanguage, PageWords
 
 pytest.importorskip("nicegui")
 pytest.importorskip("httpx")
 
-ENGLISH = Words.of(Language.ENGLISH)
+ENGLISH = PageWords.of(PageLanguage.ENGLISH)
 REDUCER = starter_text("reducer")[1]
 
 
@@ -30,7 +30,7 @@ def runs() -> Iterator[Runs]:
     other = REDUCER.replace("teeth = 21", "teeth = 22").replace('name = "reducer-21-43"', 'name = "Größe 2"')
     for kind, text in (("rate", REDUCER), ("rate", other), ("data", other)):
         assert made.start(kind, text, "mine", Path(), {}).ended.wait(60)
-    assert [run.line for run in made.all if run.state is not State.DONE] == []
+    assert [run.line for run in made.all if run.state is not RunState.DONE] == []
     yield made
     made.close()
 

@@ -13,7 +13,7 @@ from gearcad.core.errors import SpecError
 from gearcad.designs.cells import Decimal
 from gearcad.designs.design import Design
 from gearcad.designs.reader import starter_text
-from gearcad.designs.table import Row, open_table
+from gearcad.designs.table import DesignRow, open_table
 from gearcad.page.panels.table import MOST_ROWS, ResultsTable, read_results
 from gearcad.page.run_process import design_of
 
@@ -27,7 +27,7 @@ class _Journal:
         self.designs: dict[str, Design] = {row.name: row.design() for row in open_table(table).rows()}
         self._table = table
 
-    def results(self) -> Iterator[tuple[Row, Record]]:
+    def results(self) -> Iterator[tuple[DesignRow, Record]]:
         for row in open_table(self._table).rows():
             values = dict(flat_document(self.designs[row.name].to_dict() | FIGURES))
             yield row, Record(number=row.number, status=Status.OK, seconds=0.5, files=("data.json",), values=values)

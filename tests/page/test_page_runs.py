@@ -18,7 +18,7 @@ from gearcad.cli import main
 from gearcad.core.errors import ParameterError
 from gearcad.designs.reader import starter_text
 from gearcad.page.run_process import _LARGEST_FILE
-from gearcad.page.runs import Limits, Run, Runs, State, Turns, _kill, close_all_runs
+from gearcad.page.runs import Run, RunLimits, RunPermits, Runs, RunState, _kill, close_all_runs
 
 ENOUGH = 60.0
 PAIR = starter_text("fzg-c")[1]
@@ -60,14 +60,14 @@ def _parent(process: Path) -> int:
 
 def test_a_run_leaves_what_its_job_writes_and_nothing_else_is_its(runs: Runs) -> None:
     run = _ended(_start(runs, "data"))
-    assert (run.state, run.name, run.files) == (State.DONE, "fzg-c", ("data.json",))
+    assert (run.state, run.name, run.files) == (RunState.DONE, "fzg-c", ("data.json",))
     assert (found := run.file("data.json")) is not None and found.is_file()
     assert run.file("../data.json") is None and run.file("rate.json") is None
 
 
 def test_what_is_wrong_is_the_line_of_the_command_line(runs: Runs) -> None:
     wrong = _ended(_start(runs, "rate", PAIR.replace("teeth = 16", "teeth = 2")))
-    assert wrong.state is State.FAILED
+    assert wrong.state is RunState.FAILED
     assert wrong.line.startswith("mine.toml line ") and "teeth" in wrong.line
     assert not wrong.folder.exists()
 
@@ -82,9 +82,9 @@ def test_a_cancelled_run_is_gone_at_once_and_leaves_nothing(runs: Runs) -> None:
     began = time.monotonic()
     runs.cancel(waiting)
     runs.cancel(run)
-    assert _ended(run).state is State.CANCELLED
+    assert _ended(run).state is RunState.CANCELLED
     assert time.monotonic() - began < 5
-    assert _ended(waiting).state is State.CANCELLED
+    assert _ended(waiting).state is RunState.CANCELLED
     assert not _children() - before
     assert not run.folder.exists()
 
@@ -92,12 +92,12 @@ def test_a_cancelled_run_is_gone_at_once_and_leaves_nothing(runs: Runs) -> None:
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="the system tells no process's memory")
 def test_a_run_out_of_time_or_memory_is_ended_and_says_so() -> None:
     for limits, line in (
-        (Limits(seconds=0.3), "was stopped at its time limit of 0.3 s"),
-        (Limits(memory=1e6), "was stopped at its memory limit of 0.001 GB"),
+        (RunLimits(seconds=0.3), "was stopped at its time limit of 0.3 s"),
+        (RunLimits(memory=1e6), "was stopped at its memory limit of 0.001 GB"),
     ):
         bounded = Runs(limits)
         run = _ended(_start(bounded, "check-3d"))
-        assert (run.state, run.line) == (State.FAILED, line)
+        assert (run.state, run.line) == (RunState.FAILED, line)
         bounded.close()
 
 
@@ -109,7 +109,7 @@ def test_a_process_that_dies_says_why_and_the_next_run_is_well(runs: Runs) -> No
     for child in _children() - before:
         os.kill(int(child), 9)
     assert _ended(run).line.startswith("killed its process (SIGKILL")
-    assert _ended(_start(runs, "data")).state is State.DONE
+    assert _ended(_start(runs, "data")).state is RunState.DONE
 
 
 def test_a_closed_session_ends_its_run_and_removes_its_files() -> None:
@@ -118,7 +118,7 @@ def test_a_closed_session_ends_its_run_and_removes_its_files() -> None:
     folder = done.folder.parent
     assert folder.is_dir()
     runs.close()
-    assert _ended(run).state is State.CANCELLED
+    assert _ended(run).state is RunState.CANCELLED
     end = time.monotonic() + ENOUGH
     while folder.exists() and time.monotonic() < end:
         time.sleep(0.02)
@@ -128,7 +128,7 @@ def test_a_closed_session_ends_its_run_and_removes_its_files() -> None:
 
 
 def test_sessions_take_turns_in_the_order_in_which_they_came() -> None:
-    turns, told, never = Turns(1), list[str](), threading.Event()
+    turns, told, never = RunPermits(1), list[str](), threading.Event()
 
     def session(name: str, count: int) -> None:
         for _ in range(count):
@@ -150,7 +150,7 @@ def test_the_end_of_the_server_ends_all_and_leaves_nothing() -> None:
     runs = [Runs(), Runs()]
     started = [_start(each, "check-3d") for each in runs]
     close_all_runs()
-    assert {run.state for run in started} == {State.CANCELLED}
+    assert {run.state for run in started} == {RunState.CANCELLED}
     assert not any(run.folder.parent.exists() for run in started)
 
 
@@ -160,7 +160,7 @@ def test_only_so_many_wait(runs: Runs) -> None:
         _start(runs, "data")
     for run in asked:
         runs.cancel(run)
-    assert {_ended(run).state for run in asked} == {State.CANCELLED}
+    assert {_ended(run).state for run in asked} == {RunState.CANCELLED}
 
 
 def test_the_eldest_runs_lose_their_files(runs: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -210,7 +210,7 @@ def test_limits_that_are_none_are_told_before_anything_is_served(option: str, gi
 
 
 def test_limits_are_those_of_all_sessions(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Runs, "permitted", Limits(seconds=7.0, memory=3e9))
+    monkeypatch.setattr(Runs, "permitted", RunLimits(seconds=7.0, memory=3e9))
     runs = Runs()
     runs.close()
     assert (runs.limits.seconds, runs.limits.memory) == (7.0, 3e9)

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from gearcad.cli import main
 from gearcad.designs.reader import starter_text
 from gearcad.page.run_process import RUNS
-from gearcad.page.runs import Runs, State
+from gearcad.page.runs import Runs, RunState
 
 LONG = 900.0
 """Seconds that a run may take."""
@@ -56,7 +56,7 @@ def test_a_run_makes_what_the_command_writes(kind: str, tmp_path: Path, monkeypa
     try:
         run = runs.start(kind, RATED if kind == "rate-fe" else text, "mine", tmp_path, {})
         assert run.ended.wait(LONG)
-        assert run.state is State.DONE, run.line
+        assert run.state is RunState.DONE, run.line
         assert written == {name: (run.folder / name).read_bytes() for name in run.files}
     finally:
         runs.close()

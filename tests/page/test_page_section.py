@@ -14,7 +14,7 @@ from gearcad.core.runtime import templates
 from gearcad.designs.reader import read_spec
 from gearcad.page.panels.drawn_data import plain, section_of
 from gearcad.page.panels.views import section_in
-from gearcad.page.words import Language, Words
+from gearcad.page.words import PageLanguage, PageWords
 
 CHORD = 2e-4
 """Of the outlines, in normal modules."""
@@ -123,6 +123,6 @@ def test_plain_numbers_are_sent() -> None:
 def test_gears_are_called_in_the_words_of_the_page(language: str, names: list[str]) -> None:
     found = section_of(read_spec(templates() / "rack.toml"))
     assert found is not None
-    shown = section_in(Words.of(Language(language)), found)
+    shown = section_in(PageWords.of(PageLanguage(language)), found)
     assert [body["name"] for body in shown["bodies"]] == names
     assert shown["meshes"] == found["meshes"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 
-from gearcad.page.server import Lines
+from gearcad.page.server import LogLimiter
 
 
 class _Clock:
@@ -14,7 +14,7 @@ class _Clock:
         return self.now
 
 
-def _told(lines: Lines, message: object, error: Exception | None = None) -> str | None:
+def _told(lines: LogLimiter, message: object, error: Exception | None = None) -> str | None:
     record = logging.LogRecord(
         "nicegui", logging.ERROR, "", 0, message, (), None if error is None else (type(error), error, None)
     )
@@ -23,7 +23,7 @@ def _told(lines: Lines, message: object, error: Exception | None = None) -> str 
 
 def test_no_browser_floods_the_terminal() -> None:
     clock = _Clock()
-    lines = Lines(most=3, within=60.0, clock=clock)
+    lines = LogLimiter(most=3, within=60.0, clock=clock)
     told = [_told(lines, "x") for _ in range(1000)]
     assert told[:2] == ["x", "x"]
     assert told[2] == "x (what else goes wrong within a minute is not told)"
@@ -33,7 +33,7 @@ def test_no_browser_floods_the_terminal() -> None:
 
 
 def test_each_is_a_line_that_moves_no_cursor() -> None:
-    lines = Lines()
+    lines = LogLimiter()
     assert _told(lines, "\x1b[2J\nforged: line") == "\\x1b[2J\\nforged: line"
     assert _told(lines, ValueError("a\nb")) == "a page failed (ValueError: a\\nb)"
     assert _told(lines, "while x", KeyError("id")) == "a page failed (KeyError: 'id')"

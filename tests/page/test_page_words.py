@@ -14,7 +14,7 @@ from gearcad.designs.train_keys import MAIN, PLANETARY, TRAIN, TRAIN_PARTS
 from gearcad.page.fields import part_title, table_title, words_of
 from gearcad.page.panels import drawn_data, sheet_content
 from gearcad.page.panels import sheet_content as rating
-from gearcad.page.words import Language, Words, language_of
+from gearcad.page.words import PageLanguage, PageWords, language_of
 from gearcad.sheet import blocks, trains
 
 _SAME = {"name", "Text"}
@@ -37,19 +37,22 @@ def test_language_of_a_browser(asked: str | None, accepted: str, expected: str) 
 
 
 def test_words_without_others_stay_english() -> None:
-    german = Words.of(Language.GERMAN)
+    german = PageWords.of(PageLanguage.GERMAN)
     assert german["find a key"] == "Eingabe suchen"
     assert german["no word of the page"] == "no word of the page"
-    assert Words.of(Language.ENGLISH)["find a key"] == "find a key"
+    assert PageWords.of(PageLanguage.ENGLISH)["find a key"] == "find a key"
 
 
 def test_every_word_has_its_german_and_none_is_left_over() -> None:
-    assert set(Words.of(Language.GERMAN).table) == _own_words() | _words_of_inputs() | _words_of_symbols() | _titles_of_sheets()
+    assert (
+        set(PageWords.of(PageLanguage.GERMAN).table)
+        == _own_words() | _words_of_inputs() | _words_of_symbols() | _titles_of_sheets()
+    )
 
 
 def test_germans_are_words_of_their_own() -> None:
     """What is the same in both languages is meant to be."""
-    table = Words.of(Language.GERMAN).table
+    table = PageWords.of(PageLanguage.GERMAN).table
     assert {english for english, german in table.items() if english.lower() == german.lower()} <= _SAME
 
 
@@ -100,10 +103,10 @@ def _own_words() -> set[str]:
 
 
 def test_long_words_may_go_on_in_the_next_line() -> None:
-    german = Words.of(Language.GERMAN)
+    german = PageWords.of(PageLanguage.GERMAN)
     assert german.divided("Profilverschiebungsfaktor") == "Profil\u00adverschiebungs\u00adfaktor"
     assert german.divided("Zahnbreite am Kopf") == "Zahnbreite am Kopf"
-    assert Words.of(Language.ENGLISH).divided("Profilverschiebungsfaktor") == "Profilverschiebungsfaktor"
+    assert PageWords.of(PageLanguage.ENGLISH).divided("Profilverschiebungsfaktor") == "Profilverschiebungsfaktor"
 
 
 @pytest.mark.parametrize(
@@ -120,9 +123,9 @@ def test_long_words_may_go_on_in_the_next_line() -> None:
 )
 def test_what_is_permitted_is_said_where_there_are_words_for_it(end: str, said: str) -> None:
     line = f"reducer.toml line 22: pinion.teeth = 2: {end}"
-    assert Words.of(Language.GERMAN).said(line) == said
-    assert Words.of(Language.ENGLISH).said(line) == ""
+    assert PageWords.of(PageLanguage.GERMAN).said(line) == said
+    assert PageWords.of(PageLanguage.ENGLISH).said(line) == ""
 
 
 def test_notices_about_fields_have_german_names() -> None:
-    assert Words.of(Language.GERMAN).notices.keys() == sheet_content._ABOUT.keys()
+    assert PageWords.of(PageLanguage.GERMAN).notices.keys() == sheet_content._ABOUT.keys()

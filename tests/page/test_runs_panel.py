@@ -8,7 +8,7 @@ from gearcad.designs.reader import read_spec
 from gearcad.page.panels.runs import expected_of, figures_beside
 from gearcad.page.run_process import Asked
 from gearcad.page.runs import Run
-from gearcad.page.words import Language, Words
+from gearcad.page.words import PageLanguage, PageWords
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
@@ -27,6 +27,6 @@ def test_verdicts_are_told_in_the_words_of_the_page() -> None:
     runs = [
         Run(number, asked, {}, figures={"strength": said}) for number, said in enumerate(("passed", "failed", "not judged"))
     ]
-    cells = {language: figures_beside(runs, Words.of(language))[0]["cells"] for language in Language}
-    assert cells[Language.GERMAN] == ["bestanden", "nicht bestanden", "nicht beurteilt"]
-    assert cells[Language.ENGLISH] == ["passed", "not passed", "not judged"]
+    cells = {language: figures_beside(runs, PageWords.of(language))[0]["cells"] for language in PageLanguage}
+    assert cells[PageLanguage.GERMAN] == ["bestanden", "nicht bestanden", "nicht beurteilt"]
+    assert cells[PageLanguage.ENGLISH] == ["passed", "not passed", "not judged"]

@@ -20,12 +20,12 @@ from gearcad.page.panels.sheet_content import (
     shown_sections,
 )
 from gearcad.page.panels.views import sheet_figures
-from gearcad.page.words import Language, Words
+from gearcad.page.words import PageLanguage, PageWords
 from gearcad.sheet import sheet_of
 from gearcad.sheet.blocks import flattened
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
-ENGLISH, GERMAN = (Words.of(each) for each in Language)
+ENGLISH, GERMAN = (PageWords.of(each) for each in PageLanguage)
 
 
 def starter(name: str) -> Design:

@@ -14,7 +14,7 @@ from gearcad.designs.reader import read_spec
 from gearcad.jobs.strength import Rate
 from gearcad.load import Load
 from gearcad.page.panels.sheet_content import Figures, shown_figures, strength_figures, warm_up
-from gearcad.page.words import Language, Words
+from gearcad.page.words import PageLanguage, PageWords
 from gearcad.page.workbench import Workbench
 from gearcad.rating.options import RatingOptions
 
@@ -75,14 +75,14 @@ def test_without_a_load_one_line_says_what_to_give() -> None:
 
 @pytest.mark.parametrize("name", ["spur", "train-1-stage"])
 def test_what_carries_nothing_has_no_rating_and_no_warning(name: str) -> None:
-    shown = shown_figures(strength_figures(starter(name)), Words.of(Language.GERMAN))
+    shown = shown_figures(strength_figures(starter(name)), PageWords.of(PageLanguage.GERMAN))
     assert shown["lines"] == [{"label": "", "text": "Für diese Art von Auslegung gibt es keinen Tragfähigkeitsnachweis."}]
     assert not shown["notices"]
 
 
 def test_why_nothing_is_judged_stands_apart_from_the_verdict() -> None:
     found = strength_figures(starter("double-23-81"))
-    shown = shown_figures(found, Words.of(Language.GERMAN))
+    shown = shown_figures(found, PageWords.of(PageLanguage.GERMAN))
     assert shown["title"] == "Tragfähigkeit nicht verlangt"
     assert found.title == f"strength not asked for: {shown['reason']}"
 
@@ -106,6 +106,6 @@ def test_a_verdict_is_coloured_and_stands_beside_that_of_a_kept_design() -> None
     passed = strength_figures(design)
     failed = strength_figures(replace(design, load=Load(torque=10 * design.load.torque, speed=design.load.speed)))  # type: ignore[attr-defined]
     assert (passed.verdict, failed.verdict) == ("passed", "failed")
-    shown = shown_figures(failed, Words.of(Language.ENGLISH), kept=passed)
+    shown = shown_figures(failed, PageWords.of(PageLanguage.ENGLISH), kept=passed)
     assert shown["title"].startswith("strength NOT passed")
     assert shown["beside"] == passed.title

@@ -10,7 +10,7 @@ from support.loaded_trains import alm_set, simple_set
 
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import Role
-from gearcad.dynamics.planetary.planetary_excitation import NOMINAL_STRESS, MeshStiffness, mesh_stiffness, train_stiffness
+from gearcad.dynamics.planetary.planetary_excitation import NOMINAL_STRESS, PlanetMeshStiffness, mesh_stiffness, train_stiffness
 from gearcad.geometry import DoubleHelix, Gear
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
@@ -47,7 +47,7 @@ def at(mesh: SetMesh, found: Contacts) -> float:
 @pytest.mark.parametrize("driver", Role)
 @pytest.mark.parametrize("mesh", MESHES, ids=lambda mesh: f"{mesh.name}-{mesh.central.gear.teeth}")
 def test_stiffness_is_that_of_the_flanks_that_touch(mesh: SetMesh, driver: Role) -> None:
-    stiffness, pitch = MeshStiffness(mesh=mesh, cycle=cycle(mesh), driver=driver), mesh.pair.pinion.transverse_base_pitch
+    stiffness, pitch = PlanetMeshStiffness(mesh=mesh, cycle=cycle(mesh), driver=driver), mesh.pair.pinion.transverse_base_pitch
     for turning, angle in ((1, 0.3), (1, 0.4), (-1, 1.1)):
         found = contacts(mesh, angle=angle, psi=0.7, driver=driver, turning=turning)
         ahead = found.ahead / pitch
@@ -58,7 +58,7 @@ def test_stiffness_is_that_of_the_flanks_that_touch(mesh: SetMesh, driver: Role)
 @pytest.mark.parametrize("driver", Role)
 @pytest.mark.parametrize("mesh", MESHES, ids=lambda mesh: f"{mesh.name}-{mesh.central.gear.teeth}")
 def test_both_sides_of_every_jump(mesh: SetMesh, driver: Role) -> None:
-    stiffness, pitch = MeshStiffness(mesh=mesh, cycle=cycle(mesh), driver=driver), mesh.pair.pinion.transverse_base_pitch
+    stiffness, pitch = PlanetMeshStiffness(mesh=mesh, cycle=cycle(mesh), driver=driver), mesh.pair.pinion.transverse_base_pitch
     start = contacts(mesh, angle=0.2, psi=-0.4, driver=driver, turning=1).ahead[0] / pitch
     touching = []
     for jump in stiffness.jumps:
@@ -100,7 +100,7 @@ def test_phases_place_every_planet(train: PlanetaryTrain, drive: Drive) -> None:
     turning = {first.name: drive.turning, second.name: drive.turning * (1 if train.basic_ratio > 0 else -1)}
     for mesh in train.meshes:
         own = phases[mesh.name]
-        stiffness = MeshStiffness(mesh=mesh, cycle=cycle(mesh), driver=own.driver)
+        stiffness = PlanetMeshStiffness(mesh=mesh, cycle=cycle(mesh), driver=own.driver)
         angle = math.radians(pose.rotations[mesh.central.name])
         for planet, ahead in zip(pose.planets, own.ahead, strict=True):
             psi = math.radians(planet.angle)

@@ -15,7 +15,7 @@ from gearcad.cli.planetary import _frequency_lines
 from gearcad.dynamics.options import DynamicsOptions, OperatingRange, RangeSource
 from gearcad.dynamics.planetary.load_sharing import share_load
 from gearcad.dynamics.planetary.planar_model import train_masses
-from gearcad.dynamics.planetary.planetary_excitation import MeshStiffness, train_stiffness
+from gearcad.dynamics.planetary.planetary_excitation import PlanetMeshStiffness, train_stiffness
 from gearcad.dynamics.planetary.planetary_response import PlanetaryResponse, errors_left_out, planetary_response
 from gearcad.dynamics.planetary.planetary_study import study_planetary
 from gearcad.geometry import Gear
@@ -58,7 +58,7 @@ def _train(teeth: tuple[int, int, int], shifts: tuple[float, float, float], plan
     )
 
 
-def _stiffness(train: PlanetaryTrain) -> dict[str, MeshStiffness]:
+def _stiffness(train: PlanetaryTrain) -> dict[str, PlanetMeshStiffness]:
     return train_stiffness(train, mesh_loads(train, power_flow(train, LOAD)), method="strain-energy", positions=24)
 
 

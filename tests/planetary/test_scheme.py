@@ -15,7 +15,7 @@ from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, 
 from gearcad.planetary.power import power_flow
 from gearcad.plots.paper import new_figure
 from gearcad.plots.planetary import spread
-from gearcad.plots.planetary_scheme import Plan, Stroke, Weight, plan_of, plot_scheme, scheme_inches
+from gearcad.plots.planetary_scheme import Plan, SchemeLine, Weight, plan_of, plot_scheme, scheme_inches
 from gearcad.report.planetary_tables import speed_table
 
 LONG = "a name that is far longer than any column of a picture has room for, and goes on and on"
@@ -75,7 +75,7 @@ SHAPES = {
 }
 
 
-def _teeth(plan: Plan, part: str) -> list[Stroke]:
+def _teeth(plan: Plan, part: str) -> list[SchemeLine]:
     return [stroke for stroke in plan.strokes if stroke.part == part and stroke.weight is Weight.TEETH]
 
 
@@ -94,7 +94,7 @@ def test_gears_that_mesh_lie_on_each_other(name: str) -> None:
         assert found.count(True) == 1
 
 
-def _touch(one: Stroke, other: Stroke) -> bool:
+def _touch(one: SchemeLine, other: SchemeLine) -> bool:
     """Whether a point of one lies on the other: strokes run along x or along y only."""
     for a, b in ((one, other), (other, one)):
         for x, y in a.points:
@@ -104,7 +104,7 @@ def _touch(one: Stroke, other: Stroke) -> bool:
     return False
 
 
-def _crosses(one: Stroke, other: Stroke) -> bool:
+def _crosses(one: SchemeLine, other: SchemeLine) -> bool:
     for (x0, y0), (x1, y1) in pairwise(one.points):
         for (u0, v0), (u1, v1) in pairwise(other.points):
             for level, post in (((x0, x1, y0, y1), (u0, u1, v0, v1)), ((u0, u1, v0, v1), (x0, x1, y0, y1))):
@@ -120,7 +120,7 @@ def test_parts_hang_together_and_cross_no_other_in_any_role(train: PlanetaryTrai
     for words, turned in ({"": train} if train.stages else _roles(train)).items():
         plan = plan_of(turned)
         rims = {rim.name: "planets" for rim in turned.rims}
-        parts: dict[str, list[Stroke]] = {}
+        parts: dict[str, list[SchemeLine]] = {}
         for stroke in plan.strokes:
             parts.setdefault(rims.get(stroke.part, stroke.part), []).append(stroke)
         axis = parts.pop("")

@@ -16,7 +16,7 @@ from gearcad.geometry.pair_data import PairData
 from gearcad.planetary.members import SetType
 from gearcad.planetary.power import efficiency
 from gearcad.planetary.search import search
-from gearcad.planetary.tooth_numbers import MeshSizes, SearchTask, _tip_margin, grids
+from gearcad.planetary.tooth_numbers import MeshedTeeth, SearchTask, _tip_margin, grids
 from gearcad.planetary.train_data import SetTeeth
 
 A, B, C, D = SetType
@@ -165,7 +165,7 @@ def test_tips_beside_the_mesh_have_the_margin_of_the_pair(
     """Many pairs by arrays, and one by its profiles: the same distance along the ring's tip circle, also where tips foul."""
     given = {"normal_module": 2.0, "face_width": 20.0, "helix_angle": helix_angle}
     planet, wheel = (Gear(teeth=z, profile_shift=x, **given) for z, x in zip((rim, -ring), shifts, strict=True))
-    mesh = MeshSizes(central=np.array([-ring]), rim=np.array([rim]), module=2.0, helix_angle=math.radians(helix_angle))
+    mesh = MeshedTeeth(central=np.array([-ring]), rim=np.array([rim]), module=2.0, helix_angle=math.radians(helix_angle))
     distance = mesh.distance_for(sum(shifts))
     tips = tuple(np.array([abs(gear.tip_diameter) / 2]) for gear in (planet, wheel))
     found = _tip_margin(mesh, distance, tips, tuple(np.array([x]) for x in shifts)) * tips[1]

@@ -14,7 +14,7 @@ from gearcad.material import Material
 from gearcad.planetary.members import material_of
 from gearcad.planetary.tooth_numbers import SearchTask
 from gearcad.rating import RatingOptions
-from gearcad.rating.strength import Part
+from gearcad.rating.strength import RatedPart
 from gearcad.sizing.planetary_sets import SetSizeTask, SizedSets, made, size_sets
 
 EH = Material(name="Eh MQ")
@@ -84,6 +84,6 @@ def test_nothing_holds_and_what_is_not_known() -> None:
 
 def test_margins(sized: SizedSets) -> None:
     best = sized.found[0]
-    assert best.margins[Part.ROOT] == pytest.approx(best.least[Part.ROOT] / 1.4)
+    assert best.margins[RatedPart.ROOT] == pytest.approx(best.least[RatedPart.ROOT] / 1.4)
     assert best.load.mesh_load_factor == 1.0
     assert best.bears >= 1

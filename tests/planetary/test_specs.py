@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 from gearcad.core.errors import ParameterError, SpecError
-from gearcad.designs import DesignKind, PlanetaryDesign, Row, open_table, read_spec
+from gearcad.designs import DesignKind, DesignRow, PlanetaryDesign, open_table, read_spec
 from gearcad.designs.train_keys import PLANETARY
 from gearcad.designs.variations import column_of_train, read_variation, spec_values
 
@@ -330,7 +330,7 @@ HEADING = "name,planets,input,output,fixed,normal_module,face_width,sun.teeth,pl
 ROW = "a,3,sun,carrier,ring,2,20,24,21,-66,auto"
 
 
-def table(folder: Path, *lines: str) -> list[Row]:
+def table(folder: Path, *lines: str) -> list[DesignRow]:
     path = folder / "trains.csv"
     path.write_text("\n".join(lines), encoding="utf-8")
     return list(open_table(path).rows())

@@ -14,7 +14,7 @@ from support.planetary import simple_train
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.planetary.load_sharing import share_load
 from gearcad.dynamics.planetary.planar_model import train_springs
-from gearcad.dynamics.planetary.planetary_excitation import MeshStiffness, train_stiffness
+from gearcad.dynamics.planetary.planetary_excitation import PlanetMeshStiffness, train_stiffness
 from gearcad.dynamics.planetary.planetary_modes import ModeKind, planetary_campbell, planetary_modes
 from gearcad.dynamics.planetary.planetary_response import planetary_response
 from gearcad.dynamics.planetary.planetary_statics import torsional_stiffness
@@ -36,11 +36,11 @@ MEANS = (400.0, 500.0)
 
 
 @pytest.fixture(scope="module")
-def stiffness() -> dict[str, MeshStiffness]:
+def stiffness() -> dict[str, PlanetMeshStiffness]:
     return train_stiffness(TRAINS["D"], positions=16)
 
 
-def test_dots_stand_where_contact_is_at_the_pitch_point(stiffness: dict[str, MeshStiffness]) -> None:
+def test_dots_stand_where_contact_is_at_the_pitch_point(stiffness: dict[str, PlanetMeshStiffness]) -> None:
     train = TRAINS["D"]
     above, below = np.array(plot_phases(train, train.phases, stiffness).axes).reshape(2, 2)
     for rows, sums, (name, phases) in zip(above, below, train.phases.items(), strict=True):
@@ -115,7 +115,7 @@ def _names(train: PlanetaryTrain) -> tuple[str, ...]:
     return tuple(mesh.name for mesh in train.meshes)
 
 
-def test_a_run_is_drawn_whole_and_close_by(stiffness: dict[str, MeshStiffness]) -> None:
+def test_a_run_is_drawn_whole_and_close_by(stiffness: dict[str, PlanetMeshStiffness]) -> None:
     train = on_springs(TRAINS["D"], **FLEXIBLE)
     eccentric = replace(train, centrals=(replace(train.centrals[0], run_out=12.0), train.centrals[1]))
     running = run_train(eccentric, TrainLoad(torque=800.0, speed=1000.0), stiffness)
@@ -130,7 +130,7 @@ def test_a_run_is_drawn_whole_and_close_by(stiffness: dict[str, MeshStiffness]) 
     assert low <= running.shares.min() and high >= running.shares.max()
 
 
-def test_level_shares_have_a_range_that_is_no_rounding(stiffness: dict[str, MeshStiffness]) -> None:
+def test_level_shares_have_a_range_that_is_no_rounding(stiffness: dict[str, PlanetMeshStiffness]) -> None:
     train = simple_train((24, 21, -66), (0.3, 0.2, -0.7), 3)
     running = run_train(train, TrainLoad(torque=800.0, speed=1000.0), train_stiffness(train, method="iso6336"))
     assert running.shares == pytest.approx(1.0)

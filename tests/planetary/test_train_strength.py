@@ -15,7 +15,7 @@ from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
 from gearcad.planetary.power import mesh_loads, power_flow, stage_loads
 from gearcad.plots import plot
 from gearcad.rating import RatingOptions
-from gearcad.rating.strength import Part, rate_strength
+from gearcad.rating.strength import RatedPart, rate_strength
 
 EH = Material(name="Eh MQ")
 LIFE = RatingOptions(life=10_000.0)
@@ -49,7 +49,7 @@ def test_meshes_are_rated_as_pairs_with_what_planets_add() -> None:
         )
         alone = rate_strength(mesh.pair, EH, replace(load.load, application_factor=1.0), options)
         whole = found.strength.meshes[mesh.name]
-        for part in Part:
+        for part in RatedPart:
             for role in Role:
                 assert whole.parts[part].pick(role).safety == pytest.approx(alone.parts[part].pick(role).safety, rel=1e-12)
 
@@ -67,7 +67,7 @@ def test_load_cycles_are_those_of_a_flank_against_the_carrier() -> None:
 def test_a_picture_has_the_least_safety_of_every_gear() -> None:
     strength = rated(weighed(simple_set(24, 21))).strength
     flanks, roots = plot(strength).containers
-    for bars, part in ((flanks, Part.FLANK), (roots, Part.ROOT)):
+    for bars, part in ((flanks, RatedPart.FLANK), (roots, RatedPart.ROOT)):
         least = [gear.least(part) for gear in strength.members.values()]
         assert [bar.get_height() for bar in bars] == [each.safety for each in least if each is not None]
     assert "<img" in strength._repr_html_()
@@ -79,7 +79,7 @@ def test_gears_have_the_least_of_their_meshes() -> None:
     strength = rated(weighed(simple_set(24, 21))).strength
     planet = strength.members["planet"]
     assert set(planet.flank) == set(planet.root) == {"sun-planet", "ring-planet"}
-    least = planet.least(Part.FLANK)
+    least = planet.least(RatedPart.FLANK)
     assert least is not None
     assert least.safety == min(each.safety for each in planet.flank.values() if each.safety is not None)
     assert planet.flank[least.mesh].safety == least.safety
@@ -97,7 +97,7 @@ def test_verdicts() -> None:
     assert heavy.verdict.startswith("strength NOT passed: flank of sun in sun-planet")
     assert heavy.passed is False
     for name, gear in heavy.members.items():
-        for part in Part:
+        for part in RatedPart:
             assert gear.least(part).safety < light.members[name].least(part).safety  # type: ignore[union-attr]
 
 
@@ -105,8 +105,8 @@ def test_what_is_not_known_is_not_judged() -> None:
     train = weighed(simple_set(24, 21))
     soft = rated(train, {"sun": EH, "planet": EH, "ring": Material(group=MaterialGroup.CASE_HARDENED)}).strength
     assert soft.strength is Verdict.NOT_JUDGED
-    assert soft.members["ring"].least(Part.FLANK) is None
-    assert soft.members["sun"].least(Part.FLANK) is not None
+    assert soft.members["ring"].least(RatedPart.FLANK) is None
+    assert soft.members["sun"].least(RatedPart.FLANK) is not None
     assert "passed" not in soft.verdict
     free = weighed(simple_set(24, 21, fixed="carrier", output="ring"))
     flow = power_flow(free, TrainLoad(torque=200.0, speed=1500.0))
@@ -142,4 +142,4 @@ def test_stepped_trains_with_a_stage() -> None:
     assert strength.meshes["ring_4-rim_3"].options.mean_stress_factor == (1.0, 1.0)
     assert strength.meshes["pre_stage"].options.contacts_per_turn == 1.0
     assert {"pinion_1", "gear_2", "rim_3", "ring_4"} <= set(strength.members)
-    assert math.isfinite(strength.members["pinion_1"].least(Part.ROOT).safety)  # type: ignore[union-attr]
+    assert math.isfinite(strength.members["pinion_1"].least(RatedPart.ROOT).safety)  # type: ignore[union-attr]

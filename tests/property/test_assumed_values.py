@@ -24,7 +24,7 @@ from gearcad.mounting import Mounting
 from gearcad.page.panels.drawn_data import of_last
 from gearcad.page.panels.sheet_content import shown_figures, strength_figures
 from gearcad.page.panels.views import sheet_figures
-from gearcad.page.words import Language, Words
+from gearcad.page.words import PageLanguage, PageWords
 from gearcad.planetary import TrainLoad
 from gearcad.planetary.power import power_flow
 from gearcad.rating import RatingOptions
@@ -230,7 +230,7 @@ def test_the_page_shows_the_marks(tmp_path: Path, given: bool) -> None:
     """In its words, and as values that a browser can have: its encoder takes no numbers of other classes."""
     orjson = pytest.importorskip("orjson")
     design = made(tmp_path, ASSUMED if given else [])
-    for language, word in zip(Language, ("assumed", "angenommen"), strict=True):
+    for language, word in zip(PageLanguage, ("assumed", "angenommen"), strict=True):
         for found in (sheet_figures(design), strength_figures(design)):
-            shown = orjson.dumps(shown_figures(found, Words.of(language), kept=found)).decode()
+            shown = orjson.dumps(shown_figures(found, PageWords.of(language), kept=found)).decode()
             assert (f"({word})" in shown) is not given

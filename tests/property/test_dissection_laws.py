@@ -9,7 +9,7 @@ import pytest
 
 from gearcad import Gear
 from gearcad.contact.solid.dissection import HalfTurn, Halves, dissected
-from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.outline import MeshSizes, OutlineSide
 from gearcad.meshing.quads import mesh_quads
 from gearcad.meshing.sector import SweptMesh, sweep
 
@@ -19,7 +19,7 @@ SIZES = MeshSizes(flank=0.6, corner=0.3, fillet=0.3, outline=0.6, cut=0.5, rim=4
 
 def halves_of(mesh: SweptMesh) -> Halves:
     section = mesh.section
-    return dissected(HalfTurn(mesh), np.r_[section.behind, section.ahead], mesh.side(Side.HELD))
+    return dissected(HalfTurn(mesh), np.r_[section.behind, section.ahead], mesh.side(OutlineSide.HELD))
 
 
 def swept(layers: int, finer: float = 1.0) -> SweptMesh:
@@ -33,7 +33,7 @@ def test_every_node_goes_once(layers: int, finer: float) -> None:
     turn, halves = HalfTurn(mesh), halves_of(mesh)
     own = np.concatenate([part.own for part in halves.half.every()])
     every = np.concatenate([own, turn.nodes[own], np.union1d(halves.between, turn.nodes[halves.between])])
-    kept = mesh.over(np.r_[mesh.section.behind, mesh.section.ahead, mesh.side(Side.HELD)])
+    kept = mesh.over(np.r_[mesh.section.behind, mesh.section.ahead, mesh.side(OutlineSide.HELD)])
     assert sorted(every) == sorted(set(range(mesh.nodes)) - set(kept.tolist()))
 
 

@@ -22,7 +22,7 @@ from gearcad.meshing.bodies import Element, ElementMesh
 from gearcad.meshing.bodies.exactness import deviations
 from gearcad.meshing.bodies.quality import measure_side, measure_whole, quality, require_good
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.bodies.sectors import ContactRefinement
 
 BULGE = 2e-4
 """How far edges may be from the exact outline between nodes, in normal modules."""
@@ -53,11 +53,11 @@ ZONES = st.one_of(st.none(), st.tuples(st.floats(0, 1), st.floats(0.005, 0.1), s
 """Place on the flank, edge in normal modules, whether on the left."""
 
 
-def zone_of(gear: Gear, drawn: tuple[float, float, bool]) -> ContactZone:
+def zone_of(gear: Gear, drawn: tuple[float, float, bool]) -> ContactRefinement:
     share, edge, left = drawn
     form = gear.flank_form
     length = form.first + share * (form.last - form.first)
-    return ContactZone(length=length, half_width=3 * edge * gear.normal_module, edge=edge * gear.normal_module, left=left)
+    return ContactRefinement(length=length, half_width=3 * edge * gear.normal_module, edge=edge * gear.normal_module, left=left)
 
 
 def check_mesh(

@@ -14,7 +14,7 @@ from support.strategies import build_gear, gear_inputs
 from gearcad import Gear
 from gearcad.contact.solid.pair import SolidSizes
 from gearcad.core.errors import GeometryError, InputError
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.quads import QuadMesh, SectorLayout, mesh_quads, scaled_jacobians
 
 SIZES = SolidSizes().section
@@ -58,7 +58,7 @@ def check_outline(gear: Gear, mesh: QuadMesh, radius: float) -> None:
     nodes, uses = np.unique(mesh.quads[:, 4:], return_counts=True)
     assert set(nodes[uses == 1].tolist()) == {node for node in chain if node >= mesh.vertices}
     places = mesh.points / gear.tip_diameter
-    for side in (Side.LEFT_FLANK, Side.LEFT_FILLET, Side.RIGHT_FLANK, Side.RIGHT_FILLET):
+    for side in (OutlineSide.LEFT_FLANK, OutlineSide.LEFT_FILLET, OutlineSide.RIGHT_FLANK, OutlineSide.RIGHT_FILLET):
         x, y = places[mesh.sides[side]].T
         distance = np.hypot(x, y) * gear.tip_diameter
         steep = distance > gear.root_diameter / 2 * (1 + 1e-6)  # below, a radius says little about the angle
@@ -67,7 +67,7 @@ def check_outline(gear: Gear, mesh: QuadMesh, radius: float) -> None:
     pitch = 2 * math.pi / gear.teeth
     turn = np.array([[math.cos(pitch), math.sin(pitch)], [-math.sin(pitch), math.cos(pitch)]])
     assert np.abs(places[mesh.behind] @ turn - places[mesh.ahead]).max() < ROUNDING
-    assert np.abs(np.hypot(*mesh.points[mesh.sides[Side.HELD]].T) - radius).max() < ROUNDING * gear.tip_diameter
+    assert np.abs(np.hypot(*mesh.points[mesh.sides[OutlineSide.HELD]].T) - radius).max() < ROUNDING * gear.tip_diameter
 
 
 def check_inputs(inputs: dict[str, Any], rim: float | None, factor: float) -> None:

@@ -16,7 +16,7 @@ from support.trains import one_stage, random_trains, two_stages
 from gearcad.core.errors import InputError
 from gearcad.core.records import PerGear
 from gearcad.dynamics.train_study import study_train
-from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import GROUND, Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.shaft_lines import dynamic_inertia, dynamic_stiffness, element_matrices, system
 from gearcad.dynamics.trains.train import Train, static_forces
 from gearcad.dynamics.trains.train_modes import count_below, natural_modes
@@ -215,7 +215,7 @@ def _pair(**changes: Any) -> Train:
     mesh = {"name": "m", "pinion": "a", "wheel": "b", "base_radii": (20.0, 40.0), "stiffness": 300.0, "teeth": 20}
     train: dict[str, Any] = {"inertias": [Inertia(name="a", inertia=1e-3), Inertia(name="b", inertia=1e-2)]}
     train |= {
-        "meshes": [Mesh(**(mesh | changes.pop("mesh", {})))],
+        "meshes": [ToothMesh(**(mesh | changes.pop("mesh", {})))],
         "shafts": [Shaft(**each) for each in changes.pop("shafts", [])],
     }
     return Train(**(train | changes))
@@ -328,7 +328,7 @@ def test_energies_where_a_shaft_weighs_next_to_nothing() -> None:
             Shaft(name="s2", start="i0", end="i2", torsional_stiffness=100.0),
             Shaft(name="s3", start="i0", end="i3", length=100.0, diameter=15.0),
         ],
-        meshes=[Mesh(name="m1", pinion="i0", wheel="i1", base_radii=PerGear(20.0, 101.0), stiffness=50.0, teeth=20)],
+        meshes=[ToothMesh(name="m1", pinion="i0", wheel="i1", base_radii=PerGear(20.0, 101.0), stiffness=50.0, teeth=20)],
         model="elements",
     )
     modes = natural_modes(train, count=6)

@@ -14,7 +14,7 @@ from gearcad import Gear, GearPair, Load, Material
 from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
 from gearcad.core.records import Role
-from gearcad.decks.calculix import Deviations, deviations
+from gearcad.decks.calculix import CalculixDeviations, deviations
 from gearcad.decks.plane import PLANE_SIZES, PlaneDecks, plane_tooth_deck
 from gearcad.designs import PairDesign, read_spec
 from gearcad.geometry import FlankModification
@@ -64,7 +64,7 @@ def _modified() -> PlaneDecks:
     return PlaneDecks(check_task(GearPair(pinion=pinion, wheel=wheel), Material(), Load(torque=410.0), options), sizes=QUICK)
 
 
-def _compared(decks: PlaneDecks, roll_angle: float, folder: Path) -> Deviations:
+def _compared(decks: PlaneDecks, roll_angle: float, folder: Path) -> CalculixDeviations:
     made = decks.at(roll_angle)
     made.deck.write(folder / "pair.inp")
     run_ccx(folder, "pair")
@@ -73,7 +73,7 @@ def _compared(decks: PlaneDecks, roll_angle: float, folder: Path) -> Deviations:
     return deviations(made.expected, found)
 
 
-def _agree(of: Deviations) -> None:
+def _agree(of: CalculixDeviations) -> None:
     assert abs(of.transmission_error) < ERROR
     assert abs(of.load_share) < SHARE
     assert max(map(abs, of.root_stress)) < ROOT
@@ -81,7 +81,7 @@ def _agree(of: Deviations) -> None:
     assert abs(of.contact_pressure) < PRESSURE
 
 
-def _published(published: Published, name: str, roll_angle: float, of: Deviations) -> None:
+def _published(published: Published, name: str, roll_angle: float, of: CalculixDeviations) -> None:
     """Its deviations from our check, in %."""
     case = f"{name}, at {roll_angle:g}°"
     published("transmission error, deviation in %", of.transmission_error, "0", ERROR, CALCULIX, case)

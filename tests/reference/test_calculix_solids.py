@@ -16,7 +16,7 @@ from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Role
-from gearcad.decks.calculix import Deviations, deviations
+from gearcad.decks.calculix import CalculixDeviations, deviations
 from gearcad.decks.solid import SolidDecks, solid_task, solid_tooth_deck
 from gearcad.designs import PairDesign, read_spec
 from gearcad.geometry import FlankModification
@@ -45,7 +45,7 @@ def _small(torque: float = 40.0, *, offset: float = 0.0, refinement: float = 1.0
     return SolidDecks(solid_task(check_task(pair, Material(), Load(torque=torque), options)), sizes=COARSE, layers=2)
 
 
-def _compared(decks: SolidDecks, roll_angle: float, folder: Path) -> Deviations:
+def _compared(decks: SolidDecks, roll_angle: float, folder: Path) -> CalculixDeviations:
     made = decks.at(roll_angle)
     made.deck.write(folder / "pair.inp")
     run_ccx(folder, "pair", timeout=3600)
@@ -54,7 +54,7 @@ def _compared(decks: SolidDecks, roll_angle: float, folder: Path) -> Deviations:
     return deviations(made.expected, found)
 
 
-def _agree(of: Deviations, error: float = ERROR, root: float = ROOT) -> None:
+def _agree(of: CalculixDeviations, error: float = ERROR, root: float = ROOT) -> None:
     assert abs(of.transmission_error) < error
     assert max(map(abs, of.root_stress)) < root
 

@@ -17,7 +17,7 @@ from support.published import Published
 
 from gearcad.dynamics.time_domain.campbell import campbell
 from gearcad.dynamics.time_domain.contact_model import EngagedPairs
-from gearcad.dynamics.time_domain.time_history import CampbellStudy, Start, time_history
+from gearcad.dynamics.time_domain.time_history import CampbellStudy, PairStart, time_history
 
 DIGITS = 1e-7
 """Relative, for recomputed numbers with eight digits."""
@@ -115,7 +115,7 @@ def test_two_motions_from_almost_one_start(speed: float, apart: bool) -> None:
     """
     model = thesis_model()
     there, beside = (
-        time_history(model, speed, start=Start(approach=approach * model.static_approach)).approach[-20000:]
+        time_history(model, speed, start=PairStart(approach=approach * model.static_approach)).approach[-20000:]
         for approach in (0.5, 0.5 + 1e-9)
     )
     difference = np.abs(there - beside).max() / np.ptp(there)
@@ -125,7 +125,7 @@ def test_two_motions_from_almost_one_start(speed: float, apart: bool) -> None:
 def test_statistics_at_a_chaotic_speed_hold_where_the_motion_does_not() -> None:
     """Tolerances are five times the scatter that 40 such runs have."""
     model = thesis_model()
-    starts = (Start(), Start(approach=1e-3))
+    starts = (PairStart(), PairStart(approach=1e-3))
     one, other = (time_history(model, 1000.0, duration=40.0, sampling=5000.0, start=start) for start in starts)
     assert np.abs(one.approach - other.approach).max() > 0.5 * np.ptp(one.approach)
     assert np.std(one.settled) == pytest.approx(np.std(other.settled), rel=0.07)

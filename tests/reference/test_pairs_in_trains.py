@@ -15,7 +15,7 @@ from support.hand_drive import ByHand, Drive
 from gearcad import Gear, GearPair
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats
-from gearcad.dynamics import DynamicsOptions, Inertia, Mesh, Shaft, Train
+from gearcad.dynamics import DynamicsOptions, Inertia, Shaft, ToothMesh, Train
 from gearcad.dynamics.engagement import engaged
 from gearcad.dynamics.response.speed_charts import over_speed
 from gearcad.dynamics.trains.mesh_excitation import train_excitation
@@ -50,7 +50,7 @@ def train_of(drive: Drive, speed: float) -> Train:
         inertias=[Inertia(name=name, inertia=j) for name, j in zip(names, drive.inertias, strict=True)],
         shafts=[Shaft(name="s", start="b", end="c", torsional_stiffness=drive.spring, damping=drive.damper)],
         meshes=[
-            Mesh(name=a + b, pinion=a, wheel=b, pair=of, damping=damper, phase=phase, backlash=clearance)
+            ToothMesh(name=a + b, pinion=a, wheel=b, pair=of, damping=damper, phase=phase, backlash=clearance)
             for (a, b), of, damper, phase, clearance in given
         ],
         torques={"a": drive.torque, "d": -drive.torque * drive.ratios[0] * drive.ratios[1]},

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from support.published import Published
 from support.trains import SHORT, one_stage, two_stages
 
-from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import GROUND, Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.shaft_lines import lines_of, system, twist_shapes
 from gearcad.dynamics.trains.train import Train, static_forces
 from gearcad.dynamics.trains.train_modes import count_below, natural_modes
@@ -225,8 +225,8 @@ def test_free_train_of_two_reductions() -> None:
             Shaft(name="middle", start="b", end="c", length=120.0, diameter=30.0, inner_diameter=10.0),
         ],
         meshes=[
-            Mesh(name="first", pinion="a", wheel="b", base_radii=(20, 60), stiffness=300.0, teeth=20),
-            Mesh(name="second", pinion="c", wheel="d", base_radii=(15, 45), stiffness=400.0, teeth=15),
+            ToothMesh(name="first", pinion="a", wheel="b", base_radii=(20, 60), stiffness=300.0, teeth=20),
+            ToothMesh(name="second", pinion="c", wheel="d", base_radii=(15, 45), stiffness=400.0, teeth=15),
         ],
         torques={"motor": 10.0, "d": -10.0 * math.prod(ratios) * (1 + 1e-5)},
         speed=1500.0,

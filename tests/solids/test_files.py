@@ -20,7 +20,7 @@ from support.step_witness import product_tree
 from gearcad import Body, Gear, GearPair, Rack, __version__
 from gearcad.core.errors import ParameterError
 from gearcad.solids import (
-    Part,
+    ScenePart,
     gear_solid,
     pair_assembly,
     rack_solid,
@@ -53,7 +53,7 @@ def write_all(folder: str) -> None:
     write_dxf(GEAR, f"{folder}/gear.dxf")
     write_points(GEAR, f"{folder}/gear.csv")
     for suffix in ("3mf", "glb"):
-        write_scene([Part(name="gear", facets=facets)], f"{folder}/gear.{suffix}")
+        write_scene([ScenePart(name="gear", facets=facets)], f"{folder}/gear.{suffix}")
 
 
 def test_equal_bytes_from_processes_that_hash_differently(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from support.samples import SAMPLES
 from trimesh.exchange.gltf import export_glb
 
 from gearcad import Body
-from gearcad.solids import Part, write_glb, write_stl
+from gearcad.solids import ScenePart, write_glb, write_stl
 from gearcad.solids.facets.tessellation import Facets, tessellate
 
 RING = replace(SAMPLES["spur"], teeth=-40, tip_alteration=-0.1, body=Body(rim_diameter=95.0))
@@ -36,8 +36,8 @@ def test_glb_is_read_as_that_of_trimesh(tmp_path: Path) -> None:
     """Names, places, meshes and colours of a scene that both have written."""
     blue, red = (0.2, 0.3, 0.8), (0.9, 0.02, 0.1)
     parts = [
-        Part(name="pinion", facets=FACETS["helical"], colour=blue),
-        *(Part(name=f"planet_{n}", facets=FACETS["spur"], colour=red, rotation=n, offset=(n, 2, 1)) for n in (40, 50)),
+        ScenePart(name="pinion", facets=FACETS["helical"], colour=blue),
+        *(ScenePart(name=f"planet_{n}", facets=FACETS["spur"], colour=red, rotation=n, offset=(n, 2, 1)) for n in (40, 50)),
     ]
     write_glb(parts, tmp_path / "ours.glb")
     scene = trimesh.Scene()
@@ -72,7 +72,7 @@ def test_another_reader_finds_every_triangle_of_a_glb(tmp_path: Path) -> None:
     from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
     facets = FACETS["helical"]
-    write_glb([Part(name="gear", facets=facets, offset=(80.0, 0.0, 5.0))], tmp_path / "gear.glb")
+    write_glb([ScenePart(name="gear", facets=facets, offset=(80.0, 0.0, 5.0))], tmp_path / "gear.glb")
     reader = vtkGLTFReader()
     reader.SetFileName(str(tmp_path / "gear.glb"))
     reader.Update()

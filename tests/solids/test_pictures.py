@@ -19,9 +19,9 @@ from gearcad.core.errors import OutputError
 from gearcad.planetary.train_data import speeds
 from gearcad.solids import Facets, FileOptions, tessellate, tessellate_rack
 from gearcad.solids.files import studio
-from gearcad.solids.files.cutaway import Cut, Cutaway, CutFacets, View, cut_away
+from gearcad.solids.files.cutaway import Cutaway, CutFacets, CutPlanes, SceneView, cut_away
 from gearcad.solids.files.products import GearProduct, PairProduct, RackPairProduct, RackProduct
-from gearcad.solids.files.scenes import Part
+from gearcad.solids.files.scenes import ScenePart
 from gearcad.solids.files.shot import MOST_FRAMES, Product, Shot, come_round, frames_for, loop_of
 from gearcad.solids.files.studio import Animation, Edges, write_animation
 from gearcad.solids.files.train_products import TrainProduct
@@ -57,7 +57,7 @@ TURNING: dict[str, Product] = {
 }
 
 
-def _apart(one: Sequence[Part], other: Sequence[Part]) -> float:
+def _apart(one: Sequence[ScenePart], other: Sequence[ScenePart]) -> float:
     """How far (mm) any point of a scene is from the nearest point of the same body in another one.
 
     Round walls inside and outside are left out: their facets are no pitches, which nobody sees.
@@ -76,8 +76,8 @@ def _apart(one: Sequence[Part], other: Sequence[Part]) -> float:
 
 
 @pytest.mark.parametrize("name", TURNING)
-@pytest.mark.parametrize("view", [View.CORNER, View.MESH])
-def test_a_loop_ends_where_it_begins_and_not_before(name: str, view: View) -> None:
+@pytest.mark.parametrize("view", [SceneView.CORNER, SceneView.MESH])
+def test_a_loop_ends_where_it_begins_and_not_before(name: str, view: SceneView) -> None:
     loop = loop_of(TURNING[name], view)
     assert loop.closes
     begun = loop.scene(0.0)
@@ -93,13 +93,13 @@ def test_a_loop_ends_where_it_begins_and_not_before(name: str, view: View) -> No
 
 @pytest.mark.parametrize("share", [0.0, 0.37, 0.81])
 def test_gears_of_a_pair_turn_by_their_teeth_and_a_rack_moves_by_the_arc(share: float) -> None:
-    loop = loop_of(TURNING["pair"], View.CORNER)
+    loop = loop_of(TURNING["pair"], SceneView.CORNER)
     begun, (pinion, wheel) = loop.scene(0.0), loop.scene(share)
     assert pinion.rotation == pytest.approx(360 * share / 12)
     assert (wheel.rotation - begun[1].rotation) * 19 == pytest.approx(-pinion.rotation * 12)
     pose = PAIR.wheel_pose(pinion.rotation)
     assert (wheel.rotation, wheel.offset) == (pose.rotation, (pose.x, 0.0, pose.z))
-    loop = loop_of(TURNING["rack"], View.CORNER)
+    loop = loop_of(TURNING["rack"], SceneView.CORNER)
     begun, (pinion, rack) = loop.scene(0.0), loop.scene(share)
     assert rack.offset[1] - begun[1].offset[1] == pytest.approx(math.radians(pinion.rotation) * 12, abs=1e-12)
 
@@ -108,7 +108,7 @@ def test_gears_of_a_pair_turn_by_their_teeth_and_a_rack_moves_by_the_arc(share: 
 def test_a_train_turns_with_the_speeds_of_willis_where_its_pose_has_it(name: str) -> None:
     product = TURNING[name]
     assert isinstance(product, TrainProduct)
-    train, loop = product.train, loop_of(product, View.CORNER)
+    train, loop = product.train, loop_of(product, SceneView.CORNER)
     held = name in ("stepped", "too long")
     assert [notice.code for notice in loop.notices] == (["carrier-held"] if held else [])
     found = speeds(train, {train.input: 1.0}).members
@@ -128,7 +128,7 @@ def test_a_train_turns_with_the_speeds_of_willis_where_its_pose_has_it(name: str
 
 def test_what_never_comes_round_in_time_is_shown_without_what_hinders_it() -> None:
     gear = replace(_keyed(PINION), teeth=193, helix_angle=0.0)
-    loop = loop_of(_gear(gear), View.CORNER)
+    loop = loop_of(_gear(gear), SceneView.CORNER)
     assert (loop.pitches, [notice.code for notice in loop.notices]) == (1, ["features-left-out"])
     assert frames_for(192) == MOST_FRAMES and frames_for(193) is None and frames_for(1) == 24
     assert come_round([Fraction(3, 4), Fraction(0), Fraction(5, 6)]) == 12
@@ -179,9 +179,9 @@ def test_cuts_are_closed_and_leave_what_they_should(name: str, angle: float) -> 
     whole, point = _turned(facets, angle), _turned(Facets(np.array([at], float), np.zeros((0, 3), int)), angle).vertices[0]
     near, aside, up = (np.array(normal, float) for normal in ((0, -1, 0), (1, 0, 0), (0, 0, 1)))
     for one, other in ((near, aside), (up, near)):
-        halves = [_volume(cut_away(whole, Cut(point, (normal,)))) for normal in (one, -one)]
+        halves = [_volume(cut_away(whole, CutPlanes(point, (normal,)))) for normal in (one, -one)]
         assert sum(halves) == pytest.approx(whole.volume, rel=1e-9)
-        rests = [_volume(cut_away(whole, Cut(point, (a, b)))) for a in (one, -one) for b in (other, -other)]
+        rests = [_volume(cut_away(whole, CutPlanes(point, (a, b)))) for a in (one, -one) for b in (other, -other)]
         assert sum(rests) == pytest.approx(3 * whole.volume, rel=1e-9)
         assert rests[0] + rests[1] == pytest.approx(whole.volume + halves[0], rel=1e-9)
 
@@ -189,7 +189,7 @@ def test_cuts_are_closed_and_leave_what_they_should(name: str, angle: float) -> 
 def test_the_face_of_a_cut_has_the_area_and_the_outline_of_the_section() -> None:
     """A rack of 400 teeth cut in the middle of its width: its volume over its width, the same around it as at its end."""
     facets, at = CUT_OPEN["long rack"]
-    (face,) = cut_away(facets, Cut(np.array(at), (np.array([0.0, 0.0, 1.0]),))).faces
+    (face,) = cut_away(facets, CutPlanes(np.array(at), (np.array([0.0, 0.0, 1.0]),))).faces
     a, b, c = face.triangles.transpose(1, 0, 2)
     assert np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 == pytest.approx(facets.volume / 10, rel=1e-9)
     assert face.triangles[..., 2] == pytest.approx(5)
@@ -218,7 +218,7 @@ def _redness(pixels: np.ndarray) -> list[float]:
 def test_a_picture_is_at_scale_and_in_the_middle() -> None:
     """Opacity adds up to the area of the section, and half of a line, a third of a pixel wide, around it."""
     gear = Gear(teeth=20, normal_module=2, face_width=10, body=Body(bore=12))
-    shot = Shot(product=_gear(gear), view=View.FRONT, size=(300, 240), transparent=True)
+    shot = Shot(product=_gear(gear), view=SceneView.FRONT, size=(300, 240), transparent=True)
     opacity = _pixels(shot)[..., 3] / 255
     millimetre = 120 / shot.camera.half_height
     area = shot.product.facets.volume / 10  # type: ignore[union-attr]
@@ -230,14 +230,14 @@ def test_a_picture_is_at_scale_and_in_the_middle() -> None:
 
 
 def test_views_are_from_where_they_say() -> None:
-    shot = Shot(product=TURNING["pair"], view=View.FRONT, size=(120, 80))
-    for view in (View.FRONT, View.TOP, View.MESH):  # brass on the left, steel on the right
+    shot = Shot(product=TURNING["pair"], view=SceneView.FRONT, size=(120, 80))
+    for view in (SceneView.FRONT, SceneView.TOP, SceneView.MESH):  # brass on the left, steel on the right
         left, right = _redness(_pixels(replace(shot, view=view)))
         assert left > 30 and right < -20
-    side = _pixels(replace(shot, view=View.SIDE))[:, 45:75]  # only the wheel is seen from the right
+    side = _pixels(replace(shot, view=SceneView.SIDE))[:, 45:75]  # only the wheel is seen from the right
     assert max(_redness(side)) < -20
     rack = RackProduct(rack=RACK_PAIR.rack, name="rack", options=COARSE)
-    standing = _pixels(Shot(product=rack, view=View.FRONT, size=(160, 40), transparent=True))[..., 3] > 128
+    standing = _pixels(Shot(product=rack, view=SceneView.FRONT, size=(160, 40), transparent=True))[..., 3] > 128
     rows = np.flatnonzero(standing.any(axis=1))
     assert standing[rows[1]].mean() < 0.6 < 0.9 < standing[rows[-2]].mean()  # teeth up
 
@@ -255,8 +255,8 @@ def test_a_cut_shows_its_colour_and_a_pair_apart_a_gap() -> None:
 @pytest.fixture(scope="module")
 def turning() -> Shot:
     product = TURNING["pair"]
-    loop = replace(loop_of(product, View.MESH), frames=5)
-    return Shot(product=product, view=View.MESH, size=(64, 48), loop=loop, transparent=True)
+    loop = replace(loop_of(product, SceneView.MESH), frames=5)
+    return Shot(product=product, view=SceneView.MESH, size=(64, 48), loop=loop, transparent=True)
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,7 @@ from support.exact import chamfered_volume, distance_to_section, section_area, t
 from support.samples import SAMPLES
 
 from gearcad import BasicRack, Body, Gear, GearcadError, ParameterError
-from gearcad.solids import Part, write_scene, write_stl
+from gearcad.solids import ScenePart, write_scene, write_stl
 from gearcad.solids.facets.tessellation import Facets, tessellate
 
 DEFAULT = 0.005  # mm
@@ -333,15 +333,15 @@ def test_stl_is_closed_when_read_again(name: str, tmp_path: Path) -> None:
 PARTS = {"pinion & shaft": ((0.8, 0.55, 0.2), 0.0, (0.0, 0.0, 0.0)), "wheel": ((0.45, 0.58, 0.72), 30.0, (80.0, 1.0, -2.0))}
 
 
-def _parts() -> list[Part]:
+def _parts() -> list[ScenePart]:
     gears = SAMPLES["helical"], SAMPLES["left hand"]
     return [
-        Part(name=name, facets=tessellate(gear), colour=colour, rotation=rotation, offset=offset)
+        ScenePart(name=name, facets=tessellate(gear), colour=colour, rotation=rotation, offset=offset)
         for gear, (name, (colour, rotation, offset)) in zip(gears, PARTS.items(), strict=True)
     ]
 
 
-def _corner(part: Part) -> np.ndarray:
+def _corner(part: ScenePart) -> np.ndarray:
     """Where the part's first vertex stands in the scene (mm)."""
     x, y, z = part.facets.vertices[0]
     angle = math.radians(part.rotation)

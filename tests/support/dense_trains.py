@@ -15,7 +15,7 @@ from random import Random
 import numpy as np
 
 from gearcad.core.records import Floats
-from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import GROUND, Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.train import Train
 
 __all__ = ["DenseTrain", "dense_train", "isolated_rpm", "random_drive"]
@@ -46,7 +46,7 @@ def random_drive(seed: int) -> Train:
             for name, r in zip((pinion, wheel), radii, strict=True)
         ]
         meshes.append(
-            Mesh(
+            ToothMesh(
                 name=f"m{stage}",
                 pinion=pinion,
                 wheel=wheel,
@@ -175,7 +175,7 @@ def dense_train(train: Train, *, isolated: bool = False) -> DenseTrain:
     )
 
 
-def _turns(train: Train, mesh: Mesh) -> Fraction:
+def _turns(train: Train, mesh: ToothMesh) -> Fraction:
     """Tooth frequency over that of the first mesh, by whole numbers of teeth down the chain."""
     ratio = Fraction(1)
     for before, after in pairwise(train.meshes):

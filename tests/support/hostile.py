@@ -18,7 +18,7 @@ from gearcad.cli import main
 from gearcad.designs.keys import KEYS
 from gearcad.designs.reader import starter_text
 from gearcad.designs.train_keys import PLANETARY
-from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 
 __all__ = ["CHEAP", "hostile_rows", "hostile_specs", "physical_specs", "put", "run_politely", "toml_text"]
 
@@ -50,7 +50,7 @@ OTHERS = (
 CHEAP = {"positions": 12, "refinement": 0.25, "convergence": "off", "body_teeth": 3, "torques": [100.0]}
 """A check that takes a second."""
 
-_PARTS = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
+_PARTS = {"inertia": Inertia, "shaft": Shaft, "mesh": ToothMesh}
 _DESIGNS = ("fzg-c", "volvo-13-44", "spur", "uhlir-19-23", "rack")
 _PLANETARY = ("planetary-24-21-66", "planetary-alm", "planetary-differential")
 _TRAINS = ("train-1-stage", "train-2-stage")

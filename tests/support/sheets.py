@@ -10,7 +10,7 @@ import pytest
 
 from gearcad import SpecError
 from gearcad.designs import open_table
-from gearcad.designs.table import Row
+from gearcad.designs.table import DesignRow
 
 __all__ = ["ERROR", "GEARS", "GOOD", "TEMPLATES", "faults_of", "refusal_of", "rows_of", "values_of", "workbook"]
 
@@ -23,7 +23,7 @@ ERROR = "is an error of the spreadsheet; mend the formula and save again"
 """What a message says of a cell such as #N/A."""
 
 
-def rows_of(content: str | bytes, name: str = "t.csv") -> list[Row]:
+def rows_of(content: str | bytes, name: str = "t.csv") -> list[DesignRow]:
     """The rows of a file with this content."""
     Path(name).write_bytes(content.encode() if isinstance(content, str) else content)
     return list(open_table(name).rows())

@@ -6,7 +6,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import GROUND, Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.train import Train
 
 LONG, SHORT = ((750.0, 56.7), (1000.0, 18.5)), ((100.0, 34.4), (200.0, 12.4))
@@ -26,7 +26,7 @@ def one_stage(model: str, shafts: tuple[tuple[float, float], ...] = LONG, **more
             )
         ),
         meshes=(
-            Mesh(
+            ToothMesh(
                 name="mesh",
                 pinion="pinion",
                 wheel="wheel",
@@ -50,7 +50,8 @@ def two_stages(between: float, model: str = "massless") -> Train:
         inertias=tuple(Inertia(name=name, inertia=0.0446) for name in "1234"),
         shafts=tuple(Shaft(name=name, start=a, end=b, torsional_stiffness=k) for name, a, b, k in springs),
         meshes=tuple(
-            Mesh(name=a + b, pinion=a, wheel=b, base_radii=(90.2, 90.2), stiffness=750.0, teeth=32) for a, b in ("12", "34")
+            ToothMesh(name=a + b, pinion=a, wheel=b, base_radii=(90.2, 90.2), stiffness=750.0, teeth=32)
+            for a, b in ("12", "34")
         ),
         torques={"1": 2256.0, "4": -2256.0},
     )
@@ -79,7 +80,9 @@ def random_trains(draw: st.DrawFn, *, order: int = 24) -> Train:
             radii = (number(20, 100), number(101, 200))
             internal, k = draw(st.booleans()), number(50, 900)
             meshes.append(
-                Mesh(name=f"m{place}", pinion=before, wheel=here, base_radii=radii, stiffness=k, teeth=20, internal=internal)
+                ToothMesh(
+                    name=f"m{place}", pinion=before, wheel=here, base_radii=radii, stiffness=k, teeth=20, internal=internal
+                )
             )
     for place in range(draw(st.integers(0, 2))):
         shafts.append(shaft(f"g{place}", GROUND, draw(st.sampled_from(names))))

@@ -8,7 +8,7 @@ from support.checks import small_check
 
 from gearcad.contact.plane.cycle import contact_frame, tooth_field
 from gearcad.core.records import PerGear, Role
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.plots.check import (
     plot_contact_pressure,
     plot_contact_zone,
@@ -190,9 +190,9 @@ def test_field_has_the_stress_of_the_fillets(role):
     mesh, start = body.ring.sector.mesh, 0
     for side, nodes in mesh.sides.items():
         part = field.outline[start : start + len(nodes)]
-        if side in (Side.LEFT_FILLET, Side.RIGHT_FILLET):
+        if side in (OutlineSide.LEFT_FILLET, OutlineSide.RIGHT_FILLET):
             found = max(stresses[tuple(point)] for point in part.round(9))
-            wanted = (position.tension if side is Side.LEFT_FILLET else position.compression).pick(role).stress
+            wanted = (position.tension if side is OutlineSide.LEFT_FILLET else position.compression).pick(role).stress
             assert found == pytest.approx(_UNIAXIAL * abs(wanted), rel=_FILLET)
         start += len(nodes)
 

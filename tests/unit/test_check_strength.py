@@ -22,11 +22,11 @@ from gearcad.core.records import Verdict
 from gearcad.designs import PairDesign
 from gearcad.drawing.drawing_subjects import DrawnGear, material_text
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.words import Language, Words
+from gearcad.drawing.words import Language, SheetWords
 from gearcad.jobs.strength import Rate, rate_columns
 from gearcad.page.panels.sheet_content import strength_figures
 from gearcad.rating import RatingOptions
-from gearcad.rating.strength import Part
+from gearcad.rating.strength import RatedPart
 from gearcad.report import report_html
 
 EXACT = 1e-12
@@ -46,7 +46,7 @@ def test_stresses_are_raised_by_what_the_model_lacks() -> None:
     result = strong(small_check())
     found, k = result.safeties, result.safeties.rating.load_factors
     assert k is not None
-    assert found.applied[Part.ROOT] == {
+    assert found.applied[RatedPart.ROOT] == {
         "K_gamma": 1.1,
         "K_v": k.dynamic,
         "K_Fbeta": k.face_root,
@@ -72,9 +72,9 @@ def test_a_spectrum_is_held_against_the_stress_of_its_nominal_torque() -> None:
 def test_what_the_model_has_is_not_multiplied_again() -> None:
     solid = strong(small_solid_check())
     assert set(solid.safeties.contained) == {"K_A", "K_Hbeta", "K_Fbeta"}  # it is misaligned
-    assert set(solid.safeties.applied[Part.FLANK]) == {"K_gamma", "K_v", "K_Halpha"}
+    assert set(solid.safeties.applied[RatedPart.FLANK]) == {"K_gamma", "K_v", "K_Halpha"}
     proud = strong(small_check(), mounting=Mounting(pinion_pitch_error=5.0))
-    assert set(proud.safeties.applied[Part.ROOT]) == {"K_gamma", "K_v", "K_Fbeta"}
+    assert set(proud.safeties.applied[RatedPart.ROOT]) == {"K_gamma", "K_v", "K_Fbeta"}
     aligned = strong(small_solid_check(), mounting=Mounting())
     assert set(aligned.safeties.contained) == {"K_A"}
 
@@ -85,12 +85,12 @@ def test_the_model_has_a_face_load_factor_of_its_own() -> None:
     assert own > 1
     assert strong(solid).safeties.own == {}  # what a tilted model has is all in it
     uneven = strong(solid, replace(OPTIONS, face_load_factor=2.0), mounting=Mounting()).safeties
-    assert uneven.applied[Part.FLANK]["K_Hbeta"] == pytest.approx(2 / own, rel=EXACT)
+    assert uneven.applied[RatedPart.FLANK]["K_Hbeta"] == pytest.approx(2 / own, rel=EXACT)
     k, root = uneven.rating.load_factors, min(solid.summary.root_face_load_factor)
-    assert uneven.applied[Part.ROOT]["K_Fbeta"] == pytest.approx(k.face_root / root, rel=EXACT)
+    assert uneven.applied[RatedPart.ROOT]["K_Fbeta"] == pytest.approx(k.face_root / root, rel=EXACT)
     even = strong(solid, replace(OPTIONS, face_load_factor=1.0), mounting=Mounting()).safeties
-    assert even.applied[Part.FLANK]["K_Hbeta"] == 1.0
-    assert "K_Hbeta beyond its own 1" in even.applied_words(Part.FLANK)
+    assert even.applied[RatedPart.FLANK]["K_Hbeta"] == 1.0
+    assert "K_Hbeta beyond its own 1" in even.applied_words(RatedPart.FLANK)
     assert even.to_dict()["factors_of_model"]["K_Hbeta"] == own
 
 
@@ -249,7 +249,7 @@ def test_a_check_tells_that_scuffing_could_not_be_judged() -> None:
 
 
 def test_a_sheet_names_no_grade_of_iso_6336_as_a_material() -> None:
-    words = Words.of(Language.ENGLISH)
+    words = SheetWords.of(Language.ENGLISH)
     gear = Gear(teeth=20, normal_module=2, face_width=20)
     drawn = DrawnGear(role="gear", gear=gear, material=Material(name="Eh MQ"))
     assert material_text(drawn, DrawingOptions(), words) == words["data.steel"]

@@ -23,21 +23,21 @@ from gearcad.drawing.assembly_sheets import draw_pair, draw_train, train_rows
 from gearcad.drawing.drawing_subjects import DrawnGear, DrawnPair, DrawnTrain
 from gearcad.drawing.dxf_export import sheet_document
 from gearcad.drawing.gear_data_rows import gear_notices
-from gearcad.drawing.gear_sheet import Sheet
+from gearcad.drawing.gear_sheet import DrawingSheet
 from gearcad.drawing.layout import View
 from gearcad.drawing.options import DrawingOptions, PartDrawing, Projection, SheetSize
 from gearcad.drawing.shapes import Circle, Hatching, Pen, Polyline, Text
 from gearcad.drawing.views.assembly_figures import Where, pieces
 from gearcad.drawing.views.pair_views import pair_face, pair_section
-from gearcad.drawing.views.train_views import TrainPlan, train_face, train_section
-from gearcad.drawing.words import Draughting, Language, Words
+from gearcad.drawing.views.train_views import PosedTrain, train_face, train_section
+from gearcad.drawing.words import Draughting, Language, SheetWords
 from gearcad.jobs.draw import drawn_gears
 from gearcad.planetary import Central, PlanetaryTrain, Rim
 
 EXACT = 1e-9
 """mm: what follows by a formula of two terms."""
 
-PAPER = Draughting(Words.of(Language.ENGLISH), 2.0)
+PAPER = Draughting(SheetWords.of(Language.ENGLISH), 2.0)
 
 STARTERS = ("fzg-c", "ring-22-70", "double-23-81", "rack", "planetary-alm", "planetary-differential")
 
@@ -186,15 +186,15 @@ def unequal() -> PlanetaryTrain:
 
 
 def test_members_are_called_by_words_unless_they_have_names() -> None:
-    plan = TrainPlan(read_spec(templates() / "planetary-24-21-66.toml").train)
+    plan = PosedTrain(read_spec(templates() / "planetary-24-21-66.toml").train)
     items = {key: number for number, key in enumerate(plan.layout.bodies, 1)}
-    found = {row.key: row for row in train_rows(plan, items, Words.of(Language.SWEDISH))}
+    found = {row.key: row for row in train_rows(plan, items, SheetWords.of(Language.SWEDISH))}
     assert found["ratio"].words == "Utväxling solhjul : planethållare" and found["fixed"].text == "Ringhjul"
 
 
 def test_planets_stand_where_the_train_has_them() -> None:
     train = unequal()
-    found = circles(train_face(TrainPlan(train), PAPER), Pen.OUTLINE)
+    found = circles(train_face(PosedTrain(train), PAPER), Pen.OUTLINE)
     poses = train.pose().planets
     turn = math.radians(90 - poses[0].angle)
     for pose in poses:
@@ -208,17 +208,17 @@ def test_planets_stand_where_the_train_has_them() -> None:
 def test_of_stepped_planets_the_rim_behind_the_larger_one_is_dashed() -> None:
     """Rim 3 begins at z = 0 and is larger; seen from above it is behind rim 3p, which hides nothing of it."""
     train = alm_train()
-    view = train_face(TrainPlan(train), PAPER)
+    view = train_face(PosedTrain(train), PAPER)
     tips = {rim.name: rim.gear.tip_diameter / 2 for rim in train.rims}
     assert tips["rim_3"] > tips["rim_3p"]
     assert not circles(view, Pen.HIDDEN).get((0.0, 69.0))
     turned = replace(train.rims[1], axial_position=-20.0)
-    other = train_face(TrainPlan(replace(train, rims=(train.rims[0], turned), stages=(), input="carrier")), PAPER)
+    other = train_face(PosedTrain(replace(train, rims=(train.rims[0], turned), stages=(), input="carrier")), PAPER)
     assert circles(other, Pen.HIDDEN)[0.0, 69.0] == {tips["rim_3p"]}
 
 
 def test_stages_are_turned_into_the_plane_at_their_centre_distance() -> None:
-    plan = TrainPlan(alm_train())
+    plan = PosedTrain(alm_train())
     assert [body.height for body in plan.stages] == [135.0, 0.0]
     view = train_section(plan, {key: 1 for key in (*plan.layout.bodies, "carrier")}, PAPER)
     levels = {round(each[0, 1], 6) for each in lines(view, Pen.CENTRE) if abs(each[0, 1] - each[1, 1]) < EXACT}
@@ -233,7 +233,7 @@ def starter(name: str) -> Any:
     return read_spec(templates() / f"{name}.toml")
 
 
-def drawn(design: Any, **options: Any) -> Sheet:
+def drawn(design: Any, **options: Any) -> DrawingSheet:
     if hasattr(design, "train"):
         return draw_train(DrawnTrain(name=design.name, train=design.train), DrawingOptions(**options))
     mate = design.pair.rack if hasattr(design.pair, "rack") else design.pair.wheel
@@ -243,7 +243,7 @@ def drawn(design: Any, **options: Any) -> Sheet:
 
 
 @cache
-def sheet_of(name: str) -> Sheet:
+def sheet_of(name: str) -> DrawingSheet:
     return drawn(starter(name))
 
 

@@ -16,7 +16,7 @@ from gearcad.drawing.shapes import Box, Figure, Pen, Text, has_glyph, text_width
 from gearcad.drawing.sheet_frame import Furnished, Furniture, border, inside_frame, notes, title_block, title_values
 from gearcad.drawing.sheet_tables import CLOSEST, PartLine, data_table, fit, parts_list, revisions
 from gearcad.drawing.sheet_template import VALUES, SheetTemplate
-from gearcad.drawing.words import Language, Words
+from gearcad.drawing.words import Language, SheetWords
 
 SHIPPED = SheetTemplate.of(None)
 SHEETS = [each for each in SheetSize if each is not SheetSize.AUTO]
@@ -41,7 +41,7 @@ class _Row:
     limits: tuple[str, str] | None = None
 
 
-def _words(language: Language = Language.ENGLISH) -> Words:
+def _words(language: Language = Language.ENGLISH) -> SheetWords:
     return SHIPPED.words(language)
 
 
@@ -389,7 +389,7 @@ def test_a_template_that_cannot_be_read_is_one_line(tmp_path: Path) -> None:
 
 
 def test_words_say_the_same_in_all_languages_with_letters_that_the_font_has() -> None:
-    english, *others = (Words.of(language).labels for language in Language)
+    english, *others = (SheetWords.of(language).labels for language in Language)
     for labels in others:
         assert labels.keys() == english.keys()
         wrong = [

@@ -14,9 +14,9 @@ from gearcad.drawing.layout import Fixed, View, Views, arranged, dressed
 from gearcad.drawing.options import SCALES, Projection, SheetSize
 from gearcad.drawing.placement import Occupied, Room
 from gearcad.drawing.shapes import Anchor, Box, Dimension, Figure, Hatching, Line, Pen, Point, Polyline, Shape, Text
-from gearcad.drawing.words import Draughting, Language, Size, Words
+from gearcad.drawing.words import Draughting, Language, SheetWords, Size
 
-WORDS = Words.of(Language.ENGLISH)
+WORDS = SheetWords.of(Language.ENGLISH)
 
 
 def rectangle(box: Box, pen: Pen = Pen.OUTLINE) -> Polyline:

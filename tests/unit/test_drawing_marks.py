@@ -19,10 +19,10 @@ from gearcad.drawing.dimensions import (
     tolerance_frame,
 )
 from gearcad.drawing.drawing_symbols import roughness
-from gearcad.drawing.shapes import Dimension, Figure, Filled, Line, Measured, text_width
-from gearcad.drawing.words import Draughting, Language, Size, Words
+from gearcad.drawing.shapes import Dimension, Figure, Filled, Line, MeasuredDistance, text_width
+from gearcad.drawing.words import Draughting, Language, SheetWords, Size
 
-ENGLISH, GERMAN = Words.of(Language.ENGLISH), Words.of(Language.GERMAN)
+ENGLISH, GERMAN = SheetWords.of(Language.ENGLISH), SheetWords.of(Language.GERMAN)
 HALF_SIZE = Draughting(ENGLISH, 0.5)
 
 
@@ -64,7 +64,7 @@ def test_lanes_go_outwards_and_extension_lines_reach_past_them(side: Side) -> No
         reach = [side.out(line.end) * side.outwards for line in crossing]
         assert reach == pytest.approx([side.out(each.line) * side.outwards + 1.5] * 2)
         assert [side.out(line.start) * side.outwards for line in crossing] == pytest.approx([3.8] * 2)
-        assert each.measured is (Measured.VERTICAL if side.is_upright else Measured.HORIZONTAL)
+        assert each.measured is (MeasuredDistance.VERTICAL if side.is_upright else MeasuredDistance.HORIZONTAL)
         assert abs(side.along(each.second) - side.along(each.first)) / HALF_SIZE.scale == pytest.approx(80.0)
 
 

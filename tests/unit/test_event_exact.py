@@ -11,9 +11,9 @@ from scipy.linalg import expm
 
 from gearcad.core.compiled import compiled
 from gearcad.dynamics.time_domain.event_kernel import (
-    Motion,
     MotionOutcome,
-    Spring,
+    Oscillator,
+    PairMotion,
     Zone,
     _zero,
     accelerated,
@@ -34,13 +34,13 @@ DISTURBANCE = 1e-6
 """Relative: a disturbance of a ten-millionth of the static approach, to both sides, has an error of second order."""
 
 SPRINGS = {
-    "free": Spring(0.0, 47.0, 1.9e4, 0.0),
-    "free, barely damped": Spring(0.0, 1e-7, 1.9e4, 0.0),
-    "free, undamped": Spring(0.0, 0.0, 1.9e4, 0.0),
-    "underdamped": Spring(9.4e6, 47.0, 0.0, 1.6e-3),
-    "undamped": Spring(9.4e6, 0.0, 0.0, 1.6e-3),
-    "critical": Spring(100.0**2, 100.0, 0.0, 1.6e-3),
-    "overdamped": Spring(100.0**2, 4000.0, 0.0, 1.6e-3),
+    "free": Oscillator(0.0, 47.0, 1.9e4, 0.0),
+    "free, barely damped": Oscillator(0.0, 1e-7, 1.9e4, 0.0),
+    "free, undamped": Oscillator(0.0, 0.0, 1.9e4, 0.0),
+    "underdamped": Oscillator(9.4e6, 47.0, 0.0, 1.6e-3),
+    "undamped": Oscillator(9.4e6, 0.0, 0.0, 1.6e-3),
+    "critical": Oscillator(100.0**2, 100.0, 0.0, 1.6e-3),
+    "overdamped": Oscillator(100.0**2, 4000.0, 0.0, 1.6e-3),
 }
 
 BOUNCES = {0.5: 6.355890089178, 1.0: 6.712388980385, 3.0: 9.785093762383}
@@ -48,14 +48,14 @@ BOUNCES = {0.5: 6.355890089178, 1.0: 6.712388980385, 3.0: 9.785093762383}
 
 _NEVER = Zone(-1e9, 1e9, 0.5, 0.5)
 
-THESIS = Motion(
+THESIS = PairMotion(
     9439492.4, 47.2, 1.5109e4, 5.166e-3, math.inf, Zone(1.87e-3, 9.97e-3, 0.594, 0.594), Zone(1.87e-3, 9.97e-3, 0.594, 0.594)
 )
 """About the pair of Uhlir's thesis."""
 
 
 def ran(
-    motion: Motion, drift: float, start: tuple[float, float, float], step: float, samples: int, counted: float = 0.0
+    motion: PairMotion, drift: float, start: tuple[float, float, float], step: float, samples: int, counted: float = 0.0
 ) -> tuple[Floats, Floats, MotionOutcome]:
     y, v = np.full(samples, np.nan), np.full(samples, np.nan)
     return y, v, run(motion, drift, start, step, counted, y, v)
@@ -117,7 +117,7 @@ def test_zeros_are_found_from_both_sides_of_rest(name: str, y: float) -> None:
 def test_bounce_period(x: float) -> None:
     period = 2 * x + 2 * math.pi - 2 * math.atan(x)
     assert period == pytest.approx(BOUNCES[x], rel=PERIOD)
-    motion = Motion(1.0, 0.0, 1.0, 4e9, math.inf, _NEVER, _NEVER)
+    motion = PairMotion(1.0, 0.0, 1.0, 4e9, math.inf, _NEVER, _NEVER)
     y, v, outcome = ran(motion, 0.0, (0.0, 0.0, x), period / 64, 64 * 100 + 1)
     np.testing.assert_allclose(y[::64], 0, atol=PERIOD * x * 100)
     np.testing.assert_allclose(v[::64], x, rtol=PERIOD * 100)
@@ -128,7 +128,7 @@ def test_bounce_period(x: float) -> None:
 
 def test_backlash_lets_the_back_flanks_touch() -> None:
     """y'' = 1 between y = 0 and -j, springs beyond: potential energy gives the turning points, and it goes on for ever."""
-    motion, x, j = Motion(1.0, 0.0, 1.0, 4e9, 0.5, _NEVER, _NEVER), 3.0, 0.5
+    motion, x, j = PairMotion(1.0, 0.0, 1.0, 4e9, 0.5, _NEVER, _NEVER), 3.0, 0.5
     y, v, outcome = ran(motion, 0.0, (0.0, 0.0, x), 1e-3, 200_000)
     energy = v**2 / 2 - y + np.where(y > 0, y**2, np.where(y < -j, (y + j) ** 2, 0)) / 2
     np.testing.assert_allclose(energy, x**2 / 2, rtol=1e-10)

@@ -16,7 +16,7 @@ from gearcad.check.summary import PLANE, SOLID, STRESSES
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.loaded import Extreme, Quantity, RollRange, add_positions, extreme
+from gearcad.contact.shared.loaded import Extreme, ExtremeQuantity, RollRange, add_positions, extreme
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.core.records import Role
 from gearcad.geometry import ReliefShape
@@ -34,7 +34,7 @@ Kink = tuple[float, float, float]
 
 def sought(course: Course, count: int, pitch: float = 20.0, repeats: bool = True) -> tuple[Extreme | None, int]:
     """The extreme of a course from `count` even positions, and how many were added."""
-    quantity, span = Quantity("value", lambda value: value), RollRange(pitch, repeats)
+    quantity, span = ExtremeQuantity("value", lambda value: value), RollRange(pitch, repeats)
     angles = ((np.arange(count) + 0.5) / count * pitch - pitch / 2).tolist()
     asked: list[float] = []
 
@@ -107,7 +107,7 @@ def test_nothing_is_sought_where_nothing_can_be() -> None:
 @pytest.mark.parametrize("repeats", [True, False])
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_a_few_positions_tell_nothing_of_what_stands_between_them(count: int, repeats: bool) -> None:
-    quantity, angles = Quantity("value", lambda value: value), np.linspace(-5, 5, count)
+    quantity, angles = ExtremeQuantity("value", lambda value: value), np.linspace(-5, 5, count)
     found = extreme([(float(angle), 100.0) for angle in angles], RollRange(20.0, repeats), quantity)
     assert found is not None and found.value == 100.0
     assert math.isinf(found.error) or (count == 1 and not repeats)
@@ -115,7 +115,7 @@ def test_a_few_positions_tell_nothing_of_what_stands_between_them(count: int, re
 
 def test_a_least_value_and_a_swing() -> None:
     known = [(angle, math.cos(math.radians(18 * angle))) for angle in (-7.5, -2.5, 2.5, 7.5)]
-    least = extreme(known, RollRange(20.0), Quantity("value", lambda value: value, least=True, swing=True))
+    least = extreme(known, RollRange(20.0), ExtremeQuantity("value", lambda value: value, least=True, swing=True))
     assert least is not None
     assert least.value == min(value for _, value in known) and least.error > 0
 
@@ -131,7 +131,7 @@ def plane(relief: float = 0.0) -> PlanePair:
     return plane_pair(replace(pair, **gears), Material(), body=BodyModel(teeth=3))
 
 
-def missed(cycle: PlaneCycle | SolidCycle, dense: PlaneCycle | SolidCycle, quantity: Quantity) -> float:  # type: ignore[type-arg]
+def missed(cycle: PlaneCycle | SolidCycle, dense: PlaneCycle | SolidCycle, quantity: ExtremeQuantity) -> float:  # type: ignore[type-arg]
     """How far a cycle's extreme is below that of another with many positions, of itself or of its swing."""
     values = quantity.sign * np.array([quantity.value(position) for position in dense.positions])
     values = values[~np.isnan(values)]

@@ -14,14 +14,14 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.shapes import Pen, Polyline
 from gearcad.drawing.views.gear_views import section_view
-from gearcad.drawing.words import Draughting, Language, Words
+from gearcad.drawing.words import Draughting, Language, SheetWords
 from gearcad.geometry import ISO53_D, BasicRack
 from gearcad.geometry.gear_parts import HubSide
 from gearcad.material import MaterialGroup
 from gearcad.rating.tolerances import Accuracy, gear_tolerances
 from gearcad.solids.facets.tessellation import tessellate, tessellate_rack
 
-WORDS = {language: Words.of(language) for language in Language}
+WORDS = {language: SheetWords.of(language) for language in Language}
 
 
 def _pair(pinion, wheel, **given):

@@ -9,7 +9,7 @@ import pytest
 
 from gearcad import Body, Gear
 from gearcad.drawing.drawing_subjects import DrawnGear
-from gearcad.drawing.gear_sheet import Sheet, draw_gear
+from gearcad.drawing.gear_sheet import DrawingSheet, draw_gear
 from gearcad.drawing.options import DrawingOptions, PartDrawing, Projection, SheetSize
 from gearcad.drawing.shapes import Circle, Hatching, Pen, Point
 from gearcad.drawing.words import Language
@@ -23,15 +23,15 @@ RACK = Rack(teeth=20, normal_module=2.0, face_width=20.0, height=18.0, helix_ang
 OPTIONS = DrawingOptions(number="GC-1002", date="2026-01-31", scale="1:1", sheet=SheetSize.A3)
 
 
-def _drawn(gear: Gear | Rack, options: DrawingOptions = OPTIONS) -> Sheet:
+def _drawn(gear: Gear | Rack, options: DrawingOptions = OPTIONS) -> DrawingSheet:
     return draw_gear(DrawnGear(role="gear", gear=gear), options)
 
 
-def _words(sheet: Sheet) -> list[str]:
+def _words(sheet: DrawingSheet) -> list[str]:
     return [each.words for each in sheet.figure.texts]
 
 
-def _middle_of_tips(sheet: Sheet, gear: Gear) -> Point:
+def _middle_of_tips(sheet: DrawingSheet, gear: Gear) -> Point:
     """Of the tip circle of the view along the axis."""
     radius = sheet.scale * gear.tip_diameter / 2
     circles = [each for each in sheet.figure.shapes if isinstance(each, Circle) and each.pen is Pen.OUTLINE]

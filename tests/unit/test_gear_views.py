@@ -14,10 +14,10 @@ from gearcad.drawing.drawing_subjects import DrawnGear
 from gearcad.drawing.layout import dressed
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import Requirements
-from gearcad.drawing.shapes import Circle, Dimension, Figure, Hatching, Line, Measured, Pen, Polyline, Text
+from gearcad.drawing.shapes import Circle, Dimension, Figure, Hatching, Line, MeasuredDistance, Pen, Polyline, Text
 from gearcad.drawing.views.gear_figures import Along, Silhouette, end_face, half_section
 from gearcad.drawing.views.gear_views import SectionSizes, face_view, section_view
-from gearcad.drawing.words import Draughting, Language, Size, Words
+from gearcad.drawing.words import Draughting, Language, SheetWords, Size
 from gearcad.geometry import DoubleHelix
 from gearcad.geometry.gear_parts import HubSide
 from gearcad.solids import tessellate
@@ -164,7 +164,7 @@ def test_keyway_is_up_and_its_contour_is_closed() -> None:
 def _dressed(gear: Gear, scale: float = 1.0) -> list[Figure]:
     """Both views with all their marks."""
     drawn = DrawnGear(role="gear", gear=gear)
-    requirements, draughting = Requirements.of(drawn, DrawingOptions()), Draughting(Words.of(Language.ENGLISH), scale)
+    requirements, draughting = Requirements.of(drawn, DrawingOptions()), Draughting(SheetWords.of(Language.ENGLISH), scale)
     found = [dressed(view(drawn, requirements, draughting)) for view in (section_view, face_view)]
     assert all(figure is not None for figure in found)
     return [figure for figure in found if figure is not None]
@@ -175,7 +175,7 @@ def _said(figure: Figure, scale: float) -> list[tuple[float, str]]:
     found = []
     for each in (each for each in figure.shapes if isinstance(each, Dimension)):
         across, up = (abs(one - other) / scale for one, other in zip(each.first, each.second, strict=True))
-        length = {Measured.HORIZONTAL: across, Measured.VERTICAL: up}[each.measured]
+        length = {MeasuredDistance.HORIZONTAL: across, MeasuredDistance.VERTICAL: up}[each.measured]
         found.append((length, "".join(part.words for part in each.parts if isinstance(part, Text))))
     return sorted(found)
 
@@ -212,7 +212,7 @@ def test_every_place_of_a_chamfers_leader_is_outside_the_gear() -> None:
     """Arrows end on one of the four chamfers, and come from beyond the tip circle and the end faces."""
     outline = Silhouette(GEAR, Along.of(GEAR, SCALE))
     requirements = Requirements.of(DrawnGear(role="gear", gear=GEAR), DrawingOptions())
-    places = list(SectionSizes(outline, requirements, Draughting(Words.of(Language.ENGLISH), SCALE)).end_chamfer())
+    places = list(SectionSizes(outline, requirements, Draughting(SheetWords.of(Language.ENGLISH), SCALE)).end_chamfer())
     arrows = [next(each for each in figure.shapes if isinstance(each, Line)) for figure in places]
     left, right = -SCALE * 33 / 2, SCALE * (25 - 33 / 2)
     tip, depth = SCALE * GEAR.tip_diameter / 2, SCALE * 1.5 * math.tan(math.radians(30))

@@ -10,7 +10,7 @@ from gearcad.dynamics.level_study import study_levels
 from gearcad.dynamics.level_verdict import LevelStatus
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.train_study import study_train
-from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.train import Train, TrainModel, good_up_to
 
 SPEEDS = np.linspace(4150.0, 4250.0, 3)
@@ -24,7 +24,7 @@ def long_shaft(model: str, order: int = 12, length: float = 12000.0) -> Train:
         inertias=tuple(Inertia(name=name, inertia=each) for name, each in (("p", 0.004), ("w", 0.02), ("l", 0.5))),
         shafts=(Shaft(name="out", start="w", end="l", length=length, diameter=60.0, damping=0.05),),
         meshes=(
-            Mesh(
+            ToothMesh(
                 name="g", pinion="p", wheel="w", base_radii=PerGear(40.0, 80.0), stiffness=300.0, teeth=20, damping=2000.0,
                 variation=0.02,
             ),

@@ -14,7 +14,7 @@ from gearcad.dynamics.response.linear_response import periodic_response
 from gearcad.dynamics.time_domain.campbell import campbell, mesh_campbell
 from gearcad.dynamics.time_domain.contact_model import ContactModel
 from gearcad.dynamics.time_domain.spectra import MeshCampbell
-from gearcad.dynamics.trains.members import Inertia, Mesh
+from gearcad.dynamics.trains.members import Inertia, ToothMesh
 from gearcad.dynamics.trains.mesh_excitation import (
     CosineStiffness,
     CurveStiffness,
@@ -49,7 +49,7 @@ AMPLITUDE = 3e-3
 
 def as_mesh(of: ContactModel) -> Train:
     first, second = of.base_radii
-    mesh = Mesh(
+    mesh = ToothMesh(
         name="mesh",
         pinion="pinion",
         wheel="wheel",

@@ -18,7 +18,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import gearcad
 from gearcad import Body, Gear
-from gearcad.batch.row import MANIFEST, Manifest, Part, read_manifest
+from gearcad.batch.row import MANIFEST, Manifest, RowPart, read_manifest
 from gearcad.core.errors import ParameterError
 from gearcad.designs import GearDesign
 from gearcad.jobs.mesh import Mesh
@@ -177,7 +177,7 @@ def test_meshio_reads_elements_and_parts(element: Element, kind: MeshFormat, tmp
 def test_files_beside_are_a_rows_to_keep(tmp_path: Path) -> None:
     names = ("gear.xdmf", "gear_sides.xdmf", "gear.h5")
     assert {Mesh().part_of(name) for name in names} == {"mesh"}
-    manifest = Manifest("", {"mesh": Part({}, dict.fromkeys(names, 1))})
+    manifest = Manifest("", {"mesh": RowPart({}, dict.fromkeys(names, 1))})
     (tmp_path / MANIFEST).write_text(manifest.text())
     assert read_manifest(tmp_path) == manifest
 

@@ -12,7 +12,7 @@ import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair
 from gearcad.core.errors import ParameterError
-from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.outline import MeshSizes, OutlineSide
 from gearcad.meshing.quads import mesh_quality
 from gearcad.meshing.sector import SectorMesh, mesh_sector
 
@@ -74,7 +74,10 @@ def test_a_coarse_mesh_is_not_folded_and_fits_the_fine_one(name: str) -> None:
 def test_sides_lie_on_the_profile(name: str) -> None:
     gear = GEARS[name]
     mesh = mesh_sector(gear, inner_radius(gear, 4))
-    for left, right, kinds in ((Side.LEFT_FLANK, Side.RIGHT_FLANK, "flank"), (Side.LEFT_FILLET, Side.RIGHT_FILLET, "fillet")):
+    for left, right, kinds in (
+        (OutlineSide.LEFT_FLANK, OutlineSide.RIGHT_FLANK, "flank"),
+        (OutlineSide.LEFT_FILLET, OutlineSide.RIGHT_FILLET, "fillet"),
+    ):
         for side, sign in ((left, 1), (right, -1)):
             points = mesh.points[mesh.sides[side]]
             radius = np.hypot(*points.T)
@@ -86,17 +89,17 @@ def test_sides_lie_on_the_profile(name: str) -> None:
 
 
 def test_ends_of_the_flank_are_those_of_the_gear(mesh: SectorMesh) -> None:
-    radius = np.hypot(*mesh.points[mesh.sides[Side.LEFT_FLANK]].T)
+    radius = np.hypot(*mesh.points[mesh.sides[OutlineSide.LEFT_FLANK]].T)
     assert radius.max() == pytest.approx(Z18.tip_diameter / 2, abs=ROUNDING)
     assert radius.min() == pytest.approx(Z18.form_diameter / 2, abs=ROUNDING)
 
 
 def test_tip_root_and_hub_are_round(mesh: SectorMesh) -> None:
     for side, radius in (
-        (Side.TIP, Z18.tip_diameter / 2),
-        (Side.LEFT_ROOT, Z18.root_diameter / 2),
-        (Side.RIGHT_ROOT, Z18.root_diameter / 2),
-        (Side.HELD, inner_radius(Z18, 4)),
+        (OutlineSide.TIP, Z18.tip_diameter / 2),
+        (OutlineSide.LEFT_ROOT, Z18.root_diameter / 2),
+        (OutlineSide.RIGHT_ROOT, Z18.root_diameter / 2),
+        (OutlineSide.HELD, inner_radius(Z18, 4)),
     ):
         assert np.hypot(*mesh.points[mesh.sides[side]].T) == pytest.approx(radius, abs=ROUNDING)
 
@@ -109,7 +112,7 @@ def test_cuts_fit(mesh: SectorMesh) -> None:
 
 
 def test_sides_join_into_one_outline_around_the_section(mesh: SectorMesh) -> None:
-    chains = [mesh.sides[side] for side in Side]
+    chains = [mesh.sides[side] for side in OutlineSide]
     assert all(one[-1] == other[0] for one, other in pairwise([*chains, chains[0]]))
     outline = np.concatenate([chain[:-1] for chain in chains])
     assert len(set(outline.tolist())) == len(outline)
@@ -139,19 +142,20 @@ def element_area(points: Any, triangles: Any) -> float:
 
 
 def test_sizes_are_kept(mesh: SectorMesh) -> None:
-    def edges(side: Side) -> Any:
+    def edges(side: OutlineSide) -> Any:
         return np.linalg.norm(np.diff(mesh.points[mesh.sides[side][::2]], axis=0), axis=1) / Z18.normal_module
 
     sizes = MeshSizes()
-    assert edges(Side.LEFT_FLANK).max() < sizes.flank * 1.1
-    assert edges(Side.LEFT_FLANK).min() == pytest.approx(sizes.corner, rel=0.3)
-    assert edges(Side.LEFT_FILLET).max() == pytest.approx(sizes.fillet, rel=0.1)
-    assert edges(Side.AHEAD).max() < sizes.rim
+    assert edges(OutlineSide.LEFT_FLANK).max() < sizes.flank * 1.1
+    assert edges(OutlineSide.LEFT_FLANK).min() == pytest.approx(sizes.corner, rel=0.3)
+    assert edges(OutlineSide.LEFT_FILLET).max() == pytest.approx(sizes.fillet, rel=0.1)
+    assert edges(OutlineSide.AHEAD).max() < sizes.rim
 
 
 def test_refined_sizes_halve_the_edges() -> None:
     counts = [
-        len(mesh_sector(Z18, inner_radius(Z18, 4), MeshSizes().refined(factor)).sides[Side.LEFT_FILLET]) for factor in (1, 2)
+        len(mesh_sector(Z18, inner_radius(Z18, 4), MeshSizes().refined(factor)).sides[OutlineSide.LEFT_FILLET])
+        for factor in (1, 2)
     ]
     assert (counts[1] - 1) / (counts[0] - 1) == pytest.approx(2, rel=0.1)
 
@@ -162,7 +166,7 @@ def test_meshes_scale_with_the_module() -> None:
         mesh_sector(gear, inner_radius(gear, 4))
         for gear in (Gear(teeth=30, normal_module=m, face_width=10) for m in (0.125, 16.0))
     )
-    for side in Side:
+    for side in OutlineSide:
         assert np.abs(small.points[small.sides[side]] * 128 - large.points[large.sides[side]]).max() < 1e-9
 
 

@@ -13,9 +13,9 @@ from scipy.linalg import expm
 from gearcad.core.errors import ParameterError, SolverError
 from gearcad.dynamics.response.branch_continuation import trace
 from gearcad.dynamics.response.linear_response import periodic_response
-from gearcad.dynamics.time_domain.motion import Course, Line, MeshLaw, MovingSystem, SpringTable, Start
+from gearcad.dynamics.time_domain.motion import MeshLaw, MovingSystem, PiecewiseLine, RunCourse, SpringTable, Start
 from gearcad.dynamics.time_domain.motion_kernel import propagators
-from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, Excitation, MeshExcitation, square_stiffness
 from gearcad.dynamics.trains.shaft_lines import System, system
 from gearcad.dynamics.trains.steady_response import Direction
@@ -46,7 +46,7 @@ def one_stage(**more: object) -> Train:
             Shaft(name="input", start="ground", end="pinion", torsional_stiffness=1.1e5, damping_ratio=0.05),
             Shaft(name="output", start="wheel", end="ground", torsional_stiffness=930.0, damping_ratio=0.05),
         ),
-        meshes=(Mesh(name="mesh", pinion="pinion", wheel="wheel", base_radii=(50.7, 135.3), teeth=18, **mesh),),  # type: ignore[arg-type]
+        meshes=(ToothMesh(name="mesh", pinion="pinion", wheel="wheel", base_radii=(50.7, 135.3), teeth=18, **mesh),),  # type: ignore[arg-type]
     )
 
 
@@ -118,8 +118,8 @@ def test_motion_converges_to_that_of_scipy_with_the_square_of_the_step() -> None
     moving = MovingSystem.lumped(of, excitation)
     assert moving.senses[0] == 1
     expected = _integrated(of, excitation, moving.at_rest())
-    torque = Line(time=np.array([0, LASTS / 3, LASTS / 3, LASTS]), value=np.array([1, 1, 0.2, 0.2]))
-    course = Course(frequency=Line(time=np.array([0, LASTS]), value=np.array(SPEEDS)), torque=torque)
+    torque = PiecewiseLine(time=np.array([0, LASTS / 3, LASTS / 3, LASTS]), value=np.array([1, 1, 0.2, 0.2]))
+    course = RunCourse(frequency=PiecewiseLine(time=np.array([0, LASTS]), value=np.array(SPEEDS)), torque=torque)
     scale, errors = float(np.linalg.norm(moving.at_rest().coordinates)), []
     for count in (750, 3000, 12000):
         motion = moving.run(course, LASTS / count, count, stride=count)
@@ -157,7 +157,7 @@ def test_teeth_with_gaps_of_their_own_are_springs_beside_each_other() -> None:
     expected = solve_ivp(rates, (0, lasts), x, "DOP853", rtol=1e-9, atol=1e-14, max_step=2e-6).y[:n, -1]
     errors = []
     for count in (1000, 4000):
-        found = moving.run(Course.steady(speed), lasts / count, count).end.coordinates
+        found = moving.run(RunCourse.steady(speed), lasts / count, count).end.coordinates
         errors.append(float(np.linalg.norm(found - expected) / np.linalg.norm(expected)))
     assert errors[0] < 1e-3
     assert errors[1] < errors[0] / 8
@@ -175,7 +175,7 @@ def test_what_lasts_has_the_factor_of_harmonic_balance(rpm: float, shape: str) -
     teeth, per_tooth = 120, 400
     frequency = rpm * 18 / 60
     motion = MovingSystem.lumped(of, excitation).run(
-        Course.steady(frequency), 1 / frequency / per_tooth, teeth * per_tooth, ends=np.array([100, teeth]) * per_tooth
+        RunCourse.steady(frequency), 1 / frequency / per_tooth, teeth * per_tooth, ends=np.array([100, teeth]) * per_tooth
     )
     balance = periodic_response(of, excitation, [2 * np.pi * frequency], harmonics=60, stability=False)
     static = np.abs(of.stiffness * balance.static.approach)
@@ -196,7 +196,7 @@ def test_flanks_that_part_and_bounce_follow_the_branch_that_lasts() -> None:
         index = int(np.argmin(np.abs(chart.frequencies - 2 * np.pi * 18 / 60 * wanted)))
         static = np.abs(of.stiffness * chart.static.approach)
         low, high = begin * 18 / 60, float(chart.frequencies[index]) / (2 * np.pi)
-        course = Course(frequency=Line(time=np.array([0, 0.5]), value=np.array([low, high])))
+        course = RunCourse(frequency=PiecewiseLine(time=np.array([0, 0.5]), value=np.array([low, high])))
         step = 1 / max(low, high) / per_tooth
         count = round(0.6 / step)
         motion = moving.run(course, step, count, ends=[round(0.55 / step), count])
@@ -215,7 +215,7 @@ def test_a_free_pair_without_damping_keeps_its_energy() -> None:
     train = Train(
         inertias=(Inertia(name="pinion", inertia=0.01), Inertia(name="wheel", inertia=0.03)),
         meshes=(
-            Mesh(
+            ToothMesh(
                 name="mesh", pinion="pinion", wheel="wheel", base_radii=(50.0, 100.0), teeth=20, stiffness=300.0, variation=0.0
             ),
         ),
@@ -230,7 +230,7 @@ def test_a_free_pair_without_damping_keeps_its_energy() -> None:
 
     turning = np.array([-of.mesh[1, 0], of.mesh[0, 0]]) / float(np.linalg.norm(of.mesh))
     start = Start(coordinates=np.zeros(2), rates=rates)
-    motion = moving.run(Course.steady(500.0), step, 10_000, start=start)
+    motion = moving.run(RunCourse.steady(500.0), step, 10_000, start=start)
     assert energy(motion.end.coordinates, motion.end.rates) == pytest.approx(energy(np.zeros(2), rates), rel=1e-9)
     assert turning @ motion.end.coordinates == pytest.approx(10_000 * step * float(turning @ rates), rel=1e-9)
 
@@ -250,7 +250,7 @@ def moving_stage() -> MovingSystem:
 def test_steps_over_many_teeth_are_refused(frequency: float, step: float, count: int, parameter: str) -> None:
     """There is room for the teeth of one base pitch, and places are told apart up to 1e12 of them."""
     with pytest.raises(ParameterError, match=f"^{parameter} = .*must (be|make)"):
-        moving_stage().run(Course.steady(frequency), step, count)
+        moving_stage().run(RunCourse.steady(frequency), step, count)
 
 
 @pytest.mark.parametrize("frequency", [3e5, 1e300])
@@ -258,9 +258,9 @@ def test_the_kernel_stops_before_it_runs_out_of_room(frequency: float, monkeypat
     """Where nobody looked before."""
     monkeypatch.setattr(MovingSystem, "_require_short", lambda *_: None)
     with pytest.raises(SolverError, match="take shorter steps"):
-        moving_stage().run(Course.steady(frequency), 1e-5, 2000)
+        moving_stage().run(RunCourse.steady(frequency), 1e-5, 2000)
 
 
 def test_a_base_pitch_in_one_step_is_not_too_much() -> None:
-    motion = moving_stage().run(Course.steady(1e3), 1e-3, 200, stride=1)
+    motion = moving_stage().run(RunCourse.steady(1e3), 1e-3, 200, stride=1)
     assert np.isfinite(motion.spring).all()

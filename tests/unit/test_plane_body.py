@@ -24,7 +24,7 @@ from gearcad.contact.plane.sector import (
     node_dofs,
 )
 from gearcad.contact.shared.bodies import Chain, Cuts
-from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.outline import MeshSizes, OutlineSide
 from gearcad.meshing.sector import SectorMesh, mesh_sector
 
 STEEL = Material()
@@ -141,7 +141,7 @@ def test_forces_of_elements_are_those_of_their_matrix(mesh: SectorMesh) -> None:
 def test_dissection_is_static_condensation(mesh: SectorMesh) -> None:
     """Matrix at the cuts, what arrives there, its work, and displacements inside, by one solution of the whole matrix."""
     steel, random = PlaneElasticity(STEEL), np.random.default_rng(5)
-    cuts, held = np.union1d(mesh.behind, mesh.ahead), mesh.sides[Side.HELD]
+    cuts, held = np.union1d(mesh.behind, mesh.ahead), mesh.sides[OutlineSide.HELD]
     found = dissect(mesh.points, mesh.triangles, element_stiffness(mesh, steel), cuts, held)
     matrix, kept = stiffness_matrix(mesh, steel), node_dofs(np.setdiff1d(cuts, held))
     assert found.kept == pytest.approx(kept)
@@ -186,7 +186,7 @@ def explicit(mesh: SectorMesh, teeth: int, cuts: Cuts | None) -> tuple[Any, Any]
     matrix = stiffness_matrix(whole, PlaneElasticity(STEEL))
     basis = _permitted(mesh, number, turned, everywhere, cuts)
     loads = np.zeros((2 * len(everywhere), 2))
-    tip = number[teeth // 2, mesh.sides[Side.LEFT_FLANK][0]]
+    tip = number[teeth // 2, mesh.sides[OutlineSide.LEFT_FLANK][0]]
     loads[2 * tip, 0], loads[2 * tip + 1, 1] = 1, 1
     moved = basis @ scipy.sparse.linalg.spsolve((basis.T @ matrix @ basis).tocsc(), basis.T @ loads)
     reaction = matrix @ moved - loads
@@ -196,7 +196,7 @@ def explicit(mesh: SectorMesh, teeth: int, cuts: Cuts | None) -> tuple[Any, Any]
 
 def _permitted(mesh: SectorMesh, number: Any, turned: list[Any], points: Any, cuts: Cuts | None) -> Any:
     """Columns: the motions left free by the hub and by what holds the cuts."""
-    held = {int(node) for row in number for node in row[mesh.sides[Side.HELD]]}
+    held = {int(node) for row in number for node in row[mesh.sides[OutlineSide.HELD]]}
     sliding: set[int] = set()
     for row, nodes in ((number[0], mesh.behind), (number[-1], mesh.ahead)):
         if cuts is Cuts.FIXED:
@@ -224,7 +224,7 @@ def _in_frame(moved: Any, row: Any, turn: Any) -> Any:
 
 
 def tip_loads(mesh: SectorMesh) -> Any:
-    tip = mesh.sides[Side.LEFT_FLANK][0]
+    tip = mesh.sides[OutlineSide.LEFT_FLANK][0]
     loads = np.zeros((2 * len(mesh.points), 2))
     loads[2 * tip, 0], loads[2 * tip + 1, 1] = 1, 1
     return loads
@@ -239,7 +239,7 @@ def assert_same(mesh: SectorMesh, full: int, teeth: int, cuts: Cuts | None) -> N
     middle = slice(teeth // 2 - full // 2, teeth // 2 + full // 2 + 1)
     assert np.abs(moved - expected[middle]).max() < EXACT * np.abs(expected).max()
     assert torque == pytest.approx(expected_torque, rel=1e-8)
-    tip = mesh.points[mesh.sides[Side.LEFT_FLANK][0]]
+    tip = mesh.points[mesh.sides[OutlineSide.LEFT_FLANK][0]]
     if cuts is not None and cuts is not Cuts.FREE:
         # The cuts belong to the hub, which so takes all of the torque.
         assert torque == pytest.approx([-tip[1], tip[0]], rel=1e-8)
@@ -262,7 +262,7 @@ def test_condensed_body_between_cuts_is_that_in_full(mesh: SectorMesh, teeth: in
 
 def test_hub_takes_the_torque_of_a_full_ring(mesh: SectorMesh) -> None:
     ring = assemble(mesh, mesh, GEAR.teeth, 1, PlaneElasticity(STEEL), None, Cuts.FIXED)
-    x, y = mesh.points[mesh.sides[Side.LEFT_FLANK][0]]
+    x, y = mesh.points[mesh.sides[OutlineSide.LEFT_FLANK][0]]
     assert ring.solve(tip_loads(mesh))[1] == pytest.approx([-y, x], rel=1e-8)
 
 

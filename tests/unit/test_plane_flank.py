@@ -23,7 +23,7 @@ from gearcad.contact.plane.ring import assemble
 from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.contact.shared.bodies import Cuts
 from gearcad.geometry import ShaperCutter
-from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.outline import MeshSizes, OutlineSide
 from gearcad.meshing.sector import mesh_sector
 
 STEEL = Material()
@@ -191,7 +191,7 @@ def test_tension_below_the_load_and_compression_behind(solved: PlaneCompliance) 
     """A load near the tip bends the tooth: the fillet below it is stretched, the other one pressed a little more."""
     fillets = Fillets(solved)
     load = [(0, float(solved.loads[-4]), 100.0)]
-    tension, compression = fillets.greatest(Side.LEFT_FILLET, load), fillets.greatest(Side.RIGHT_FILLET, load)
+    tension, compression = fillets.greatest(OutlineSide.LEFT_FILLET, load), fillets.greatest(OutlineSide.RIGHT_FILLET, load)
     assert 1.05 < -compression.stress / tension.stress < 1.5
     assert 12 <= tension.tangent_angle < 60
     root, form = solved.flank.gear.root_diameter / 2, solved.flank.gear.form_diameter / 2
@@ -201,15 +201,15 @@ def test_tension_below_the_load_and_compression_behind(solved: PlaneCompliance) 
 def test_loads_on_two_teeth_superpose(solved: PlaneCompliance) -> None:
     fillets = Fillets(solved)
     loads = [(0, float(solved.loads[3]), 60.0), (1, float(solved.loads[-6]), 40.0)]
-    both = fillets.stresses(Side.LEFT_FILLET, loads)
-    alone = sum(fillets.stresses(Side.LEFT_FILLET, [load]) for load in loads)
+    both = fillets.stresses(OutlineSide.LEFT_FILLET, loads)
+    alone = sum(fillets.stresses(OutlineSide.LEFT_FILLET, [load]) for load in loads)
     assert both == pytest.approx(alone, rel=1e-12)
-    far, own = (fillets.stresses(Side.LEFT_FILLET, [(tooth, *loads[1][1:])]) for tooth in (1, 0))
+    far, own = (fillets.stresses(OutlineSide.LEFT_FILLET, [(tooth, *loads[1][1:])]) for tooth in (1, 0))
     assert 0.05 < np.abs(far).max() / np.abs(own).max() < 0.5
 
 
 def test_fillet_angles_run_from_the_flank_to_the_root(solved: PlaneCompliance) -> None:
-    for side in (Side.LEFT_FILLET, Side.RIGHT_FILLET):
+    for side in (OutlineSide.LEFT_FILLET, OutlineSide.RIGHT_FILLET):
         radii, angles = Fillets(solved).places(side)
         inwards = np.argsort(-solved.flank.upward * radii)
         # Where a tooth is undercut the fillet leans the other way at first.

@@ -10,7 +10,7 @@ from support.checks import small_check
 from gearcad import Body, Gear, GearPair, Material
 from gearcad.check.gates import standards
 from gearcad.check.run import plane_notices
-from gearcad.check.summary import Figures, figures
+from gearcad.check.summary import SummaryFigures, figures
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import plane_pair
@@ -81,7 +81,7 @@ def test_a_wider_root_is_told() -> None:
 def test_solid_bodies_show_what_is_told() -> None:
     """A thin pair is almost as soft as in plane stress; a pinion that stands over has less stress at its root."""
 
-    def solid(pair: GearPair, torque: float) -> Figures:
+    def solid(pair: GearPair, torque: float) -> SummaryFigures:
         return figures(SolidCycle.run(solid_pair(pair, Material(), sizes=SolidSizes().refined(0.8)), torque, 12))
 
     strain, stress = (figures(PlaneCycle.run(plane_pair(fzg(1.5, 1.5), Material(), plane=plane), 32.4, 12)) for plane in Plane)

@@ -20,7 +20,7 @@ from gearcad.contact.plane.sector import PlaneElasticity, hub_tractions, key_loa
 from gearcad.contact.shared.bodies import BodyModel, Cuts, Hold, Support, rim_ratio, support_of
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import PerGear
-from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.outline import MeshSizes, OutlineSide
 from gearcad.meshing.sector import SectorMesh, mesh_sector
 from gearcad.rating.editions import Edition
 from gearcad.rating.tooth_stiffness import rim_thickness_factor
@@ -94,7 +94,7 @@ def _turn(angle: float) -> Any:
 def _bore_weights(mesh: SectorMesh) -> Any:
     """Integral of N (e.m) e over the bore, e along it, m a turn and two shifts: three points an edge, by Simpson's elements."""
     weights = np.zeros((2 * len(mesh.points), 3))
-    arc = mesh.sides[Side.HELD]
+    arc = mesh.sides[OutlineSide.HELD]
     s, weight = np.polynomial.legendre.leggauss(6)
     for a, b, c in zip(arc[:-1:2], arc[1::2], arc[2::2], strict=True):
         for at, w in zip(s, weight, strict=True):
@@ -110,7 +110,7 @@ def _bore_weights(mesh: SectorMesh) -> Any:
 
 
 def tip_loads(mesh: SectorMesh) -> Any:
-    tip = mesh.sides[Side.LEFT_FLANK][0]
+    tip = mesh.sides[OutlineSide.LEFT_FLANK][0]
     loads = np.zeros((2 * len(mesh.points), 2))
     loads[2 * tip, 0], loads[2 * tip + 1, 1] = 1, 1
     return loads
@@ -133,7 +133,7 @@ def test_a_free_bore_is_that_of_the_ring_in_full(mesh: SectorMesh, in_full: InFu
     expected = in_full.solve({0: loads})
     middle, scale = GEAR.teeth // 2, np.abs(expected).max()
     assert np.abs(moved - expected[middle - neighbours : middle + neighbours + 1]).max() < EXACT * scale
-    x, y = mesh.points[mesh.sides[Side.LEFT_FLANK][0]]
+    x, y = mesh.points[mesh.sides[OutlineSide.LEFT_FLANK][0]]
     assert torques == pytest.approx([-y, x], rel=1e-9)
     every = np.arange(2 * len(mesh.points))[:, None]
     everything = SurfaceStresses(every, np.ones(every.shape))
@@ -147,7 +147,7 @@ def test_a_shaft_is_that_of_the_ring_in_full(mesh: SectorMesh) -> None:
     """A hollow shaft of another modulus, its section led by the torque in the mean."""
     support = support_of(GEAR, INNER, Hold.SHAFT, Material(youngs_modulus=70000.0), 8.0)
     whole = with_support(mesh, support)
-    assert np.hypot(*whole.points[whole.sides[Side.HELD]].T) == pytest.approx(4.0)
+    assert np.hypot(*whole.points[whole.sides[OutlineSide.HELD]].T) == pytest.approx(4.0)
     gear, shaft = np.arange(len(mesh.triangles)), np.arange(len(mesh.triangles), len(whole.triangles))
     soft = PlaneElasticity(Material(youngs_modulus=70000.0))
     stiffness = stiffness_matrix(whole, ELASTIC, gear) + stiffness_matrix(whole, soft, shaft)
@@ -176,7 +176,7 @@ def test_a_stiff_shaft_is_a_rigid_bore(mesh: SectorMesh) -> None:
 
 def test_responses_of_two_loads_are_symmetric(mesh: SectorMesh) -> None:
     """What a load on one tooth does to another is what the other's does to it, whatever holds the bore."""
-    nodes = mesh.sides[Side.LEFT_FLANK][[0, 8]]
+    nodes = mesh.sides[OutlineSide.LEFT_FLANK][[0, 8]]
     loads = np.zeros((2 * len(mesh.points), 2))
     loads[2 * nodes, [0, 1]] = 1
     for hold in (Hold.FREE, Hold.SHAFT):
@@ -201,10 +201,10 @@ def annulus(outer: float, inner: float, sectors: int, along: int, through: int) 
             triangles.append([cell[0, 0], cell[2, 0], cell[2, 2], cell[1, 0], cell[2, 1], cell[1, 1]])
             triangles.append([cell[0, 0], cell[2, 2], cell[0, 2], cell[1, 1], cell[1, 2], cell[0, 1]])
     sides = {
-        Side.AHEAD: number[:, 0],
-        Side.HELD: number[-1],
-        Side.BEHIND: number[::-1, -1],
-        Side.TIP: number[0, ::-1],
+        OutlineSide.AHEAD: number[:, 0],
+        OutlineSide.HELD: number[-1],
+        OutlineSide.BEHIND: number[::-1, -1],
+        OutlineSide.TIP: number[0, ::-1],
     }
     return SectorMesh(points, np.array(triangles), sides)
 
@@ -247,11 +247,13 @@ def _body(bore: float, hold: Hold, refined: float = 1.0, **body: float) -> Plane
 
 def test_the_root_of_a_free_rim_is_stressed_more_the_thinner_it_is() -> None:
     """As Y_B of ISO 6336-3 has it within a fifth, where a rigid bore lets the stress fall."""
-    thick = Fillets(_body(30, Hold.RIGID)).extreme(Side.RIGHT_FILLET, [LOAD]).stress
+    thick = Fillets(_body(30, Hold.RIGID)).extreme(OutlineSide.RIGHT_FILLET, [LOAD]).stress
     kept = 1.0
     for bore in (40.0, 50.0, 55.0):
         ratio = rim_ratio(FZG, bore / 2)
-        free, rigid = (Fillets(_body(bore, hold)).extreme(Side.RIGHT_FILLET, [LOAD]).stress for hold in (Hold.FREE, Hold.RIGID))
+        free, rigid = (
+            Fillets(_body(bore, hold)).extreme(OutlineSide.RIGHT_FILLET, [LOAD]).stress for hold in (Hold.FREE, Hold.RIGID)
+        )
         assert free / thick == pytest.approx(rim_thickness_factor(ratio, Edition.ISO_2006), rel=0.2)
         assert rigid / thick < kept
         kept = rigid / thick
@@ -261,8 +263,8 @@ def test_a_rim_that_bends_is_stretched_on_its_bore_and_at_other_teeth() -> None:
     """Under the load the bore is stretched and the roots are compressed; further round the roots are stretched."""
     free, rigid = (Fillets(_body(56, hold)) for hold in (Hold.FREE, Hold.RIGID))
     assert rigid.bore_tension([LOAD]) is None
-    under = free.greatest(Side.LEFT_FILLET, [LOAD]).stress
-    assert (free.bore_tension([LOAD]) or 0) > free.extreme(Side.LEFT_FILLET, [LOAD]).stress > 1.2 * under
+    under = free.greatest(OutlineSide.LEFT_FILLET, [LOAD]).stress
+    assert (free.bore_tension([LOAD]) or 0) > free.extreme(OutlineSide.LEFT_FILLET, [LOAD]).stress > 1.2 * under
 
 
 def test_a_key_adds_what_the_ring_in_full_has(mesh: SectorMesh, in_full: InFull) -> None:
@@ -281,7 +283,7 @@ def test_a_key_adds_what_the_ring_in_full_has(mesh: SectorMesh, in_full: InFull)
     torque = load[2] * GEAR.base_diameter / 2
     by_key = in_full.solve({0: torque * key})
     found = []
-    for side in (Side.LEFT_FILLET, Side.RIGHT_FILLET):
+    for side in (OutlineSide.LEFT_FILLET, OutlineSide.RIGHT_FILLET):
         ends = mesh.sides[side][::2]
         root = free.places(side)[1].reshape(-1, 2).mean(axis=1) >= 12.0
         chord = np.diff(mesh.points[ends], axis=0)
@@ -290,8 +292,8 @@ def test_a_key_adds_what_the_ring_in_full_has(mesh: SectorMesh, in_full: InFull)
         for own in range(GEAR.teeth):
             alone = free.stresses(side, [(-own, *load[1:])]).reshape(-1, 2).mean(axis=1)
             found.append((alone + added)[:, root].min())
-    assert keyed.extreme(Side.RIGHT_FILLET, [load]).stress == pytest.approx(min(found), rel=0.02)
-    assert min(found) < 1.1 * free.extreme(Side.RIGHT_FILLET, [load]).stress
+    assert keyed.extreme(OutlineSide.RIGHT_FILLET, [load]).stress == pytest.approx(min(found), rel=0.02)
+    assert min(found) < 1.1 * free.extreme(OutlineSide.RIGHT_FILLET, [load]).stress
 
 
 # ---------------------------------------------------------------------- what is chosen, and refused

@@ -9,7 +9,7 @@ from gearcad.core.errors import ParameterError
 from gearcad.drawing.drawing_subjects import DrawnGear
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import Requirements, hole_position
-from gearcad.drawing.words import Language, Size, Words
+from gearcad.drawing.words import Language, SheetWords, Size
 from gearcad.geometry import HubSide
 
 USUAL = DrawingOptions()
@@ -142,7 +142,7 @@ def test_roughness_goes_by_grade_unless_it_is_given():
 
 @pytest.mark.parametrize("language", Language)
 def test_what_is_ours_is_marked_and_treatment_is_said(language):
-    words = Words.of(language)
+    words = SheetWords.of(language)
     hard = Material(name="Eh MQ", hardness=720)  # a quality of ISO 6336-5, which is no material
     found = _of(GEAR, replace(USUAL, case_depth="0.6"), material=hard)
     assert found.material(words) == words["data.steel"]

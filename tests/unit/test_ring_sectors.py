@@ -11,7 +11,7 @@ import pytest
 from gearcad import BasicRack, Body, Gear
 from gearcad.core.errors import GeometryError, InputError
 from gearcad.geometry import ShaperCutter
-from gearcad.meshing.outline import MeshSizes, SectorSides, Side, held_radius
+from gearcad.meshing.outline import MeshSizes, OutlineSide, SectorSides, held_radius
 from gearcad.meshing.quads import LogPlane, QuadMesh, mesh_quads, mesh_quality, scaled_jacobians
 from gearcad.meshing.sector import SectorMesh, mesh_sector
 
@@ -64,15 +64,15 @@ def check_sides(gear: Gear, mesh: SectorSides, held: float) -> None:
     module, profile = gear.normal_module, gear.profile
     for sides, sign in ((("LEFT_FLANK", "LEFT_FILLET"), 1), (("RIGHT_FLANK", "RIGHT_FILLET"), -1)):
         for name in sides:
-            x, y = mesh.points[mesh.sides[Side[name]]].T
+            x, y = mesh.points[mesh.sides[OutlineSide[name]]].T
             radius = np.hypot(x, y)
             steep = radius < profile.root_diameter / 2 * (1 - 1e-6)
             off = sign * np.arctan2(y, x) - np.radians(profile.half_angle(radius))
             assert np.abs(off[steep]).max() * radius.max() < 10 * ROUNDING * module
-    for side, radius in ((Side.LEFT_ROOT, profile.root_diameter / 2), (Side.HELD, held)):
+    for side, radius in ((OutlineSide.LEFT_ROOT, profile.root_diameter / 2), (OutlineSide.HELD, held)):
         if side in mesh.sides:
             assert np.hypot(*mesh.points[mesh.sides[side]].T) == pytest.approx(radius, rel=1e-12)
-    chains = [mesh.sides[side] for side in Side if side in mesh.sides]
+    chains = [mesh.sides[side] for side in OutlineSide if side in mesh.sides]
     assert all(one[-1] == other[0] for one, other in pairwise([*chains, chains[0]]))
     pitch = 2 * math.pi / gear.tooth_count
     turn = np.array([[math.cos(pitch), math.sin(pitch)], [-math.sin(pitch), math.cos(pitch)]])
@@ -112,7 +112,7 @@ def test_triangles_and_quadrangles_have_the_same_sides() -> None:
     held = rim(gear, 3.5)
     triangles, quads = mesh_sector(gear, held), mesh_quads(gear, held, MeshSizes())
     assert isinstance(triangles, SectorMesh) and isinstance(quads, QuadMesh)
-    for side in Side:
+    for side in OutlineSide:
         for end in (0, -1):
             one, other = (mesh.points[mesh.sides[side][end]] for mesh in (triangles, quads))
             assert one == pytest.approx(other, abs=1e-9)

@@ -17,7 +17,7 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.shapes import Arc, Circle, Dimension, Figure, Hatching, Line, Pen, Polyline
 from gearcad.drawing.views.rack_views import (
-    Span,
+    RackRange,
     end_section,
     front_figure,
     front_view,
@@ -28,7 +28,7 @@ from gearcad.drawing.views.rack_views import (
 )
 from gearcad.drawing.views.ring_views import Meridian, end_face, face_view, full_section, hole_places, section_view
 from gearcad.drawing.views.tooth_detail import detail_mark
-from gearcad.drawing.words import Draughting, Language, Words
+from gearcad.drawing.words import Draughting, Language, SheetWords
 from gearcad.geometry import Body, Gear, Rack
 from gearcad.solids import tessellate, tessellate_rack
 
@@ -58,9 +58,9 @@ def of_kind(figure: Figure, kind: type[Kind]) -> list[Kind]:
     return [each for each in figure.shapes if isinstance(each, kind)]
 
 
-def demands(gear: Gear | Rack, language: Language = Language.ENGLISH) -> tuple[DrawnGear, Requirements, Words]:
+def demands(gear: Gear | Rack, language: Language = Language.ENGLISH) -> tuple[DrawnGear, Requirements, SheetWords]:
     drawn = DrawnGear(role="gear", gear=gear, grade=6)
-    return drawn, Requirements.of(drawn, DrawingOptions(language=language)), Words.of(language)
+    return drawn, Requirements.of(drawn, DrawingOptions(language=language)), SheetWords.of(language)
 
 
 # ---------------------------------------------------------------------- rings
@@ -115,7 +115,7 @@ def test_a_ring_without_a_rim_ends_in_a_freehand_line() -> None:
     ring = Meridian(BARE, SCALE)
     assert not any(each.closed for each in of_kind(full_section(ring), Polyline))
     assert any(each.closed and each.pen is Pen.THIN for each in of_kind(end_face(ring), Polyline))
-    view = dressed(section_view(*demands(BARE)[:2], Draughting(Words.of(Language.GERMAN), SCALE)))
+    view = dressed(section_view(*demands(BARE)[:2], Draughting(SheetWords.of(Language.GERMAN), SCALE)))
     assert view is not None and "Außenform nicht festgelegt" in [text.words for text in view.texts]
 
 
@@ -161,7 +161,7 @@ def heights_of(vertices: Floats, z: float) -> tuple[Floats, Floats]:
 @pytest.mark.parametrize("name", [name for name in RACKS if name != "endless"])
 def test_teeth_of_a_rack_are_those_of_the_solid_at_the_end_that_one_sees(name: str) -> None:
     rack = RACKS[name]
-    span = Span(rack, SCALE)
+    span = RackRange(rack, SCALE)
     x, y = heights_of(tessellate_rack(rack, 1e-3).vertices, rack.face_width)
     outlines = [each for each in of_kind(front_figure(span), Polyline) if each.pen is Pen.OUTLINE]
     for (low, high), outline in zip(span.toothed, outlines, strict=True):
@@ -174,7 +174,7 @@ def test_teeth_of_a_rack_are_those_of_the_solid_at_the_end_that_one_sees(name: s
 @pytest.mark.parametrize("name", ["long", "cut", "endless"])
 def test_teeth_run_from_above_as_their_drift(name: str) -> None:
     rack = RACKS[name]
-    lines = [each for each in of_kind(plan_figure(Span(rack, SCALE)), Line) if each.pen is Pen.THIN]
+    lines = [each for each in of_kind(plan_figure(RackRange(rack, SCALE)), Line) if each.pen is Pen.THIN]
     assert len(lines) == 3
     for line in lines:
         (x, y), (end, low) = line.start, line.end  # y up is towards z = 0
@@ -191,7 +191,7 @@ def test_teeth_run_from_above_as_on_the_solid(name: str) -> None:
         np.exp(2j * math.pi * tips[np.abs(tips[:, 2] - z) < 1e-9, 0] / rack.transverse_pitch).sum()
         for z in (0.0, rack.face_width)
     ]
-    line = next(each for each in of_kind(plan_figure(Span(rack, SCALE)), Line) if each.pen is Pen.THIN)
+    line = next(each for each in of_kind(plan_figure(RackRange(rack, SCALE)), Line) if each.pen is Pen.THIN)
     (x, y), (end, low) = line.start, line.end
     drawn = (end - x) / (y - low) * rack.face_width / rack.transverse_pitch
     solid = float(np.angle(turns[1] / turns[0])) / (2 * math.pi)
@@ -201,9 +201,9 @@ def test_teeth_run_from_above_as_on_the_solid(name: str) -> None:
 
 def test_a_long_rack_is_broken_and_says_its_length() -> None:
     rack = RACKS["long"]
-    span = Span(rack, 1.0)
+    span = RackRange(rack, 1.0)
     assert 2 * span.right == pytest.approx(6 * 24.0 + 3.0) and len(span.parts) == 2
-    view = dressed(front_view(*demands(rack)[:2], Draughting(Words.of(Language.ENGLISH), 1.0)))
+    view = dressed(front_view(*demands(rack)[:2], Draughting(SheetWords.of(Language.ENGLISH), 1.0)))
     assert view is not None
     (length,) = [each for each in of_kind(view, Dimension) if "500" in [text.words for text in Figure.of(each).texts]]
     measured = math.dist(length.first, length.second) / (length.scale or 1.0)
@@ -212,27 +212,27 @@ def test_a_long_rack_is_broken_and_says_its_length() -> None:
     assert length.line[1] < names[0] and -22.0 - names[0] == pytest.approx(names[1] - 2.0)  # as far below as above
     first, second = tooth_middles(span)
     assert second - first == pytest.approx(rack.transverse_pitch)
-    assert len(Span(RACKS["cut"], 1.0).parts) == 1
+    assert len(RackRange(RACKS["cut"], 1.0).parts) == 1
 
 
 @pytest.mark.parametrize("name", RACKS)
 def test_the_ring_of_the_detail_is_round_a_tooth(name: str) -> None:
     rack = RACKS[name]
-    view = front_figure(Span(rack, SCALE))
+    view = front_figure(RackRange(rack, SCALE))
     ring = next(iter(of_kind(next(iter(detail_mark(demands(rack)[0], view, SCALE))), Circle)))
     (outline, *_) = (each for each in of_kind(view, Polyline) if each.pen is Pen.OUTLINE)
-    assert ring.centre[0] in [pytest.approx(middle) for middle in tooth_middles(Span(rack, SCALE)) or [0.0]]
+    assert ring.centre[0] in [pytest.approx(middle) for middle in tooth_middles(RackRange(rack, SCALE)) or [0.0]]
     teeth = [x for x, y in outline.points if y > SCALE * rack.tip_height - 1e-6]
     assert min(teeth) - 1e-6 <= ring.centre[0] <= max(teeth) + 1e-6
 
 
 def test_the_end_of_a_rack_is_hatched_below_its_roots() -> None:
     rack = RACKS["cut"]
-    figure = end_section(*demands(rack)[:2], Draughting(Words.of(Language.ENGLISH), SCALE)).figure
+    figure = end_section(*demands(rack)[:2], Draughting(SheetWords.of(Language.ENGLISH), SCALE)).figure
     (hatching,) = of_kind(figure, Hatching)
     assert area([corner[:2] for corner in hatching.edges[0]]) == pytest.approx(SCALE**2 * 20 * (15 - rack.root_depth))
     assert figure.box.top > SCALE * rack.tip_height
-    assert plan_view(*demands(RACKS["spur"])[:2], Draughting(Words.of(Language.ENGLISH))) is None
+    assert plan_view(*demands(RACKS["spur"])[:2], Draughting(SheetWords.of(Language.ENGLISH))) is None
 
 
 # ---------------------------------------------------------------------- marks

@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_limits
 
 from gearcad import Mounting
 from gearcad.check.summary import PRESSURE
-from gearcad.contact.modification_search import Found, Search, _Sampling, start_search
+from gearcad.contact.modification_search import FoundModification, Search, _Sampling, start_search
 from gearcad.contact.modification_variants import AMOUNTS, Condition, with_amounts
 from gearcad.contact.shared.line_of_action import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
@@ -65,12 +65,12 @@ def search() -> Search:
         return start_search(coarse_model("FZG C"), TORQUE, ReliefShape.LINEAR)
 
 
-def best(search: Search, share: float) -> Found:
+def best(search: Search, share: float) -> FoundModification:
     with threadpool_limits(1):
         return search.best([share * float(search.plain.pressures[0])])
 
 
-def run(search: Search, bound: float, *, edges: bool = True) -> Found:
+def run(search: Search, bound: float, *, edges: bool = True) -> FoundModification:
     """One bound (MPa) and nothing else; `edges` tells whether those of tips may carry load."""
     return search._settled(bound, search._survey(bound), edges=edges)
 
@@ -104,7 +104,7 @@ def test_tip_relief_halves_the_transmission_error_as_the_rules_of_the_field_say(
     assert named["pinion.helix_angle_modification"] == 0
 
 
-def grid(found: Found, search: Search, reach: int) -> np.ndarray:
+def grid(found: FoundModification, search: Search, reach: int) -> np.ndarray:
     """All amounts (v, 6) up to so many steps of 1 µm and 0.05 mm from those found, jointly; of the crowning one."""
     around = np.arange(-reach, reach + 1)
     steps = np.array(list(itertools.product(around, around, around, around, (0, 1) if reach < 3 else (-1, 0, 1), (0,))))

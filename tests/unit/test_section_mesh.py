@@ -13,7 +13,7 @@ from gearcad.core.errors import ParameterError
 from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
 from gearcad.meshing.bodies.quality import quality
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.outline import MeshSizes
 
 ROUNDING = 1e-12
@@ -103,7 +103,7 @@ def test_a_section_is_made_of_plane_elements() -> None:
         section(1, Element.HEX20)
 
 
-ZONE = ContactZone(length=4.5, half_width=0.3, edge=0.04)
+ZONE = ContactRefinement(length=4.5, half_width=0.3, edge=0.04)
 
 
 @PLANE

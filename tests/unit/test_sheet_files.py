@@ -18,7 +18,20 @@ from gearcad.core.dxf import write_document as write_dxf
 from gearcad.drawing.drawing_symbols import centre_cross
 from gearcad.drawing.dxf_export import sheet_document
 from gearcad.drawing.page_export import Stroked, hatch_lines, set_letters, unshown, write_pdf, write_svg
-from gearcad.drawing.shapes import Anchor, Arc, Circle, Dimension, Figure, Filled, Hatching, Line, Measured, Pen, Polyline, Text
+from gearcad.drawing.shapes import (
+    Anchor,
+    Arc,
+    Circle,
+    Dimension,
+    Figure,
+    Filled,
+    Hatching,
+    Line,
+    MeasuredDistance,
+    Pen,
+    Polyline,
+    Text,
+)
 from gearcad.drawing.words import Language
 
 SIZE = (420.0, 297.0)
@@ -35,7 +48,7 @@ def _dimension(words: str = "<> h11") -> Dimension:
         Filled(((140, 90), (137, 90.4), (137, 89.6)), Pen.DIMENSION),
         Text("80 h11", (120, 91), anchor=Anchor.CENTRE),
     )
-    return Dimension(Measured.HORIZONTAL, (100, 100), (140, 100), (120, 90), words, parts)
+    return Dimension(MeasuredDistance.HORIZONTAL, (100, 100), (140, 100), (120, 90), words, parts)
 
 
 def _figure(*more: object) -> Figure:
@@ -79,7 +92,7 @@ def test_a_dimension_drawn_anew_keeps_its_text(tmp_path: Path, upright: bool, me
         return (100 - out, 100 + along) if upright else (100 + along, 100 + out)
 
     text = Text("80 h11", at(place, 11.0), anchor=Anchor.CENTRE, rotation=90.0 * upright)
-    kind = Measured.VERTICAL if upright else Measured.HORIZONTAL
+    kind = MeasuredDistance.VERTICAL if upright else MeasuredDistance.HORIZONTAL
     shape = Dimension(kind, at(0.0, 0.0), at(measured, 0.0), at(place, 10.0), "<> h11", (text,), scale=measured / 80)
     path = _written(Figure.of(FRAME, shape), tmp_path)
     assert "80 h11" in read_sheet(path).words

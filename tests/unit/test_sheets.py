@@ -19,7 +19,7 @@ from support.sheets import ERROR, GEARS, GOOD, refusal_of, rows_of, values_of, w
 
 from gearcad import SpecError
 from gearcad.designs import open_table
-from gearcad.designs.table import Row
+from gearcad.designs.table import DesignRow
 
 FLAT = 50_000
 """Bytes by which the peak of memory may differ between a short table and a long one, whose rows would take 20 MB."""
@@ -33,7 +33,7 @@ def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.chdir(tmp_path)
 
 
-def workbook_rows(rows: list[list[Any]]) -> list[Row]:
+def workbook_rows(rows: list[list[Any]]) -> list[DesignRow]:
     return list(open_table(workbook(rows)).rows())
 
 

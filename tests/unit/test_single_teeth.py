@@ -13,7 +13,7 @@ from gearcad.core.records import PerGear
 from gearcad.core.runtime import templates
 from gearcad.designs import read_spec
 from gearcad.dynamics.tooth_errors.error_result import quantile_ranks
-from gearcad.dynamics.tooth_errors.error_sources import Draw, MeshTeeth, mesh_teeth, with_short_period
+from gearcad.dynamics.tooth_errors.error_sources import ErrorDraw, MeshTeeth, mesh_teeth, with_short_period
 from gearcad.dynamics.tooth_errors.tooth_springs import (
     PairErrors,
     ToothSpring,
@@ -23,7 +23,7 @@ from gearcad.dynamics.tooth_errors.tooth_springs import (
     pair_path,
     standard_path,
 )
-from gearcad.dynamics.trains.members import Mesh
+from gearcad.dynamics.trains.members import ToothMesh
 from gearcad.dynamics.trains.tooth_deviations import ErrorDistribution, random_deviations
 from gearcad.rating.tolerances import flank_tolerances
 from gearcad.stiffness.methods import METHODS
@@ -57,7 +57,7 @@ def test_rigid_teeth_make_a_square_wave() -> None:
 @pytest.mark.parametrize("force", [1.0, 1e3, 44497.0, 3e5])
 @pytest.mark.parametrize("size", [0.0, 1.0])
 def test_forces_of_all_pairs_are_the_load(force: float, size: float) -> None:
-    errors = teeth().pair_errors(Draw(ErrorDistribution.UNIFORM, 3, 1)).times(size)
+    errors = teeth().pair_errors(ErrorDraw(ErrorDistribution.UNIFORM, 3, 1)).times(size)
     rest = at_rest(spring(), force, 144 * TURNS, errors)
     assert rest.forces.sum(axis=1) == pytest.approx(force, rel=1e-9)
     assert rest.forces.min() >= 0
@@ -71,7 +71,7 @@ def test_the_harder_the_load_the_more_teeth_carry() -> None:
 
 def test_the_approach_is_that_of_a_search_in_steps() -> None:
     """Force over approach, pair by pair, interpolated to the load: no order of gaps, no straight pieces."""
-    of, errors = spring(), teeth().pair_errors(Draw(ErrorDistribution.UNIFORM, 0, 0))
+    of, errors = spring(), teeth().pair_errors(ErrorDraw(ErrorDistribution.UNIFORM, 0, 0))
     turn, force = 31.37, 2e4
     approach = np.linspace(-2e-4, 5e-4, 700_001)
     carried = np.zeros_like(approach)
@@ -85,7 +85,7 @@ def test_the_approach_is_that_of_a_search_in_steps() -> None:
 
 
 def test_assumed_teeth_have_the_mean_stiffness_that_is_given_under_their_load() -> None:
-    mesh = Mesh(name="m", pinion="a", wheel="b", base_radii=(50.7, 135.3), stiffness=MEAN, teeth=18)
+    mesh = ToothMesh(name="m", pinion="a", wheel="b", base_radii=(50.7, 135.3), stiffness=MEAN, teeth=18)
     made = mesh_teeth(mesh, 0, 44497.0, None, single=True).spring
     assert made is not None
     rest = at_rest(made, 44497.0, TURNS)
@@ -133,14 +133,14 @@ def test_teeth_that_go_backwards_are_the_same_from_behind() -> None:
 
 def test_sample_0_has_the_pinion_of_a_chart() -> None:
     tolerances = flank_tolerances(9, 108.0, 6.0)
-    alone = replace(teeth(), wheel_drawn=False).pair_errors(Draw(ErrorDistribution.UNIFORM, 5, 0))
+    alone = replace(teeth(), wheel_drawn=False).pair_errors(ErrorDraw(ErrorDistribution.UNIFORM, 5, 0))
     one = random_deviations(18, tolerances, 5)
     assert alone.position == pytest.approx(1e-6 * one.position, rel=1e-15)
     assert alone.slope == pytest.approx(1e-6 / RATIO * one.slope, rel=1e-15)
 
 
 def test_both_gears_have_errors_that_come_again_when_the_same_teeth_meet() -> None:
-    of, draw = teeth(), Draw(ErrorDistribution.UNIFORM, 0, 7)
+    of, draw = teeth(), ErrorDraw(ErrorDistribution.UNIFORM, 0, 7)
     whole = of.pair_errors(draw).position
     pinion = replace(of, wheel_drawn=False).pair_errors(draw).position
     wheel = whole - np.resize(pinion, 144)
@@ -166,9 +166,9 @@ def test_normal_errors_keep_their_tolerance_and_are_smaller_than_even_ones(grade
 
 def test_gears_of_other_numbers_are_others() -> None:
     of = teeth()
-    found = [of.pair_errors(Draw(ErrorDistribution.UNIFORM, 0, number)).position for number in range(30)]
+    found = [of.pair_errors(ErrorDraw(ErrorDistribution.UNIFORM, 0, number)).position for number in range(30)]
     assert np.abs(np.corrcoef(found) - np.eye(30)).max() < 0.75
-    assert not np.allclose(found[0], of.pair_errors(Draw(ErrorDistribution.UNIFORM, 1, 0)).position)
+    assert not np.allclose(found[0], of.pair_errors(ErrorDraw(ErrorDistribution.UNIFORM, 1, 0)).position)
 
 
 def test_wheels_whose_teeth_hardly_ever_meet_the_same_have_no_errors() -> None:
@@ -184,7 +184,7 @@ def test_wheels_whose_teeth_hardly_ever_meet_the_same_have_no_errors() -> None:
 
 def test_one_tooth_has_no_neighbour_to_be_out_of_place_to() -> None:
     worm = replace(teeth(), teeth=PerGear(1, 48), wheel_drawn=False)
-    assert not worm.pair_errors(Draw(ErrorDistribution.UNIFORM, 0, 0)).position.any()
+    assert not worm.pair_errors(ErrorDraw(ErrorDistribution.UNIFORM, 0, 0)).position.any()
 
 
 def test_no_errors_are_no_gaps() -> None:

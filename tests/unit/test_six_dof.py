@@ -12,7 +12,7 @@ import pytest
 from gearcad.core.records import PerGear
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.train_study import study_train
-from gearcad.dynamics.trains.members import Inertia, Mesh
+from gearcad.dynamics.trains.members import Inertia, ToothMesh
 from gearcad.dynamics.trains.pair_on_bearings import PairOnBearings
 from gearcad.dynamics.trains.train import Train, TrainModel
 
@@ -164,7 +164,7 @@ def test_a_chart_reaches_the_highest_mode_that_teeth_shake() -> None:
         model=TrainModel.ISOLATED,
         inertias=(Inertia(name="pinion", inertia=0.1), Inertia(name="wheel", inertia=7e-3)),
         meshes=(
-            Mesh(
+            ToothMesh(
                 name="mesh", pinion="pinion", wheel="wheel", base_radii=PerGear(28.0, 66.0), stiffness=240.0, teeth=20,
                 damping_ratio=0.05, variation=0.1,
             ),

@@ -10,7 +10,7 @@ from gearcad.meshing.bodies.body_mesh import Amount, body_sizes, expected_amount
 from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
 from gearcad.meshing.bodies.exactness import deviations
 from gearcad.meshing.bodies.section_mesh import mesh_section
-from gearcad.meshing.bodies.sectors import ContactZone
+from gearcad.meshing.bodies.sectors import ContactRefinement
 
 GEARS = {
     "z7": Gear(teeth=7, normal_module=2.0, face_width=4, profile_shift=0.4),
@@ -18,7 +18,7 @@ GEARS = {
     "z30": Gear(teeth=30, normal_module=5.0, face_width=8, helix_angle=20),
 }
 
-ZONES = {-1: ContactZone(length=5.0, half_width=0.2, edge=0.05)}
+ZONES = {-1: ContactRefinement(length=5.0, half_width=0.2, edge=0.05)}
 
 
 def amount(mesh: ElementMesh) -> Amount:

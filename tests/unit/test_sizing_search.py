@@ -22,7 +22,7 @@ from gearcad.sizing.rating import Rated, line_ripple, rate_many
 from gearcad.sizing.search import (
     LIMITS,
     NEARLY,
-    Grid,
+    VariantGrid,
     front,
     least_width,
     ranked,
@@ -273,5 +273,5 @@ def test_figures() -> None:
 
 
 def test_keys_name_every_variant_once() -> None:
-    keys = np.concatenate([pairs.key for pairs in Grid(WIDE).chunks()])
-    assert np.array_equal(keys, np.arange(len(Grid(WIDE))))
+    keys = np.concatenate([pairs.key for pairs in VariantGrid(WIDE).chunks()])
+    assert np.array_equal(keys, np.arange(len(VariantGrid(WIDE))))

@@ -20,7 +20,7 @@ from gearcad.contact.solid.flank import solid_compliance
 from gearcad.contact.solid.fronts import joined
 from gearcad.contact.solid.root import _between
 from gearcad.core.errors import SolverError
-from gearcad.meshing.outline import MeshSizes, Side
+from gearcad.meshing.outline import MeshSizes, OutlineSide
 from gearcad.meshing.quads import mesh_quads
 from gearcad.meshing.sector import SweptMesh, sweep
 
@@ -60,7 +60,7 @@ def test_quads_fill_the_section(mesh: SweptMesh) -> None:
 
 def test_outline_lies_on_the_tooth(mesh: SweptMesh) -> None:
     """Vertices and middle nodes of the left flank have the profile's half angle at their radius."""
-    points = mesh.section.points[mesh.section.sides[Side.LEFT_FLANK]]
+    points = mesh.section.points[mesh.section.sides[OutlineSide.LEFT_FLANK]]
     radii = np.hypot(*points.T)
     assert np.degrees(np.arctan2(points[:, 1], points[:, 0])) == pytest.approx(GEAR.profile.half_angle(radii), abs=1e-10)
 
@@ -169,7 +169,7 @@ def explicit(sector: SolidSector, teeth: int, cuts: Cuts | None, loads: Any) -> 
 def loads(sector: SolidSector) -> Any:
     """Forces on some nodes of the tooth, in all directions."""
     found = np.zeros((sector.dofs, 4))
-    nodes = sector.mesh.over(sector.mesh.side(Side.LEFT_FLANK))
+    nodes = sector.mesh.over(sector.mesh.side(OutlineSide.LEFT_FLANK))
     found[3 * nodes[3]] = 1
     found[3 * nodes[-1] + 1, 1] = -2
     found[3 * nodes[20] + 2, 2] = 3
@@ -206,7 +206,7 @@ def test_halves_tell_of_all(layers: int, finer: float, teeth: int, neighbours: i
     """Of layers or of the section, with hexahedra in the middle or without, rings odd and even, up to the opposite cut."""
     mesh = sweep(GEAR, mesh_quads(GEAR, INNER, SIZES.scaled(finer)), layers)
     sector = SolidSector(mesh, STEEL)
-    nodes = np.random.default_rng(layers).choice(mesh.over(mesh.side(Side.LEFT_FLANK)), 3, replace=False)
+    nodes = np.random.default_rng(layers).choice(mesh.over(mesh.side(OutlineSide.LEFT_FLANK)), 3, replace=False)
     forces = np.random.default_rng(teeth).normal(size=(9, 2))
     everywhere = np.zeros((mesh.nodes, 3, 2))
     everywhere[nodes] = forces.reshape(3, 3, 2)
@@ -290,7 +290,7 @@ def _bore_weights(sector: SolidSector) -> Any:
 
     mesh, element = sector.mesh, ElementQuadS2()
     found = np.zeros((mesh.nodes, 3, 6))
-    arc = mesh.side(Side.HELD)
+    arc = mesh.side(OutlineSide.HELD)
     s, w = np.polynomial.legendre.leggauss(3)  # the area is no polynomial: other rules differ by 1e-7
     middle = GEAR.face_width / 2
     for layer in range(mesh.layers):

@@ -12,7 +12,7 @@ from gearcad import Material
 from gearcad.check.task import face_factors
 from gearcad.contact.solid.cycle import _gauss_points, _outward, nodal_stress, worst_field
 from gearcad.core.records import Role
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.plots.check import (
     plot_contact_pattern,
     plot_harmonics,
@@ -146,9 +146,9 @@ def test_field_has_the_stress_of_the_fillet(role):
     result = small_solid_check()
     field = worst_field(result.cycle, role)
     mesh = result.cycle.model.bodies.pick(role).body.sector.mesh
-    xx, yy, zz, xy, yz, zx = field.stress[mesh.over(mesh.side(Side.LEFT_FILLET))].T
+    xx, yy, zz, xy, yz, zx = field.stress[mesh.over(mesh.side(OutlineSide.LEFT_FILLET))].T
     tensors = np.moveaxis(np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]), -1, 0)
-    root = mesh.in_section[mesh.over(mesh.side(Side.LEFT_FILLET))]
+    root = mesh.in_section[mesh.over(mesh.side(OutlineSide.LEFT_FILLET))]
     peak = result.cycle.worst_position(role).tension.pick(role)
     near = np.abs(np.hypot(*root.T) - peak.radius) < 0.3
     assert np.linalg.eigvalsh(tensors[near])[:, 2].max() == pytest.approx(peak.stress, rel=_FILLET)

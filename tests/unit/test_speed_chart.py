@@ -25,7 +25,7 @@ from gearcad.dynamics.response.speed_curves import LEFT_OUT, SpeedCurves
 from gearcad.dynamics.train_study import study_modes, study_train
 from gearcad.dynamics.trains.mesh_excitation import CurveStiffness, Excitation, MeshExcitation, square_stiffness
 from gearcad.dynamics.trains.shaft_lines import System
-from gearcad.dynamics.trains.tooth_deviations import Polyline, TransmissionError
+from gearcad.dynamics.trains.tooth_deviations import PeriodicLine, TransmissionError
 from gearcad.dynamics.trains.train import Train
 
 Floats = NDArray[np.float64]
@@ -148,7 +148,7 @@ def stepped(height: float) -> Excitation:
     corners = 2 * np.pi * np.array([0, 0.3, 0.3 + 1 / 60, 0.7, 0.7 + 1 / 60, 1.0])
     shape = CurveStiffness(phase=corners, stiffness=np.array([1, 1, 1 + height, 1 + height, 1, 1]))
     smooth = 1 - 0.1 * np.cos(corners)
-    error = TransmissionError(line=Polyline(phase=corners, height=1e6 * (smooth - 1 / shape.stiffness)))
+    error = TransmissionError(line=PeriodicLine(phase=corners, height=1e6 * (smooth - 1 / shape.stiffness)))
     return Excitation(meshes=(MeshExcitation(stiffness=shape, error=error),))
 
 

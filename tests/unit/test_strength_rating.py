@@ -29,7 +29,7 @@ from gearcad.core.output import json_text
 from gearcad.core.records import PerGear, Verdict
 from gearcad.rating import RatingOptions, RootShift
 from gearcad.rating.load_factors import BodyLoad
-from gearcad.rating.strength import Part, StrengthRating, rate_strength
+from gearcad.rating.strength import RatedPart, StrengthRating, rate_strength
 
 EXACT = 1e-9
 CASE_HARDENED = Material(name="Eh MQ")
@@ -80,7 +80,7 @@ def test_life_and_torque_are_those_at_which_the_required_safety_is_left() -> Non
     assert life is not None
     assert life == rating.flank.pinion.life < 2000
     assert rated(replace(LIFE, life=life), replace(LOAD, torque=350.0)).flank.pinion.safety == pytest.approx(1, rel=EXACT)
-    for part, role in ((Part.FLANK, "pinion"), (Part.ROOT, "wheel")):
+    for part, role in ((RatedPart.FLANK, "pinion"), (RatedPart.ROOT, "wheel")):
         torque = getattr(rating.parts[part], role).permissible_torque
         found = getattr(rated(load=replace(LOAD, torque=torque)).parts[part], role)
         assert found.safety == pytest.approx(found.required, rel=EXACT)

@@ -14,7 +14,7 @@ from gearcad.core.records import PerGear
 from gearcad.designs.train_keys import COLUMNS
 from gearcad.designs.variations import column_symbol
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 from gearcad.meshing.options import MeshOptions
 from gearcad.rating import RatingOptions
 
@@ -83,7 +83,7 @@ def test_a_column_is_whose_its_heading_says() -> None:
     ] * 6
 
 
-TRAIN = (Inertia, Shaft, Mesh)
+TRAIN = (Inertia, Shaft, ToothMesh)
 WRITTEN = [
     symbols_of(Gear) | symbols.GEAR,
     {key: symbol for key, symbol in symbols_of(GearPair).items() if "." not in key} | symbols.PAIR,

@@ -12,11 +12,11 @@ from scipy.integrate import solve_ivp
 from support.trains import one_stage
 
 from gearcad.dynamics.response.speed_charts import over_speed
-from gearcad.dynamics.time_domain.motion import Course, MeshLaw, MovingSystem, SpringTable
+from gearcad.dynamics.time_domain.motion import MeshLaw, MovingSystem, RunCourse, SpringTable
 from gearcad.dynamics.tooth_errors.error_result import ToothLaw
-from gearcad.dynamics.tooth_errors.error_sources import Draw, MeshTeeth, mesh_teeth
+from gearcad.dynamics.tooth_errors.error_sources import ErrorDraw, MeshTeeth, mesh_teeth
 from gearcad.dynamics.tooth_errors.error_study import Sampling
-from gearcad.dynamics.trains.members import Inertia, Mesh
+from gearcad.dynamics.trains.members import Inertia, ToothMesh
 from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, Excitation, MeshExcitation, train_excitation
 from gearcad.dynamics.trains.shaft_lines import System, system
 from gearcad.dynamics.trains.steady_response import senses
@@ -36,13 +36,13 @@ def quiet(_part: float) -> None:
     """Nobody asks."""
 
 
-def draw(sample: int, kind: ErrorDistribution = ErrorDistribution.UNIFORM) -> Draw:
-    return Draw(kind, 0, sample)
+def draw(sample: int, kind: ErrorDistribution = ErrorDistribution.UNIFORM) -> ErrorDraw:
+    return ErrorDraw(kind, 0, sample)
 
 
 def small_pair(backlash: float | None = None, damping_ratio: float = 0.06) -> Train:
     """16 teeth on 16, so that errors come again soon; 20 kN along the line of action."""
-    mesh = Mesh(
+    mesh = ToothMesh(
         name="m",
         pinion="p",
         wheel="w",
@@ -67,7 +67,7 @@ def sampling(train: Train, law: ToothLaw = ToothLaw.SINGLE, grade: int | None = 
     return Sampling(system=of, excitation=excitation, teeth=teeth, law=law)
 
 
-def by_solve_ivp(of: Sampling, speed: float, sample: Draw) -> float:
+def by_solve_ivp(of: Sampling, speed: float, sample: ErrorDraw) -> float:
     """K_v of the small pair over the second period of its errors: m y'' + c y' + sum K max(y - gap, 0) = F, pair by pair."""
     teeth, pinion_teeth = of.teeth[0], of.teeth[0].teeth.pinion
     spring, errors, backlash = teeth.spring, teeth.pair_errors(sample), float(of.excitation.backlashes[0])
@@ -121,7 +121,7 @@ def test_flanks_part_where_that_is_looked_at() -> None:
 # ---------------------------------------------------------------------- one train by itself, at each step
 
 
-def alone(of: Sampling, speed: float, sample: Draw, periods: int) -> Floats:
+def alone(of: Sampling, speed: float, sample: ErrorDraw, periods: int) -> Floats:
     """K_v (m,) over the last of so many periods, by the motion of one system that looks each tooth up in its tables."""
     first = of.ratios[0]
     orders = [int(of.period * ratio / first) for ratio in of.ratios]
@@ -138,7 +138,7 @@ def alone(of: Sampling, speed: float, sample: Draw, periods: int) -> Floats:
     steps = 4 * of.per_tooth(frequency)
     count = of.period * steps
     motion = moving.run(
-        Course.steady(frequency / of.period),
+        RunCourse.steady(frequency / of.period),
         1 / (frequency * steps),
         periods * count,
         ends=[(periods - 1) * count, periods * count],
@@ -161,8 +161,8 @@ def idler() -> Train:
         model="isolated",
         inertias=tuple(Inertia(name=name, inertia=each) for name, each in (("a", 1e-3), ("b", 3e-3), ("c", 9e-3))),
         meshes=(
-            Mesh(name="ab", pinion="a", wheel="b", base_radii=(30.0, 45.0), teeth=12, **shared),  # type: ignore[arg-type]
-            Mesh(name="bc", pinion="b", wheel="c", base_radii=(45.0, 60.0), teeth=18, phase=0.3, **shared),  # type: ignore[arg-type]
+            ToothMesh(name="ab", pinion="a", wheel="b", base_radii=(30.0, 45.0), teeth=12, **shared),  # type: ignore[arg-type]
+            ToothMesh(name="bc", pinion="b", wheel="c", base_radii=(45.0, 60.0), teeth=18, phase=0.3, **shared),  # type: ignore[arg-type]
         ),
         torques={"a": 300.0, "b": 0.0, "c": -600.0},
     )

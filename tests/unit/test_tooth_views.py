@@ -15,7 +15,7 @@ from gearcad.drawing.options import SCALES
 from gearcad.drawing.shapes import Arc, Figure, Line, Polyline
 from gearcad.drawing.views.modification_diagrams import helix_depths, modification_figures, profile_depths
 from gearcad.drawing.views.tooth_detail import detail_scale, levels_of, spread, tooth_figure, tooth_outline
-from gearcad.drawing.words import Draughting, Language, Words
+from gearcad.drawing.words import Draughting, Language, SheetWords
 from gearcad.geometry import BasicRack, Body, DoubleHelix, FlankModification, Gear, Rack, ReliefShape, ShaperCutter
 from gearcad.geometry.gear import halves
 from gearcad.geometry.gear_parts import HubSide
@@ -49,7 +49,7 @@ MODIFIED = {
 
 def drawn(name: str, language: Language = Language.ENGLISH) -> Figure:
     part = DrawnGear(role="gear", gear=GEARS[name])
-    return tooth_figure(part, Draughting(Words.of(language), detail_scale(part)))
+    return tooth_figure(part, Draughting(SheetWords.of(language), detail_scale(part)))
 
 
 def exact(gear: Gear | Rack) -> Floats:
@@ -161,7 +161,7 @@ def test_a_tip_relief_by_hand() -> None:
     roll = math.sqrt(gear.tip_form_diameter**2 - gear.base_diameter**2) / 2 - 1.5
     begin = math.hypot(gear.base_diameter, 2 * roll)
     assert profile.series[0].at_places == pytest.approx([10.0, 10 * 0.2 / 8, 0.0, 20.0], abs=1e-9)
-    (figure,) = modification_figures(DrawnGear(role="gear", gear=gear), Draughting(Words.of(Language.SWEDISH)))
+    (figure,) = modification_figures(DrawnGear(role="gear", gear=gear), Draughting(SheetWords.of(Language.SWEDISH)))
     words = [text.words for text in figure.texts]
     assert f"{begin:.3f}".replace(".", ",") in words and "20,0" in words
     curve = next(shape for shape in figure.shapes if isinstance(shape, Polyline))
@@ -187,7 +187,7 @@ def test_the_helix_diagram_lies_as_the_section_does(side: HubSide) -> None:
     gear = replace(modified("slopes"), body=Body(hub_diameter=20, hub_length=2, hub_side=side))
     helix = helix_depths(gear)
     assert helix is not None
-    figures = modification_figures(DrawnGear(role="gear", gear=gear), Draughting(Words.of(Language.ENGLISH)))
+    figures = modification_figures(DrawnGear(role="gear", gear=gear), Draughting(SheetWords.of(Language.ENGLISH)))
     curves = [shape for shape in figures[1].shapes if isinstance(shape, Polyline)]
     for curve, series in zip(curves, helix.series, strict=True):
         x, y = np.array(curve.points).T
@@ -201,7 +201,7 @@ def test_the_helix_diagram_lies_as_the_section_does(side: HubSide) -> None:
 
 
 def test_what_is_not_modified_has_no_diagram() -> None:
-    draughting = Draughting(Words.of(Language.ENGLISH))
+    draughting = Draughting(SheetWords.of(Language.ENGLISH))
     for name in ("spur", "ring", "rack"):
         assert modification_figures(DrawnGear(role="gear", gear=GEARS[name]), draughting) == ()
 

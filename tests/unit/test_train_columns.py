@@ -16,7 +16,7 @@ from gearcad.batch.study import plan_study, write_study
 from gearcad.designs import TrainDesign, design_from_tables, open_table, read_spec
 from gearcad.designs.reader import starter_text
 from gearcad.designs.variations import column_symbol
-from gearcad.dynamics import Inertia, Mesh, Shaft, Train
+from gearcad.dynamics import Inertia, Shaft, ToothMesh, Train
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.jobs.dynamics import Dynamics, dynamics_columns
 from gearcad.jobs.job import Data
@@ -25,7 +25,7 @@ _, TWO_STAGES = starter_text("train-2-stage")
 
 COUPLE = Train(
     inertias=(Inertia(name="warnings", inertia=0.01), Inertia(name="b", inertia=0.08)),
-    meshes=(Mesh(name="m", pinion="warnings", wheel="b", base_radii=(50.0, 100.0), stiffness=400.0, teeth=20),),
+    meshes=(ToothMesh(name="m", pinion="warnings", wheel="b", base_radii=(50.0, 100.0), stiffness=400.0, teeth=20),),
     torques={"warnings": 100.0, "b": 200.0},
     speed=1500.0,
 )

@@ -16,7 +16,7 @@ from gearcad.core.errors import GeometryError, InputError, ParameterError
 from gearcad.core.records import Role
 from gearcad.designs import PairDesign, design_from_tables
 from gearcad.designs.spec_writers import pair_specs
-from gearcad.dynamics import DynamicsOptions, Inertia, Mesh, Shaft, Train
+from gearcad.dynamics import DynamicsOptions, Inertia, Shaft, ToothMesh, Train
 from gearcad.dynamics.engagement import _in_range, engaged
 from gearcad.dynamics.pair_result import PairStudy
 from gearcad.dynamics.train_result import TrainStudy
@@ -52,7 +52,7 @@ def gears(pinion: int = 20, wheel: int = 30, module: float = 2.0, **more: Any) -
 
 def one(pair: GearPair | MeshPair, torque: float = 50.0, speed: float = 6000.0, **of_mesh: Any) -> Train:
     """The pair on two inertias, nothing else."""
-    mesh = Mesh(name="m", pinion="p", wheel="w", pair=pair, **of_mesh)
+    mesh = ToothMesh(name="m", pinion="p", wheel="w", pair=pair, **of_mesh)
     ratio = mesh.base_radii.wheel / mesh.base_radii.pinion * (-1 if mesh.internal else 1)
     return Train(
         inertias=(Inertia(name="p", inertia=J[0]), Inertia(name="w", inertia=J[1])),
@@ -106,7 +106,7 @@ def test_stiff_shafts_change_nothing() -> None:
     halves = [Inertia(name=name, inertia=each / 2) for name, each in zip("pwab", (*J, *J), strict=True)]
     shafts = [Shaft(name=f"{a}{b}", start=a, end=b, torsional_stiffness=1e10) for a, b in ("pa", "wb")]
     # A ratio would be that of the halves.
-    mesh = Mesh(name="m", pinion="p", wheel="w", pair=gears(), backlash=None, damping=float(whole.system.mesh_damping[0]))
+    mesh = ToothMesh(name="m", pinion="p", wheel="w", pair=gears(), backlash=None, damping=float(whole.system.mesh_damping[0]))
     torques = {"a": whole.train.torques["p"], "b": whole.train.torques["w"]}
     split = replace(whole.train, model="massless", inertias=halves, shafts=shafts, meshes=(mesh,), torques=torques)
     study = study_train(split, CALM)
@@ -126,8 +126,8 @@ def two_stages(torque: float = 60.0, speed: float = 3000.0, **of_second: Any) ->
         inertias=[Inertia(name=name, inertia=0.002 * 2**place) for place, name in enumerate(names)],
         shafts=[Shaft(name="middle", start="b", end="c", torsional_stiffness=2e4, damping_ratio=0.02)],
         meshes=[
-            Mesh(name="first", pinion="a", wheel="b", pair=first),
-            Mesh(name="second", pinion="c", wheel="d", pair=second, **of_second),
+            ToothMesh(name="first", pinion="a", wheel="b", pair=first),
+            ToothMesh(name="second", pinion="c", wheel="d", pair=second, **of_second),
         ],
         torques={"a": torque, "d": -torque * total},
         speed=speed,
@@ -173,7 +173,7 @@ def test_the_pitch_point_is_in_contact_at_phase_0() -> None:
 def test_a_train_that_is_held_finds_forces_and_stiffness_together() -> None:
     """Two shafts hold both gears: F = T_1/r_1 k/(k + k_s), with k that of the teeth under this force."""
     pair, stiffness = gears(), 4e4
-    mesh = Mesh(name="m", pinion="p", wheel="w", pair=pair)
+    mesh = ToothMesh(name="m", pinion="p", wheel="w", pair=pair)
     shafts = [Shaft(name=name, start="ground", end=name, torsional_stiffness=stiffness) for name in "pw"]
     train = replace(one(pair), shafts=shafts, meshes=[mesh], torques={"p": 80.0}, model="massless")
     found = engaged(train, QUICK)
@@ -219,7 +219,7 @@ def test_a_mesh_without_load_is_refused() -> None:
 
 def test_a_mesh_takes_what_its_pair_knows() -> None:
     pair = gears(24, -80)
-    mesh = Mesh(name="m", pinion="p", wheel="w", pair=pair)
+    mesh = ToothMesh(name="m", pinion="p", wheel="w", pair=pair)
     assert (mesh.teeth, mesh.internal) == (24, True)
     assert mesh.base_radii == pytest.approx((24 * math.cos(math.radians(20)), 80 * math.cos(math.radians(20))))
     assert mesh.backlash == pytest.approx(60, rel=0.1)  # twice 0.03 mm of thinning
@@ -229,7 +229,7 @@ def test_a_mesh_takes_what_its_pair_knows() -> None:
     assert replace(mesh, phase=0.5).teeth == 24
     assert replace(mesh, backlash=None).backlash is None
     assert replace(mesh, backlash=12.0).backlash == 12.0
-    assert eval(repr(replace(mesh, backlash=12.0)), {**vars(gearcad), "Mesh": Mesh, "MeshPair": MeshPair}) is not None
+    assert eval(repr(replace(mesh, backlash=12.0)), {**vars(gearcad), "ToothMesh": ToothMesh, "MeshPair": MeshPair}) is not None
 
 
 @pytest.mark.parametrize(
@@ -238,16 +238,16 @@ def test_a_mesh_takes_what_its_pair_knows() -> None:
 )
 def test_what_a_pair_tells_is_not_given_beside_it(name: str, value: object) -> None:
     with pytest.raises(GeometryError, match=rf"m\.{name} = .*not beside pair"):
-        Mesh(name="m", pinion="p", wheel="w", pair=gears(), **{name: value})  # type: ignore[arg-type]
+        ToothMesh(name="m", pinion="p", wheel="w", pair=gears(), **{name: value})  # type: ignore[arg-type]
 
 
 def test_what_is_no_pair_is_refused() -> None:
     with pytest.raises(ParameterError, match=r"m\.pair = 'fzg-c\.toml': must be a GearPair"):
-        Mesh(name="m", pinion="p", wheel="w", pair="fzg-c.toml")  # type: ignore[arg-type]
+        ToothMesh(name="m", pinion="p", wheel="w", pair="fzg-c.toml")  # type: ignore[arg-type]
     with pytest.raises(InputError, match=r"m\.stiffness"):
-        Mesh(name="m", pinion="p", wheel="w", base_radii=(1.0, 2.0), teeth=20)
+        ToothMesh(name="m", pinion="p", wheel="w", base_radii=(1.0, 2.0), teeth=20)
     with pytest.raises(InputError, match=r"m\.base_radii.*or give pair instead"):
-        Mesh(name="m", pinion="p", wheel="w", stiffness=1.0, teeth=20)
+        ToothMesh(name="m", pinion="p", wheel="w", stiffness=1.0, teeth=20)
     with pytest.raises(InputError, match=r"half"):
         MeshPair(pair=gears(helix_angle=20.0, double_helix=gearcad.geometry.DoubleHelix(gap_width=5.0)))
 

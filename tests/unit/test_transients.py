@@ -15,7 +15,7 @@ from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.time_domain.transient import run_transient
 from gearcad.dynamics.time_domain.transient_result import Transient, TransientOptions
 from gearcad.dynamics.train_study import study_train
-from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, Excitation, MeshExcitation
 from gearcad.dynamics.trains.shaft_lines import system
 from gearcad.dynamics.trains.steady_response import Direction
@@ -35,7 +35,7 @@ def pair(**more: object) -> Train:
     mesh: dict[str, object] = {"stiffness": 300.0, "variation": 0.0, "damping_ratio": 0.05, **more}
     return Train(
         inertias=(Inertia(name="pinion", inertia=0.004), Inertia(name="wheel", inertia=0.03)),
-        meshes=(Mesh(name="mesh", pinion="pinion", wheel="wheel", base_radii=(40, 80), teeth=20, **mesh),),  # type: ignore[arg-type]
+        meshes=(ToothMesh(name="mesh", pinion="pinion", wheel="wheel", base_radii=(40, 80), teeth=20, **mesh),),  # type: ignore[arg-type]
         torques={"pinion": 200.0, "wheel": 400.0},
         speed=3000.0,
     )

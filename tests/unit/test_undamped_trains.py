@@ -18,7 +18,7 @@ from gearcad.core.errors import ParameterError, SolverError
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.time_domain.transient_result import TransientOptions
 from gearcad.dynamics.train_study import study_train, study_undamped
-from gearcad.dynamics.trains.members import Inertia, Mesh
+from gearcad.dynamics.trains.members import Inertia, ToothMesh
 from gearcad.dynamics.trains.steady_response import UndampedError
 from gearcad.dynamics.trains.train import Train
 
@@ -46,7 +46,7 @@ def pair(**more: object) -> Train:
     mesh: dict[str, object] = {"stiffness": STIFFNESS / 1e6, "variation": 0.0, "damping": 0.0, **more}
     return Train(
         inertias=(Inertia(name="pinion", inertia=0.004), Inertia(name="wheel", inertia=0.03)),
-        meshes=(Mesh(name="mesh", pinion="pinion", wheel="wheel", base_radii=(40, 80), teeth=RATIO, **mesh),),  # type: ignore[arg-type]
+        meshes=(ToothMesh(name="mesh", pinion="pinion", wheel="wheel", base_radii=(40, 80), teeth=RATIO, **mesh),),  # type: ignore[arg-type]
         torques={"pinion": 200.0, "wheel": 400.0},
         speed=3000.0,
     )

@@ -10,7 +10,7 @@ import pytest
 from support.coarse import PAIRS, TORQUES, coarse_model
 
 from gearcad import FlankModification, Mounting
-from gearcad.contact.modification_variants import Condition, Outcomes, Variants, with_amounts
+from gearcad.contact.modification_variants import Condition, FlankVariants, Outcomes, with_amounts
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.line_contact import LineSolution, gaps, plain_widths, solve_lines, start_distances
 from gearcad.contact.solid.pair import KnownResponses
@@ -29,12 +29,12 @@ PRESSURE_OF_LINES = 0.02
 """Relative: the cells of both have other lengths, so the last one more than three half widths away is another."""
 
 
-def variants(name: str, shape: ReliefShape, mounting: Mounting, count: int = 5) -> Variants:
+def variants(name: str, shape: ReliefShape, mounting: Mounting, count: int = 5) -> FlankVariants:
     model = coarse_model(name)
     given = FlankModification(root_relief=6, root_relief_length=1.0, profile_crowning=3, twist=4, helix_angle_modification=5)
     pair = replace(model.pair, wheel=replace(model.pair.wheel, modification=given))
     roomy = replace(model.remade(with_amounts(pair, HIGH, shape), mounting), cells=18, known=KnownResponses())
-    return Variants(roomy, shape, count, TORQUES[name])
+    return FlankVariants(roomy, shape, count, TORQUES[name])
 
 
 def drawn(count: int) -> np.ndarray:
@@ -97,7 +97,7 @@ def test_outcomes_are_those_of_the_contact_solved_in_full(name: str) -> None:
         assert found.edge_shares[number] == pytest.approx(max(map(edge_share, solved)), abs=PRESSURE)
 
 
-def interior_pressure(of: Variants, pair: GearPair, solution: LineSolution) -> float:
+def interior_pressure(of: FlankVariants, pair: GearPair, solution: LineSolution) -> float:
     """Return the greatest pressure (MPa) away from edges and, by plain half widths, from starts of reliefs."""
     lines, width, action = solution.given.lines, of.roomy.width, of.roomy.remade(pair, of.roomy.mounting).line
     to_edge = np.concatenate([np.minimum(line.edge_distance, width / 2 - abs(line.across)) for line in lines])

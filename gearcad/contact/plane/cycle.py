@@ -26,7 +26,7 @@ from gearcad.contact.shared.local_contact import HollowContact, conformal_notice
 from gearcad.core.records import Floats, Notice, PerGear, Role, Wholes
 from gearcad.geometry import GearPair
 from gearcad.material import Materials, of_both
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.quads import triangle_shapes, triangle_slopes
 from gearcad.rating.contact_stress import half_width_by_curvature
 
@@ -140,7 +140,7 @@ class PlaneCycle(LoadedCycle[PlanePair, PlanePosition, PlanePairContact]):
         contacts = _contacts(model, solution)
         loads = PerGear.each(lambda role: tooth_loads(contacts, role))
 
-        def extreme(side: Side) -> PerGear[RootStress]:
+        def extreme(side: OutlineSide) -> PerGear[RootStress]:
             return PerGear.each(lambda role: model.fillets.pick(role).extreme(side, loads.pick(role)))
 
         return PlanePosition(
@@ -150,8 +150,8 @@ class PlaneCycle(LoadedCycle[PlanePair, PlanePosition, PlanePairContact]):
             rigid_approach=model.rigid_approach(angle),
             force=model.force(self.torque),
             contacts=contacts,
-            tension=extreme(Side.LEFT_FILLET),
-            compression=extreme(Side.RIGHT_FILLET),
+            tension=extreme(OutlineSide.LEFT_FILLET),
+            compression=extreme(OutlineSide.RIGHT_FILLET),
             bore_tension=PerGear.each(lambda role: model.fillets.pick(role).bore_tension(loads.pick(role))),
             torques=PerGear.each(lambda role: _hub_torque(model, contacts, role)),
         )
@@ -344,7 +344,7 @@ def greatest_von_mises(
 _CORNERS = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
 """The nodes of a triangle in its own coordinates."""
 
-_INSIDE = (Side.AHEAD, Side.HELD, Side.BEHIND)
+_INSIDE = (OutlineSide.AHEAD, OutlineSide.HELD, OutlineSide.BEHIND)
 """Sides of a sector that are no profile."""
 
 _MIRRORED = np.array([1.0, -1.0])

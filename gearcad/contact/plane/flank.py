@@ -22,7 +22,7 @@ from gearcad.contact.shared.bodies import Hold
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, FlankCompliance, LoadedFlank, RootStress
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.quads import GAUSS, edge_shapes, edge_slopes, edges_of_chain, mesh_quality
 from gearcad.meshing.sector import SectorMesh
 
@@ -112,7 +112,7 @@ class PlaneFlank(LoadedFlank):
 
 def flank_of(gear: Gear, mesh: SectorMesh) -> PlaneFlank:
     """The loaded flank of a sector mesh."""
-    nodes = mesh.sides[Side.LEFT_FLANK][::-1]
+    nodes = mesh.sides[OutlineSide.LEFT_FLANK][::-1]
     lengths = LoadedFlank(gear).roll_lengths(np.hypot(*mesh.points[nodes].T))
     return PlaneFlank(gear, nodes, lengths)
 
@@ -174,7 +174,7 @@ class PlaneCompliance(FlankCompliance):
     def hub_radius(self) -> float:
         """Radius at which the body is held (mm)."""
         mesh = self.ring.sector.mesh
-        return float(np.hypot(*mesh.points[mesh.sides[Side.HELD][0]]))
+        return float(np.hypot(*mesh.points[mesh.sides[OutlineSide.HELD][0]]))
 
     @property
     def nodes(self) -> int:
@@ -340,7 +340,7 @@ class Fillets:
 
     body: PlaneCompliance
 
-    def stresses(self, side: Side, loads: list[ToothLoad]) -> Floats:
+    def stresses(self, side: OutlineSide, loads: list[ToothLoad]) -> Floats:
         """Stress (MPa) at the points of a side of tooth 0."""
         total = np.zeros(len(self.places(side)[0]))
         for tooth, length, force in loads:
@@ -349,16 +349,16 @@ class Fillets:
                 total += seen(np.asarray(length)) * force
         return total
 
-    def greatest(self, side: Side, loads: list[ToothLoad]) -> RootStress:
+    def greatest(self, side: OutlineSide, loads: list[ToothLoad]) -> RootStress:
         """The largest tension on the left fillet, or compression on the right one, of tooth 0."""
-        return self._at_root(side, self.stresses(side, loads), 1 if side is Side.LEFT_FILLET else -1)
+        return self._at_root(side, self.stresses(side, loads), 1 if side is OutlineSide.LEFT_FILLET else -1)
 
-    def extreme(self, side: Side, loads: list[ToothLoad]) -> RootStress:
+    def extreme(self, side: OutlineSide, loads: list[ToothLoad]) -> RootStress:
         """The largest tension (left fillet) or compression (right one) of the loaded teeth.
 
         Of a rim that bends: of the roots of all teeth, on both sides.
         """
-        sign = 1 if side is Side.LEFT_FILLET else -1
+        sign = 1 if side is OutlineSide.LEFT_FILLET else -1
         if self.body.ring.support.bends:
             found = [self._at_root(each, stress, sign) for each in _ROOT for stress in self._all_round(each, loads, sign)]
         else:
@@ -369,31 +369,33 @@ class Fillets:
         """The largest tension (MPa) on the surface of a bore that nothing keeps round."""
         if not self.body.ring.support.bends:
             return None
-        return float(max(stress.max() for stress in self._all_round(Side.HELD, loads, 1)))
+        return float(max(stress.max() for stress in self._all_round(OutlineSide.HELD, loads, 1)))
 
-    def _all_round(self, side: Side, loads: list[ToothLoad], sign: int) -> Iterator[Floats]:
+    def _all_round(self, side: OutlineSide, loads: list[ToothLoad], sign: int) -> Iterator[Floats]:
         """Stresses of every tooth of the gear, with the key where it adds most tension (1) or compression (-1)."""
         torque = self.body.flank.base_radius * sum(force for *_, force in loads)
         by_key = torque * sign * (sign * self._by_key(side)).max(axis=0)
         for own in range(self.body.ring.support.teeth):
             yield self.stresses(side, seen_from(own, loads)) + by_key
 
-    def _at_root(self, side: Side, stresses: Floats, sign: int) -> RootStress:
+    def _at_root(self, side: OutlineSide, stresses: Floats, sign: int) -> RootStress:
         radii, angles = self.places(side)
         root = np.flatnonzero(angles >= LEAST_TANGENT_ANGLE)
         at = root[np.argmax(sign * stresses[root])]
         return RootStress(float(stresses[at]), float(radii[at]), float(angles[at]))
 
-    def places(self, side: Side) -> tuple[Floats, Floats]:
+    def places(self, side: OutlineSide) -> tuple[Floats, Floats]:
         """Radius (mm) and tangent angle (deg) of each point."""
         return self._geometry[side][:2]
 
     @cached_property
-    def _sides(self) -> tuple[Side, ...]:
-        return (*_ROOT, Side.HELD) if self.body.ring.support.bends else (Side.LEFT_FILLET, Side.RIGHT_FILLET)
+    def _sides(self) -> tuple[OutlineSide, ...]:
+        return (
+            (*_ROOT, OutlineSide.HELD) if self.body.ring.support.bends else (OutlineSide.LEFT_FILLET, OutlineSide.RIGHT_FILLET)
+        )
 
     @cached_property
-    def _geometry(self) -> dict[Side, tuple[Floats, Floats, SurfaceStresses]]:
+    def _geometry(self) -> dict[OutlineSide, tuple[Floats, Floats, SurfaceStresses]]:
         """Radius and tangent angle of the points of each side, and their stresses by displacements."""
         found = {}
         points = self.body.ring.sector.mesh.points
@@ -408,14 +410,14 @@ class Fillets:
             found[side] = (np.hypot(*where.T), angle, stresses)
         return found
 
-    def _response(self, side: Side, tooth: int) -> CubicSpline | None:
+    def _response(self, side: OutlineSide, tooth: int) -> CubicSpline | None:
         """Stress on a side of a tooth by 1 N per mm on tooth 0, as a function of the load's roll length; None if unknown."""
         support = self.body.ring.support
         place = (tooth + self.body.neighbours) % support.teeth if support.bends else tooth + self.body.neighbours
         return self._splines[side][place] if 0 <= place < len(self._splines[side]) else None
 
     @cached_property
-    def _splines(self) -> dict[Side, tuple[CubicSpline, ...]]:
+    def _splines(self) -> dict[OutlineSide, tuple[CubicSpline, ...]]:
         """Stresses (points,) of each side by the roll length of the load, from tooth -neighbours on."""
         from scipy.interpolate import CubicSpline
 
@@ -423,13 +425,13 @@ class Fillets:
         return {side: tuple(CubicSpline(loads, each.T) for each in teeth) for side, teeth in self._responses.items()}
 
     @cached_property
-    def _responses(self) -> dict[Side, Floats]:
+    def _responses(self) -> dict[OutlineSide, Floats]:
         """Stresses (teeth, points, loads) by the unit loads, from tooth -neighbours on."""
         body, moved = self.body, self.body.displacements.copy()
         moved[body.neighbours] += body.singular
         return self._stresses(moved, body.hub_forces)
 
-    def _by_key(self, side: Side) -> Floats:
+    def _by_key(self, side: OutlineSide) -> Floats:
         """Stresses (teeth, points) of a side by a torque of 1 (N mm per mm) from the key, less that from all round."""
         ring = self.body.ring
         if ring.support.hold is not Hold.KEY:
@@ -437,12 +439,12 @@ class Fillets:
         return self._keyed[side][..., 0]
 
     @cached_property
-    def _keyed(self) -> dict[Side, Floats]:
+    def _keyed(self) -> dict[OutlineSide, Floats]:
         ring = self.body.ring
         load = key_load(ring.sector.mesh, ring.support)
         return self._stresses(ring.solve(load)[0], ring.hub_forces(load))
 
-    def _stresses(self, moved: Floats, hub_forces: Floats | None) -> dict[Side, Floats]:
+    def _stresses(self, moved: Floats, hub_forces: Floats | None) -> dict[OutlineSide, Floats]:
         """Stresses (teeth, points, m) of each side by displacements (teeth in full, 2 n, m)."""
         rows = SurfaceStresses(
             *(np.concatenate(of) for of in zip(*(self._geometry[side][2] for side in self._sides), strict=True))
@@ -459,7 +461,7 @@ def seen_from(own: int, loads: list[ToothLoad]) -> list[ToothLoad]:
     return [(tooth - own, length, force) for tooth, length, force in loads]
 
 
-_ROOT = (Side.LEFT_FILLET, Side.LEFT_ROOT, Side.RIGHT_ROOT, Side.RIGHT_FILLET)
+_ROOT = (OutlineSide.LEFT_FILLET, OutlineSide.LEFT_ROOT, OutlineSide.RIGHT_ROOT, OutlineSide.RIGHT_FILLET)
 
 _PLACES = np.array([-GAUSS, GAUSS])
 _SHAPE, _SLOPE = edge_shapes(_PLACES), edge_slopes(_PLACES)

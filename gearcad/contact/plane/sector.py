@@ -26,7 +26,7 @@ from gearcad.contact.shared.bodies import Chain, Hold, Support
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.material import Material
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.quads import (
     TRIANGLE_PLACES,
     TRIANGLE_WEIGHTS,
@@ -307,9 +307,9 @@ def held_nodes(mesh: SectorMesh, support: Support) -> Wholes:
     if support.floats:
         return np.empty(0, int)
     if support.hold is not Hold.BOLTS:
-        return mesh.sides[Side.HELD]
+        return mesh.sides[OutlineSide.HELD]
     outside = np.hypot(*mesh.points.T) > support.bolt_circle / 2
-    outside[mesh.sides[Side.HELD]] = True
+    outside[mesh.sides[OutlineSide.HELD]] = True
     outside[mesh.ahead] = outside[mesh.behind] = False
     return np.flatnonzero(outside)
 
@@ -351,7 +351,7 @@ def rigid_motions(points: Floats) -> Floats:
 
 def _on_bore(mesh: SectorMesh, half: float) -> Floats:
     """Nodal forces (2 n, 3) by rigid motions' parts along the bore, as tractions up to `half` (rad) from its middle."""
-    edges = edges_of_chain(mesh.sides[Side.HELD])
+    edges = edges_of_chain(mesh.sides[OutlineSide.HELD])
     s, weight = np.polynomial.legendre.leggauss(_GAUSS)
     s = (np.arange(_PARTS)[:, None] + (s + 1) / 2).ravel() * 2 / _PARTS - 1
     weight = np.tile(weight / _PARTS, _PARTS)

@@ -224,7 +224,7 @@ _MOST = 20
 
 
 @dataclass(frozen=True)
-class Quantity(Generic[Seen]):
+class ExtremeQuantity(Generic[Seen]):
     """Quantity that is to be greatest, or `least`: `value` gives it at a position, NaN where it has none there.
 
     `swing` measures tolerance and error by how far the quantity goes up and down, not by its size.
@@ -262,7 +262,7 @@ class RollRange:
 
 
 def add_positions(
-    known: Iterable[tuple[float, P]], span: RollRange, solve: Callable[[float], P], quantities: Sequence[Quantity[P]]
+    known: Iterable[tuple[float, P]], span: RollRange, solve: Callable[[float], P], quantities: Sequence[ExtremeQuantity[P]]
 ) -> list[P]:
     """Solve further positions at roll angles (deg) between those that are known, and return them."""
     pool, added = sorted(known, key=itemgetter(0)), []
@@ -276,7 +276,7 @@ def add_positions(
     return added
 
 
-def extreme(known: Iterable[tuple[float, P]], span: RollRange, quantity: Quantity[P]) -> Extreme | None:
+def extreme(known: Iterable[tuple[float, P]], span: RollRange, quantity: ExtremeQuantity[P]) -> Extreme | None:
     """Return the greatest (or least) value of all positions; None where the quantity has no value at any."""
     course = _Sampled.from_positions(sorted(known, key=itemgetter(0)), span, quantity)
     if course.nothing:
@@ -301,7 +301,7 @@ class _Sampled:
     swing: bool
 
     @classmethod
-    def from_positions(cls, pool: Sequence[tuple[float, P]], span: RollRange, quantity: Quantity[P]) -> _Sampled:
+    def from_positions(cls, pool: Sequence[tuple[float, P]], span: RollRange, quantity: ExtremeQuantity[P]) -> _Sampled:
         """Return the values of a quantity at known positions, which are in the order of their angles."""
         angles, positions = zip(*pool, strict=True)
         values = quantity.sign * np.array([quantity.value(each) for each in positions], float)
@@ -587,11 +587,11 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
         lines = np.diff(angles, append=angles[0] + pitch) @ (values + np.roll(values, -1, axis=0)) / 2 / pitch
         return mean, np.abs(lines - mean)
 
-    def searched(self, quantities: Sequence[Quantity[Position]]) -> Self:
+    def searched(self, quantities: Sequence[ExtremeQuantity[Position]]) -> Self:
         """Return the cycle with positions between the even ones, so that the quantities' greatest values are found."""
         return replace(self, between=(*self.between, *add_positions(self._known, self._span, self.solve, quantities)))
 
-    def extreme(self, quantity: Quantity[Position]) -> Extreme | None:
+    def extreme(self, quantity: ExtremeQuantity[Position]) -> Extreme | None:
         """The greatest value of all positions, and what may be missed of it; None where there is none."""
         return extreme(self._known, self._span, quantity)
 

@@ -20,13 +20,13 @@ import numpy as np
 
 from gearcad.contact.shared.bodies import Chain, Cuts, cut_held, polar_turn
 from gearcad.contact.solid.condensation import Condensed, Forward, condense
-from gearcad.contact.solid.dissection import PARITIES, TURNED, Box, HalfTurn, dissected
+from gearcad.contact.solid.dissection import PARITIES, TURNED, ElementBlock, HalfTurn, dissected
 from gearcad.contact.solid.elements import HUB_PARITIES, bore_forces, layer_matrices, rigid_motions, seen_at
-from gearcad.contact.solid.fronts import Inside, Reversal, Span, eliminated, joined, node_dofs, solved_rows
+from gearcad.contact.solid.fronts import Inside, Reversal, ToothSpan, eliminated, joined, node_dofs, solved_rows
 from gearcad.core.records import Floats, Wholes
 from gearcad.core.runtime import Share, cores, on_all_cores, one_thread, unheard
 from gearcad.material import Material
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.sector import SweptMesh
 
 
@@ -35,7 +35,7 @@ class _Made(NamedTuple):
 
     condensed: Condensed
     hub_forward: Forward
-    span: Span
+    span: ToothSpan
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class SolidSector:
     @cached_property
     def hub(self) -> Wholes:
         """Dofs that belong to the hub."""
-        return np.empty(0, int) if self.free else node_dofs(self.mesh.over(self.mesh.side(Side.HELD)))
+        return np.empty(0, int) if self.free else node_dofs(self.mesh.over(self.mesh.side(OutlineSide.HELD)))
 
     @property
     def cut_radii(self) -> Floats:
@@ -139,7 +139,7 @@ class SolidSector:
         return self._made.hub_forward
 
     @property
-    def span(self) -> Span:
+    def span(self) -> ToothSpan:
         """The sector alone as a row of sectors: on its cuts and its hub."""
         return self._made.span
 
@@ -155,14 +155,14 @@ class SolidSector:
             hub = own - inner[parity]
             across[:, others] = hub[others] = hub[:, others] = 0.0
             matrices.append(np.block([[at_cut[parity], across], [across.T, hub]]))
-        span = Span((matrices[0], matrices[1]), 1, self._reversal, self.seen_by, self.hub_parities)
+        span = ToothSpan((matrices[0], matrices[1]), 1, self._reversal, self.seen_by, self.hub_parities)
         return _Made(condensed, solved, span)
 
     def _condense(self) -> tuple[Condensed, tuple[Floats, Floats]]:
         section, layers = self.mesh.section, [matrices for _, matrices in self._layers(self.mesh.section.quads)]
-        held = np.empty(0, int) if self.free else self.mesh.side(Side.HELD)
+        held = np.empty(0, int) if self.free else self.mesh.side(OutlineSide.HELD)
 
-        def matrices_of(box: Box) -> Floats:
+        def matrices_of(box: ElementBlock) -> Floats:
             matrices = np.concatenate([layers[layer][box.quads] for layer in range(box.first, box.last)])
             return self._with_polar_cuts(box.nodes(self.mesh), matrices)
 
@@ -209,7 +209,7 @@ class SolidSector:
         if self.free:
             free: Floats = self.cut_turn.T @ bore_forces(self.mesh)
             return free
-        near = np.flatnonzero(np.isin(self.mesh.section.quads, self.mesh.side(Side.HELD)).any(axis=1))
+        near = np.flatnonzero(np.isin(self.mesh.section.quads, self.mesh.side(OutlineSide.HELD)).any(axis=1))
         result: Floats = self.cut_turn.T @ (self.stiffness(near) @ (self.cut_turn @ self.hub_turn))
         return result[:, None]
 
@@ -240,10 +240,10 @@ class Around(Protocol):
         ...
 
 
-def ring_around(sector: Span, rest: int, neighbours: int) -> tuple[Around, tuple[Floats, Floats]]:
+def ring_around(sector: ToothSpan, rest: int, neighbours: int) -> tuple[Around, tuple[Floats, Floats]]:
     """The rest of a ring: so many sectors, of which those of `neighbours` on each side are told.
 
-    Second its matrices (n + hub, n + hub), even and odd, on the cut behind tooth 0 and the hub; the energy is as of a Span.
+    Second its matrices (n + hub, n + hub), even and odd, on the cut behind tooth 0 and the hub, with the energy of a ToothSpan.
     """
     left = rest - 2 * neighbours
     row, inside = sector.repeated(left) if left else None, []
@@ -266,7 +266,7 @@ class _RingAround:
     """How the cuts `inside` follow each other, from tooth 0 on; `seen` turns the hub's dofs to those from the middle of the
     rest, which is opposite to tooth 0."""
 
-    sector: Span
+    sector: ToothSpan
     seen: Floats
     inside: list[Inside]
 
@@ -277,7 +277,9 @@ class _RingAround:
         return found
 
 
-def sides_around(sector: Span, side: int, neighbours: int, held: Cuts, radii: Floats) -> tuple[Around, tuple[Floats, Floats]]:
+def sides_around(
+    sector: ToothSpan, side: int, neighbours: int, held: Cuts, radii: Floats
+) -> tuple[Around, tuple[Floats, Floats]]:
     """So many sectors on each side, of which those of `neighbours` are told; nodes of a cut are at `radii` (mm).
 
     Second the matrices as of `ring_around`.
@@ -302,7 +304,7 @@ def sides_around(sector: Span, side: int, neighbours: int, held: Cuts, radii: Fl
 class _SidesAround:
     """`lowers` are L (see `dense`) of the first cut inside rows of 2, 3 ... sectors up to the held cut."""
 
-    sector: Span
+    sector: ToothSpan
     side: int
     neighbours: int
     held: Cuts

@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.contact.solid.dissection import PARITIES, TURNED, Box, HalfTurn, Halves, front_flops
-from gearcad.contact.solid.fronts import Blocks, Elimination, Front, Store, node_dofs
+from gearcad.contact.solid.dissection import PARITIES, TURNED, ElementBlock, HalfTurn, Halves, front_flops
+from gearcad.contact.solid.fronts import Blocks, Elimination, EliminationStep, Store, node_dofs
 from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.core.runtime import Share, on_all_cores
 
@@ -30,7 +30,7 @@ Solved = list[Floats | None]
 class FrontTree:
     """Fronts in the order in which they went, of a mesh of so many `nodes`; the nodes `top` (n,), sorted, are left."""
 
-    fronts: tuple[Front, ...]
+    fronts: tuple[EliminationStep, ...]
     top: Wholes
     nodes: int
 
@@ -253,7 +253,7 @@ class Condensed:
 
     orbits: _Orbits
     half: FrontTree
-    top: tuple[Front, Front]
+    top: tuple[EliminationStep, EliminationStep]
 
     def forward(self, loads: Floats, nodes: Wholes) -> tuple[Forward, tuple[Floats, Floats]]:
         """Return loads (3 k, m) at nodes (k,) in the form that `backward` needs, and those that arrive at the cut.
@@ -312,7 +312,7 @@ class Condensed:
 
 
 def condense(
-    turn: HalfTurn, halves: Halves, cut: Wholes, matrices_of: Callable[[Box], Floats], tell: Share
+    turn: HalfTurn, halves: Halves, cut: Wholes, matrices_of: Callable[[ElementBlock], Floats], tell: Share
 ) -> tuple[Condensed, tuple[Floats, Floats]]:
     """Eliminate all nodes but those of the cut behind, `cut` (n,), and what the turn makes of them.
 
@@ -332,7 +332,7 @@ def condense(
             over += flops
             tell(min(over / halves.flops, 1.0))
 
-    def nodes_of(box: Box) -> Wholes:
+    def nodes_of(box: ElementBlock) -> Wholes:
         return box.nodes(turn.mesh)
 
     store, between, ends = Store(halves.factors), 3 * len(halves.between), 3 * len(cut)
@@ -355,11 +355,11 @@ def condense(
         given.append(blocks)
     del matrix
 
-    def eliminated(blocks: Blocks) -> tuple[Front, Floats]:
+    def eliminated(blocks: Blocks) -> tuple[EliminationStep, Floats]:
         own, across, rest = blocks.eliminated()
         fill_upper(rest)
         done(front_flops(len(halves.between), len(cut)))
-        return Front(halves.between, cut, own, across), rest
+        return EliminationStep(halves.between, cut, own, across), rest
 
     (even, of_even), (odd, of_odd) = on_all_cores(eliminated, given)
     half = FrontTree(tuple(elimination.fronts), orbits.top, turn.mesh.nodes)

@@ -84,7 +84,7 @@ _DIRECTIONS, _SHARES = 16, (0.42, 0.46, 0.5, 0.54, 0.58)
 """Lines along which a division is tried: directions, and parts of the quadrangles on one side."""
 
 
-class Box(NamedTuple):
+class ElementBlock(NamedTuple):
     """Hexahedra over some quadrangles of the section, from layer `first` to before `last`."""
 
     quads: Wholes
@@ -107,7 +107,7 @@ class SolidPart:
     own: Wholes
     aside: Wholes
     parts: tuple[SolidPart, ...] = ()
-    box: Box | None = None
+    box: ElementBlock | None = None
 
     @property
     def flops(self) -> float:
@@ -134,7 +134,7 @@ class Halves:
     """
 
     half: SolidPart
-    middle: Box | None
+    middle: ElementBlock | None
     between: Wholes
     cut: int
 
@@ -180,16 +180,16 @@ def dissected(turn: HalfTurn, kept: Wholes, held: Wholes) -> Halves:
     return min((dissection.halves(turn, boxes, middle) for boxes, middle in _ways(turn)), key=lambda each: each.flops)
 
 
-def _ways(turn: HalfTurn) -> list[tuple[list[Box], Box | None]]:
+def _ways(turn: HalfTurn) -> list[tuple[list[ElementBlock], ElementBlock | None]]:
     """Boxes of one half, and what is in the middle: of the section, and of the layers, the one half-way up by its section."""
     section, layers = turn.mesh.section, turn.mesh.layers
     height = section.points[section.quads[:, :4], 1].mean(axis=1)
     every, alone = np.arange(len(section.quads)), np.abs(height) < _ON_AXIS * np.abs(height).max()
     left, middle, lower = np.flatnonzero(~alone & (height > 0)), np.flatnonzero(alone), layers // 2
-    ways = [([Box(left, 0, layers)], Box(middle, 0, layers))]
+    ways = [([ElementBlock(left, 0, layers)], ElementBlock(middle, 0, layers))]
     if lower:
-        rest = [] if lower * 2 == layers else [Box(left, lower, lower + 1)]
-        ways.append(([Box(every, 0, lower), *rest], Box(middle, lower, layers - lower)))
+        rest = [] if lower * 2 == layers else [ElementBlock(left, lower, lower + 1)]
+        ways.append(([ElementBlock(every, 0, lower), *rest], ElementBlock(middle, lower, layers - lower)))
     return [(boxes, box if len(box.quads) and box.last > box.first else None) for boxes, box in ways]
 
 
@@ -200,7 +200,7 @@ class _Dissection:
     held: Wholes
     lines: dict[bytes, _Line] = field(default_factory=dict)
 
-    def halves(self, turn: HalfTurn, boxes: list[Box], middle: Box | None) -> Halves:
+    def halves(self, turn: HalfTurn, boxes: list[ElementBlock], middle: ElementBlock | None) -> Halves:
         """Return the halves of a sector by boxes, which are one half, and the box in the middle if there is one."""
         given = [self._divided(box) for box in boxes]
         half = given[0] if len(given) == 1 else self._joined(given)
@@ -241,7 +241,7 @@ class _Dissection:
         uses[self.mesh.over(self.kept)] += 1
         return uses
 
-    def _divided(self, box: Box) -> _Counted:
+    def _divided(self, box: ElementBlock) -> _Counted:
         """Return the part of a box with the counts of the nodes that it leaves.
 
         It has parts, each divided further, or its hexahedra where they are few.
@@ -259,18 +259,18 @@ class _Dissection:
         own = times == self._uses[nodes]
         return _Counted(SolidPart(nodes[own], nodes[~own], tuple(each.part for each in given)), times[~own])
 
-    def _parts(self, box: Box) -> list[Box]:
+    def _parts(self, box: ElementBlock) -> list[ElementBlock]:
         """The boxes on both sides of where fewest nodes stand; none if hexahedra are few."""
         quads, first, last = box
         layers, found = last - first, []
         if len(quads) > _QUADS:
             line = self._line(quads)
             standing = line.nodes * (layers + 1) + line.vertices * layers
-            found.append((standing, [Box(side, first, last) for side in line.sides]))
+            found.append((standing, [ElementBlock(side, first, last) for side in line.sides]))
         if layers > _LAYERS:
             standing = int(self._free[np.unique(self.mesh.section.quads[quads])].sum())
             middle = (first + last) // 2
-            found.append((standing, [Box(quads, first, middle), Box(quads, middle, last)]))
+            found.append((standing, [ElementBlock(quads, first, middle), ElementBlock(quads, middle, last)]))
         return min(found, key=lambda each: each[0])[1] if found else []
 
     def _line(self, quads: Wholes) -> _Line:

@@ -16,7 +16,7 @@ import numpy as np
 
 from gearcad.core.records import Floats, Wholes
 from gearcad.material import Material
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.sector import SweptMesh, turned
 
 _CORNERS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
@@ -117,7 +117,7 @@ def _rule(count: int) -> tuple[Floats, Floats, Floats]:
 
 
 @dataclass(frozen=True)
-class Faces:
+class QuadraticFaces:
     """Quadratic faces (m, 8), four vertices and the nodes between, counter-clockwise seen from outside."""
 
     nodes: Wholes
@@ -164,10 +164,10 @@ class Faces:
         result: Floats = self._sums[1] @ nodal.reshape(-1, 3)
         return result
 
-    def among(self, nodes: Wholes) -> Faces:
+    def among(self, nodes: Wholes) -> QuadraticFaces:
         """The faces all of whose nodes are among some."""
         chosen = np.isin(self.nodes, nodes).all(axis=1)
-        return Faces(self.nodes[chosen], self.points[chosen])
+        return QuadraticFaces(self.nodes[chosen], self.points[chosen])
 
     def smooth_forces(self, mesh: SweptMesh, traction: Callable[[Floats, Floats], Floats]) -> Floats:
         """Nodal forces (n, 3, ...) of a smooth traction field."""
@@ -187,7 +187,7 @@ def summing(nodes: Wholes) -> tuple[Wholes, Any]:
     return used, scipy.sparse.csr_matrix(entries, shape=(len(used), nodes.size))
 
 
-def boundary_faces(mesh: SweptMesh, quads: Wholes) -> Faces:
+def boundary_faces(mesh: SweptMesh, quads: Wholes) -> QuadraticFaces:
     """The faces around the hexahedra over some section quadrangles: sides of all layers, and both ends."""
     section = mesh.section.quads[quads]
     edges = section[:, [[0, 4, 1], [1, 5, 2], [2, 6, 3], [3, 7, 0]]].reshape(-1, 3)
@@ -197,7 +197,7 @@ def boundary_faces(mesh: SweptMesh, quads: Wholes) -> Faces:
     top = section + mesh.plane(mesh.layers)
     bottom = (section + mesh.plane(0))[:, [0, 3, 2, 1, 7, 6, 5, 4]]
     nodes = np.concatenate([*found, top, bottom])
-    return Faces(nodes, mesh.points[nodes])
+    return QuadraticFaces(nodes, mesh.points[nodes])
 
 
 HUB_PARITIES = np.array([-1.0, 1.0, -1.0, -1.0, 1.0, -1.0])
@@ -218,8 +218,8 @@ def rigid_motions(points: Floats, middle: float) -> Floats:
 def bore_forces(mesh: SweptMesh) -> Floats:
     """Nodal forces (3 nodes, 6) in the turning axes, by tractions on the bore like a rigid motion's part along its surface."""
     section = mesh.section
-    inner = np.isin(section.quads, mesh.side(Side.HELD))
-    faces = boundary_faces(mesh, np.flatnonzero(inner.sum(axis=1) >= _ON_ARC)).among(mesh.over(mesh.side(Side.HELD)))
+    inner = np.isin(section.quads, mesh.side(OutlineSide.HELD))
+    faces = boundary_faces(mesh, np.flatnonzero(inner.sum(axis=1) >= _ON_ARC)).among(mesh.over(mesh.side(OutlineSide.HELD)))
     middle = (mesh.planes[0] + mesh.planes[-1]) / 2
 
     def sheared(points: Floats, normals: Floats) -> Floats:

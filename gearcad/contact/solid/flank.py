@@ -23,7 +23,7 @@ from gearcad.core.records import Floats, Wholes
 from gearcad.core.runtime import Share, unheard
 from gearcad.geometry import Gear
 from gearcad.material import Material
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.sector import SweptMesh, turned
 
 Places = tuple[Floats, Floats]
@@ -57,7 +57,7 @@ class SolidFlank(LoadedFlank):
 
 
 @dataclass(frozen=True)
-class Grid:
+class FlankGrid:
     """Places on the flank in rows and columns: roll lengths (rows,) and heights (columns,); a place is column * rows + row."""
 
     lengths: Floats
@@ -75,7 +75,7 @@ class GridSpline:
     Near an edge of the flank the response varies like the logarithm of the distance from it.
     """
 
-    def __init__(self, grid: Grid, tip: float, corner: float, width: float) -> None:
+    def __init__(self, grid: FlankGrid, tip: float, corner: float, width: float) -> None:
         from scipy.interpolate import CubicSpline
 
         self._tip, self._corner, self._width = tip, corner, width
@@ -307,8 +307,8 @@ class SolidCompliance(FlankCompliance):
     flank: SolidFlank
     body: SolidBody
     material: Material
-    loads: Grid
-    grid: Grid
+    loads: FlankGrid
+    grid: FlankGrid
     moved: dict[int, Floats]
     surface: Wholes
     displacements: Floats
@@ -324,7 +324,7 @@ class SolidCompliance(FlankCompliance):
     def hub_radius(self) -> float:
         """Radius at which the body is held (mm)."""
         mesh = self.body.sector.mesh
-        return float(np.hypot(*mesh.section.points[mesh.side(Side.HELD)[0]]))
+        return float(np.hypot(*mesh.section.points[mesh.side(OutlineSide.HELD)[0]]))
 
     @property
     def nodes(self) -> int:
@@ -429,14 +429,14 @@ def solid_compliance(
     found[0] = found[0] - np.where(distance > 1e-9, surface_displacement(np.maximum(distance, 1e-9), material), 0.0)
     found[0] -= Images(flank, material).normal(grid.places, places)
     # The elements of a bore have all of what is far from the load.
-    on_tooth = np.flatnonzero(~np.isin(surface, mesh.over(mesh.side(Side.HELD))))
+    on_tooth = np.flatnonzero(~np.isin(surface, mesh.over(mesh.side(OutlineSide.HELD))))
     displacements[body.neighbours][on_tooth] -= rest.taken_off_at(surface[on_tooth])
     return SolidCompliance(flank, body, material, loads, grid, found, surface, displacements, rest.forces, moved.torques)
 
 
 def _surface(mesh: SweptMesh, *, free: bool) -> Wholes:
     """Nodes (n,), sorted, of the loaded flank, of the fillets, and of the bore if it is free."""
-    sides = (Side.LEFT_FLANK, Side.LEFT_FILLET, Side.RIGHT_FILLET, *([Side.HELD] if free else []))
+    sides = (OutlineSide.LEFT_FLANK, OutlineSide.LEFT_FILLET, OutlineSide.RIGHT_FILLET, *([OutlineSide.HELD] if free else []))
     return np.unique(mesh.over(np.unique(np.concatenate([mesh.side(side) for side in sides]))))
 
 
@@ -447,15 +447,15 @@ def _normal(mesh: SweptMesh, vectors: Floats, nodes: Wholes, inward: Floats) -> 
     return result
 
 
-def _flank_grid(flank: SolidFlank, mesh: SweptMesh) -> tuple[Wholes, Grid]:
+def _flank_grid(flank: SolidFlank, mesh: SweptMesh) -> tuple[Wholes, FlankGrid]:
     """Nodes of the flank, plane by plane from root to tip, and their places."""
-    chain = mesh.side(Side.LEFT_FLANK)[::-1]
+    chain = mesh.side(OutlineSide.LEFT_FLANK)[::-1]
     lengths = flank.roll_lengths(np.hypot(*mesh.section.points[chain].T))
     nodes = np.concatenate([chain + mesh.plane(k) for k in range(len(mesh.planes))])
-    return nodes, Grid(lengths, mesh.planes)
+    return nodes, FlankGrid(lengths, mesh.planes)
 
 
-def _load_grid(grid: Grid, gear: Gear, start: float) -> Grid:
+def _load_grid(grid: FlankGrid, gear: Gear, start: float) -> FlankGrid:
     """Rows on vertices of the flank but for its tip corner, the first not above `start`; a column half-way up every layer.
 
     An undercut flank ends in a corner at the root as well, where no load can be taken off as one on a half-space. Raises
@@ -466,7 +466,7 @@ def _load_grid(grid: Grid, gear: Gear, start: float) -> Grid:
     if len(vertices) < _FEWEST_ROWS:
         text = f"the flanks of the gear with {gear.teeth} teeth have too few elements to be loaded: the mesh must be finer"
         raise SolverError(f"{text} (refinement of [check])")
-    return Grid(vertices[_spread(len(vertices), _ROWS)], (grid.heights[1:] + grid.heights[:-1]) / 2)
+    return FlankGrid(vertices[_spread(len(vertices), _ROWS)], (grid.heights[1:] + grid.heights[:-1]) / 2)
 
 
 def _spread(count: int, wanted: int) -> Wholes:
@@ -480,6 +480,6 @@ def _near_quads(gear: Gear, mesh: SweptMesh) -> Wholes:
     radius, root = np.hypot(*centre.T), gear.profile.root_diameter / 2
     if gear.internal:
         # A thin rim ends before that: what the field leaves on its held circle would be missing in the torque.
-        held = np.isin(mesh.section.quads, mesh.side(Side.HELD)).any(axis=1)
+        held = np.isin(mesh.section.quads, mesh.side(OutlineSide.HELD)).any(axis=1)
         return np.flatnonzero((radius < root + gear.normal_module) & ~held)
     return np.flatnonzero(radius > root - gear.normal_module)

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearcad.contact.solid.dissection import PARITIES, Box, SolidPart
+from gearcad.contact.solid.dissection import PARITIES, ElementBlock, SolidPart
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Floats, Wholes
 from gearcad.core.runtime import on_all_cores
@@ -164,7 +164,7 @@ def node_dofs(nodes: Wholes) -> Wholes:
 
 
 @dataclass(frozen=True)
-class Front:
+class EliminationStep:
     """One step: nodes that go, those that take over their load, L of the matrix of the first, L^-1 times that across.
 
     Loads and displacements are rows, three of each node, its own nodes first.
@@ -259,11 +259,11 @@ class Elimination:
     """
 
     nodes: int
-    nodes_of: Callable[[Box], Wholes]
-    matrices_of: Callable[[Box], Floats]
+    nodes_of: Callable[[ElementBlock], Wholes]
+    matrices_of: Callable[[ElementBlock], Floats]
     store: Store
     done: Callable[[float], None]
-    fronts: list[Front] = field(default_factory=list)
+    fronts: list[EliminationStep] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self._places = np.full(self.nodes, -1)  # but for the nodes of the part that is put together
@@ -273,7 +273,7 @@ class Elimination:
         """`eliminated`, the greater parts of it side by side."""
         apart = _apart(part, _APART * part.all_flops)
 
-        def work(each: SolidPart) -> tuple[list[Front], Floats]:
+        def work(each: SolidPart) -> tuple[list[EliminationStep], Floats]:
             helper = replace(self, fronts=[])
             return helper.fronts, helper.eliminated(each)
 
@@ -294,7 +294,7 @@ class Elimination:
             return known.pop(id(part))
         blocks = self._assembled(part, known).eliminated()
         if len(part.own):
-            self.fronts.append(Front(part.own, part.aside, blocks.own, blocks.across))
+            self.fronts.append(EliminationStep(part.own, part.aside, blocks.own, blocks.across))
         self.done(part.flops)
         return blocks.rest
 
@@ -364,7 +364,7 @@ class Reversal:
 
 
 @dataclass(frozen=True)
-class Span:
+class ToothSpan:
     """So many `teeth` in a row: symmetric matrices (n + hub, n + hub), even and odd, on the cut behind and the hub.
 
     The hub's dofs are seen from the middle of the row; those of the other parity are left out, with zeros in their place.
@@ -433,7 +433,7 @@ class Span:
         given = np.concatenate([ends[:n] / 2, self.seen(-aside) @ ends[n:]])
         return self.reversal.rows(even[:n] @ given - odd[:n] @ given)
 
-    def repeated(self, times: int) -> Span:
+    def repeated(self, times: int) -> ToothSpan:
         """So many of this row."""
         if times == 1:
             return self
@@ -449,7 +449,7 @@ class Inside:
     the hub; None where the row has only `side` twice, and `lower` are of the even and the odd part of the cut.
     """
 
-    side: Span
+    side: ToothSpan
     aside: float
     lower: tuple[Floats, Floats]
     hub: tuple[Floats, Floats] | None
@@ -465,7 +465,7 @@ class Inside:
         return -reversal.whole(solved_rows(self.lower[parity], part), parity)
 
 
-def joined(side: Span, middle: Span | None) -> tuple[Span, Inside]:
+def joined(side: ToothSpan, middle: ToothSpan | None) -> tuple[ToothSpan, Inside]:
     """A row on both sides of another one, or of none."""
     teeth = 2 * side.teeth + (0 if middle is None else middle.teeth)
     n, aside, reversal = side.cut, (teeth - side.teeth) / 2, side.reversal
@@ -486,7 +486,7 @@ def joined(side: Span, middle: Span | None) -> tuple[Span, Inside]:
         return lower, matrix
 
     lowers, matrices = zip(*on_all_cores(of, (0, 1)), strict=True)
-    whole = Span((matrices[0], matrices[1]), teeth, reversal, side.seen, side.hub_parities)
+    whole = ToothSpan((matrices[0], matrices[1]), teeth, reversal, side.seen, side.hub_parities)
     hub = None if middle is None else (middle.matrices[0][:n, n:].copy(), middle.matrices[1][:n, n:].copy())
     return whole, Inside(side, aside, (lowers[0], lowers[1]), hub)
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
 from gearcad.contact.solid.flank import SolidCompliance, ToothForces
 from gearcad.core.records import Floats, Wholes
-from gearcad.meshing.outline import Side
+from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.quads import GAUSS, edges_of_chain
 
 __all__ = ["FilletState", "SolidFillet", "SolidFillets", "solid_fillets"]
@@ -40,7 +40,7 @@ class SolidFillet:
     """
 
     body: SolidCompliance
-    side: Side
+    side: OutlineSide
 
     @property
     def heights(self) -> Floats:
@@ -135,7 +135,7 @@ class SolidFillet:
         neighbours = self.body.neighbours
         teeth = range(-neighbours, neighbours + 1)
         found = {tooth: self._stresses(self.body.surface_displacements(tooth)) for tooth in teeth}
-        if self.side is not Side.HELD:
+        if self.side is not OutlineSide.HELD:
             found[0] += self._taken_off
         return found
 
@@ -186,8 +186,8 @@ class SolidFillets(NamedTuple):
 
 def solid_fillets(body: SolidCompliance) -> SolidFillets:
     """The fillets of tooth 0 of a body, and its bore."""
-    bore = SolidFillet(body, Side.HELD) if body.body.sector.free else None
-    return SolidFillets(SolidFillet(body, Side.LEFT_FILLET), SolidFillet(body, Side.RIGHT_FILLET), bore)
+    bore = SolidFillet(body, OutlineSide.HELD) if body.body.sector.free else None
+    return SolidFillets(SolidFillet(body, OutlineSide.LEFT_FILLET), SolidFillet(body, OutlineSide.RIGHT_FILLET), bore)
 
 
 def _between(places: Floats) -> Floats:

@@ -379,7 +379,7 @@ BEYOND_AXIS = 6.0
 
 
 @dataclass(frozen=True)
-class Front:
+class FrontView:
     """A gear seen from its upper end: its axis `centre` (mm of the part), and the radii of the drawn pitch circles (mm).
 
     Its keyway or first bolt hole is up. `tip` is the pen of its tip circle; a `bare` one has nothing but tip and pitch circles.

@@ -13,7 +13,7 @@ from gearcad.drawing.annotation_text import Cell, plain, symbol, table
 from gearcad.drawing.drawing_subjects import DrawnGear
 from gearcad.drawing.shapes import Anchor, Figure, Line, Pen, Polyline, Shape, Text
 from gearcad.drawing.views.tooth_detail import spread
-from gearcad.drawing.words import Draughting, Words
+from gearcad.drawing.words import Draughting, SheetWords
 from gearcad.geometry import Gear
 
 _BETWEEN = 24
@@ -182,7 +182,7 @@ def _places(plot: _Plot) -> Figure:
     return Figure.of(*parts)
 
 
-def _names(plot: _Plot, words: Words) -> Figure:
+def _names(plot: _Plot, words: SheetWords) -> Figure:
     """Return the names of the curves at their right ends; empty for a single curve."""
     series = sorted(plot.depths.series, key=lambda each: plot.up(each.along[-1]))
     if len(series) == 1:
@@ -196,7 +196,7 @@ def _names(plot: _Plot, words: Words) -> Figure:
     return Figure.of(*parts)
 
 
-def _table(place_symbol: str, depths: Depths, words: Words) -> Figure:
+def _table(place_symbol: str, depths: Depths, words: SheetWords) -> Figure:
     """Return the table of number, diameter (mm), place (mm) and depths (µm), its upper left corner at the origin."""
     several = len(depths.series) > 1
     columns = [["", *(str(i + 1) for i in range(len(depths.places)))]]
@@ -232,7 +232,7 @@ def modification_figures(drawn: DrawnGear, draughting: Draughting) -> tuple[Figu
     return tuple(figures)
 
 
-def _notes(gear: Gear, depths: Depths, direction: int, words: Words) -> Iterator[str]:
+def _notes(gear: Gear, depths: Depths, direction: int, words: SheetWords) -> Iterator[str]:
     """Yield notes on the sign of depths and, if it matters, on the origin of z and the viewing direction of flanks."""
     yield words["rings.depth_sign"]
     near, far = ("left", "right") if direction > 0 else ("right", "left")

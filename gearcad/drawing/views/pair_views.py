@@ -17,7 +17,7 @@ from gearcad.drawing.views.assembly_figures import (
     BEYOND_AXIS,
     Across,
     Cut,
-    Front,
+    FrontView,
     Sectioned,
     balloons,
     cut_gear,
@@ -114,7 +114,7 @@ class PairPlaces:
         if isinstance(part.part, Rack):
             left, right = self.shown
             return Box(left, -part.part.height, right, part.part.tip_height)
-        return Box(0.0, part.height, 0.0, part.height).grown(Front(part.part).reach)
+        return Box(0.0, part.height, 0.0, part.height).grown(FrontView(part.part).reach)
 
     @property
     def shown(self) -> tuple[float, float]:
@@ -180,7 +180,7 @@ def _paper(box: Box, scale: float) -> Box:
 def _drawn(places: PairPlaces, part: Placed, scale: float) -> Figure:
     """Return a gear, or the body of a rack up to the tips, broken where it continues."""
     if not isinstance(part.part, Rack):
-        return Front(part.part, (0.0, part.height), (part.pitch,)).figure(scale)
+        return FrontView(part.part, (0.0, part.height), (part.pitch,)).figure(scale)
     left, bottom, right, top = _paper(places.front_of(part), scale)
     if not any(places.broken):
         return Figure.of(Polyline.straight([(left, bottom), (right, bottom), (right, top), (left, top)], closed=True))

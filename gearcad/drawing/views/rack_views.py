@@ -38,7 +38,7 @@ _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
-class Span:
+class RackRange:
     """The shown range of a rack, seen from the end face at z = face width, x to the right. Its middle is at the origin."""
 
     rack: Rack
@@ -155,7 +155,7 @@ _SPACING, _LONGEST, _SHARE = 3.0, 24.0, 0.7
 # ---------------------------------------------------------------------- front
 
 
-def front_figure(span: Span) -> Figure:
+def front_figure(span: RackRange) -> Figure:
     """Return the front view: teeth at both ends, between them the tip line and a thin root line. The reference line is at
     height 0.
     """
@@ -177,13 +177,13 @@ def front_figure(span: Span) -> Figure:
     return Figure(tuple(shapes))
 
 
-def tooth_middles(span: Span) -> list[float]:
+def tooth_middles(span: RackRange) -> list[float]:
     """Return the middles of the first two whole teeth (mm of paper)."""
     pitch = span.rack.transverse_pitch
     return [span.across(span.first_middle + number * pitch) for number in range(min(span.whole_teeth, 2))]
 
 
-def _placed(span: Span, outline: tuple[Vertex, ...], back: float) -> Polyline:
+def _placed(span: RackRange, outline: tuple[Vertex, ...], back: float) -> Polyline:
     """Return an outline of teeth on paper, with the end face where it begins or ends at one."""
     place = span.across(outline[0][0]) - span.scale * outline[0][0]
     row: list[Vertex] = [(span.scale * x + place, span.scale * y, bulge) for x, y, bulge in outline]
@@ -194,7 +194,7 @@ def _placed(span: Span, outline: tuple[Vertex, ...], back: float) -> Polyline:
     return Polyline(tuple(row))
 
 
-def _between(span: Span) -> Iterator[tuple[float, float]]:
+def _between(span: RackRange) -> Iterator[tuple[float, float]]:
     """Yield the ranges without drawn teeth (mm of paper), one for each shown part."""
     if len(span.toothed) == 1:
         return
@@ -203,7 +203,7 @@ def _between(span: Span) -> Iterator[tuple[float, float]]:
         yield span.across(max(start, low)), span.across(min(end, high))
 
 
-def _breaks(span: Span, low: float, high: float) -> Iterator[Shape]:
+def _breaks(span: RackRange, low: float, high: float) -> Iterator[Shape]:
     """Yield lines with zigzags where the rack is broken."""
     if span.kept is not None:
         for place in (span.kept, span.rack.length - span.kept):
@@ -231,7 +231,7 @@ def end_figure(rack: Rack, scale: float) -> Figure:
 # ---------------------------------------------------------------------- from above
 
 
-def plan_figure(span: Span) -> Figure:
+def plan_figure(span: RackRange) -> Figure:
     """Return the rectangle of length and face width, z downwards, and three thin lines for the direction of helical teeth."""
     half = span.scale * span.rack.face_width / 2
     shapes: list[Shape] = []
@@ -245,7 +245,7 @@ def plan_figure(span: Span) -> Figure:
     return Figure(tuple(shapes))
 
 
-def _tooth_directions(span: Span) -> Iterator[Shape]:
+def _tooth_directions(span: RackRange) -> Iterator[Shape]:
     """Yield the lines of the tooth direction, in the middle of the first part. A tooth moves by `drift` along +x where z,
     downwards, grows by 1.
     """
@@ -289,7 +289,7 @@ _Sources = tuple[Callable[[], Iterable[Figure]], ...]
 class FrontMarks:
     """Marks of the front view of a rack."""
 
-    span: Span
+    span: RackRange
     requirements: Requirements
     draughting: Draughting
 
@@ -420,7 +420,7 @@ class EndMarks:
 
 def front_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View:
     """Return the view of the end faces at z = face width; the reference line is at height 0."""
-    span = Span(_rack(drawn), draughting.scale)
+    span = RackRange(_rack(drawn), draughting.scale)
     return View("front", front_figure(span), FrontMarks(span, requirements, draughting).sources)
 
 
@@ -435,7 +435,7 @@ def end_section(drawn: DrawnGear, requirements: Requirements, draughting: Draugh
 def plan_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View | None:
     """Return the view from above, which shows the direction of the teeth; None for a spur rack."""
     rack = _rack(drawn)
-    return View("plan", plan_figure(Span(rack, draughting.scale))) if rack.helix_angle else None
+    return View("plan", plan_figure(RackRange(rack, draughting.scale))) if rack.helix_angle else None
 
 
 def _rack(drawn: DrawnGear) -> Rack:

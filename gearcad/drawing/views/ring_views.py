@@ -427,7 +427,7 @@ _OFF_AXIS = 0.15
 
 
 @dataclass(frozen=True)
-class FaceMarks:
+class RingFaceMarks:
     """Marks of a ring in its face view."""
 
     ring: Meridian
@@ -490,7 +490,7 @@ def section_view(drawn: DrawnGear, requirements: Requirements, draughting: Draug
 def face_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View:
     """Return the view from the left of the section, a bolt hole up."""
     ring = _meridian(drawn, draughting)
-    return View("face", end_face(ring), FaceMarks(ring, requirements, draughting).sources)
+    return View("face", end_face(ring), RingFaceMarks(ring, requirements, draughting).sources)
 
 
 def _meridian(drawn: DrawnGear, draughting: Draughting) -> Meridian:

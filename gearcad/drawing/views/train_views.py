@@ -23,7 +23,7 @@ from gearcad.drawing.views.assembly_figures import (
     BEYOND_AXIS,
     Across,
     Cut,
-    Front,
+    FrontView,
     Sectioned,
     balloons,
     cut_gear,
@@ -58,7 +58,7 @@ class InPlane:
 
 
 @dataclass(frozen=True)
-class TrainPlan:
+class PosedTrain:
     """The bodies of a train in mesh, its carrier at the angle 0."""
 
     train: PlanetaryTrain
@@ -234,7 +234,7 @@ _Interval = tuple[float, float]
 _Rectangle = tuple[tuple[float, float], ...]
 
 
-def bodies_of(plan: TrainPlan) -> list[tuple[str, Sectioned]]:
+def bodies_of(plan: PosedTrain) -> list[tuple[str, Sectioned]]:
     """Return the bodies, each with the key of its item, from the front teeth on: suns, planets, rings, stages, carrier."""
     suns = [each for each in plan.centrals if not each.standing.body.gear.internal]
     rings = [each for each in plan.centrals if each.standing.body.gear.internal]
@@ -256,7 +256,7 @@ def _gear(train: PlanetaryTrain, body: InPlane, angle: float) -> Sectioned:
     return Sectioned(cut_gear(gear, z, body.height), angle, tuple(pitch))
 
 
-def _carrier(plan: TrainPlan) -> Iterator[Sectioned]:
+def _carrier(plan: PosedTrain) -> Iterator[Sectioned]:
     """Yield the pins of the carrier, which are not hatched, and its plates."""
     carrier = plan.carrier
     if carrier is None:
@@ -332,7 +332,7 @@ _ABOVE, _BESIDE = (8.0, 14.0, 22.0, 30.0, 40.0), (0.0, 12.0, -12.0)
 """Positions of the name of the section, above the outlines and aside (mm of paper)."""
 
 
-def train_section(plan: TrainPlan, items: Mapping[str, int], draughting: Draughting, direction: int = 1) -> View:
+def train_section(plan: PosedTrain, items: Mapping[str, int], draughting: Draughting, direction: int = 1) -> View:
     """Return the section, with the axis of the train at height 0. z is to the right, or to the left if `direction` is -1;
     `items` are item numbers by keys.
     """
@@ -351,7 +351,7 @@ def train_section(plan: TrainPlan, items: Mapping[str, int], draughting: Draught
     return View("section", figure, tuple(marks))
 
 
-def _axes(plan: TrainPlan, across: Across) -> Iterator[Line]:
+def _axes(plan: PosedTrain, across: Across) -> Iterator[Line]:
     """Yield the axes of the train, its planets and its stages."""
     bodies = (*plan.centrals, *plan.planets, *plan.stages)
     for height in dict.fromkeys(body.height for body in bodies):
@@ -362,7 +362,7 @@ def _axes(plan: TrainPlan, across: Across) -> Iterator[Line]:
         yield Line((left - BEYOND_AXIS, y), (right + BEYOND_AXIS, y), Pen.CENTRE)
 
 
-def _stage_distances(plan: TrainPlan, box: Box, across: Across, draughting: Draughting) -> Iterator[Candidates]:
+def _stage_distances(plan: PosedTrain, box: Box, across: Across, draughting: Draughting) -> Iterator[Candidates]:
     """Yield the centre distance of each stage that is shown."""
     for stage in plan.train.stages:
         if stage.name in plan.left_out:
@@ -393,7 +393,7 @@ _ON_AXIS = 1e-6
 """Distance (mm) up to which a point is on an axis of the train."""
 
 
-def train_face(plan: TrainPlan, draughting: Draughting, looking: int = -1) -> View:
+def train_face(plan: PosedTrain, draughting: Draughting, looking: int = -1) -> View:
     """Return the view from +z: the axis of the train at the origin, the first planet above it, with centre distance and
     overall sizes.
 
@@ -416,7 +416,7 @@ def train_face(plan: TrainPlan, draughting: Draughting, looking: int = -1) -> Vi
     return View("face", figure, tuple(marks))
 
 
-def _distance(plan: TrainPlan, box: Box, draughting: Draughting) -> Iterator[Figure]:
+def _distance(plan: PosedTrain, box: Box, draughting: Draughting) -> Iterator[Figure]:
     """Yield dimensions from the axis of the train to that of the first planet."""
     scale, size = draughting.scale, Size(value=plan.distance)
     half = scale * max(rim.body.gear.tip_diameter for rim in plan.layout.planets[0]) / 2
@@ -425,25 +425,25 @@ def _distance(plan: TrainPlan, box: Box, draughting: Draughting) -> Iterator[Fig
         yield from linear_dimension(first, (edge + side.outwards * BEYOND_AXIS, 0.0), side, size, draughting, clear=edge)
 
 
-def planet_centres(plan: TrainPlan) -> list[Point]:
+def planet_centres(plan: PosedTrain) -> list[Point]:
     """Return the axes of the planets (mm of the part), the axis of the train at the origin."""
     turns = [math.radians(90 + turn) for turn in plan.turns]
     return [(plan.distance * math.cos(turn), plan.distance * math.sin(turn)) for turn in turns]
 
 
-def _fronts(plan: TrainPlan) -> Iterator[Front]:
+def _fronts(plan: PosedTrain) -> Iterator[FrontView]:
     train = plan.train
     centrals, rims = plan.layout.centrals, plan.layout.planets[0]
     for central in centrals:
-        yield Front(central.body.gear, (0.0, 0.0), pitch_radii(train, central.body.key), _tip(central, centrals))
+        yield FrontView(central.body.gear, (0.0, 0.0), pitch_radii(train, central.body.key), _tip(central, centrals))
     for centre in planet_centres(plan):
         for rim in rims:
-            yield Front(rim.body.gear, centre, pitch_radii(train, rim.body.key), _tip(rim, rims))
+            yield FrontView(rim.body.gear, centre, pitch_radii(train, rim.body.key), _tip(rim, rims))
     first = math.radians(90 - plan.layout.pose.planets[0].angle)
     for gear in plan.layout.stages:
         x, y = gear.axle.x, gear.axle.y
         at = x * math.cos(first) - y * math.sin(first), x * math.sin(first) + y * math.cos(first)
-        yield Front(gear.body.gear, at, pitch_radii(train, gear.body.key), Pen.THIN, bare=True)
+        yield FrontView(gear.body.gear, at, pitch_radii(train, gear.body.key), Pen.THIN, bare=True)
 
 
 def _tip(one: Standing, others: Sequence[Standing]) -> Pen:
@@ -458,7 +458,7 @@ def _tip(one: Standing, others: Sequence[Standing]) -> Pen:
     return Pen.OUTLINE
 
 
-def _centre_lines(plan: TrainPlan, fronts: Sequence[Front], box: Box, scale: float) -> Figure:
+def _centre_lines(plan: PosedTrain, fronts: Sequence[FrontView], box: Box, scale: float) -> Figure:
     """Return the centre lines of all axes, except that of the planet through which a bent section goes. The circle of the
     planets' axes is included.
     """
@@ -476,7 +476,7 @@ def _centre_lines(plan: TrainPlan, fronts: Sequence[Front], box: Box, scale: flo
     return figure
 
 
-def _paper(front: Front, scale: float) -> Point:
+def _paper(front: FrontView, scale: float) -> Point:
     """Return the centre of a gear on paper."""
     return scale * front.centre[0], scale * front.centre[1]
 

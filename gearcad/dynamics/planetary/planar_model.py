@@ -461,7 +461,7 @@ def _on_axis(stage: PairStage, role: Role, torques: PerGear[float]) -> tuple[flo
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Turning:
+class TurningPart:
     """A part that turns against the carrier: gaps (2, m) in µm and loads (2, n) in N, times cosine and sine of the angle.
 
     It turns with the member `follows`, or stands in space where that is None. `name` says what it is.
@@ -494,17 +494,19 @@ def gaps(train: PlanetaryTrain, springs: TrainSprings, sense: int) -> Floats:
     return gap
 
 
-def turning_and_standing(train: PlanetaryTrain, springs: TrainSprings, flow: PowerFlow) -> tuple[tuple[Turning, ...], Floats]:
+def turning_and_standing(
+    train: PlanetaryTrain, springs: TrainSprings, flow: PowerFlow
+) -> tuple[tuple[TurningPart, ...], Floats]:
     """Return all that turns against the carrier, and forces (n,) in N across the axis that stand still against it."""
     across, turning = _stages_across(train, springs, flow), []
     none = np.zeros_like(across)
     standing = train.fixed is not None and shafts_of(train)[train.fixed].member == train.carrier.name
     if across.any() and not standing:
-        turning.append(Turning(name="forces of stages", follows=None, gap=np.zeros((2, len(springs.springs))), load=across))
+        turning.append(TurningPart(name="forces of stages", follows=None, gap=np.zeros((2, len(springs.springs))), load=across))
     for member in set_members(train):
         gap = _run_out(train, springs, member.name) * member.run_out
         if gap.any():
-            turning.append(Turning(name=f"run-out of {member.name}", follows=member.name, gap=gap, load=none))
+            turning.append(TurningPart(name=f"run-out of {member.name}", follows=member.name, gap=gap, load=none))
     return tuple(turning), across[0] if standing else none[0]
 
 

@@ -18,7 +18,7 @@ from gearcad.dynamics.planetary.planar_model import SpringKind, TrainMasses, Tra
 from gearcad.dynamics.planetary.planetary_modes import MassSprings
 from gearcad.dynamics.trains.mesh_excitation import CurveStiffness, Excitation, MeshExcitation
 from gearcad.dynamics.trains.shaft_lines import System
-from gearcad.dynamics.trains.tooth_deviations import Polyline, TransmissionError
+from gearcad.dynamics.trains.tooth_deviations import PeriodicLine, TransmissionError
 from gearcad.load import Load
 from gearcad.material import Material, Materials
 from gearcad.mesh_cycle import MeshCycle
@@ -40,7 +40,7 @@ _JUMP = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeshStiffness:
+class PlanetMeshStiffness:
     """Stiffness of the mesh of a central with one planet, by the MeshCycle of its pair.
 
     `ahead` is always in base pitches: how far contact is past the pitch point in the direction in which it moves. It is the
@@ -133,7 +133,7 @@ def mesh_stiffness(
     method: str = QUICK,
     material: Materials | None = None,
     positions: int = 0,
-) -> MeshStiffness:
+) -> PlanetMeshStiffness:
     """Return the stiffness of a mesh under the `load` of one planet, with the torque (N·m) on the pair's pinion.
 
     Without a load, or a torque, it is that of a small nominal one. `method` is a name of `gearcad.stiffness.METHODS`, or
@@ -153,7 +153,7 @@ def mesh_stiffness(
         if (mean := mesh.central.mesh_stiffness) is None:
             raise
         found = _flat(mesh, carried, mean, str(error))
-    return MeshStiffness(mesh=mesh, cycle=found, driver=driver, nominal=nominal)
+    return PlanetMeshStiffness(mesh=mesh, cycle=found, driver=driver, nominal=nominal)
 
 
 def _flat(mesh: SetMesh, load: Load, mean: float, why: str) -> MeshCycle:
@@ -183,7 +183,7 @@ def train_stiffness(
     method: str = QUICK,
     material: TrainMaterial | None = None,
     positions: int = 0,
-) -> dict[str, MeshStiffness]:
+) -> dict[str, PlanetMeshStiffness]:
     """Return the stiffness of both meshes by their names, as `mesh_stiffness` under the even share of `loads` with K_A.
 
     Without loads the contact moves as the input drives. `stiffness_at(MeshPhases.ahead[n])` is then that of planet n in the
@@ -275,7 +275,7 @@ def static_places(springs: TrainSprings, torques: Mapping[str, float], driven: t
 
 def planetary_excitation(
     train: PlanetaryTrain,
-    stiffness: Mapping[str, MeshStiffness],
+    stiffness: Mapping[str, PlanetMeshStiffness],
     phases: Mapping[str, MeshPhases],
     forces: Mapping[str, float],
     *,
@@ -305,14 +305,14 @@ def planetary_excitation(
     return Excitation(meshes=tuple(meshes))
 
 
-def _phase(stiffness: MeshStiffness) -> Floats:
+def _phase(stiffness: PlanetMeshStiffness) -> Floats:
     """Return the phases (n,) of a mesh in rad, over exactly 2 pi."""
     phase = 2 * np.pi * stiffness.ahead
     phase[-1] = phase[0] + 2 * np.pi
     return phase
 
 
-def _free_error(stiffness: MeshStiffness, shape: CurveStiffness, force: float) -> TransmissionError:
+def _free_error(stiffness: PlanetMeshStiffness, shape: CurveStiffness, force: float) -> TransmissionError:
     """Return the loaded transmission error less F/k (µm): at rest under the force (N) the planet lags by just the former.
 
     Where the mean stiffness was given, the deflection under load follows from it. k is that of the model, mean times `shape`.
@@ -320,7 +320,7 @@ def _free_error(stiffness: MeshStiffness, shape: CurveStiffness, force: float) -
     cycle = stiffness.cycle
     unloaded = stiffness.transmission_error - cycle.force / (stiffness.secant * (cycle.mean / stiffness.mean))
     height = unloaded + force / stiffness.secant - force / (stiffness.tangent_mean * shape.stiffness)
-    return TransmissionError(line=Polyline(phase=_phase(stiffness), height=height))
+    return TransmissionError(line=PeriodicLine(phase=_phase(stiffness), height=height))
 
 
 # ---------------------------------------------------------------------- pieces

@@ -29,7 +29,7 @@ from gearcad.dynamics.planetary.planar_model import (
     set_members,
     train_springs,
 )
-from gearcad.dynamics.planetary.planetary_excitation import MeshStiffness, planetary_excitation, planetary_system
+from gearcad.dynamics.planetary.planetary_excitation import PlanetMeshStiffness, planetary_excitation, planetary_system
 from gearcad.dynamics.planetary.planetary_modes import (
     PlanetaryCampbell,
     PlanetaryModes,
@@ -147,7 +147,10 @@ def stages_left_out(train: PlanetaryTrain) -> tuple[Notice, ...]:
 
 
 def errors_left_out(
-    train: PlanetaryTrain, load: TrainLoad, stiffness: Mapping[str, MeshStiffness], given_speeds: Mapping[str, float] | None
+    train: PlanetaryTrain,
+    load: TrainLoad,
+    stiffness: Mapping[str, PlanetMeshStiffness],
+    given_speeds: Mapping[str, float] | None,
 ) -> tuple[Notice, ...]:
     """Return a notice that planets carry even shares in spite of errors, none for a train without errors.
 
@@ -176,7 +179,10 @@ def _errors(train: PlanetaryTrain) -> Iterator[str]:
 
 
 def _shares_at_rest(
-    train: PlanetaryTrain, load: TrainLoad, stiffness: Mapping[str, MeshStiffness], given_speeds: Mapping[str, float] | None
+    train: PlanetaryTrain,
+    load: TrainLoad,
+    stiffness: Mapping[str, PlanetMeshStiffness],
+    given_speeds: Mapping[str, float] | None,
 ) -> str:
     means = {name: each.mean for name, each in stiffness.items()}
     try:
@@ -243,7 +249,7 @@ class PlanetaryResponse:
     tooth_frequency: float
     campbell: PlanetaryCampbell
     operating: OperatingRange
-    stiffness: Mapping[str, MeshStiffness]
+    stiffness: Mapping[str, PlanetMeshStiffness]
     alike: int
     found: tuple[Notice, ...]
 
@@ -346,7 +352,7 @@ class PlanetaryResponse:
 def planetary_response(
     train: PlanetaryTrain,
     load: TrainLoad,
-    stiffness: Mapping[str, MeshStiffness],
+    stiffness: Mapping[str, PlanetMeshStiffness],
     masses: TrainMasses,
     options: DynamicsOptions | None = None,
     *,
@@ -409,7 +415,7 @@ def _or_null(values: Floats) -> list[list[float | None]]:
     return [[float(each) if np.isfinite(each) else None for each in column] for column in values.T]
 
 
-def _require_course(stiffness: Mapping[str, MeshStiffness]) -> None:
+def _require_course(stiffness: Mapping[str, PlanetMeshStiffness]) -> None:
     """Raise ParameterError where no mesh has a course of its stiffness: nothing would shake the train."""
     if all(each.cycle.mean_only for each in stiffness.values()):
         method = next(iter(stiffness.values())).cycle.method
@@ -424,7 +430,7 @@ def _driven(train: PlanetaryTrain) -> tuple[str, ...]:
     return tuple(name for name in train.members if name not in held)
 
 
-def _means(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness]) -> tuple[float, float]:
+def _means(train: PlanetaryTrain, stiffness: Mapping[str, PlanetMeshStiffness]) -> tuple[float, float]:
     a, b = train.meshes
     return stiffness[a.name].tangent_mean, stiffness[b.name].tangent_mean
 

@@ -9,7 +9,7 @@ from typing import Any
 from gearcad.core.records import Notice, Pictured, Verdict, strength_verdict, texts
 from gearcad.dynamics.planetary.load_sharing import LoadSharing
 from gearcad.dynamics.planetary.planar_model import TrainMasses
-from gearcad.dynamics.planetary.planetary_excitation import MeshStiffness
+from gearcad.dynamics.planetary.planetary_excitation import PlanetMeshStiffness
 from gearcad.dynamics.planetary.planetary_modes import PlanetaryCampbell, PlanetaryModes
 from gearcad.dynamics.planetary.planetary_response import PlanetaryResponse
 from gearcad.dynamics.planetary.planetary_statics import TorsionalStiffness
@@ -59,7 +59,7 @@ class PlanetaryStudy(Pictured):
     forces: TrainForces | None
     loads: Mapping[str, MeshLoad] | None
     stage_loads: Mapping[str, Load]
-    stiffness: Mapping[str, MeshStiffness] | None
+    stiffness: Mapping[str, PlanetMeshStiffness] | None
     stage_cycles: Mapping[str, MeshCycle]
     sharing: LoadSharing | None
     torsion: TorsionalStiffness | None

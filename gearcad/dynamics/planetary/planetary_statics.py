@@ -28,7 +28,7 @@ from gearcad.dynamics.planetary.planar_model import (
     Spring,
     SpringKind,
     TrainSprings,
-    Turning,
+    TurningPart,
     gaps,
     mesh_force,
     planar_train,
@@ -179,7 +179,7 @@ _PRESENT = 1.0
 """N/m by which a rigid spring is told from one that is not there; its compliance is 0."""
 
 
-class State(NamedTuple):
+class SpringState(NamedTuple):
     """Springs of the train in cases (s, m): forces in N; openings of teeth, elastic deflections `yielding` and gaps in µm."""
 
     forces: Floats
@@ -202,7 +202,7 @@ class TrainStatics:
     compliance: Floats
     gap: Floats
     load: Floats
-    turning: tuple[Turning, ...]
+    turning: tuple[TurningPart, ...]
 
     @cached_property
     def equilibrium(self) -> Equilibrium:
@@ -236,7 +236,7 @@ class TrainStatics:
         stiffness = next(each.torsional_stiffness for each in set_members(self.train) if each.name == self.output)
         return 0.0 if stiffness is None else 1e6 * self.flow.set_torques[self.output] ** 2 / stiffness
 
-    def state(self, angles: Floats | None = None, compliance: Floats | None = None) -> State:
+    def state(self, angles: Floats | None = None, compliance: Floats | None = None) -> SpringState:
         """Return the state of the springs, with what turns at angles (s, t) in rad or without it.
 
         `compliance` (s, m) in µm/N is the train's own if not given. Raises SolverError where teeth would have to pull.
@@ -254,9 +254,9 @@ class TrainStatics:
             raise SolverError(
                 f"{self.train.name}: the planets cannot carry the load: teeth would have to pull{because}"
             ) from None
-        return State(forces=forces, opening=opening, yielding=c * forces, gap=np.broadcast_to(gap, forces.shape))
+        return SpringState(forces=forces, opening=opening, yielding=c * forces, gap=np.broadcast_to(gap, forces.shape))
 
-    def places(self, state: State) -> Floats:
+    def places(self, state: SpringState) -> Floats:
         """Return x and y (s, 3, 2) in µm of carrier and centrals.
 
         Where no spring holds them, these are the least.

@@ -20,7 +20,7 @@ from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.load_factors import LoadFactors
 from gearcad.rating.nominal_rating import Rating, rate
 from gearcad.rating.options import RatingOptions
-from gearcad.rating.strength import Part, PartStrength, StrengthRating, rate_strength
+from gearcad.rating.strength import PartStrength, RatedPart, StrengthRating, rate_strength
 from gearcad.rating.strength.duty import told
 from gearcad.rating.strength.rating import called
 
@@ -115,9 +115,9 @@ class GearStrength:
     flank: Mapping[str, PartStrength]
     root: Mapping[str, PartStrength]
 
-    def least(self, part: Part) -> LeastSafety | None:
+    def least(self, part: RatedPart) -> LeastSafety | None:
         """Return the least safety and its mesh; None where no mesh was judged."""
-        of = self.flank if part is Part.FLANK else self.root
+        of = self.flank if part is RatedPart.FLANK else self.root
         known = [LeastSafety(each.safety, mesh) for mesh, each in of.items() if each.safety is not None]
         return min(known, default=None)
 
@@ -129,7 +129,7 @@ class GearStrength:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the least safeties, each with its mesh; None where nothing was judged."""
-        found = {part.value: self.least(part) for part in Part}
+        found = {part.value: self.least(part) for part in RatedPart}
         return {
             **{name: None if least is None else least.safety for name, least in found.items()},
             **{f"{name}_mesh": None if least is None else least.mesh for name, least in found.items()},
@@ -158,9 +158,11 @@ class TrainStrength(Pictured):
     @property
     def members(self) -> dict[str, GearStrength]:
         """Strength of each gear, by its name."""
-        return {name: GearStrength(self._parts(Part.FLANK, name), self._parts(Part.ROOT, name)) for name in self.names}
+        return {
+            name: GearStrength(self._parts(RatedPart.FLANK, name), self._parts(RatedPart.ROOT, name)) for name in self.names
+        }
 
-    def _parts(self, part: Part, gear: str) -> dict[str, PartStrength]:
+    def _parts(self, part: RatedPart, gear: str) -> dict[str, PartStrength]:
         return {
             mesh: rating.parts[part].pick(role)
             for mesh, rating in self.meshes.items()

@@ -11,7 +11,7 @@ from gearcad.core.runtime import Agenda, Progress
 from gearcad.dynamics.options import AUTO, DynamicsOptions
 from gearcad.dynamics.planetary.load_sharing import share_load
 from gearcad.dynamics.planetary.planar_model import TrainMasses, train_masses, train_springs
-from gearcad.dynamics.planetary.planetary_excitation import QUICK, MeshStiffness, train_stiffness
+from gearcad.dynamics.planetary.planetary_excitation import QUICK, PlanetMeshStiffness, train_stiffness
 from gearcad.dynamics.planetary.planetary_modes import PlanetaryCampbell, PlanetaryModes, planetary_campbell, planetary_modes
 from gearcad.dynamics.planetary.planetary_response import planetary_response
 from gearcad.dynamics.planetary.planetary_result import PlanetaryStudy
@@ -244,7 +244,7 @@ def _stage_cycles(
 
 
 def _courses(
-    train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness], cycles: Mapping[str, MeshCycle], flow: PowerFlow
+    train: PlanetaryTrain, stiffness: Mapping[str, PlanetMeshStiffness], cycles: Mapping[str, MeshCycle], flow: PowerFlow
 ) -> dict[str, StiffnessCourse]:
     """Return the stiffness courses of meshes and stages, by their names.
 
@@ -258,7 +258,9 @@ def _courses(
     return found
 
 
-def _modes(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness], masses: TrainMasses, drive: Drive) -> PlanetaryModes:
+def _modes(
+    train: PlanetaryTrain, stiffness: Mapping[str, PlanetMeshStiffness], masses: TrainMasses, drive: Drive
+) -> PlanetaryModes:
     """Return the natural modes at the mean tangent stiffness of the meshes."""
     first, second = (stiffness[mesh.name].tangent_mean for mesh in train.meshes)
     return planetary_modes(train_springs(train, (first, second), sense=drive.sense), masses)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from gearcad.core.errors import ParameterError, require_whole
 from gearcad.core.records import Complexes, Floats, Notice, texts
 from gearcad.dynamics.planetary.planar_model import mesh_force
-from gearcad.dynamics.planetary.planetary_statics import State, TrainStatics, planar_notices, train_statics, twist_of
+from gearcad.dynamics.planetary.planetary_statics import SpringState, TrainStatics, planar_notices, train_statics, twist_of
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.planetary import PairStage, PlanetaryTrain, TrainLoad
 from gearcad.planetary.poses import Drive, mesh_phases
@@ -300,7 +300,7 @@ class _Run:
     def places(self, span: float, steps: int) -> Floats:
         return self.rolling.places(span, steps, self.courses, self.names)
 
-    def state(self, rolled: Floats, *, mean: bool = False) -> State:
+    def state(self, rolled: Floats, *, mean: bool = False) -> SpringState:
         """Return the state at places (s,), with the compliances of the meshes there, or their mean."""
         compliance = np.tile(self.statics.compliance, (len(rolled), 1))
         for name, springs, pace, ahead in zip(
@@ -313,7 +313,7 @@ class _Run:
         angles = 2 * np.pi * rolled[:, None] * self.rolling.turning
         return self.statics.state(angles, compliance)
 
-    def twist(self, state: State, rolled: Floats, *, mean: bool = False) -> Floats:
+    def twist(self, state: SpringState, rolled: Floats, *, mean: bool = False) -> Floats:
         """Return the twist (s,) in degrees, by the virtual work of set, stages and the output's shaft."""
         statics = self.statics
         work = (state.forces * (state.yielding + state.gap)).sum(axis=1) + statics.output_work
@@ -324,7 +324,7 @@ class _Run:
                 work = work + force**2 * (_mean_compliance(course) if mean else 1 / course.stiffness_at(pace * rolled))
         return twist_of(work, statics.torque)
 
-    def shares(self, state: State) -> Floats:
+    def shares(self, state: SpringState) -> Floats:
         """Return the shares of the planets (N, s)."""
         forces = state.forces[:, self.statics.meshes[0]]
         found: Floats = (forces / forces.mean(axis=1, keepdims=True)).T

@@ -41,7 +41,7 @@ TOLERANCE = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
-class Balance(Driven):
+class HarmonicBalance(Driven):
     """Equations y - y_static - G (K y - N(y) + c e') = 0 of all orders, N the forces of the teeth. Orders are signed here."""
 
     orders: Indices
@@ -153,10 +153,10 @@ _SHARP = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Arc:
+class BranchArc:
     """Points of a branch one after the other: motions `approach` (q, m) of signed orders at `omega` of the common period."""
 
-    balance: Balance
+    balance: HarmonicBalance
     points: tuple[tuple[Complexes, float], ...]
 
     @cached_property
@@ -183,7 +183,7 @@ class Arc:
         return which[found], np.array(runs, np.intp)[found], approach[found]
 
 
-def follow(balance: Balance, approach: Complexes, low: float, high: float, share: Share = unheard) -> Arc:
+def follow(balance: HarmonicBalance, approach: Complexes, low: float, high: float, share: Share = unheard) -> BranchArc:
     """Return the branch from the motion near `approach` (q, m) at `low` to beyond `high`.
 
     Raises SolverError if the branch ends before.
@@ -213,10 +213,12 @@ def follow(balance: Balance, approach: Complexes, low: float, high: float, share
         share(max((points[-1][1] - low) / (high - low), len(points) / _MOST_POINTS))
     if points[-1][1] < low:
         raise SolverError("the branch of periodic motions turns back to the lowest speed: begin lower")
-    return Arc(balance, tuple(_with_folds(balance, points, scales)))
+    return BranchArc(balance, tuple(_with_folds(balance, points, scales)))
 
 
-def _with_folds(balance: Balance, points: list[tuple[Complexes, float]], scales: Floats) -> list[tuple[Complexes, float]]:
+def _with_folds(
+    balance: HarmonicBalance, points: list[tuple[Complexes, float]], scales: Floats
+) -> list[tuple[Complexes, float]]:
     """Return the points, with those between them at which the frequency turns."""
     result = points[:1]
     for before, here, after in zip(points, points[1:], points[2:], strict=False):
@@ -228,7 +230,9 @@ def _with_folds(balance: Balance, points: list[tuple[Complexes, float]], scales:
     return [*result, points[-1]]
 
 
-def _fold(balance: Balance, three: list[tuple[Complexes, float]], scales: Floats) -> tuple[tuple[Complexes, float], int]:
+def _fold(
+    balance: HarmonicBalance, three: list[tuple[Complexes, float]], scales: Floats
+) -> tuple[tuple[Complexes, float], int]:
     """Return the point where the branch turns near the middle one of three, and its place: before (-1) or behind (1) that."""
     states = [np.append(approach.ravel(), omega) / scales for approach, omega in three]
     along = (states[2] - states[0]) / np.linalg.norm(states[2] - states[0])
@@ -254,7 +258,7 @@ def _fold(balance: Balance, three: list[tuple[Complexes, float]], scales: Floats
     return (motion, float(values[-1].real)), int(np.sign(places[1]))
 
 
-def _bordered(balance: Balance, state: Complexes, scales: Floats, direction: Complexes) -> tuple[Complexes, Complexes]:
+def _bordered(balance: HarmonicBalance, state: Complexes, scales: Floats, direction: Complexes) -> tuple[Complexes, Complexes]:
     """Return the residual, and the scaled Jacobian with the direction as last row."""
     values = state * scales
     residual, jacobian, with_omega = balance.equations(values[:-1].reshape(len(balance.signed), -1), float(values[-1].real))
@@ -265,7 +269,7 @@ def _bordered(balance: Balance, state: Complexes, scales: Floats, direction: Com
     return residual / scales[0], whole
 
 
-def _tangent(balance: Balance, state: Complexes, scales: Floats, before: Complexes) -> Complexes:
+def _tangent(balance: HarmonicBalance, state: Complexes, scales: Floats, before: Complexes) -> Complexes:
     """Return the unit vector along the branch, onwards."""
     _, whole = _bordered(balance, state, scales, before)
     right = np.zeros(len(state), complex)
@@ -274,7 +278,7 @@ def _tangent(balance: Balance, state: Complexes, scales: Floats, before: Complex
     return np.asarray(found / np.linalg.norm(found), complex)
 
 
-def _correct(balance: Balance, guess: Complexes, scales: Floats, direction: Complexes) -> tuple[Complexes, int] | None:
+def _correct(balance: HarmonicBalance, guess: Complexes, scales: Floats, direction: Complexes) -> tuple[Complexes, int] | None:
     """Return the point of the branch square to the direction from a guess, and the number of Newton steps;
     None if not found.
     """
@@ -307,7 +311,7 @@ class Branch:
     excitation: Excitation
     frequencies: Floats
     harmonics: Indices
-    arc: Arc
+    arc: BranchArc
     index: Indices
     run: Indices
     approach: Complexes
@@ -369,7 +373,7 @@ class Branch:
     def response(self, chosen: Indices, jumps: Floats | None = None) -> PeriodicResponse:
         """Return the response of some of the motions, in this order."""
         frequencies = self.frequencies[self.index[chosen]]
-        balance = Balance(self.system, self.excitation, self.harmonics)
+        balance = HarmonicBalance(self.system, self.excitation, self.harmonics)
         approach, stable = self.approach[chosen], self.stable[chosen]
         flexible = at_orders(self.system, balance.static, self.excitation.fundamental * frequencies, self.harmonics)
         forces = balance.forces(both_sides(approach), self.excitation.fundamental * frequencies)[0]
@@ -413,7 +417,7 @@ def trace(
     speeds = checked_frequencies(frequencies)
     if len(speeds) < 2 or (np.diff(speeds) <= 0).any():
         raise ParameterError("frequencies", f"{len(speeds)} values", "must be at least two that rise")
-    balance = Balance(system, excitation, harmonic_orders(excitation, harmonics))
+    balance = HarmonicBalance(system, excitation, harmonic_orders(excitation, harmonics))
     begin = periodic_response(system, excitation, speeds[:1], harmonics=harmonics, stability=False)
     omegas = speeds * excitation.fundamental
     arc = follow(balance, both_sides(begin.approach_coefficients)[0], float(omegas[0]), float(omegas[-1]), share)
@@ -424,7 +428,7 @@ def trace(
     return branch
 
 
-def _crossed(arc: Arc, speeds: Floats) -> Branch:
+def _crossed(arc: BranchArc, speeds: Floats) -> Branch:
     """Return the motions of a branch at frequencies that rise."""
     balance = arc.balance
     fundamental = balance.excitation.fundamental

@@ -18,7 +18,15 @@ from gearcad.dynamics.response.harmonic_balance import Motions
 from gearcad.dynamics.response.kv_chart import Extremes
 from gearcad.dynamics.response.linear_response import UNSTABLE, growth
 from gearcad.dynamics.response.speed_curves import SpeedCurves, Told
-from gearcad.dynamics.time_domain.motion import Course, Line, Motion, MovingSystem, Start, settling_time, shaken_frequency
+from gearcad.dynamics.time_domain.motion import (
+    Motion,
+    MovingSystem,
+    PiecewiseLine,
+    RunCourse,
+    Start,
+    settling_time,
+    shaken_frequency,
+)
 from gearcad.dynamics.trains.mesh_excitation import Excitation
 from gearcad.dynamics.trains.steady_response import Direction, PeriodicResponse
 
@@ -224,13 +232,13 @@ class TimeRuns:
         settle, hold = self._counts(frequency)
         common = [self.excitation.fundamental * each / (2 * math.pi) for each in (begin.frequency, frequency)]
         step = 1 / (common[1] * per)
-        course = Course(
-            frequency=Line(time=np.array([0.0, settle * step / 3]), value=np.array(common)),
+        course = RunCourse(
+            frequency=PiecewiseLine(time=np.array([0.0, settle * step / 3]), value=np.array(common)),
             turns=begin.turns,
         )
         start = self.moving.run(course, step, settle, start=begin.start).end
         turns = (begin.turns + float(course.frequency.integrals(settle * step))) % 1.0
-        steady, before = Course(frequency=Line.level(common[1]), turns=turns), None
+        steady, before = RunCourse(frequency=PiecewiseLine.level(common[1]), turns=turns), None
         repeats = False
         for _ in range(_MOST_HOLDS):
             # Whole periods: each stretch begins at the phase of the one before.

@@ -13,13 +13,13 @@ from gearcad.core.errors import ParameterError, SolverError, require_number
 from gearcad.core.records import Floats
 from gearcad.core.runtime import on_all_cores
 from gearcad.dynamics.time_domain.contact_model import ContactModel
-from gearcad.dynamics.time_domain.motion import Course, Motion, MovingSystem, settling_time, step_for
+from gearcad.dynamics.time_domain.motion import Motion, MovingSystem, RunCourse, settling_time, step_for
 from gearcad.dynamics.time_domain.spectra import MeshCampbell, SpeedRow, amplitude_spectrum
 from gearcad.dynamics.time_domain.time_history import (
     CHAOTIC_DIGITS,
     SETTLED,
     CampbellStudy,
-    Start,
+    PairStart,
     checked_samples,
     time_history,
 )
@@ -38,7 +38,7 @@ def campbell(
     duration: float = 1.0,
     sampling: float = 200000.0,
     highest_frequency: float = HIGHEST_FREQUENCY,
-    start: Start | None = None,
+    start: PairStart | None = None,
     counted: Callable[[int, int], None] = lambda _done, _count: None,
 ) -> CampbellStudy:
     """Return the Campbell study of a model: the motion at each speed (rpm, rising, not negative) from the same start.
@@ -136,8 +136,8 @@ def mesh_campbell(
     def row(speed: float) -> SpeedRow | None:
         frequency = speed * per_rpm
         try:
-            start = moving.run(Course.steady(frequency), step, settling).end if settling else None
-            course = Course(frequency=Course.steady(frequency).frequency, turns=frequency * settling * step)
+            start = moving.run(RunCourse.steady(frequency), step, settling).end if settling else None
+            course = RunCourse(frequency=RunCourse.steady(frequency).frequency, turns=frequency * settling * step)
             ends = (round(SETTLED * count), count)
             motion = moving.run(course, step, count - 1, stride=stride, ends=ends, start=start, disturbed=True)
         except SolverError:

@@ -31,7 +31,7 @@ _ITERATIONS = 200
 """Newton's steps, or halvings: a double has room for far fewer."""
 
 
-class Spring(NamedTuple):
+class Oscillator(NamedTuple):
     """y'' + 2 half y' + square (y - rest) = push: 1/s², 1/s, m/s², m. Where square is 0, rest is 0; elsewhere push is."""
 
     square: float
@@ -49,7 +49,7 @@ class Zone(NamedTuple):
     last_share: float
 
 
-class Motion(NamedTuple):
+class PairMotion(NamedTuple):
     """One pair: k/m and b/(2 m) and F/m of its reduced mass m, base pitch, share of y in u, backlash (may be infinite)."""
 
     pair_square: float
@@ -76,7 +76,7 @@ class MotionOutcome(NamedTuple):
 
 
 @compiled
-def _transition(spring: Spring, tau: float) -> tuple[float, float, float, float, float, float]:
+def _transition(spring: Oscillator, tau: float) -> tuple[float, float, float, float, float, float]:
     """Return (xx, xv, vx, vv, fx, fv) of a time tau for x = y - rest.
 
     Over that time x becomes xx x + xv v + fx, and v becomes vx x + vv v + fv.
@@ -108,7 +108,7 @@ def _transition(spring: Spring, tau: float) -> tuple[float, float, float, float,
 
 
 @compiled
-def advanced(spring: Spring, y: float, v: float, tau: float) -> tuple[float, float]:
+def advanced(spring: Oscillator, y: float, v: float, tau: float) -> tuple[float, float]:
     """Return y and v after a time tau."""
     xx, xv, vx, vv, fx, fv = _transition(spring, tau)
     x = y - spring.rest
@@ -116,13 +116,13 @@ def advanced(spring: Spring, y: float, v: float, tau: float) -> tuple[float, flo
 
 
 @compiled
-def accelerated(spring: Spring, y: float, v: float) -> float:
+def accelerated(spring: Oscillator, y: float, v: float) -> float:
     """Return the acceleration y'' where y is the approach and v its rate."""
     return spring.push - spring.square * (y - spring.rest) - 2.0 * spring.half * v
 
 
 @compiled
-def next_turn(spring: Spring, y: float, v: float) -> tuple[float, float]:
+def next_turn(spring: Oscillator, y: float, v: float) -> tuple[float, float]:
     """Return the time of the first zero of the acceleration, and from each to the next; infinite where there is none."""
     a = accelerated(spring, y, v)
     slope = -spring.square * v - spring.half * a  # of exp(half t) a(t)
@@ -145,7 +145,7 @@ def next_turn(spring: Spring, y: float, v: float) -> tuple[float, float]:
 
 @compiled
 def _zero(
-    spring: Spring, y: float, v: float, drift: float, share: float, level: float, a: float, b: float, order: int
+    spring: Oscillator, y: float, v: float, drift: float, share: float, level: float, a: float, b: float, order: int
 ) -> float:
     """Return the time in [a, b] at which q(t) = drift t + share (y(t) - y) reaches `level` (order 0), or turns (order 1).
 
@@ -176,17 +176,17 @@ def _zero(
 
 
 @compiled
-def _spring(motion: Motion, side: int, pairs: int) -> Spring:
+def _spring(motion: PairMotion, side: int, pairs: int) -> Oscillator:
     """Return the spring that acts on y while so many pairs touch on this side: 1 front, -1 back, 0 neither."""
     if side == 0 or pairs <= 0:
-        return Spring(0.0, motion.half, motion.push, 0.0)
+        return Oscillator(0.0, motion.half, motion.push, 0.0)
     square = pairs * motion.pair_square
     rest = motion.push / square - (motion.backlash if side < 0 else 0.0)
-    return Spring(square, motion.half, 0.0, rest)
+    return Oscillator(square, motion.half, 0.0, rest)
 
 
 @compiled
-def _passed(motion: Motion, zone: Zone, travel: float, y: float) -> tuple[int, int]:
+def _passed(motion: PairMotion, zone: Zone, travel: float, y: float) -> tuple[int, int]:
     """Return the whole pitches by which tooth 0 is past each end of the zone; their difference is the number of pairs in it."""
     first = math.floor((travel + zone.first_share * y - zone.first) / motion.pitch)
     last = math.floor((travel + zone.last_share * y - zone.last) / motion.pitch)
@@ -194,7 +194,7 @@ def _passed(motion: Motion, zone: Zone, travel: float, y: float) -> tuple[int, i
 
 
 @compiled
-def _watch(table: Floats, motion: Motion, side: int, first: int, last: int, drift: float, travel: float, y: float) -> None:
+def _watch(table: Floats, motion: PairMotion, side: int, first: int, last: int, drift: float, travel: float, y: float) -> None:
     """Fill in the rows of the table: drift and share of what is watched, and its next level above and below, from here.
 
     Row 0 is y itself, which parts or closes the flanks; 1 and 2 are the ends of the zone, at which the number of pairs changes.
@@ -221,7 +221,7 @@ def _watch(table: Floats, motion: Motion, side: int, first: int, last: int, drif
 
 @compiled
 def _crossing(
-    row: Floats, spring: Spring, y: float, v: float, piece: tuple[float, float, float, float, float, float]
+    row: Floats, spring: Oscillator, y: float, v: float, piece: tuple[float, float, float, float, float, float]
 ) -> tuple[float, bool]:
     """Return the first time in a piece at which one row of the table passes a level, and whether it rises there.
 
@@ -248,7 +248,7 @@ def _crossing(
 
 
 @compiled
-def _next_event(table: Floats, spring: Spring, y: float, v: float, horizon: float) -> tuple[float, int, bool]:
+def _next_event(table: Floats, spring: Oscillator, y: float, v: float, horizon: float) -> tuple[float, int, bool]:
     """Return the time to the first event, its row in the table, and whether that rises; the horizon and -1 if there is none."""
     turn, step = next_turn(spring, y, v)
     a, ya, va = 0.0, y, v
@@ -269,7 +269,7 @@ def _next_event(table: Floats, spring: Spring, y: float, v: float, horizon: floa
 
 @compiled
 def _sample(
-    approach: Floats, rate: Floats, number: int, step: float, spring: Spring, y: float, v: float, t: float, end: float
+    approach: Floats, rate: Floats, number: int, step: float, spring: Oscillator, y: float, v: float, t: float, end: float
 ) -> int:
     """Fill in the samples before `end` of a motion that is y, v at t, from `number` on; return the first that is left."""
     xx, xv, vx, vv, fx, fv = _transition(spring, step)
@@ -288,7 +288,9 @@ def _sample(
 
 
 @compiled
-def _changed(motion: Motion, side: int, first: int, last: int, row: int, rising: bool, travel: float) -> tuple[int, int, int]:
+def _changed(
+    motion: PairMotion, side: int, first: int, last: int, row: int, rising: bool, travel: float
+) -> tuple[int, int, int]:
     """Return the side and the passed pitches behind an event of that row."""
     if row == 1:
         return side, first + (1 if rising else -1), last
@@ -302,7 +304,7 @@ def _changed(motion: Motion, side: int, first: int, last: int, row: int, rising:
 
 
 @compiled
-def _stands(row: Floats, before: Spring, after: Spring, y: float, v: float, pitch: float) -> bool:
+def _stands(row: Floats, before: Oscillator, after: Oscillator, y: float, v: float, pitch: float) -> bool:
     """Return whether both accelerations press what is watched against its level, so nearly at rest that it cannot leave it."""
     speed = row[0] + row[1] * v
     back = row[1] * accelerated(after, y, v)
@@ -311,7 +313,7 @@ def _stands(row: Floats, before: Spring, after: Spring, y: float, v: float, pitc
 
 
 @compiled
-def _disturbed(before: Spring, after: Spring, row: Floats, y: float, v: float, dy: float, dv: float) -> float:
+def _disturbed(before: Oscillator, after: Oscillator, row: Floats, y: float, v: float, dy: float, dv: float) -> float:
     """Return dv behind an event: a disturbed motion passes it earlier or later, and is so long under the other acceleration."""
     speed: float = row[0] + row[1] * v
     share: float = row[1]
@@ -322,7 +324,13 @@ def _disturbed(before: Spring, after: Spring, row: Floats, y: float, v: float, d
 
 @compiled
 def run(
-    motion: Motion, drift: float, start: tuple[float, float, float], step: float, counted: float, approach: Floats, rate: Floats
+    motion: PairMotion,
+    drift: float,
+    start: tuple[float, float, float],
+    step: float,
+    counted: float,
+    approach: Floats,
+    rate: Floats,
 ) -> MotionOutcome:
     """Fill in samples of y (m) and y' (m/s) every `step` seconds, and return the outcome of the run.
 
@@ -357,7 +365,7 @@ def run(
                 # It leaves when the force between its two values no longer suffices: looked at again after one sample.
                 # Whatever was disturbed ends in the same place: a disturbance begins anew.
                 v, pause = -drift / table[row, 1], min(step, end - t)
-                number = _sample(approach, rate, number, step, Spring(0.0, 0.0, 0.0, 0.0), y, v, t, t + pause)
+                number = _sample(approach, rate, number, step, Oscillator(0.0, 0.0, 0.0, 0.0), y, v, t, t + pause)
                 y, t, held = y + v * pause, t + pause, held + pause
                 least = math.inf
         size = math.hypot(scale * dy, dv)

@@ -18,11 +18,11 @@ from gearcad.dynamics.trains.shaft_lines import System
 from gearcad.dynamics.trains.steady_response import senses, static_state
 
 if TYPE_CHECKING:
-    from gearcad.dynamics.time_domain.motion_kernel import CourseTables, Model, Records
+    from gearcad.dynamics.time_domain.motion_kernel import CourseTables, MotionModel, Records
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Line:
+class PiecewiseLine:
     """Straight lines through `value` (k,) at `time` (k,) in s, level beyond its ends; it jumps where a time stands twice."""
 
     time: Floats
@@ -38,7 +38,7 @@ class Line:
         object.__setattr__(self, "value", value)
 
     @classmethod
-    def level(cls, value: float) -> Line:
+    def level(cls, value: float) -> PiecewiseLine:
         """Return a line with the same value at all times."""
         return cls(time=np.zeros(1), value=np.array([value]))
 
@@ -67,20 +67,20 @@ class Line:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Course:
+class RunCourse:
     """`frequency` of the common period of all meshes (Hz), negative where they turn back; `torque` a factor of the load.
 
     `turns` of the common period have passed at the first corner of the frequency.
     """
 
-    frequency: Line
-    torque: Line = field(default_factory=lambda: Line.level(1.0))
+    frequency: PiecewiseLine
+    torque: PiecewiseLine = field(default_factory=lambda: PiecewiseLine.level(1.0))
     turns: float = 0.0
 
     @classmethod
-    def steady(cls, frequency: float) -> Course:
+    def steady(cls, frequency: float) -> RunCourse:
         """Return the course of one speed under the whole load; the frequency is that of the common period (Hz)."""
-        return cls(frequency=Line.level(frequency))
+        return cls(frequency=PiecewiseLine.level(frequency))
 
 
 PER_TOOTH, PER_WAVE = 256, 80
@@ -401,7 +401,7 @@ class MovingSystem:
 
     def run(
         self,
-        course: Course,
+        course: RunCourse,
         step: float,
         count: int,
         *,
@@ -417,7 +417,7 @@ class MovingSystem:
         part that is done, now and then. Raises ParameterError, and SolverError where forces of the meshes cannot be found or
         the motion grows beyond all numbers.
         """
-        from gearcad.dynamics.time_domain.motion_kernel import State, run
+        from gearcad.dynamics.time_domain.motion_kernel import MotionState, run
 
         require_number("step", step, "s", above=0, at_most=_LONGEST)
         require_whole("count", count, at_least=1, at_most=10**12)
@@ -426,7 +426,7 @@ class MovingSystem:
         n, m = self.system.mesh.shape
         tables, bounds = self._course(course), np.array(ends, np.int64)
         size = n if disturbed else 0
-        state = State(
+        state = MotionState(
             np.array(begin.coordinates, float), np.array(begin.rates, float), np.zeros(m), *self._disturbance(size), np.zeros(3)
         )
         records = self._records(stride, count, bounds)
@@ -445,7 +445,7 @@ class MovingSystem:
             tell((first + steps) / count)
         return self._motion(step, bounds, count, state.growth, Start(coordinates=state.z, rates=state.v), records)
 
-    def _require_short(self, course: Course, step: float, count: int) -> None:
+    def _require_short(self, course: RunCourse, step: float, count: int) -> None:
         """Raise ParameterError where more than a base pitch may pass in a step, or more in all than a place can tell."""
         order, line = max(law.order for law in self.laws), course.frequency
         fastest = order * float(np.abs(line.value).max())
@@ -474,8 +474,8 @@ class MovingSystem:
         return self.system.outputs
 
     @cached_property
-    def _model(self) -> Model:
-        from gearcad.dynamics.time_domain.motion_kernel import Model
+    def _model(self) -> MotionModel:
+        from gearcad.dynamics.time_domain.motion_kernel import MotionModel
 
         of, laws = self.system, self.laws
 
@@ -491,7 +491,7 @@ class MovingSystem:
             for law, damping in zip(laws, of.mesh_damping, strict=True)
         ]
         teeth_of = [law.error_teeth for law in laws]
-        return Model(
+        return MotionModel(
             squares=_plain(of.squares),
             damping=_plain(of.damping),
             mesh=_plain(of.mesh * self.senses),
@@ -506,7 +506,7 @@ class MovingSystem:
             scale=self._scale,
         )
 
-    def _course(self, course: Course) -> CourseTables:
+    def _course(self, course: RunCourse) -> CourseTables:
         from gearcad.dynamics.time_domain.motion_kernel import CourseTables
 
         speed, torque = course.frequency, course.torque

@@ -43,7 +43,7 @@ _APART = 16
 """Steps after which the size of a disturbance is looked at."""
 
 
-class Model(NamedTuple):
+class MotionModel(NamedTuple):
     """A System of n modes and m meshes with the springs of its teeth; `rows` (n, r) are sums of coordinates to be known.
 
     Approaches, forces and errors count positive as the mean load presses the flanks. `driven` (n,) are what the modes feel of a
@@ -97,7 +97,7 @@ class CourseTables(NamedTuple):
     factor: Floats
 
 
-class State(NamedTuple):
+class MotionState(NamedTuple):
     """State of a run, changed in place: coordinates z, v (n,), forces (m,) on the meshes; dz, dv, df of a disturbance.
 
     `growth` is the logarithm of its size, the least so far, and the most by which it grew between any two times.
@@ -559,7 +559,9 @@ def _written(records: Records, number: int, rows: Floats, found: Floats, y: Floa
 
 
 @compiled
-def run(model: Model, course: CourseTables, h: float, begin: int, count: int, state: State, records: Records) -> int:
+def run(
+    model: MotionModel, course: CourseTables, h: float, begin: int, count: int, state: MotionState, records: Records
+) -> int:
     """Run steps `begin` + 1 to `begin` + `count` of h seconds, and return how many were made.
 
     These are `count` unless the forces of a step could not be found, or more than a base pitch passed in one. The first step

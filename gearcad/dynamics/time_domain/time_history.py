@@ -14,7 +14,7 @@ from gearcad.dynamics.time_domain.contact_model import ContactModel, EngagedPair
 from gearcad.dynamics.time_domain.spectra import Spectrum, SpeedSpectra, amplitude_spectrum
 
 if TYPE_CHECKING:
-    from gearcad.dynamics.time_domain.event_kernel import Motion
+    from gearcad.dynamics.time_domain.event_kernel import PairMotion
 
 
 CHAOTIC_DIGITS = 6.0
@@ -25,7 +25,7 @@ SETTLED = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
-class Start:
+class PairStart:
     """`place` of the contact of one pair (mm from T1), `approach` of the flanks (µm) and its rate (mm/s) at time 0."""
 
     place: float = 0.0
@@ -53,7 +53,7 @@ class TimeHistory:
     model: ContactModel
     speed: float
     sampling: float
-    start: Start
+    start: PairStart
     approach: Floats
     approach_rate: Floats
     out_of_contact: float
@@ -137,7 +137,7 @@ _EVEN = 1e9
 
 
 def time_history(
-    model: ContactModel, speed: float, *, duration: float = 1.0, sampling: float = 200000.0, start: Start | None = None
+    model: ContactModel, speed: float, *, duration: float = 1.0, sampling: float = 200000.0, start: PairStart | None = None
 ) -> TimeHistory:
     """Return the motion at a mean speed of the pinion in rpm (not negative) over a duration (s), sampled at `sampling` (Hz).
 
@@ -147,7 +147,7 @@ def time_history(
 
     samples = checked_samples(duration, sampling)
     require_number("speed", speed, "rpm", at_least=0)
-    begin = start or Start()
+    begin = start or PairStart()
     y, drift = 1e-6 * begin.approach, speed * math.pi / 30 * 1e-3 * model.base_radii.pinion
     travel = 1e-3 * begin.place - model.pinion_share * y
     state = (travel, y, 1e-3 * begin.approach_rate)
@@ -183,9 +183,9 @@ def checked_samples(duration: float, sampling: float) -> int:
     return samples
 
 
-def _motion(model: ContactModel) -> Motion:
+def _motion(model: ContactModel) -> PairMotion:
     """Return the model in SI units, reduced to the approach."""
-    from gearcad.dynamics.time_domain.event_kernel import Motion, Zone
+    from gearcad.dynamics.time_domain.event_kernel import PairMotion, Zone
 
     mass, share = model.reduced_mass, model.pinion_share
     pitch, first, last = (1e-3 * x for x in (model.base_pitch, model.first_contact, model.last_contact))
@@ -202,7 +202,7 @@ def _motion(model: ContactModel) -> Motion:
         pitch, front = _EVEN, Zone(-_EVEN / 2, _EVEN / 2, share, share)
         back = front
     stiffness = 1e6 * model.pair_stiffness
-    return Motion(stiffness / mass, model.damping / (2 * mass), model.force / mass, pitch, gap, front, back)
+    return PairMotion(stiffness / mass, model.damping / (2 * mass), model.force / mass, pitch, gap, front, back)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -11,7 +11,7 @@ import numpy as np
 
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Floats, Notice, Wholes
-from gearcad.dynamics.time_domain.motion import Course, Line, Motion, MovingSystem, Start, settling_time, step_for
+from gearcad.dynamics.time_domain.motion import Motion, MovingSystem, PiecewiseLine, RunCourse, Start, settling_time, step_for
 from gearcad.dynamics.time_domain.transient_result import Transient, TransientOptions
 from gearcad.dynamics.trains.mesh_excitation import Excitation
 from gearcad.dynamics.trains.shaft_lines import System
@@ -104,15 +104,15 @@ def run_transient(
     quickest = max(abs(begin), abs(end)) * max(excitation.orders)
     step, stride, count = _steps(moving, options, quickest, abs(max(speeds, key=abs)) * teeth / 60)
     start, notices = _settled(moving, options, begin, abs(begin) * max(excitation.orders))
-    course = Course(
-        frequency=Line(time=np.array([0.0, options.duration]), value=np.array([begin, end])), torque=_torque(options)
+    course = RunCourse(
+        frequency=PiecewiseLine(time=np.array([0.0, options.duration]), value=np.array([begin, end])), torque=_torque(options)
     )
     ends = _window_ends(course.frequency, order, step, count)
     motion = moving.run(course, step, count, stride=stride, ends=ends, start=start, tell=tell)
     if speedup.why and begin != end:
         text = f"the torque that speeds up the train's own inertias is left out: {speedup.why}"
         notices = (*notices, Notice("no-acceleration-torque", text))
-    rpm = Line(time=course.frequency.time, value=np.array(speeds))
+    rpm = PiecewiseLine(time=course.frequency.time, value=np.array(speeds))
     return _result(moving, excitation, options, motion, rpm, course.torque, references, notices)
 
 
@@ -149,11 +149,11 @@ def _down(value: float) -> str:
     return f"{math.floor(value / unit * (1 + 1e-12)) * unit:.6g}"
 
 
-def _torque(options: TransientOptions) -> Line:
+def _torque(options: TransientOptions) -> PiecewiseLine:
     at, over = options.changes_at, options.torque_over
     if options.torque_to is None:
-        return Line.level(options.torque_from)
-    return Line(time=np.array([at, at + over]), value=np.array([options.torque_from, options.torque_to]))
+        return PiecewiseLine.level(options.torque_from)
+    return PiecewiseLine(time=np.array([at, at + over]), value=np.array([options.torque_from, options.torque_to]))
 
 
 def _settled(
@@ -167,7 +167,11 @@ def _settled(
     step = step_for(moving.system, quickest, longest / 200)
     lasts = min(wanted, longest, step * _MOST_STEPS / 4)
     count = max(math.ceil(lasts / step), 1)
-    course = Course(frequency=Line.level(frequency), torque=Line.level(options.torque_from), turns=-frequency * count * step)
+    course = RunCourse(
+        frequency=PiecewiseLine.level(frequency),
+        torque=PiecewiseLine.level(options.torque_from),
+        turns=-frequency * count * step,
+    )
     start = moving.run(course, step, count, start=still).end
     if lasts >= wanted:
         return start, ()
@@ -176,7 +180,7 @@ def _settled(
     return start, (Notice("not-settled", text),)
 
 
-def _window_ends(frequency: Line, order: int, step: float, count: int) -> Wholes:
+def _window_ends(frequency: PiecewiseLine, order: int, step: float, count: int) -> Wholes:
     """Return the steps (w,) before which windows end: a tooth of the first mesh, several, or a hundredth of all."""
     size = 1 if count < 1_000_000 else count // 1_000_000
     at = np.arange(0, count + size, size).clip(max=count)
@@ -197,8 +201,8 @@ def _result(
     excitation: Excitation,
     options: TransientOptions,
     motion: Motion,
-    speed: Line,
-    torque: Line,
+    speed: PiecewiseLine,
+    torque: PiecewiseLine,
     references: Floats | None,
     notices: tuple[Notice, ...],
 ) -> Transient:

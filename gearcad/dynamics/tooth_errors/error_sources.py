@@ -21,7 +21,7 @@ from gearcad.dynamics.tooth_errors.tooth_springs import (
     pair_path,
     standard_path,
 )
-from gearcad.dynamics.trains.members import Mesh, StiffnessWave
+from gearcad.dynamics.trains.members import StiffnessWave, ToothMesh
 from gearcad.dynamics.trains.mesh_excitation import CONTACT_RATIO, MeshExcitation, given_deviations, wheel_teeth
 from gearcad.dynamics.trains.tooth_deviations import (
     ErrorDistribution,
@@ -46,7 +46,7 @@ _HARMONICS = 12
 """Harmonics of the tooth frequency in smooth errors, as in the errors of a chart."""
 
 
-class Draw(NamedTuple):
+class ErrorDraw(NamedTuple):
     """A draw of errors: gear number `sample` of a distribution, by a seed. Gear 0 is the one of a single chart."""
 
     distribution: ErrorDistribution
@@ -86,7 +86,7 @@ class MeshTeeth:
             return math.lcm(*self.teeth)
         return 1 if self.exact else self.teeth.pinion
 
-    def _drawn(self, draw: Draw, role: Role) -> ToothDeviations | None:
+    def _drawn(self, draw: ErrorDraw, role: Role) -> ToothDeviations | None:
         """Return the deviations (µm) of a gear, None where it has none."""
         if role is Role.PINION and self.given is not None:
             return self.given
@@ -98,7 +98,7 @@ class MeshTeeth:
         seed = draw.seed + self.number
         return random_deviations(self.teeth.pick(role), tolerances, seed, distribution=draw.distribution, gear=gear)
 
-    def pair_errors(self, draw: Draw) -> PairErrors:
+    def pair_errors(self, draw: ErrorDraw) -> PairErrors:
         """Return the errors (m) of every pair of teeth over one period, until the errors repeat."""
         position, slope = np.zeros(self.period), np.zeros(self.period)
         for role in Role:
@@ -108,7 +108,7 @@ class MeshTeeth:
                 slope += found.slope[which]
         return PairErrors(_MICRO * position, _MICRO / self.contact_ratio * slope)
 
-    def smooth_errors(self, draw: Draw) -> TransmissionError:
+    def smooth_errors(self, draw: ErrorDraw) -> TransmissionError:
         """Return the transmission error (µm) that the tooth errors cause where pairs take over the load gradually."""
         pinion, wheel = (self._drawn(draw, role) for role in Role)
         if pinion is None:
@@ -200,7 +200,7 @@ _LONGEST_TRAIN = 1500
 """Teeth of the first mesh after which all errors of a train must repeat for the wheels' errors to be drawn as well."""
 
 
-def mesh_teeth(mesh: Mesh, number: int, force: float, grade: int | None, *, single: bool) -> MeshTeeth:
+def mesh_teeth(mesh: ToothMesh, number: int, force: float, grade: int | None, *, single: bool) -> MeshTeeth:
     """Return the teeth of a mesh that has only base radii, numbers of teeth and a mean stiffness, under a static force (N).
 
     They have errors of an accuracy `grade` if one is given; the gears then run at their reference circles with a pressure angle
@@ -221,13 +221,13 @@ def mesh_teeth(mesh: Mesh, number: int, force: float, grade: int | None, *, sing
     )
 
 
-def _standard_tolerances(mesh: Mesh, teeth: PerGear[int], grade: int) -> PerGear[FlankTolerances]:
+def _standard_tolerances(mesh: ToothMesh, teeth: PerGear[int], grade: int) -> PerGear[FlankTolerances]:
     diameters = mesh.base_radii.map(lambda radius: 2 * radius / math.cos(math.radians(PRESSURE_ANGLE)))
     module = diameters.pinion / teeth.pinion
     return diameters.map(lambda diameter: flank_tolerances(grade, diameter, module))
 
 
-def _standard_spring(mesh: Mesh, ratio: float, force: float, tolerances: PerGear[FlankTolerances] | None) -> ToothSpring:
+def _standard_spring(mesh: ToothMesh, ratio: float, force: float, tolerances: PerGear[FlankTolerances] | None) -> ToothSpring:
     radii = PerGear(mesh.base_radii.pinion, -mesh.base_radii.wheel if mesh.internal else mesh.base_radii.wheel)
     path = standard_path(radii, mesh.teeth, ratio)
     depth = _depth(force, mesh.stiffness / ratio, tolerances)
@@ -245,7 +245,7 @@ def _depth(force: float, stiffness: float, tolerances: PerGear[FlankTolerances] 
     return _DEPTH * force / stiffness + _BY_ERRORS * errors
 
 
-def _lead(mesh: Mesh, ratio: float) -> float:
+def _lead(mesh: ToothMesh, ratio: float) -> float:
     """Return the place of pair 0 at phase 0: where the wave of the mesh has its least value, or begins with one pair more."""
     if mesh.shape is StiffnessWave.SQUARE:
         start = -ratio / 2

@@ -18,7 +18,7 @@ from gearcad.core.records import Bools, Floats, Notice
 from gearcad.core.runtime import cores
 from gearcad.dynamics.tooth_errors.error_result import ErrorStudy, ToothLaw
 from gearcad.dynamics.tooth_errors.error_sources import (
-    Draw,
+    ErrorDraw,
     MeshTeeth,
     assumptions,
     repeated_teeth,
@@ -66,7 +66,7 @@ _PER_SMOOTH_TOOTH = 64
 """Places on a tooth at which a smooth error is known: five of its twelfth harmonic."""
 
 
-class Run(NamedTuple):
+class StudyRun(NamedTuple):
     """K_v `factors` (s, n, m) at s speeds of n samples, and whether the greatest force repeated, `settled` (s, n)."""
 
     factors: Floats
@@ -158,7 +158,7 @@ class Sampling:
 
     # ------------------------------------------------------------------ samples
 
-    def run(self, frequencies: Floats, draws: Sequence[Draw | None], tell: Callable[[float], None]) -> Run:
+    def run(self, frequencies: Floats, draws: Sequence[ErrorDraw | None], tell: Callable[[float], None]) -> StudyRun:
         """Run all samples up through rising tooth frequencies (Hz) of the first mesh, and return their K_v.
 
         A draw of None has no errors at all. Every sample runs up by itself: its result does not depend on the others. `tell` is
@@ -175,9 +175,11 @@ class Sampling:
                 found = [task.result() for task in tasks]
             finally:
                 stop.set()
-        return Run(*(np.concatenate(each, axis=1) for each in zip(*found, strict=True)))
+        return StudyRun(*(np.concatenate(each, axis=1) for each in zip(*found, strict=True)))
 
-    def _block(self, frequencies: Floats, draws: Sequence[Draw | None], stop: Event, done: list[int], place: int) -> Run:
+    def _block(
+        self, frequencies: Floats, draws: Sequence[ErrorDraw | None], stop: Event, done: list[int], place: int
+    ) -> StudyRun:
         """Run some samples side by side and return their K_v."""
         samples, factors, settled = self._samples(draws), [], []
         for number, frequency in enumerate(frequencies.tolist()):
@@ -187,7 +189,7 @@ class Sampling:
             factors.append((crest / self.forces[:, None]).T)
             settled.append(same)
             done[place] += 1
-        return Run(np.array(factors), np.array(settled))
+        return StudyRun(np.array(factors), np.array(settled))
 
     def _lengths(self, frequency: float, decays: float) -> tuple[int, int, int]:
         """Return the numbers of steps before loads are counted, of the first part of the period, and of the period."""
@@ -252,7 +254,7 @@ class Sampling:
             return single_pattern([each.spring for each in self.teeth if each.spring is not None], self.ratios, per_tooth)
         return smooth_pattern(self.excitation.meshes, self.system.stiffness, senses(self.system), per_tooth, frequency)
 
-    def _samples(self, draws: Sequence[Draw | None]) -> Samples:
+    def _samples(self, draws: Sequence[ErrorDraw | None]) -> Samples:
         """Return the samples at rest, with their errors drawn."""
         from gearcad.dynamics.tooth_errors.error_kernel import Samples
 
@@ -278,7 +280,7 @@ class Sampling:
         motion = (z, np.zeros((n, width)), push, force, force.copy(), force.copy())
         return Samples(position, slope, count, shift, _PER_SMOOTH_TOOTH, *motion)
 
-    def _shift(self, j: int, draw: Draw) -> Floats:
+    def _shift(self, j: int, draw: ErrorDraw) -> Floats:
         """Return the smooth error of mesh j (x,) in m, in the direction in which the load presses its flanks."""
         error, count = self.teeth[j].smooth_errors(draw), _PER_SMOOTH_TOOTH * self.teeth[j].period
         spectrum = np.zeros(count // 2 + 1, complex)
@@ -289,7 +291,7 @@ class Sampling:
         return np.asarray(1e-6 * senses(self.system)[j] * np.fft.irfft(spectrum, count, norm="forward"), float)
 
 
-def _failed(tasks: Sequence[Future[Run]]) -> bool:
+def _failed(tasks: Sequence[Future[StudyRun]]) -> bool:
     return any(task.done() and task.exception() is not None for task in tasks)
 
 
@@ -319,7 +321,7 @@ def study_errors(
     all speeds are too low, GeometryError and SolverError.
     """
     sampling, samples = _sampling(system, excitation, teeth, plan)
-    draws: list[Draw | None] = [Draw(plan.distribution, plan.seed, number) for number in range(samples)]
+    draws: list[ErrorDraw | None] = [ErrorDraw(plan.distribution, plan.seed, number) for number in range(samples)]
     frequencies = speeds * pinion_teeth / 60
     quick = frequencies >= sampling.lowest
     if not quick.any():
@@ -353,7 +355,7 @@ def _assumed(sampling: Sampling) -> tuple[Notice, ...]:
     return (*law, *_hardly_damped(sampling))
 
 
-def _study(sampling: Sampling, plan: ErrorPlan, speeds: Floats, found: Run, assumed: tuple[Notice, ...]) -> ErrorStudy:
+def _study(sampling: Sampling, plan: ErrorPlan, speeds: Floats, found: StudyRun, assumed: tuple[Notice, ...]) -> ErrorStudy:
     """Return the study of a run, whose first sample is the one without errors."""
     return ErrorStudy(
         law=plan.law,

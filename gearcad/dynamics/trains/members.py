@@ -220,7 +220,7 @@ class Shaft(NamedPart):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Mesh(NamedPart):
+class ToothMesh(NamedPart):
     """The teeth of `pinion` and `wheel` (names of inertias) in mesh.
 
     `base_radii` of both in mm; `teeth` of the pinion; `internal` for a ring gear as the wheel. `stiffness` along the line of
@@ -306,7 +306,7 @@ class Mesh(NamedPart):
         """Raise GeometryError for a field that is given although the pair defines it."""
         derived, plain = ("base_radii", "stiffness", "teeth"), ("variation", "shape", "contact_ratio")
         given = {name: not getattr(getattr(self, name), "derived", False) for name in derived}
-        given |= {name: getattr(self, name) != getattr(Mesh, name) for name in plain}
+        given |= {name: getattr(self, name) != getattr(ToothMesh, name) for name in plain}
         for name, beside in given.items():
             if beside:
                 raise GeometryError(f"{self.name}.{name}", getattr(self, name), BESIDE_PAIR)
@@ -371,7 +371,7 @@ _WRONG_SIGN = 0.05
 """How near the torque that balances is to the given one with the other sign, relative to it, to be called its sign."""
 
 
-def turning_pieces(names: Sequence[str], shafts: Iterable[Shaft], meshes: Iterable[Mesh]) -> list[dict[str, float]]:
+def turning_pieces(names: Sequence[str], shafts: Iterable[Shaft], meshes: Iterable[ToothMesh]) -> list[dict[str, float]]:
     """Return the connected pieces of a train, each with the speeds of its inertias relative to its first inertia.
 
     Raises GeometryError where a loop would turn an inertia at two speeds.
@@ -416,7 +416,7 @@ class Graph(NamedTuple):
 
     inertias: tuple[Inertia, ...]
     shafts: tuple[Shaft, ...]
-    meshes: tuple[Mesh, ...]
+    meshes: tuple[ToothMesh, ...]
 
     @property
     def reference(self) -> str:

@@ -19,11 +19,11 @@ from numpy.typing import ArrayLike
 
 from gearcad.core.errors import GeometryError, ParameterError, plain_numbers, require_number
 from gearcad.core.records import Complexes, Floats, PerGear
-from gearcad.dynamics.trains.members import Inertia, Mesh, StiffnessWave, line_backlash, turning_pieces
+from gearcad.dynamics.trains.members import Inertia, StiffnessWave, ToothMesh, line_backlash, turning_pieces
 from gearcad.dynamics.trains.shaft_lines import System
 from gearcad.dynamics.trains.tooth_deviations import (
     ErrorDistribution,
-    Polyline,
+    PeriodicLine,
     ToothDeviations,
     TransmissionError,
     random_deviations,
@@ -78,23 +78,23 @@ class CosineStiffness(StiffnessShape):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CurveStiffness(StiffnessShape):
-    """Straight lines between corners, as a Polyline has them, of `stiffness` (n,) in any unit: it is divided by its mean."""
+    """Straight lines between corners, as in a PeriodicLine, of `stiffness` (n,) in any unit: it is divided by its mean."""
 
     phase: Floats
     stiffness: Floats
 
     def __post_init__(self) -> None:
-        line = Polyline(phase=self.phase, height=self.stiffness)
+        line = PeriodicLine(phase=self.phase, height=self.stiffness)
         if line.height.min() <= 0:
             raise ParameterError("stiffness", float(line.height.min()), "must be above 0 at every phase of the mesh")
-        line = Polyline(phase=line.phase, height=line.height / line.mean)
+        line = PeriodicLine(phase=line.phase, height=line.height / line.mean)
         object.__setattr__(self, "phase", line.phase)
         object.__setattr__(self, "stiffness", line.height)
 
     @cached_property
-    def line(self) -> Polyline:
+    def line(self) -> PeriodicLine:
         """Curve of the stiffness over its mean."""
-        return Polyline(phase=self.phase, height=self.stiffness)
+        return PeriodicLine(phase=self.phase, height=self.stiffness)
 
     def values(self, phase: ArrayLike) -> Floats:
         """Return the stiffness over its mean, at any phases (rad)."""
@@ -187,7 +187,7 @@ def cycle_excitation(
     mean = cycle.tangent_mean if tangent else cycle.mean
     # Steps of the stiffness come again in it and take each other off where nothing vibrates: it must be as sharp as these.
     free = cycle.transmission_error - cycle.force / (mean * shape.stiffness)
-    error = TransmissionError(line=Polyline(phase=cycle_phase(cycle), height=free))
+    error = TransmissionError(line=PeriodicLine(phase=cycle_phase(cycle), height=free))
     return MeshExcitation(stiffness=shape, phase=phase, error=error, backlash=backlash)
 
 
@@ -396,14 +396,14 @@ def _given_errors(deviations: tuple[float, ...], contact_ratio: float) -> Transm
     return tooth_errors(given_deviations(deviations), contact_ratio=contact_ratio, harmonics=_HARMONICS)
 
 
-def _wave(mesh: Mesh) -> StiffnessShape:
+def _wave(mesh: ToothMesh) -> StiffnessShape:
     if mesh.shape is StiffnessWave.COSINE:
         return CosineStiffness(variation=mesh.variation)
     assert mesh.contact_ratio is not None  # a square wave has one
     return square_stiffness(mesh.contact_ratio)
 
 
-def _mesh_errors(mesh: Mesh, grade: int | None, seed: int, distribution: ErrorDistribution) -> TransmissionError:
+def _mesh_errors(mesh: ToothMesh, grade: int | None, seed: int, distribution: ErrorDistribution) -> TransmissionError:
     """Return the transmission error (µm) of the pinion's teeth: as given, or random by the accuracy `grade`.
 
     For random errors the gear is taken to have a pressure angle of 20 degrees.
@@ -431,7 +431,7 @@ def _tooth_ratios(train: Train) -> list[Fraction]:
     """Return the tooth frequency of every mesh over that of the first, by whole numbers of teeth: z3/z2 for a second stage."""
     whole = [wheel_teeth(mesh) for mesh in train.meshes]
     exact = [
-        Mesh(
+        ToothMesh(
             name=mesh.name,
             pinion=mesh.pinion,
             wheel=mesh.wheel,
@@ -451,7 +451,7 @@ def _tooth_ratios(train: Train) -> list[Fraction]:
     ]
 
 
-def wheel_teeth(mesh: Mesh) -> int:
+def wheel_teeth(mesh: ToothMesh) -> int:
     """Return the wheel's number of teeth z_2 = z_1 r_b2/r_b1.
 
     Raises GeometryError where that is far from a whole number.
@@ -477,7 +477,7 @@ def pair_train(
         model=TrainModel.ISOLATED,
         inertias=tuple(Inertia(name=role.value, inertia=each) for role, each in inertias.items()),
         meshes=(
-            Mesh(
+            ToothMesh(
                 name="mesh",
                 pinion="pinion",
                 wheel="wheel",

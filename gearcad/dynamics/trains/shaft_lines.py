@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearcad.core.records import Floats, Wholes
-from gearcad.dynamics.trains.members import Mesh
+from gearcad.dynamics.trains.members import ToothMesh
 from gearcad.dynamics.trains.train import Parts, Train, TrainModel, parts_of
 
 
@@ -188,7 +188,7 @@ class _Element:
 
 
 @dataclass(frozen=True, eq=False)
-class Lines:
+class ShaftLines:
     """A System, and its coordinates on the shafts.
 
     `shafts[s]` (q, n) are coefficients of `twist_shapes` on each shaft. The quadratic forms of `shaft_stiffness[s]` and
@@ -212,7 +212,7 @@ def system(train: Train) -> System:
     return lines_of(train).system
 
 
-def lines_of(train: Train) -> Lines:
+def lines_of(train: Train) -> ShaftLines:
     """Return the train's lines, their modes, and the System that they make with the meshes."""
     parts = parts_of(train)
     elements = _elements(parts, train)
@@ -227,7 +227,7 @@ def lines_of(train: Train) -> Lines:
     squares, modes = _line_modes(parts, elements, stiffness, inertia, train.model is TrainModel.MODES)
     turns = modes.T @ inertia[:, : len(parts.inertias)] @ parts.free
     turns = turns / np.linalg.norm(turns, axis=0)
-    return Lines(
+    return ShaftLines(
         parts=parts,
         system=_system(parts, elements, squares, modes, turns),
         shafts=tuple(element.of(modes) for element in elements),
@@ -326,7 +326,7 @@ def _system(parts: Parts, elements: list[_Element], squares: Floats, modes: Floa
     )
 
 
-def _mesh_damping(parts: Parts, column: int, mesh: Mesh) -> float:
+def _mesh_damping(parts: Parts, column: int, mesh: ToothMesh) -> float:
     """Return the damping of a mesh (N·s/m): as given, or 2 zeta sqrt(k m).
 
     m are the inertias of the pair alone, reduced to the line of action.

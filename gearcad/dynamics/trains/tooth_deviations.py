@@ -19,7 +19,7 @@ from gearcad.rating.tolerances import FlankTolerances
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Polyline:
+class PeriodicLine:
     """Straight lines over one tooth: `phase` (n,) rises over exactly 2 pi (rad), and repeats a value where `height` (n,) jumps.
 
     Where both ends differ, the height jumps there too. Raises ParameterError.
@@ -109,7 +109,7 @@ class TransmissionError:
 
     coefficients: Complexes = field(default_factory=lambda: np.zeros(1, complex))
     teeth: int = 1
-    line: Polyline | None = None
+    line: PeriodicLine | None = None
 
     def __post_init__(self) -> None:
         require_whole("teeth", self.teeth, at_least=1, at_most=1_000_000)

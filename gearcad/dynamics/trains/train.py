@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from gearcad.core.errors import GeometryError, ParameterError, require_name
 from gearcad.core.quantities import SPEED, TORQUE, Whole, Words, require_fields
 from gearcad.core.records import Floats, Notice, concise
-from gearcad.dynamics.trains.members import GROUND, Graph, Inertia, Mesh, MeshCourse, MeshPair, Shaft, turning_pieces
+from gearcad.dynamics.trains.members import GROUND, Graph, Inertia, MeshCourse, MeshPair, Shaft, ToothMesh, turning_pieces
 
 
 class TrainModel(Enum):
@@ -46,7 +46,7 @@ class Train:
     model: Annotated[TrainModel, Words("what is known of the shafts")] = TrainModel.ELEMENTS
     inertias: tuple[Inertia, ...]
     shafts: tuple[Shaft, ...] = ()
-    meshes: tuple[Mesh, ...] = ()
+    meshes: tuple[ToothMesh, ...] = ()
     torques: Mapping[str, float] = field(default_factory=dict)
     speed: Annotated[float, SPEED, Words("speed of the first mesh's pinion", "n_1")] = 0.0
     order: Annotated[int, Whole(2, 40), Words("degree of the polynomials on a shaft with mass")] = 12
@@ -96,7 +96,7 @@ class Train:
 
 
 @dataclass(frozen=True, kw_only=True)
-class EngagedMesh(Mesh):
+class EngagedMesh(ToothMesh):
     """A mesh of a pair, and the `course` of its stiffness and transmission error: `stiffness` is the mean of the tangent."""
 
     course: MeshCourse
@@ -136,7 +136,7 @@ class EngagedMesh(Mesh):
         return self.course.cycle.tangent_mean
 
 
-def require_known(mesh: Mesh) -> None:
+def require_known(mesh: ToothMesh) -> None:
     """Raise ParameterError for a mesh of a pair whose stiffness is not known yet."""
     if mesh.pair is not None and not isinstance(mesh, EngagedMesh):
         permitted = "is not known before the load of its pair: gearcad.dynamics.engaged(train) has it"
@@ -157,7 +157,7 @@ class Parts:
 
     inertias: tuple[Inertia, ...]
     shafts: tuple[Shaft, ...]
-    meshes: tuple[Mesh, ...]
+    meshes: tuple[ToothMesh, ...]
     inertia: Floats
     approach: Floats
     stiffness: Floats
@@ -256,7 +256,7 @@ def _preloads(train: Train) -> Floats:
     return np.array([mesh.preload for mesh in train.meshes])
 
 
-def _free_turns(inertias: Sequence[Inertia], shafts: Sequence[Shaft], meshes: Sequence[Mesh]) -> Floats:
+def _free_turns(inertias: Sequence[Inertia], shafts: Sequence[Shaft], meshes: Sequence[ToothMesh]) -> Floats:
     """Return the speeds (i, r) of the inertias of each piece that turns as a whole."""
     names = [inertia.name for inertia in inertias]
     held = {end for shaft in shafts if shaft.held for end in (shaft.start, shaft.end)}
@@ -379,7 +379,7 @@ def _of_shaft(shaft: Shaft) -> dict[str, Any]:
     return {**_fields(shaft), "torsional_stiffness": shaft.stiffness, "inertia": shaft.inertia}
 
 
-def _of_mesh(train: Train, mesh: Mesh, force: float | None) -> dict[str, Any]:
+def _of_mesh(train: Train, mesh: ToothMesh, force: float | None) -> dict[str, Any]:
     """Return the document of a mesh.
 
     1/m_red = sum of r_b²/J of both gears, whatever else is connected with them; the natural frequency is that of both alone.

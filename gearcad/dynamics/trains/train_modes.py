@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from gearcad.core.errors import ParameterError, SolverError, require_number, require_whole
 from gearcad.core.records import Floats, freeze
 from gearcad.dynamics.trains.shaft_lines import (
-    Lines,
+    ShaftLines,
     clamped_modes_below,
     dynamic_inertia,
     dynamic_stiffness,
@@ -156,7 +156,7 @@ def _shared(names: tuple[str, ...], shares: Floats, kind: str = "") -> list[tupl
     ]
 
 
-def component_modes(lines: Lines) -> ComponentModes:
+def component_modes(lines: ShaftLines) -> ComponentModes:
     """Return the modes that the System of the lines keeps, each of mass 1, line by line.
 
     Osinski's (2.7) holds such a matrix.
@@ -408,7 +408,7 @@ def _line_system_modes(train: Train, count: int, limit: float, places: Floats) -
     )
 
 
-def _of_mass_one(lines: Lines, z: Floats) -> Floats:
+def _of_mass_one(lines: ShaftLines, z: Floats) -> Floats:
     """Return the modes (n, m) over the root of their modal mass.
 
     The mass is not 1 where a shaft weighs next to nothing.
@@ -420,7 +420,7 @@ def _of_mass_one(lines: Lines, z: Floats) -> Floats:
     return scaled
 
 
-def _modes_of(lines: Lines) -> Floats:
+def _modes_of(lines: ShaftLines) -> Floats:
     """Return (n, n) modes of mass 1 in the lines' coordinates.
 
     First come those in which all turns freely, which are known.

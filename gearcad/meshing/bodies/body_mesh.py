@@ -22,7 +22,7 @@ from gearcad.geometry.gear import Pose, halves
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
 from gearcad.meshing.bodies.element_mesh import Cells, Element, ElementMesh, Faces, joined
 from gearcad.meshing.bodies.section_mesh import NO_CONTACTS, Turns, mesh_section, modification_turns, teeth_of
-from gearcad.meshing.bodies.sectors import ContactZone, Sectors, disc
+from gearcad.meshing.bodies.sectors import ContactRefinement, Sectors, disc
 from gearcad.meshing.outline import Grading, MeshSizes, graded
 from gearcad.meshing.sector import Stack
 
@@ -123,7 +123,7 @@ def mesh_body(
     sizes: MeshSizes,
     planes: Floats | None,
     element: Element,
-    contacts: Mapping[int, ContactZone] = NO_CONTACTS,
+    contacts: Mapping[int, ContactRefinement] = NO_CONTACTS,
 ) -> ElementMesh:
     """Mesh a gear down, or a ring out, to `held_radius` (mm) in hexahedra between `planes` (n,), heights in mm.
 
@@ -375,7 +375,7 @@ def expected_amount(
     held_radius: float,
     sizes: MeshSizes,
     element: Element,
-    contacts: Mapping[int, ContactZone] = NO_CONTACTS,
+    contacts: Mapping[int, ContactRefinement] = NO_CONTACTS,
 ) -> Amount:
     """Return the amount of elements and nodes that `mesh_section` or `mesh_body` will make from the same arguments.
 

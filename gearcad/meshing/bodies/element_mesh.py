@@ -18,7 +18,7 @@ from gearcad.geometry import Gear
 
 
 @dataclass(frozen=True)
-class Shape:
+class ElementShape:
     """An element: its vertices come first, then, if it is of second order, the nodes half-way along its edges.
 
     `edges` are pairs of vertices, in the order of the nodes between them; `faces` the local nodes of each side, vertices
@@ -49,7 +49,7 @@ class Element(Enum):
     TET10 = "tet10"
 
     @property
-    def shape(self) -> Shape:
+    def shape(self) -> ElementShape:
         """Nodes and sides of the element."""
         return _SHAPES[self]
 
@@ -68,18 +68,18 @@ def _with_middles(
     return tuple((*face, *(number[frozenset(pair)] for pair in zip(face, face[1:] + face[:1], strict=True))) for face in faces)
 
 
-def _plane(vertices: int) -> Shape:
+def _plane(vertices: int) -> ElementShape:
     """A triangle or quadrangle of second order."""
     edges = tuple((k, (k + 1) % vertices) for k in range(vertices))
-    return Shape(2, 2, vertices, edges, tuple((*edge, vertices + k) for k, edge in enumerate(edges)), "line3")
+    return ElementShape(2, 2, vertices, edges, tuple((*edge, vertices + k) for k, edge in enumerate(edges)), "line3")
 
 
 _SHAPES = {
     Element.TRI6: _plane(3),
     Element.QUAD8: _plane(4),
-    Element.HEX8: Shape(3, 1, 8, _HEX_EDGES, _HEX_FACES, "quad4"),
-    Element.HEX20: Shape(3, 2, 8, _HEX_EDGES, _with_middles(_HEX_FACES, _HEX_EDGES, 8), "quad8"),
-    Element.TET10: Shape(3, 2, 4, _TET_EDGES, _with_middles(_TET_FACES, _TET_EDGES, 4), "tri6"),
+    Element.HEX8: ElementShape(3, 1, 8, _HEX_EDGES, _HEX_FACES, "quad4"),
+    Element.HEX20: ElementShape(3, 2, 8, _HEX_EDGES, _with_middles(_HEX_FACES, _HEX_EDGES, 8), "quad8"),
+    Element.TET10: ElementShape(3, 2, 4, _TET_EDGES, _with_middles(_TET_FACES, _TET_EDGES, 4), "tri6"),
 }
 
 

@@ -37,7 +37,7 @@ _FRONTAL, _HXT = 6, 10
 """gmsh's numbers of its algorithms for faces and for volumes."""
 
 
-class Surface(Enum):
+class SurfaceKind(Enum):
     """Kind of surface on which a face lies; the value is gmsh's word for it."""
 
     PLANE = "Plane"
@@ -60,7 +60,7 @@ class BrepFace:
     (2, 3) in mm.
     """
 
-    surface: Surface
+    surface: SurfaceKind
     middle: Floats
     normal: Floats
     area: float
@@ -108,7 +108,7 @@ class EdgeLengths:
 
 
 @dataclass(frozen=True)
-class Filled:
+class TetrahedronMesh:
     """Tetrahedra (m, 4) with nodes at `points` (n, 3) in mm, and the triangles (k, 3) on each face of the shape."""
 
     points: Floats
@@ -118,7 +118,7 @@ class Filled:
 
 def fill_brep(
     shape: Any, lengths: Callable[[Sequence[BrepFace]], EdgeLengths], stage: Callable[[Stage], None] = lambda _stage: None
-) -> Filled:
+) -> TetrahedronMesh:
     """Fill a shape of the CAD kernel (TopoDS_Solid). `lengths` is asked how long edges shall be, `stage` told what begins.
 
     After an interrupt all that is left of a stage is made as coarse as can be, and the interrupt raised. Raises SolverError if
@@ -179,7 +179,7 @@ def _face(gmsh: Any, tag: int) -> BrepFace:
     low, high = gmsh.model.get_parametrization_bounds(_SURFACES, tag)
     middle = (np.array(low) + high) / 2
     return BrepFace(
-        Surface(gmsh.model.get_type(_SURFACES, tag)),
+        SurfaceKind(gmsh.model.get_type(_SURFACES, tag)),
         np.array(gmsh.model.get_value(_SURFACES, tag, middle)),
         np.array(gmsh.model.get_normal(tag, middle)),
         float(gmsh.model.occ.get_mass(_SURFACES, tag)),
@@ -272,7 +272,7 @@ def _growing(gmsh: Any, faces: Sequence[int], least: float, wanted: EdgeLengths)
     return int(field)
 
 
-def _filled(gmsh: Any, faces: Sequence[int]) -> Filled:
+def _filled(gmsh: Any, faces: Sequence[int]) -> TetrahedronMesh:
     tags, coordinates, _ = gmsh.model.mesh.get_nodes()
     place = np.full(int(tags.max()) + 1, -1, np.int32)
 
@@ -284,7 +284,7 @@ def _filled(gmsh: Any, faces: Sequence[int]) -> Filled:
     tetrahedra = cells(_TETRAHEDRON, 4, -1)
     if not len(tetrahedra):
         raise SolverError("there is nothing in it")
-    return Filled(coordinates.reshape(-1, 3), tetrahedra, [cells(_TRIANGLE, 3, tag) for tag in faces])
+    return TetrahedronMesh(coordinates.reshape(-1, 3), tetrahedra, [cells(_TRIANGLE, 3, tag) for tag in faces])
 
 
 ROOT = "root"
@@ -305,7 +305,7 @@ class GearFace:
     the middle counter-clockwise, as y > 0 is of a tooth on +x; `radius` (mm) is that of a cylinder about `axis` (mm).
     """
 
-    surface: Surface
+    surface: SurfaceKind
     name: str
     tooth: int = 0
     curve: int | None = None
@@ -399,10 +399,10 @@ class GearFaces:
 
 
 _TELL = {
-    Surface.SPLINE: GearFaces._swept,
-    Surface.CYLINDER: GearFaces._round,
-    Surface.CONE: GearFaces._conical,
-    Surface.PLANE: GearFaces._flat,
+    SurfaceKind.SPLINE: GearFaces._swept,
+    SurfaceKind.CYLINDER: GearFaces._round,
+    SurfaceKind.CONE: GearFaces._conical,
+    SurfaceKind.PLANE: GearFaces._flat,
 }
 
 
@@ -467,9 +467,9 @@ def edge_lengths(
     kinds = [curve.curve.kind for curve in flank_curves(gear)]
 
     def wanted(face: GearFace) -> float:
-        if face.surface is Surface.CYLINDER and not (face.name == ROOT or face.name.startswith("tip")):
+        if face.surface is SurfaceKind.CYLINDER and not (face.name == ROOT or face.name.startswith("tip")):
             return min(inside, 2 * math.pi * face.radius / _ROUND)
-        if face.surface not in (Surface.SPLINE, Surface.CYLINDER):
+        if face.surface not in (SurfaceKind.SPLINE, SurfaceKind.CYLINDER):
             return inside
         return size / grading.refinement if face.tooth in refined else size
 

@@ -18,8 +18,8 @@ from gearcad.geometry import Gear
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.profile import CurveKind, Fillet
 from gearcad.meshing.bodies.element_mesh import Cells, Element, ElementMesh, Faces, body_side, rises
-from gearcad.meshing.bodies.sectors import ContactZone, Sectors, filled
-from gearcad.meshing.outline import OTHER_SIDE, MeshSizes, SectorSides, Side
+from gearcad.meshing.bodies.sectors import ContactRefinement, Sectors, filled
+from gearcad.meshing.outline import OTHER_SIDE, MeshSizes, OutlineSide, SectorSides
 
 _NEGLIGIBLE = 1e-14
 """Share of the greatest turn that a field may have and be left out."""
@@ -213,16 +213,16 @@ def _laplacian(section: ElementMesh) -> tuple[Cells, Any]:
     return vertices, laplace.assemble(basis)
 
 
-NO_CONTACTS: Mapping[int, ContactZone] = MappingProxyType({})
+NO_CONTACTS: Mapping[int, ContactRefinement] = MappingProxyType({})
 
 _OF_TEETH = {
-    Side.RIGHT_ROOT: "right_root",
-    Side.RIGHT_FILLET: "right_fillet",
-    Side.RIGHT_FLANK: "right_flank",
-    Side.TIP: "tip",
-    Side.LEFT_FLANK: "left_flank",
-    Side.LEFT_FILLET: "left_fillet",
-    Side.LEFT_ROOT: "left_root",
+    OutlineSide.RIGHT_ROOT: "right_root",
+    OutlineSide.RIGHT_FILLET: "right_fillet",
+    OutlineSide.RIGHT_FLANK: "right_flank",
+    OutlineSide.TIP: "tip",
+    OutlineSide.LEFT_FLANK: "left_flank",
+    OutlineSide.LEFT_FILLET: "left_fillet",
+    OutlineSide.LEFT_ROOT: "left_root",
 }
 """Names of what each tooth has of its own; its number follows."""
 
@@ -238,7 +238,7 @@ def mesh_section(
     held_radius: float,
     sizes: MeshSizes,
     element: Element,
-    contacts: Mapping[int, ContactZone] = NO_CONTACTS,
+    contacts: Mapping[int, ContactRefinement] = NO_CONTACTS,
     modified: bool = True,
 ) -> ElementMesh:
     """Mesh the transverse section of a gear down, or of a ring out, to `held_radius` (mm), in elements of second order.
@@ -324,7 +324,7 @@ def _named(gear: Gear, sector: SectorSides, element: Element, tooth: int) -> dic
     """Sides of a tooth's sector under the names that they have in the whole, but for the cuts."""
     names = _OF_RINGS if gear.internal else _OF_TEETH
     found = {f"{name}_{tooth}": _faces(sector, side, element) for side, name in names.items() if side in sector.sides}
-    found[body_side(gear)] = _faces(sector, Side.HELD, element)
+    found[body_side(gear)] = _faces(sector, OutlineSide.HELD, element)
     return found
 
 
@@ -332,13 +332,13 @@ def _cuts(sector: SectorSides, element: Element, place: int, count: int) -> dict
     """The cuts that the sector in one of `count` places has beside no other."""
     found = {}
     if place == 0:
-        found["cut_behind"] = _faces(sector, Side.BEHIND, element)
+        found["cut_behind"] = _faces(sector, OutlineSide.BEHIND, element)
     if place == count - 1:
-        found["cut_ahead"] = _faces(sector, Side.AHEAD, element)
+        found["cut_ahead"] = _faces(sector, OutlineSide.AHEAD, element)
     return found
 
 
-def _faces(sector: SectorSides, side: Side, element: Element) -> Faces:
+def _faces(sector: SectorSides, side: OutlineSide, element: Element) -> Faces:
     """Edges of a side of the outline. Each has its middle to itself, and that belongs to one element."""
     middles = sector.cells[:, element.shape.vertices :].ravel()
     order = np.argsort(middles, kind="stable")

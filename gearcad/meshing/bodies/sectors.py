@@ -19,8 +19,8 @@ from gearcad.meshing.outline import (
     EdgeLength,
     HalfLengths,
     MeshSizes,
+    OutlineSide,
     SectorSides,
-    Side,
     bent_lengths,
     require_fillet,
     rim_radius,
@@ -33,7 +33,7 @@ _GROWTH = 0.25
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactZone:
+class ContactRefinement:
     """Edges of `edge` (mm) over `half_width` (mm of arc) on both sides of the flank's point at roll length `length` (mm).
 
     It is on the left flank, or, if not `left`, on the right one; signs of roll lengths do not matter. Raises ParameterError.
@@ -50,7 +50,7 @@ class ContactZone:
         require_number("edge", self.edge, above=0)
 
 
-def lengths_near(gear: Gear, zone: ContactZone) -> HalfLengths:
+def lengths_near(gear: Gear, zone: ContactRefinement) -> HalfLengths:
     """Longest edges on all curves of the half of the tooth whose flank has the zone."""
     curves = gear.profile.curves
     flank = next(curve for curve in curves if isinstance(curve, Involute))
@@ -284,7 +284,7 @@ class SectorCount(NamedTuple):
 class _Kind(NamedTuple):
     """Kind of a tooth's sector: its zone of short edges, and whether it is as fine as sizes ask for."""
 
-    zone: ContactZone | None
+    zone: ContactRefinement | None
     fine: bool
 
 
@@ -300,13 +300,13 @@ class Sectors:
     held_radius: float
     sizes: MeshSizes
     element: Element
-    zones: Mapping[int, ContactZone]
+    zones: Mapping[int, ContactRefinement]
     known: dict[_Kind, SectorSides] = field(default_factory=dict)
     counted: dict[_Kind, SectorCount] = field(default_factory=dict)
 
     @classmethod
     def of_gear(
-        cls, gear: Gear, held_radius: float, sizes: MeshSizes, element: Element, contacts: Mapping[int, ContactZone]
+        cls, gear: Gear, held_radius: float, sizes: MeshSizes, element: Element, contacts: Mapping[int, ContactRefinement]
     ) -> Sectors:
         """Return the sectors of a gear. Zones may go by any number of a tooth: -1 is the last tooth."""
         return cls(gear, held_radius, sizes, element, {tooth % gear.tooth_count: zone for tooth, zone in contacts.items()})
@@ -373,21 +373,21 @@ class Sectors:
         beside = float(self._lengths(self.sizes, None).curves[root.kind](np.zeros(1), 0.0)[0])
         return min(self.sizes.cut, _BESIDE * beside / self.gear.normal_module)
 
-    def _layout(self, zone: ContactZone | None) -> SectorLayout:
+    def _layout(self, zone: ContactRefinement | None) -> SectorLayout:
         plain = self._lengths(self.sizes, None)
         rows = self._lengths(self.sizes, zone) if zone else None
         # Quadrangles fill circles of an even number of edges only.
         return SectorLayout(self.gear, self.inside, self.sizes, plain, rows, self.disc and self.gear.tooth_count % 2 == 1)
 
-    def _lengths(self, sizes: MeshSizes, zone: ContactZone | None) -> HalfLengths:
+    def _lengths(self, sizes: MeshSizes, zone: ContactRefinement | None) -> HalfLengths:
         near = lengths_near(self.gear, zone) if zone else None
         return bent_lengths(self.gear, sizes, near, whole=self.element is Element.TRI6)
 
 
 def _counted(sector: SectorSides) -> SectorCount:
     edges = {side: (len(chain) - 1) // 2 for side, chain in sector.sides.items()}
-    cut = edges[Side.AHEAD]
-    return SectorCount(len(sector.cells), sum(edges.values()) - 2 * cut, edges[Side.HELD], cut)
+    cut = edges[OutlineSide.AHEAD]
+    return SectorCount(len(sector.cells), sum(edges.values()) - 2 * cut, edges[OutlineSide.HELD], cut)
 
 
 def _carrying(sizes: MeshSizes) -> MeshSizes:

@@ -24,12 +24,12 @@ from gearcad.meshing.bodies.gear_faces import (
     ROOT,
     BrepFace,
     EdgeLengths,
-    Filled,
     GearFace,
     GearFaces,
     Stage,
-    Surface,
+    SurfaceKind,
     TetrahedronGrading,
+    TetrahedronMesh,
     edge_lengths,
     expected_tetrahedra,
     fill_brep,
@@ -285,7 +285,7 @@ _ROUND = ((0, 1), (1, 2), (2, 0))
 """Edges of a triangle."""
 
 
-def quadratic(gear: Gear, faces: Sequence[GearFace], filled: Filled) -> tuple[Floats, Cells]:
+def quadratic(gear: Gear, faces: Sequence[GearFace], filled: TetrahedronMesh) -> tuple[Floats, Cells]:
     """Points (n, 3) in mm, vertices first, then the middles of edges, and cells (m, 10): order of nodes as TET10 has it.
 
     Nodes on flanks, fillets, chamfers and lands are on the exact, modified ones. Raises SolverError if a vertex is not on
@@ -303,7 +303,7 @@ def quadratic(gear: Gear, faces: Sequence[GearFace], filled: Filled) -> tuple[Fl
     return points, cells
 
 
-def _curved(gear: Gear, faces: Sequence[GearFace], filled: Filled) -> tuple[Floats, Cells, Bools]:
+def _curved(gear: Gear, faces: Sequence[GearFace], filled: TetrahedronMesh) -> tuple[Floats, Cells, Bools]:
     """Points, cells, and which of the points are middles of edges inside."""
     edges, middles = _edges(filled.tetrahedra)
     surface = _Surface(gear, faces, filled, edges)
@@ -313,7 +313,7 @@ def _curved(gear: Gear, faces: Sequence[GearFace], filled: Filled) -> tuple[Floa
     return mended(points, cells, surface.inner_middles), cells, surface.inner_middles
 
 
-def _upright(filled: Filled) -> Cells:
+def _upright(filled: TetrahedronMesh) -> Cells:
     """Tetrahedra whose first three vertices are counter-clockwise seen from the fourth."""
     a, b, c, d = np.moveaxis(filled.points[filled.tetrahedra], 1, 0)
     below = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0
@@ -361,7 +361,7 @@ class _Surface:
 
     gear: Gear
     faces: Sequence[GearFace]
-    filled: Filled
+    filled: TetrahedronMesh
     edges: Cells
 
     # ------------------------------------------------------------------ which are where
@@ -372,13 +372,13 @@ class _Surface:
         known = _keys(self.edges)
         return [np.unique(np.searchsorted(known, _keys(cells[:, _ROUND]))) for cells in self.filled.triangles]
 
-    def _on(self, surface: Surface) -> Iterator[_Meshed]:
+    def _on(self, surface: SurfaceKind) -> Iterator[_Meshed]:
         """Faces on a kind of surface."""
         for face, cells, edges in zip(self.faces, self.filled.triangles, self._edge_numbers, strict=True):
             if face.surface is surface:
                 yield _Meshed(face, np.unique(cells), edges)
 
-    def _marked(self, surface: Surface) -> tuple[Bools, Bools]:
+    def _marked(self, surface: SurfaceKind) -> tuple[Bools, Bools]:
         """Which nodes, and which edges, are on a kind of surface."""
         nodes, edges = np.zeros(len(self.filled.points), bool), np.zeros(len(self.edges), bool)
         for meshed in self._on(surface):
@@ -389,7 +389,7 @@ class _Surface:
     def _swept(self) -> list[_Swept]:
         """Flanks, a piece after the other."""
         groups: dict[tuple[int, bool], list[_Meshed]] = {}
-        for meshed in self._on(Surface.SPLINE):
+        for meshed in self._on(SurfaceKind.SPLINE):
             assert meshed.face.curve is not None
             groups.setdefault((meshed.face.curve, meshed.face.left), []).append(meshed)
         curves = flank_curves(self.gear)
@@ -411,7 +411,7 @@ class _Surface:
 
     @cached_property
     def _on_cones(self) -> tuple[Bools, Bools]:
-        return self._marked(Surface.CONE)
+        return self._marked(SurfaceKind.CONE)
 
     def _end_heights(self, radius: Floats, z: Floats) -> Floats:
         """Heights (mm) of the nearer end at these radii (mm); the halves of a double helical gear have two each."""
@@ -450,7 +450,7 @@ class _Surface:
         points: Floats = vertices[self.edges].mean(1)
         conical = self._on_cones[1]
         points[conical] = self._round_cone(points[conical])
-        for face, _, edges in self._on(Surface.CYLINDER):
+        for face, _, edges in self._on(SurfaceKind.CYLINDER):
             points[edges] = _at_radius(points[edges], np.array(face.radius), face.axis)
         for swept, s in zip(self._swept, along, strict=True):
             ends, at = s[self.edges[swept.edges]], points[swept.edges]
@@ -598,7 +598,7 @@ def _require_few(lengths: EdgeLengths, told: Sequence[GearFace], faces: Sequence
 # ---------------------------------------------------------------------- named sides
 
 
-def _sides(gear: Gear, faces: Sequence[GearFace], filled: Filled, cells: Cells) -> dict[str, Faces]:
+def _sides(gear: Gear, faces: Sequence[GearFace], filled: TetrahedronMesh, cells: Cells) -> dict[str, Faces]:
     """The triangles on faces of each name, as sides of tetrahedra."""
     groups: dict[str, list[Cells]] = {}
     for face, triangles in zip(faces, filled.triangles, strict=True):

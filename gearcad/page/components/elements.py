@@ -10,19 +10,19 @@ from nicegui import ui
 from nicegui.element import Element
 from nicegui.events import GenericEventArguments
 
-from gearcad.page.words import Words
+from gearcad.page.words import PageWords
 
 
 class BarView(Element, component="gear_bar.js"):
     """Bar with the list of keys and a switch for light or dark. The browser remembers the choice, else the system decides."""
 
-    def __init__(self, words: Words) -> None:
+    def __init__(self, words: PageWords) -> None:
         super().__init__()
         self._props["keys"] = list(_keys(words).items())
         self._props["words"] = {"dark": words["light or dark"], "keys": words["keys"], "close": words["close"]}
 
 
-def _keys(words: Words) -> dict[str, str]:
+def _keys(words: PageWords) -> dict[str, str]:
     """Return the effect of each key of the keyboard, in the language of the page."""
     return {
         "/": words["find a key"],

@@ -331,14 +331,14 @@ _SHORT = 1 << 16
 """Vertices that two bytes can number."""
 
 
-class Surface(NamedTuple):
+class DrawnSurface(NamedTuple):
     """A closed surface: numbers of vertices and triangles, coordinates (mm) and corners; by what it is known."""
 
     key: str
     content: bytes
 
 
-class Body(NamedTuple):
+class DrawnBody(NamedTuple):
     """A body where it stands (mm, rad), and how far it turns (rad), goes round or slides along y (mm) with the first gear."""
 
     name: str
@@ -354,7 +354,7 @@ class Body(NamedTuple):
 class Bodies(NamedTuple):
     """The bodies of a design, and their surfaces, which are `error` (mm) off at the most; `why_not` where there are none."""
 
-    bodies: tuple[Body, ...] = ()
+    bodies: tuple[DrawnBody, ...] = ()
     surfaces: Mapping[str, bytes] = {}
     error: float = 0.0
     why_not: str = ""
@@ -375,52 +375,52 @@ def bodies_of(design: Design) -> Bodies:
 
 
 @lru_cache(maxsize=_MOST_KEPT)
-def surface_of(cut: Gear | Rack) -> Surface:
+def surface_of(cut: Gear | Rack) -> DrawnSurface:
     """Return the surface of a gear or a rack. Raises GeometryError for a ring without a rim."""
     facets = tessellate(cut, _error(cut)) if isinstance(cut, Gear) else tessellate_rack(cut, _error(cut))
     counts = np.array([len(facets.vertices), len(facets.faces)], "<u4")
     corners = facets.faces.astype("<u2" if len(facets.vertices) < _SHORT else "<u4")
     content = counts.tobytes() + facets.vertices.astype("<f4").tobytes() + corners.tobytes()
-    return Surface(hashlib.blake2b(content, digest_size=12).hexdigest(), content)
+    return DrawnSurface(hashlib.blake2b(content, digest_size=12).hexdigest(), content)
 
 
 def _error(cut: Gear | Rack) -> float:
     return _CHORD * cut.normal_module
 
 
-def _standing(design: ToothedDesign) -> Iterator[tuple[Gear | Rack, Body]]:
+def _standing(design: ToothedDesign) -> Iterator[tuple[Gear | Rack, DrawnBody]]:
     """Yield each gear and rack with its body, whose surface is not known yet."""
     if isinstance(design, PairDesign):
         pair, pose = design.pair, design.pair.wheel_pose()
         place, rotation = (pose.x, 0.0, pose.z), math.radians(pose.rotation)
         ratio = -pair.pinion.teeth / pair.wheel.teeth
-        yield pair.pinion, Body("pinion", "", PART_COLOURS["pinion"])
-        yield pair.wheel, Body("wheel", "", PART_COLOURS["wheel"], place, rotation, ratio)
+        yield pair.pinion, DrawnBody("pinion", "", PART_COLOURS["pinion"])
+        yield pair.wheel, DrawnBody("wheel", "", PART_COLOURS["wheel"], place, rotation, ratio)
     elif isinstance(design, RackPairDesign):
         yield from _with_rack(design)
     elif isinstance(design, RackDesign):
-        yield design.rack, Body("rack", "", STEEL, ratio=0.0)
+        yield design.rack, DrawnBody("rack", "", STEEL, ratio=0.0)
     elif isinstance(design, PlanetaryDesign):
         yield from _of_train(design)
     else:
         for name, gear in design.gears.items():
-            yield gear, Body(name, "", STEEL)
+            yield gear, DrawnBody(name, "", STEEL)
 
 
-def _with_rack(design: RackPairDesign) -> Iterable[tuple[Gear | Rack, Body]]:
+def _with_rack(design: RackPairDesign) -> Iterable[tuple[Gear | Rack, DrawnBody]]:
     pair, pose = design.pair, design.pair.rack_pose()
     place, rotation = (pose.x, pose.y, pose.z), math.radians(pose.rotation)
-    rack = Body("rack", "", PART_COLOURS["rack"], place, rotation, ratio=0.0, slide=pair.pitch_radius)
-    return (pair.pinion, Body("pinion", "", PART_COLOURS["pinion"])), (pair.rack, rack)
+    rack = DrawnBody("rack", "", PART_COLOURS["rack"], place, rotation, ratio=0.0, slide=pair.pitch_radius)
+    return (pair.pinion, DrawnBody("pinion", "", PART_COLOURS["pinion"])), (pair.rack, rack)
 
 
-def _of_train(design: PlanetaryDesign) -> Iterator[tuple[Gear | Rack, Body]]:
+def _of_train(design: PlanetaryDesign) -> Iterator[tuple[Gear | Rack, DrawnBody]]:
     layout = layout_of(design)
     ratios = ratios_of(design, layout)
     for standing in layout.standing:
         body, orbit = standing.body, ratios[layout.carrier.name] if standing.axle.on else 0.0
         rotation, ratio = math.radians(standing.rotation), ratios[standing.axle.name]
-        yield body.gear, Body(standing.name, "", body.colour, standing.offset, rotation, ratio, orbit)
+        yield body.gear, DrawnBody(standing.name, "", body.colour, standing.offset, rotation, ratio, orbit)
 
 
 @of_last

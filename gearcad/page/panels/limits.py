@@ -13,7 +13,7 @@ from gearcad.designs.design import Design
 from gearcad.page.components.elements import LimitsView
 from gearcad.page.fields import LimitMap, Variable, limit_map
 from gearcad.page.panels import Panel
-from gearcad.page.words import Words
+from gearcad.page.words import PageWords
 from gearcad.page.workbench import Workbench
 from gearcad.sizing.geometry import Free, Limit, LimitKind
 
@@ -34,7 +34,7 @@ _DIGITS = 4
 _EXACT = 1e-9
 
 
-class Found(NamedTuple):
+class KnownMap(NamedTuple):
     """A map as the browser has it, without what moves in it, and what stands for it."""
 
     of: LimitMap | None
@@ -42,10 +42,10 @@ class Found(NamedTuple):
     key: str
 
 
-class LimitsPanel(Panel[Found]):
+class LimitsPanel(Panel[KnownMap]):
     """The shift diagram of the design; calls `change` with what is moved, as it would be typed."""
 
-    def __init__(self, bench: Workbench, change: Callable[[Mapping[str, str]], None], words: Words) -> None:
+    def __init__(self, bench: Workbench, change: Callable[[Mapping[str, str]], None], words: PageWords) -> None:
         self._bench, self._change = bench, change
         self._names = {
             Free.TEETH: (words["number of teeth"], "z"),
@@ -73,15 +73,15 @@ class LimitsPanel(Panel[Found]):
         self._map: LimitMap | None = None
         self._shown = ""
 
-    def find(self, design: Design) -> Found:
+    def find(self, design: Design) -> KnownMap:
         found = limit_map(design, self._bench.tables)
         if found is None:
-            return Found(None, [], "")
+            return KnownMap(None, [], "")
         fields = [self._field(limit) for limit in found.map.limits if _matters(limit)]
         axes = [(each.free, each.least, each.most) for each in found.variables]
-        return Found(found, fields, hashlib.sha256(repr((axes, fields)).encode()).hexdigest())
+        return KnownMap(found, fields, hashlib.sha256(repr((axes, fields)).encode()).hexdigest())
 
-    def show(self, found: Found) -> None:
+    def show(self, found: KnownMap) -> None:
         self._map = found.of
         state: dict[str, Any] = {"variables": [] if found.of is None else [*map(self._variable, found.of.variables)]}
         if found.key != self._shown:

@@ -17,8 +17,8 @@ from gearcad.designs.variations import column_of_train, column_symbol
 from gearcad.page.components.elements import RunsView
 from gearcad.page.fields import given_texts
 from gearcad.page.run_process import ANALYSES, RUNS
-from gearcad.page.runs import Run, Runs, State
-from gearcad.page.words import Words
+from gearcad.page.runs import Run, Runs, RunState
+from gearcad.page.words import PageWords
 from gearcad.page.workbench import Workbench
 
 _DIGITS = 5
@@ -37,7 +37,7 @@ def changes_between(former: Mapping[str, str], given: Mapping[str, str]) -> list
     return told if len(keys) <= _MOST_CHANGES else [*told, f"+ {len(keys) - _MOST_CHANGES}"]
 
 
-def figures_beside(runs: Sequence[Run], words: Words) -> list[dict[str, Any]]:
+def figures_beside(runs: Sequence[Run], words: PageWords) -> list[dict[str, Any]]:
     """A row for each figure that any of these runs of one verb has: what it is, and a cell for each run."""
     verb = verb_of(runs[0]) if runs else ""
     symbol_of = column_of_train if verb == "planetary" else column_symbol
@@ -61,7 +61,7 @@ def figures_beside(runs: Sequence[Run], words: Words) -> list[dict[str, Any]]:
     return found
 
 
-def _text(value: Any, words: Words) -> str:
+def _text(value: Any, words: PageWords) -> str:
     """A figure as the page has it; nothing where there is none."""
     if value is None:
         return ""
@@ -74,7 +74,7 @@ def _text(value: Any, words: Words) -> str:
     return format_number(value) if isinstance(value, int) else str(value)
 
 
-def _verdicts(words: Words) -> dict[str, str]:
+def _verdicts(words: PageWords) -> dict[str, str]:
     """Return the words for each verdict of a computation or a rating."""
     return {
         Verdict.PASSED.value: words["passed"],
@@ -101,7 +101,7 @@ class RunsPanel:
     """Follows the workbench; runs belong to the text with which they were started. While `seen` it tells what they take."""
 
     def __init__(
-        self, bench: Workbench, words: Words, runs: Runs | None = None, seen: Callable[[], bool] = lambda: True
+        self, bench: Workbench, words: PageWords, runs: Runs | None = None, seen: Callable[[], bool] = lambda: True
     ) -> None:
         self._bench, self._words, self._runs, self._seen = bench, words, runs or Runs(), seen
         limits = Expected(self._runs.limits.seconds, self._runs.limits.memory)
@@ -114,7 +114,7 @@ class RunsPanel:
         self._kinds: list[dict[str, Any]] = []
         self._stale: list[int] = []
         self._timer = ui.timer(_LOOK, self._look, active=False)
-        self._states: dict[int, State] = {}
+        self._states: dict[int, RunState] = {}
         self._handed = False
         if runs is not None:
             self._timer.activate()
@@ -182,7 +182,7 @@ class RunsPanel:
             self._states = states
             self._show_runs()
         for each in self._runs.all:
-            if each.state is State.RUNNING:
+            if each.state is RunState.RUNNING:
                 self._view.tell(each.number, {"step": each.step, "share": each.share, "left": _left(each)})
         if not busy:
             self._timer.deactivate()
@@ -224,7 +224,7 @@ class RunsPanel:
 
     def _tables(self) -> list[dict[str, Any]]:
         """Return a table of figures for each verb, with the newest run first."""
-        done = [each for each in reversed(self._runs.all) if each.state is State.DONE]
+        done = [each for each in reversed(self._runs.all) if each.state is RunState.DONE]
         found = []
         for verb in dict.fromkeys(map(verb_of, done)):
             runs = [each for each in done if verb_of(each) == verb]
@@ -267,7 +267,7 @@ def _figure(words: str) -> str:
     return words.removeprefix("about ").removesuffix(" left")
 
 
-def _names(words: Words) -> dict[str, str]:
+def _names(words: PageWords) -> dict[str, str]:
     return {
         "check": words["check"],
         "check-2d": words["check in the plane"],
@@ -280,7 +280,7 @@ def _names(words: Words) -> dict[str, str]:
     }
 
 
-def _words(words: Words) -> dict[str, str]:
+def _words(words: PageWords) -> dict[str, str]:
     return {
         "title": words["Runs"],
         "stale": words["of another design"],

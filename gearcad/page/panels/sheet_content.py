@@ -14,7 +14,7 @@ from gearcad.designs.keys import DesignKind
 from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.page.fields import fields_of
 from gearcad.page.panels import Panel
-from gearcad.page.words import Words
+from gearcad.page.words import PageWords
 from gearcad.sheet import Row, Section
 from gearcad.sheet.trains import FACTORS, strength_sections, train_strength_sections
 
@@ -42,7 +42,7 @@ _WORDS = re.compile(r"[a-z][a-z ]+[a-z]")
 _OF_A_GEAR = re.compile(rf"({'|'.join(_QUANTITIES)}) of the (.+)")
 
 
-def title_in(words: Words, title: str) -> str:
+def title_in(words: PageWords, title: str) -> str:
     """Return the title of a design in the language of the page, such as "helical pair, z = 13 / 44"."""
     return _WORDS.sub(lambda found: words[found[0]] if found[0] in _KINDS else found[0], title)
 
@@ -50,20 +50,20 @@ def title_in(words: Words, title: str) -> str:
 _ASSUMED = " (assumed)"
 
 
-def value_in(words: Words, text: str) -> str:
+def value_in(words: PageWords, text: str) -> str:
     """A value as shown."""
     if text.endswith(_ASSUMED):
         return f"{value_in(words, text.removesuffix(_ASSUMED))} ({words['assumed']})"
     return words[text] if text in _VALUES else text
 
 
-def called(words: Words, name: str) -> str:
+def called(words: PageWords, name: str) -> str:
     """Return the name of gears, or of gears in mesh, in the language of the page if it is the name of spec tables."""
     parts = [words.table.get(part.replace("_", " ").capitalize()) for part in name.split("-")]
     return "-".join(part for part in parts if part) if all(parts) else name
 
 
-def quantity_in(words: Words, english: str) -> str:
+def quantity_in(words: PageWords, english: str) -> str:
     """The words of a quantity."""
     if english not in words.table and (found := _OF_A_GEAR.fullmatch(english)) and found[1] in words.table:
         return f"{words[found[1]]} ({called(words, found[2])})"
@@ -74,14 +74,14 @@ _SAID = {"Mesh": "Gear mesh"}
 """Titles that the page has for something else."""
 
 
-class Cell(NamedTuple):
+class SheetCell(NamedTuple):
     """A value with all its digits, and as shown."""
 
     value: Any
     text: str
 
 
-Cells = Mapping[tuple[str, str], Cell]
+Cells = Mapping[tuple[str, str], SheetCell]
 """Cells of a sheet, by the keys of rows and the names of columns; a single column is ""."""
 
 
@@ -97,7 +97,7 @@ def changed_cells(cells: Cells, former: Cells) -> dict[tuple[str, str], str]:
 
 def shown_sections(
     sections: Iterable[Section],
-    words: Words,
+    words: PageWords,
     *,
     folded: Collection[str] = (),
     changed: Mapping[tuple[str, str], str] | None = None,
@@ -125,7 +125,7 @@ def shown_sections(
     ]
 
 
-def _title(title: str, words: Words) -> str:
+def _title(title: str, words: PageWords) -> str:
     """Return the title of a block in the language of the page: its subject, or the gear that it describes."""
     known = words[_SAID.get(title, title)]
     return called(words, title) if known == title else known
@@ -136,13 +136,13 @@ def _rows(section: Section) -> Iterator[Row]:
         yield from block.rows
 
 
-def _places(row: Row, section: Section) -> Iterator[tuple[tuple[str, str], Cell]]:
+def _places(row: Row, section: Section) -> Iterator[tuple[tuple[str, str], SheetCell]]:
     columns = section.columns if len(row.values) > 1 else ("",)
     for column, value, text in zip(columns, row.values, row.texts, strict=True):
-        yield (row.key, column), Cell(value, text)
+        yield (row.key, column), SheetCell(value, text)
 
 
-def _row(row: Row, section: Section, words: Words, changed: Mapping[tuple[str, str], str], kept: Cells) -> dict[str, Any]:
+def _row(row: Row, section: Section, words: PageWords, changed: Mapping[tuple[str, str], str], kept: Cells) -> dict[str, Any]:
     return {
         "key": row.key,
         "words": words.divided(quantity_in(words, row.symbol.words)),
@@ -160,14 +160,14 @@ def _row(row: Row, section: Section, words: Words, changed: Mapping[tuple[str, s
     }
 
 
-def _beside(cell: Cell, kept: Cell | None, words: Words) -> dict[str, str]:
+def _beside(cell: SheetCell, kept: SheetCell | None, words: PageWords) -> dict[str, str]:
     """Return the text of the kept design's cell, if it is different, and the difference from it; otherwise an empty mapping."""
     if kept is None or kept.text == cell.text:
         return {}
     return {"kept": value_in(words, kept.text), "difference": _difference(cell, kept)}
 
 
-def _difference(cell: Cell, kept: Cell) -> str:
+def _difference(cell: SheetCell, kept: SheetCell) -> str:
     """Return the difference of two cells with as many decimals as are shown; "" unless both are finite numbers."""
     numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in (cell.value, kept.value))
     if not numbers or not all(math.isfinite(each.value) for each in (cell, kept)):
@@ -261,7 +261,7 @@ class FiguresPanel(Panel[Figures]):
 
     compares = True
 
-    def __init__(self, label: str, store: str, words: Words) -> None:
+    def __init__(self, label: str, store: str, words: PageWords) -> None:
         from gearcad.page.components.elements import SheetView  # only here: who finds figures elsewhere needs no NiceGUI
 
         self._words = words
@@ -297,7 +297,7 @@ class FiguresPanel(Panel[Figures]):
 
 
 def shown_figures(
-    found: Figures, words: Words, changed: dict[tuple[str, str], str] | None = None, kept: Figures | None = None
+    found: Figures, words: PageWords, changed: dict[tuple[str, str], str] | None = None, kept: Figures | None = None
 ) -> dict[str, Any]:
     """Return the figures as the browser needs them."""
     beside = None if kept is None else kept.cells
@@ -316,7 +316,7 @@ def shown_figures(
     }
 
 
-def _headline(verdict: str, words: Words) -> tuple[str, str]:
+def _headline(verdict: str, words: PageWords) -> tuple[str, str]:
     """Return a verdict in two parts: its head in the language of the page, and its reason."""
     heads = {
         "strength passed": words["strength passed"],
@@ -348,7 +348,7 @@ _VERDICTS = {True: "passed", False: "failed", None: ""}
 class StrengthPanel(FiguresPanel):
     """Panel with the result of `gearcad rate` for a design."""
 
-    def __init__(self, words: Words) -> None:
+    def __init__(self, words: PageWords) -> None:
         super().__init__(words["rating"], "gearcad-strength", words)
 
     def aside(self, design: Design) -> Callable[[Design], Figures] | None:

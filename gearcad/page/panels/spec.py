@@ -15,8 +15,8 @@ from gearcad.designs.reader import NO_DESIGNS, starter_text, starters
 from gearcad.page.components.elements import FilesView, InputsView, TextView
 from gearcad.page.fields import fields_of, given_texts, used_texts
 from gearcad.page.run_process import DOWNLOADS
-from gearcad.page.runs import Run, Runs, State, await_files
-from gearcad.page.words import Words
+from gearcad.page.runs import Run, Runs, RunState, await_files
+from gearcad.page.words import PageWords
 from gearcad.page.workbench import (
     LARGEST_SPEC,
     LARGEST_TABLE,
@@ -34,7 +34,7 @@ from gearcad.page.workbench import (
 class InputsPanel:
     """Follows the workbench itself, not the last good design: what is wrong must be seen where it was typed."""
 
-    def __init__(self, changed: Callable[[str, str, int], None], step: Callable[[bool], None], words: Words) -> None:
+    def __init__(self, changed: Callable[[str, str, int], None], step: Callable[[bool], None], words: PageWords) -> None:
         self._words = words
         own = {
             "inputs": words["inputs of the spec"],
@@ -79,7 +79,7 @@ class InputsPanel:
 class TextPanel:
     """Follows the workbench itself; calls `written(text, step)` after typing, and `step(forth)` for keys that undo or redo."""
 
-    def __init__(self, written: Callable[[str, int], None], step: Callable[[bool], None], words: Words) -> None:
+    def __init__(self, written: Callable[[str, int], None], step: Callable[[bool], None], words: PageWords) -> None:
         self._written, self._newline = written, "\n"
         self._view = TextView(self._typed, step, words["text of the spec"])
         self._fault = ui.label().classes("spec-fault").props("role=alert lang=en")
@@ -98,7 +98,7 @@ class TextPanel:
 class BesidePanel:
     """Calls `changed` when another design is kept, or none."""
 
-    def __init__(self, beside: BesideDesign, words: Words, changed: Callable[[], None]) -> None:
+    def __init__(self, beside: BesideDesign, words: PageWords, changed: Callable[[], None]) -> None:
         self._beside, self._words, self._changed = beside, words, changed
         self._files: list[str] | None = None
         with ui.element("div").classes("beside"):
@@ -154,7 +154,7 @@ Opened = Callable[[str, str], None]
 class FilesPanel:
     """Follows the workbench. `opened` takes a spec's text and name, `tabled` the name and text of a table of results."""
 
-    def __init__(self, key: str, bench: Workbench, words: Words, opened: Opened, tabled: Opened) -> None:
+    def __init__(self, key: str, bench: Workbench, words: PageWords, opened: Opened, tabled: Opened) -> None:
         self._key, self._bench, self._words, self._opened, self._tabled = key, bench, words, opened, tabled
         self._folder, self._runs = Folder(bench.folder), Runs()
         self._view = FilesView(self._asked, f"/given/{key}", _words(words))
@@ -267,8 +267,8 @@ class FilesPanel:
             return
         self._timer.deactivate()
         self._run = None
-        self._view.show(making="", line=run.line if run.state is State.FAILED else "")
-        if run.state is State.DONE:
+        self._view.show(making="", line=run.line if run.state is RunState.FAILED else "")
+        if run.state is RunState.DONE:
             ui.download.from_url(f"/made/{self._runs.key}/{run.number}")
 
 
@@ -281,7 +281,7 @@ def _stem(name: str) -> str:
     return name.removesuffix(SPECS[0])
 
 
-def _names(words: Words) -> dict[str, str]:
+def _names(words: PageWords) -> dict[str, str]:
     return {
         "step": "STEP",
         "stl": "STL",
@@ -296,7 +296,7 @@ def _names(words: Words) -> dict[str, str]:
     }
 
 
-def _words(words: Words) -> dict[str, str]:
+def _words(words: PageWords) -> dict[str, str]:
     return {
         "file": words["File"],
         "open": words["Open"],

@@ -19,9 +19,9 @@ from gearcad.designs.design import Design, files_only_in
 from gearcad.designs.keys import MAIN_TABLES, Cell, DesignKind
 from gearcad.designs.reader import nested
 from gearcad.designs.spec_writers import toml_text
-from gearcad.designs.table import Row
+from gearcad.designs.table import DesignRow
 from gearcad.page.components.elements import TableView
-from gearcad.page.words import Words
+from gearcad.page.words import PageWords
 from gearcad.plots.table_data import opened_records
 
 MOST_ROWS = 50_000
@@ -95,7 +95,9 @@ class ResultsTable:
                 if (value := reader.value(key, cells[key], number)) is None:
                     continue
                 values[key] = value
-                row = Row(number, self.called(number), values, (), (), str(folder / self.name), ("name", *self._inputs[:count]))
+                row = DesignRow(
+                    number, self.called(number), values, (), (), str(folder / self.name), ("name", *self._inputs[:count])
+                )
                 with files_only_in(folder):
                     design = row.design()
             except GearcadError as error:
@@ -167,7 +169,7 @@ _INK = "#7a8794"
 class TablePanel:
     """`opened` takes the spec and the name of a row's design; files that rows name are in `folder`."""
 
-    def __init__(self, words: Words, folder: Path, opened: Callable[[str, str], None]) -> None:
+    def __init__(self, words: PageWords, folder: Path, opened: Callable[[str, str], None]) -> None:
         self._words, self._folder, self._opened = words, folder, opened
         with ui.element("div").classes("table-pane"):
             self._build()
@@ -332,7 +334,7 @@ def _brushed(told: Any, count: int) -> list[int]:
     return [at for at in found if isinstance(at, int) and 0 <= at < count] if isinstance(found, list) else []
 
 
-def _words(words: Words) -> dict[str, str]:
+def _words(words: PageWords) -> dict[str, str]:
     return {
         "title": words["Table of results"],
         "hint": words["open the results.csv of a batch in the menu of files"],

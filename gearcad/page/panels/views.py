@@ -12,7 +12,7 @@ from gearcad.page.components.elements import BodiesView, RollView, SectionView
 from gearcad.page.panels import Panel
 from gearcad.page.panels.drawn_data import Bodies, bodies_of, plain, section_of
 from gearcad.page.panels.sheet_content import Figures, FiguresPanel, called, figures, keys_of, shown_notices
-from gearcad.page.words import Words
+from gearcad.page.words import PageWords
 from gearcad.sheet import sheet_of
 
 
@@ -21,7 +21,7 @@ class SectionPanel(Panel[dict[str, Any] | None]):
 
     compares = True
 
-    def __init__(self, words: Words) -> None:
+    def __init__(self, words: PageWords) -> None:
         self._words, self._view = words, SectionView(words["transverse section"], _own(words))
         self._kept: dict[str, Any] | None = None
 
@@ -36,12 +36,12 @@ class SectionPanel(Panel[dict[str, Any] | None]):
         self._kept = found
 
 
-def section_in(words: Words, found: dict[str, Any]) -> dict[str, Any]:
+def section_in(words: PageWords, found: dict[str, Any]) -> dict[str, Any]:
     """A section whose gears are called in the words of the page."""
     return found | {"bodies": [body | {"name": called(words, body["name"])} for body in found["bodies"]]}
 
 
-def _own(words: Words) -> dict[str, str]:
+def _own(words: PageWords) -> dict[str, str]:
     """Return the words that the script of the section view uses."""
     return {
         "tip": words["tip circle"],
@@ -65,7 +65,7 @@ def _own(words: Words) -> dict[str, str]:
 class BodiesPanel(Panel[Bodies]):
     """The gears in mesh, as solid bodies."""
 
-    def __init__(self, words: Words) -> None:
+    def __init__(self, words: PageWords) -> None:
         self._words, self._number = words, 0
         self._shown: Bodies | None = None
         self._view = BodiesView(words["the gears in mesh"], _bodies_own(words))
@@ -84,7 +84,7 @@ class BodiesPanel(Panel[Bodies]):
         self._view.show(self._number, bodies, surfaces, float(found.error), self._words[found.why_not])
 
 
-def _bodies_own(words: Words) -> dict[str, str]:
+def _bodies_own(words: PageWords) -> dict[str, str]:
     """Return the words that the script of the bodies view uses."""
     return {
         "front": words["front"],
@@ -105,7 +105,7 @@ def _bodies_own(words: Words) -> dict[str, str]:
 class RollPanel(Panel[float]):
     """Panel for the angle by which the first gear is turned."""
 
-    def __init__(self, words: Words) -> None:
+    def __init__(self, words: PageWords) -> None:
         self._view = RollView(_roll_own(words))
         self._shown = 0.0
 
@@ -120,7 +120,7 @@ class RollPanel(Panel[float]):
             self._view.show(found)
 
 
-def _roll_own(words: Words) -> dict[str, str]:
+def _roll_own(words: PageWords) -> dict[str, str]:
     """Return the words that the script of the roll slider uses."""
     return {
         "roll": words["roll angle"],
@@ -133,7 +133,7 @@ def _roll_own(words: Words) -> dict[str, str]:
 class SharesPanel(Panel[dict[str, Any] | None]):
     """A bar for each planet of a train, with what it carries least and most; nothing of other designs."""
 
-    def __init__(self, words: Words) -> None:
+    def __init__(self, words: PageWords) -> None:
         from gearcad.page.components.elements import SharesView  # only here: who finds shares elsewhere needs no NiceGUI
 
         self._shown = False
@@ -195,7 +195,7 @@ _FOLDED = ("Basic rack", "Shaper cutter", "Transverse section", "Line of action,
 class SheetPanel(FiguresPanel):
     """Every derived quantity in blocks."""
 
-    def __init__(self, words: Words) -> None:
+    def __init__(self, words: PageWords) -> None:
         super().__init__(words["data sheet"], "gearcad-sheet", words)
 
     def find(self, design: Design) -> Figures:

@@ -62,7 +62,7 @@ INFINITE = "infinite"
 """What documents say of a life without end."""
 
 
-class Part(Enum):
+class RatedPart(Enum):
     """The part of a gear that is rated: flank or root."""
 
     FLANK = "flank"
@@ -71,7 +71,7 @@ class Part(Enum):
     @property
     def index(self) -> str:
         """Index of the part in symbols: H as in sigma_H, F as in S_F."""
-        return "H" if self is Part.FLANK else "F"
+        return "H" if self is RatedPart.FLANK else "F"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +84,7 @@ class PartStrength:
     of the S-N line do. Without a `safety` it was not judged, for the `reason`. `find_torque` finds the permissible torque.
     """
 
-    part: Part
+    part: RatedPart
     required: float
     stress: float | None = None
     resistance: Resistance | None = None
@@ -148,7 +148,7 @@ class LoadCase:
     life_share: float
     cycle_share: float
     factors: LoadFactors
-    stresses: dict[Part, PerGear[float]]
+    stresses: dict[RatedPart, PerGear[float]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -235,20 +235,20 @@ class Duty:
             stresses=stresses_of(self.nominal, factors, of.torque * scale),
         )
 
-    def stresses(self, part: Part, role: Role, scale: float = 1.0) -> tuple[Floats, Floats]:
+    def stresses(self, part: RatedPart, role: Role, scale: float = 1.0) -> tuple[Floats, Floats]:
         """Shares of the load cycles (n,), and the stress of each (n,) in MPa, of one part."""
         cases = self.cases(scale)
         return np.array([case.cycle_share for case in cases]), np.array([case.stresses[part].pick(role) for case in cases])
 
 
-def stresses_of(nominal: Rating, factors: LoadFactors, share: float = 1.0) -> dict[Part, PerGear[float]]:
+def stresses_of(nominal: Rating, factors: LoadFactors, share: float = 1.0) -> dict[RatedPart, PerGear[float]]:
     """sigma_H and sigma_F (MPa) of both gears with all load factors, at a share of the torque of the nominal rating."""
     common = factors.application * factors.mesh_load * factors.dynamic * share
     flank = math.sqrt(common * factors.face_flank * factors.transverse_flank) * nominal.flank.nominal_stress
     root = common * factors.face_root * factors.transverse_root
     return {
-        Part.FLANK: nominal.flank.contact_factors.map(lambda factor: factor * flank),
-        Part.ROOT: nominal.roots.map(lambda each: each.nominal_stress * root),
+        RatedPart.FLANK: nominal.flank.contact_factors.map(lambda factor: factor * flank),
+        RatedPart.ROOT: nominal.roots.map(lambda each: each.nominal_stress * root),
     }
 
 
@@ -393,7 +393,7 @@ def _falling(curve: Points) -> list[tuple[float, float]]:
     return corners
 
 
-def judged(part: Part, role: Role, duty: Duty, resistance: Resistance, required: float) -> PartStrength:
+def judged(part: RatedPart, role: Role, duty: Duty, resistance: Resistance, required: float) -> PartStrength:
     """Return the strength of a part under its duty.
 
     The safety under a spectrum is the factor on the stresses at which the damage is 1 (ISO 6336-6).
@@ -417,7 +417,7 @@ def judged(part: Part, role: Role, duty: Duty, resistance: Resistance, required:
     )
 
 
-def _safety(part: Part, role: Role, duty: Duty, resistance: Resistance, scale: float) -> float:
+def _safety(part: RatedPart, role: Role, duty: Duty, resistance: Resistance, scale: float) -> float:
     """Return the safety of a part with all torques times `scale`."""
     cycles = duty.cycles.pick(role)
     shares, stresses = duty.stresses(part, role, scale)
@@ -432,7 +432,7 @@ def _beyond_knee(cycles: Floats, stresses: Floats, resistance: Resistance) -> fl
     return 1 - above / whole if 0 < whole < math.inf else 0.0
 
 
-def _permissible_torque(part: Part, role: Role, duty: Duty, resistance: Resistance, required: float) -> float | None:
+def _permissible_torque(part: RatedPart, role: Role, duty: Duty, resistance: Resistance, required: float) -> float | None:
     """Return the permissible torque (N·m), or None if it is beyond the range of the search."""
     scale = torque_at_safety(partial(_safety, part, role, duty, resistance), required, 1.0)
     return scale * abs(duty.whole_torque) if math.isfinite(scale) else None

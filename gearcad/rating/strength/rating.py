@@ -18,7 +18,7 @@ from gearcad.rating.material_limits import EnduranceLimits
 from gearcad.rating.nominal_rating import Rating
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.scuffing import Risk, Scuffing
-from gearcad.rating.strength.duty import LoadCase, Part, PartStrength, told
+from gearcad.rating.strength.duty import LoadCase, PartStrength, RatedPart, told
 from gearcad.rating.strength.permissible import Y_ST
 from gearcad.rating.tolerances import GearTolerances
 
@@ -76,9 +76,9 @@ class StrengthRating(Pictured):
         return self.pair.total_contact_ratio
 
     @property
-    def parts(self) -> Mapping[Part, PerGear[PartStrength]]:
+    def parts(self) -> Mapping[RatedPart, PerGear[PartStrength]]:
         """Flanks and roots."""
-        return {Part.FLANK: self.flank, Part.ROOT: self.root}
+        return {RatedPart.FLANK: self.flank, RatedPart.ROOT: self.root}
 
     @property
     def every(self) -> Iterator[tuple[str, PartStrength]]:
@@ -100,7 +100,7 @@ class StrengthRating(Pictured):
         return _least(each.life for _, each in self.every)
 
     @property
-    def least(self) -> Mapping[Part, float | None]:
+    def least(self) -> Mapping[RatedPart, float | None]:
         """The lower safety of flanks, and of roots."""
         return {part: _least(each.safety for each in both) for part, both in self.parts.items()}
 
@@ -327,10 +327,10 @@ def _factors(of: StrengthRating) -> dict[str, Any]:
     return {
         **({} if of.governing is None else of.governing.factors.to_dict()),
         **flank,
-        **_by_symbol(of, permissible[Part.FLANK]),
+        **_by_symbol(of, permissible[RatedPart.FLANK]),
         **_by_symbol(of, roots.map(lambda root: {key: root[key] for key in _OF_ROOTS})),
         "Y_ST": Y_ST,
-        **_by_symbol(of, permissible[Part.ROOT]),
+        **_by_symbol(of, permissible[RatedPart.ROOT]),
     }
 
 
@@ -373,7 +373,7 @@ def _spectrum(of: StrengthRating) -> list[dict[str, Any]] | None:
             "torque": case.load.torque,
             "speed": case.load.speed,
             **case.factors.to_dict(),
-            **{f"sigma_{part.index}": _gears(of, case.stresses[part]) for part in Part},
+            **{f"sigma_{part.index}": _gears(of, case.stresses[part]) for part in RatedPart},
         }
         for case in of.cases
     ]

@@ -22,7 +22,7 @@ from gearcad.rating.nominal_rating import Rating, rate, rate_rack
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.root_stress import RootRating
 from gearcad.rating.scuffing import Scuffing, scuffing
-from gearcad.rating.strength.duty import Duty, Part, PartStrength, Resistance, judged
+from gearcad.rating.strength.duty import Duty, PartStrength, RatedPart, Resistance, judged
 from gearcad.rating.strength.permissible import (
     Conditions,
     WorkHardening,
@@ -95,16 +95,18 @@ class Reasons:
     roots: PerGear[RootRating]
     error: InputError | None
 
-    def of(self, part: Part, role: Role) -> str:
+    def of(self, part: RatedPart, role: Role) -> str:
         """Return the first reason; "" for a part that can be judged."""
-        own = self._of_flank(role) if part is Part.FLANK else self._of_root(role)
+        own = self._of_flank(role) if part is RatedPart.FLANK else self._of_root(role)
         return next(chain(self._of_material(part, role), own, self._of_load()), "")
 
-    def _of_material(self, part: Part, role: Role) -> Iterator[str]:
+    def _of_material(self, part: RatedPart, role: Role) -> Iterator[str]:
         limits, material = self.limits.pick(role), self.materials.pick(role)
-        limit, source = (limits.contact, limits.contact_source) if part is Part.FLANK else (limits.root, limits.root_source)
+        limit, source = (
+            (limits.contact, limits.contact_source) if part is RatedPart.FLANK else (limits.root, limits.root_source)
+        )
         if limit is None:
-            yield f"{'sigma_Hlim' if part is Part.FLANK else 'sigma_Flim'} is {source}"
+            yield f"{'sigma_Hlim' if part is RatedPart.FLANK else 'sigma_Flim'} is {source}"
         elif material.group is None:
             yield "the material has no group, by which the life factor goes"
 
@@ -230,10 +232,10 @@ class StrengthTask:
         """Work hardening factor Z_W."""
         return work_hardening(self.materials, self.conditions)
 
-    def part(self, part: Part, role: Role) -> PartStrength:
+    def part(self, part: RatedPart, role: Role) -> PartStrength:
         """Return one flank or root: judged, or its known values with the reason why it is not judged."""
         options, reason = self.options, self.reasons.of(part, role)
-        required = options.required_safety_flank if part is Part.FLANK else options.required_safety_root
+        required = options.required_safety_flank if part is RatedPart.FLANK else options.required_safety_root
         resistance = self.resistance(part, role)
         if resistance is not None and not reason:
             return judged(part, role, self.duty, resistance, required)
@@ -247,13 +249,13 @@ class StrengthTask:
             reason=reason,
         )
 
-    def resistance(self, part: Part, role: Role) -> Resistance | None:
+    def resistance(self, part: RatedPart, role: Role) -> Resistance | None:
         """sigma_HG or sigma_FG of a gear; None without its limits, or group."""
         group, limits = self.materials.pick(role).group, self.limits
         contact = limits.map(lambda each: each.contact)
         if group is None:
             return None
-        if part is Part.FLANK:
+        if part is RatedPart.FLANK:
             if contact.pinion is None or contact.wheel is None:
                 return None
             known = PerGear(contact.pinion, contact.wheel)
@@ -356,8 +358,8 @@ def verify_of(task: StrengthTask) -> Iterator[str]:
     yield from to_verify(
         task.options.standard,
         internal=isinstance(task.rated, GearPair) and task.rated.internal,
-        limited_flank=_limited(task, Part.FLANK),
-        limited_root=_limited(task, Part.ROOT),
+        limited_flank=_limited(task, RatedPart.FLANK),
+        limited_root=_limited(task, RatedPart.ROOT),
     )
     if not isinstance(task.load_factors, InputError):
         yield from task.load_factors.verify
@@ -365,7 +367,7 @@ def verify_of(task: StrengthTask) -> Iterator[str]:
         yield from task.scuffing.verify
 
 
-def _limited(task: StrengthTask, part: Part) -> bool:
+def _limited(task: StrengthTask, part: RatedPart) -> bool:
     """Whether a gear has fewer load cycles than its endurance limit asks for."""
     found = ((task.resistance(part, role), task.duty.cycles.pick(role)) for role in Role)
     return any(each is not None and cycles is not None and cycles < endurance_cycles(each.points) for each, cycles in found)
@@ -375,7 +377,7 @@ _MATTERS = 0.01
 """Share of a damage from which it is told what it rests on."""
 
 
-def notices_of(task: StrengthTask, parts: Mapping[Part, PerGear[PartStrength]]) -> Iterator[Notice]:
+def notices_of(task: StrengthTask, parts: Mapping[RatedPart, PerGear[PartStrength]]) -> Iterator[Notice]:
     """Yield the notices of the nominal rating, load factors, scuffing, and damage beyond the last corner of the S-N line."""
     yield from task.nominal.notices
     if not isinstance(task.load_factors, InputError):
@@ -385,7 +387,7 @@ def notices_of(task: StrengthTask, parts: Mapping[Part, PerGear[PartStrength]]) 
     yield from _beyond_knee(parts, task.nominal.names)
 
 
-def _beyond_knee(parts: Mapping[Part, PerGear[PartStrength]], names: PerGear[str]) -> Iterator[Notice]:
+def _beyond_knee(parts: Mapping[RatedPart, PerGear[PartStrength]], names: PerGear[str]) -> Iterator[Notice]:
     """Yield one notice for all parts with damage beyond the last corner of the S-N line."""
     found = [
         f"{share:.0%} of the {part.value} of the {names.pick(role)}"
@@ -426,7 +428,7 @@ def rate_strength(
 
 def _rating(task: StrengthTask) -> StrengthRating:
     """Return the full rating of a task."""
-    parts = {part: PerGear(*(task.part(part, role) for role in Role)) for part in Part}
+    parts = {part: PerGear(*(task.part(part, role) for role in Role)) for part in RatedPart}
     factors = None if isinstance(task.load_factors, InputError) else task.load_factors
     return StrengthRating(
         pair=task.pair,
@@ -438,8 +440,8 @@ def _rating(task: StrengthTask) -> StrengthRating:
         load_factors=factors,
         cases=() if factors is None else task.duty.cases(),
         governing=None if factors is None else task.duty.governing,
-        flank=parts[Part.FLANK],
-        root=parts[Part.ROOT],
+        flank=parts[RatedPart.FLANK],
+        root=parts[RatedPart.ROOT],
         scuffing=task.scuffing,
         tolerances=task.tolerances,
         assumed=tuple(dict.fromkeys(assumed_of(task))),

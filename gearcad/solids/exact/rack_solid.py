@@ -15,7 +15,7 @@ import numpy as np
 
 from gearcad.core.records import Floats
 from gearcad.geometry.rack import Rack
-from gearcad.solids.body_plan import Edge, Piece, RackPlan, RackSide, Strip, outline_pieces
+from gearcad.solids.body_plan import Edge, OutlinePiece, RackPlan, RackSide, Strip, outline_pieces
 from gearcad.solids.exact import boundary
 from gearcad.solids.exact.boundary import (
     BezierOnSurface,
@@ -46,7 +46,7 @@ _CLOSE = 1e-10
 """Largest error (mm) of an edge's curve in the cylinder's parameters."""
 
 
-def flat_surface(piece: Piece, drift: float) -> PlaneSurface:
+def flat_surface(piece: OutlinePiece, drift: float) -> PlaneSurface:
     """The plane of a straight piece, its normal up."""
     (c, y), (to_c, to_y) = piece.start, piece.end
     normal, along = (y - to_y, to_c - c, drift * (to_y - y)), (drift, 0.0, 1.0)
@@ -60,7 +60,7 @@ class FilletSurface:
     Its normal points away from the axis, into the rack.
     """
 
-    piece: Piece
+    piece: OutlinePiece
     drift: float
 
     @property
@@ -210,7 +210,7 @@ class _Builder:
             self.edges[low, high] = self.recorder.edge(line, self.vertices[low], self.vertices[high], 0.0, length)
         return self.edges[low, high], start == low
 
-    def _on_rim(self, edge: Edge, piece: Piece) -> tuple[int, bool]:
+    def _on_rim(self, edge: Edge, piece: OutlinePiece) -> tuple[int, bool]:
         """The edge between the toothed side and an end face, and whether it runs in the order of c."""
         if piece.fillet is None or (self.rack.drift == 0 and edge.side in (RackSide.START, RackSide.END)):
             return self._straight(edge.start, edge.end)

@@ -15,7 +15,7 @@ from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Body, Gear
 from gearcad.geometry.gear import halves
 from gearcad.geometry.rack import Rack
-from gearcad.solids.body_plan import Piece, RackPlan, RackSide, keyway_half_angle, outline_pieces, require_rim
+from gearcad.solids.body_plan import OutlinePiece, RackPlan, RackSide, keyway_half_angle, outline_pieces, require_rim
 from gearcad.solids.facets.ends import (
     LEAST_SIDES,
     Builder,
@@ -356,7 +356,7 @@ def _lines(rack: Rack, chord_error: float) -> tuple[Floats, set[int]]:
     return np.array(points), middles
 
 
-def _along_arc(piece: Piece, chord_error: float) -> list[tuple[float, float]]:
+def _along_arc(piece: OutlinePiece, chord_error: float) -> list[tuple[float, float]]:
     """Points of a fillet from its start, without its end; the chord error is kept in the end faces, too."""
     assert piece.fillet is not None
     steps = math.ceil(piece.fillet.last / arc_step(piece.fillet.radius, chord_error / piece.fillet.stretch))

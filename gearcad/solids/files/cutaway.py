@@ -11,13 +11,13 @@ import numpy as np
 
 from gearcad.core.records import Bools, Floats, Indices, Wholes
 from gearcad.solids.facets.tessellation import Facets
-from gearcad.solids.files.scenes import Part
+from gearcad.solids.files.scenes import ScenePart
 
 _SAME = 1e-9
 """Distance between levels that counts as none, as a share of the extent."""
 
 
-class Section(NamedTuple):
+class CutSection(NamedTuple):
     """Strips: lower left, lower right, upper left, upper right (n, 4, 2) as (u, v), left and right on lines, u the level."""
 
     strips: Floats
@@ -29,7 +29,7 @@ class Section(NamedTuple):
         return sides
 
 
-def section_of(lines: Floats) -> Section:
+def section_of(lines: Floats) -> CutSection:
     """Return the section that lines (m, 2, 2), ends as (u, v), enclose by the even-odd rule. Lines may be open at a level.
 
     Between two neighbouring levels no line begins or ends, and the lines that cross stand in pairs. No topology is needed, so
@@ -47,7 +47,7 @@ def section_of(lines: Floats) -> Section:
     slab, ends = slab[whole][::2], ends[whole].reshape(-1, 2, 2)  # left and right, below and above
     u = np.stack([levels[slab], levels[slab], levels[slab + 1], levels[slab + 1]], axis=1)
     v = np.stack([ends[:, 0, 0], ends[:, 1, 0], ends[:, 0, 1], ends[:, 1, 1]], axis=1)
-    return Section(np.stack([u, v], axis=-1))
+    return CutSection(np.stack([u, v], axis=-1))
 
 
 def _at(lines: Floats, levels: Floats, low: Indices, high: Indices, level: Indices) -> Floats:
@@ -81,7 +81,7 @@ class Cutaway(Enum):
 
 
 @dataclass(frozen=True, eq=False)
-class Cut:
+class CutPlanes:
     """Cut that takes off what is beyond all planes through `point` (3,).
 
     One or two planes have unit normals (3,) towards what is taken off. Two planes are square to each other.
@@ -112,7 +112,7 @@ class CutFacets:
     faces: tuple[CutFace, ...]
 
 
-def cut_away(facets: Facets, cut: Cut) -> CutFacets:
+def cut_away(facets: Facets, cut: CutPlanes) -> CutFacets:
     """Return the facets that a cut leaves, with the cut faces; facets stand in their place."""
     first = cut.normals[0]
     near, beyond, lines = _parted(facets, cut.point, first)
@@ -198,7 +198,7 @@ _MARGIN = 1.06
 """The picture's extent over that of what it shows."""
 
 
-class View(Enum):
+class SceneView(Enum):
     """From where a scene is seen: above one corner, along the axes, from the right, from above (as a sheet's views are), and
     close by, along the axes, where teeth mesh.
     """
@@ -210,7 +210,7 @@ class View(Enum):
     MESH = "mesh"
 
 
-class Direction(NamedTuple):
+class ViewDirection(NamedTuple):
     """Direction from the scene to the eye, and what is up in the picture."""
 
     eye: tuple[float, float, float]
@@ -237,7 +237,7 @@ class Camera:
     distance: float
 
 
-def framed(points: Floats, direction: Direction, aspect: float) -> Camera:
+def framed(points: Floats, direction: ViewDirection, aspect: float) -> Camera:
     """The camera that has all points (n, 3) in a picture of width over height `aspect`, with a margin."""
     axes = direction.axes
     seen = points @ axes.T
@@ -246,12 +246,12 @@ def framed(points: Floats, direction: Direction, aspect: float) -> Camera:
     return Camera(axes, (low + high) / 2 @ axes, _MARGIN * max(float(height), float(width) / aspect) / 2, float(depth))
 
 
-def close_up(points: Floats, direction: Direction, place: tuple[float, float], half_height: float) -> Camera:
+def close_up(points: Floats, direction: ViewDirection, place: tuple[float, float], half_height: float) -> Camera:
     """The camera above all points (n, 3) that looks down on a place (x, y), and sees so much (mm) above and below it."""
     low, high = float(points[:, 2].min()), float(points[:, 2].max())
     return Camera(direction.axes, np.array([*place, high]), half_height, high - low)
 
 
-def points_of(parts: Iterable[Part]) -> Floats:
+def points_of(parts: Iterable[ScenePart]) -> Floats:
     """All points (n, 3) of parts in their places."""
     return np.concatenate([part.facets.vertices @ part.pose[:3, :3].T + part.pose[:3, 3] for part in parts])

@@ -17,7 +17,7 @@ from gearcad.geometry import Body, Gear
 from gearcad.geometry.gear import middle_section
 from gearcad.geometry.profile import CurveKind, PlaneCurve
 from gearcad.geometry.rack import Rack, RackCurveKind
-from gearcad.solids.body_plan import SNAP, Piece, keyway_half_angle, outline_pieces
+from gearcad.solids.body_plan import SNAP, OutlinePiece, keyway_half_angle, outline_pieces
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -235,7 +235,7 @@ def _draw_bore(space: Modelspace, body: Body) -> None:
 class _FilletPart:
     """A fillet from left to right between two of its angles from the lowest point (rad, in the normal section)."""
 
-    piece: Piece
+    piece: OutlinePiece
     first: float
     last: float
     kind: RackCurveKind = RackCurveKind.FILLET
@@ -269,7 +269,7 @@ def rack_contour(rack: Rack, accuracy: float = 0.0005) -> Floats:
     return np.concatenate([back, np.column_stack([vertices, np.r_[bulges, 0.0]])])
 
 
-def _chain(piece: Piece, length: float, accuracy: float) -> Arcs | None:
+def _chain(piece: OutlinePiece, length: float, accuracy: float) -> Arcs | None:
     """Return the arcs of a piece between x = 0 and `length`, from left to right; None if nothing lies there."""
     (first, _), (last, _) = piece.start, piece.end
     low, high = max(first, 0.0), min(last, length)

@@ -57,7 +57,7 @@ class Format(Enum):
     CSV = "csv"
 
     @property
-    def entry(self) -> Entry:
+    def entry(self) -> SolidFormat:
         """Entry of this format: words, writers and the options that matter to it."""
         return _ENTRIES[self]
 
@@ -67,7 +67,7 @@ class Format(Enum):
 
 
 @dataclass(frozen=True)
-class Entry:
+class SolidFormat:
     """One format: what it holds, in words; what writes a gear or a rack, and what stands in mesh (None: it has no assemblies);
     which fields of FileOptions matter to it; whether it holds bodies, so that a ring needs its rim; what writes a planetary
     train, where that is more than of a pair, and what its carrier by itself, which has no teeth.
@@ -140,17 +140,19 @@ _FACETED = ("chord_error",)
 _PLACED = ("carrier", "exploded")
 
 _ENTRIES = {
-    Format.STEP: Entry("the exact solid", _step, _step, ("bracket", *_PLACED), write_train=_step, write_carrier=_step),
-    Format.STL: Entry("facets within --chord-error", _stl, None, (*_FACETED, "carrier"), write_carrier=_stl),
-    Format.THREE_MF: Entry("facets, for printing", _3mf, _3mf, (*_FACETED, *_PLACED), write_train=_3mf, write_carrier=_3mf),
-    Format.GLB: Entry(
+    Format.STEP: SolidFormat("the exact solid", _step, _step, ("bracket", *_PLACED), write_train=_step, write_carrier=_step),
+    Format.STL: SolidFormat("facets within --chord-error", _stl, None, (*_FACETED, "carrier"), write_carrier=_stl),
+    Format.THREE_MF: SolidFormat(
+        "facets, for printing", _3mf, _3mf, (*_FACETED, *_PLACED), write_train=_3mf, write_carrier=_3mf
+    ),
+    Format.GLB: SolidFormat(
         "facets, for viewers", _glb, _glb, (*_FACETED, *_PLACED, "turning"), write_train=_turning_glb, write_carrier=_glb
     ),
-    Format.PNG: Entry(
+    Format.PNG: SolidFormat(
         "a picture from three sides", _png, _png, (*_FACETED, *_PLACED), write_train=_train_png, write_carrier=_png
     ),
-    Format.DXF: Entry("exact section, for cutting", _dxf, None, ("circles",), of_bodies=False, write_train=_dxf),
-    Format.CSV: Entry("points of flank and fillet", _csv, of_bodies=False),
+    Format.DXF: SolidFormat("exact section, for cutting", _dxf, None, ("circles",), of_bodies=False, write_train=_dxf),
+    Format.CSV: SolidFormat("points of flank and fillet", _csv, of_bodies=False),
 }
 
 

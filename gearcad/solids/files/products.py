@@ -18,7 +18,7 @@ from gearcad.solids.facets.tessellation import Facets, tessellate, tessellate_ra
 from gearcad.solids.files.dxf import write_rack_dxf
 from gearcad.solids.files.formats import FileOptions
 from gearcad.solids.files.points import write_rack_points
-from gearcad.solids.files.scenes import Part
+from gearcad.solids.files.scenes import ScenePart
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,9 +38,9 @@ class GearProduct:
         """The gear as an exact solid: see `gear_boundary`."""
         return SolidProduct(self.name, gear_boundary(self.gear), BRIGHT_STEEL)
 
-    def scene(self, rotation: float = 0.0) -> list[Part]:
+    def scene(self, rotation: float = 0.0) -> list[ScenePart]:
         """The gear alone at the origin, turned by so much (degrees)."""
-        return [Part(name=self.name, facets=self.facets, colour=self.colour, rotation=rotation)]
+        return [ScenePart(name=self.name, facets=self.facets, colour=self.colour, rotation=rotation)]
 
     def write_dxf(self, path: Path) -> None:
         """Write the gear's section: see `write_dxf`."""
@@ -86,7 +86,7 @@ class PairProduct:
         """Both exact solids posed in mesh: see `pair_product`."""
         return pair_product(self.pair, bracket=self.options.bracket)
 
-    def scene(self, pinion_rotation: float = 0.0) -> list[Part]:
+    def scene(self, pinion_rotation: float = 0.0) -> list[ScenePart]:
         """Both gears posed in mesh, the pinion turned by so much (degrees)."""
         pose = self.pair.wheel_pose(pinion_rotation)
         (pinion,), (wheel,) = self.gears.pinion.scene(pinion_rotation), self.gears.wheel.scene()
@@ -110,9 +110,9 @@ class RackProduct:
         """The rack as an exact solid: see `rack_boundary`."""
         return SolidProduct(self.name, rack_boundary(self.rack), BRIGHT_STEEL)
 
-    def scene(self) -> list[Part]:
+    def scene(self) -> list[ScenePart]:
         """The rack alone, as it lies."""
-        return [Part(name=self.name, facets=self.facets, colour=self.colour)]
+        return [ScenePart(name=self.name, facets=self.facets, colour=self.colour)]
 
     def write_dxf(self, path: Path) -> None:
         """Write the rack's side view: see `write_rack_dxf`."""
@@ -155,7 +155,7 @@ class RackPairProduct:
         """Both exact solids posed in mesh: see `rack_product`."""
         return rack_product(self.pair)
 
-    def scene(self, pinion_rotation: float = 0.0) -> list[Part]:
+    def scene(self, pinion_rotation: float = 0.0) -> list[ScenePart]:
         """Both posed in mesh, the pinion turned by so much (degrees)."""
         pose = self.pair.rack_pose(pinion_rotation)
         (pinion,), (rack,) = self.pinion.scene(pinion_rotation), self.rack.scene()

@@ -73,7 +73,7 @@ def glb_bytes(tree: dict[str, Any], arrays: Arrays) -> bytes:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part:
+class ScenePart:
     """One body of a scene: turned by `rotation` (degrees, about its own z axis), then moved by `offset` (mm).
 
     `colour` is red, green and blue as seen on a screen (sRGB), 0 ... 1. Parts with the same facets, the very object, are one
@@ -158,7 +158,7 @@ _SHADES = 255
 """Steps of a colour of a material, as of one on a screen."""
 
 
-def write_glb(parts: Sequence[Part], path: Path | str, turning: Turning | None = None) -> None:
+def write_glb(parts: Sequence[ScenePart], path: Path | str, turning: Turning | None = None) -> None:
     """Write every part as a named, coloured body in its place, and how they turn.
 
     glTF knows only metres with y up, so the data stay in mm with z up, and the node "gearcad" above all parts scales by
@@ -194,10 +194,10 @@ class _Node(NamedTuple):
     name: str
     parent: str | None
     place: Floats
-    part: Part | None
+    part: ScenePart | None
 
 
-def _nodes(parts: Sequence[Part]) -> Iterator[_Node]:
+def _nodes(parts: Sequence[ScenePart]) -> Iterator[_Node]:
     """Axles before what turns about them, parts in their order. An axle and the part of its name are one node."""
     same = {part.axle.name: part for part in parts if part.axle is not None and part.axle.name == part.name}
     made: set[str] = set()
@@ -236,7 +236,7 @@ class _Shapes:
         self.materials: list[dict[str, Any]] = []
         self._numbers: dict[int, int] = {}
 
-    def number_of(self, part: Part, arrays: Arrays) -> int:
+    def number_of(self, part: ScenePart, arrays: Arrays) -> int:
         """Return the number of the mesh of a part; adds the mesh and its material if they are new."""
         number = self._numbers.setdefault(id(part.facets), len(self.meshes))
         if number == len(self.meshes):
@@ -248,7 +248,7 @@ class _Shapes:
         return number
 
 
-def _material(part: Part) -> dict[str, Any]:
+def _material(part: ScenePart) -> dict[str, Any]:
     colour = [*(round(_SHADES * _linear(value)) / _SHADES for value in part.colour), 1.0]
     looks = {"baseColorFactor": colour, "metallicFactor": _METALLIC, "roughnessFactor": _ROUGHNESS}
     return {"name": part.made_as, "pbrMetallicRoughness": looks, "doubleSided": False}
@@ -306,7 +306,7 @@ _FIRST_OBJECT = 2
 """Resource identifiers count through materials and objects alike; 1 is the list of materials."""
 
 
-def write_3mf(parts: Sequence[Part], path: Path | str) -> None:
+def write_3mf(parts: Sequence[ScenePart], path: Path | str) -> None:
     """Write every part as a named, coloured body in its place; the file states the millimetre.
 
     Parts that are one product are components that hold its mesh, which is written once.
@@ -336,12 +336,12 @@ def write_3mf(parts: Sequence[Part], path: Path | str) -> None:
             archive.writestr(ZipInfo(name), text, compress_type=ZIP_DEFLATED, compresslevel=6)
 
 
-def _three_mf_material(part: Part) -> str:
+def _three_mf_material(part: ScenePart) -> str:
     shades = "".join(f"{round(255 * value):02X}" for value in part.colour)
     return f'<base name={quoteattr(part.made_as)} displaycolor="#{shades}FF"/>'
 
 
-def _object(part: Part, number: int, material: int) -> str:
+def _object(part: ScenePart, number: int, material: int) -> str:
     """The mesh of a part, with an identifier and a material by their numbers."""
     vertices, faces = part.facets.vertices, part.facets.faces
     points = '<vertex x="%.9g" y="%.9g" z="%.9g"/>' * len(vertices) % tuple(vertices.ravel().tolist())
@@ -352,7 +352,7 @@ def _object(part: Part, number: int, material: int) -> str:
     )
 
 
-def _component(part: Part, number: int, mesh: int) -> str:
+def _component(part: ScenePart, number: int, mesh: int) -> str:
     """A part whose mesh is an object by itself."""
     name = quoteattr(part.name)
     return f'<object id="{number}" type="model" name={name}><components><component objectid="{mesh}"/></components></object>'
@@ -362,7 +362,7 @@ def _numbers(values: Floats) -> str:
     return " ".join(f"{value:.12g}" for value in values)
 
 
-def write_scene(parts: Sequence[Part], path: Path | str) -> None:
+def write_scene(parts: Sequence[ScenePart], path: Path | str) -> None:
     """Write 3MF or GLB, by the suffix of `path` (see `write_3mf`, `write_glb`). Raises ParameterError for another suffix."""
     writers = {".3mf": write_3mf, ".glb": write_glb}
     suffix = Path(path).suffix.lower()

@@ -17,9 +17,9 @@ from gearcad.core.records import Floats, Notice
 from gearcad.geometry import Gear, GearPair
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.train_data import shafts_of
-from gearcad.solids.files.cutaway import Camera, Cut, Cutaway, Direction, View, close_up, framed, points_of
+from gearcad.solids.files.cutaway import Camera, Cutaway, CutPlanes, SceneView, ViewDirection, close_up, framed, points_of
 from gearcad.solids.files.products import GearProduct, PairProduct, RackPairProduct, RackProduct
-from gearcad.solids.files.scenes import Part
+from gearcad.solids.files.scenes import ScenePart
 from gearcad.solids.files.studio import Animation, Pixels, studio, write_animation, write_png
 from gearcad.solids.files.train_products import TrainProduct, turns_of
 from gearcad.solids.train_plan import Standing, TrainLayout
@@ -74,7 +74,7 @@ class Loop:
     `pitches` pass on the gear whose teeth pass fastest. It `closes` where all then looks as at first.
     """
 
-    scene: Callable[[float], Sequence[Part]]
+    scene: Callable[[float], Sequence[ScenePart]]
     frames: int
     pitches: float
     closes: bool = True
@@ -215,7 +215,7 @@ class _Turning:
     carrier: float
     central: float
 
-    def scene(self, turns: float) -> list[Part]:
+    def scene(self, turns: float) -> list[ScenePart]:
         """Return the parts in their places after the motion has run `turns` times."""
         return self.product.scene(360 * self.carrier * turns, 360 * self.central * turns)
 
@@ -268,30 +268,30 @@ def _symmetry(train: PlanetaryTrain) -> int:
 Product = GearProduct | PairProduct | RackProduct | RackPairProduct | TrainProduct
 
 _FIXED = {
-    View.FRONT: Direction((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
-    View.SIDE: Direction((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
-    View.TOP: Direction((0.0, 1.0, 0.0), (0.0, 0.0, -1.0)),
-    View.MESH: Direction((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
+    SceneView.FRONT: ViewDirection((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
+    SceneView.SIDE: ViewDirection((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+    SceneView.TOP: ViewDirection((0.0, 1.0, 0.0), (0.0, 0.0, -1.0)),
+    SceneView.MESH: ViewDirection((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
 }
 """Third-angle views of what stands along z."""
 
 _UP = (0.0, 0.0, 1.0)
-_OF_GEAR = Direction((0.45, -0.9, 0.8), _UP)
-_OF_PAIR = Direction((-0.3, -1.0, 0.75), _UP)
-_OF_RING = Direction((0.35, -0.8, 1.3), _UP)
-_SETTINGS_OF_RACK = Direction((0.5, 0.8, 1.1), (0.0, 1.0, 0.0))
-_OF_RACK_PAIR = Direction((-1.1, -0.35, 0.9), _UP)
-_OF_TRAIN = Direction((0.45, -0.85, 1.1), _UP)
-_OF_TRAIN_APART = Direction((0.55, -0.9, 0.6), _UP)
+_OF_GEAR = ViewDirection((0.45, -0.9, 0.8), _UP)
+_OF_PAIR = ViewDirection((-0.3, -1.0, 0.75), _UP)
+_OF_RING = ViewDirection((0.35, -0.8, 1.3), _UP)
+_SETTINGS_OF_RACK = ViewDirection((0.5, 0.8, 1.1), (0.0, 1.0, 0.0))
+_OF_RACK_PAIR = ViewDirection((-1.1, -0.35, 0.9), _UP)
+_OF_TRAIN = ViewDirection((0.45, -0.85, 1.1), _UP)
+_OF_TRAIN_APART = ViewDirection((0.55, -0.9, 0.6), _UP)
 """Direction from above the corner from which most of the teeth is seen."""
 
 _GAP, _GAP_OF_RING = 0.3, 0.8
 """Between what was moved apart, as a share of the pinion's diameter: a ring is seen from high above."""
 
 
-def direction_of(product: Product, view: View) -> Direction:
+def direction_of(product: Product, view: SceneView) -> ViewDirection:
     """Return the direction from which a product is seen in a view."""
-    if view is not View.CORNER:
+    if view is not SceneView.CORNER:
         return _FIXED[view]
     if isinstance(product, TrainProduct):
         return _OF_TRAIN_APART if product.options.exploded else _OF_TRAIN
@@ -302,7 +302,7 @@ def direction_of(product: Product, view: View) -> Direction:
     return _SETTINGS_OF_RACK if isinstance(product, RackProduct) else _OF_RACK_PAIR
 
 
-def cuts_of(product: Product, parts: Sequence[Part], cutaway: Cutaway) -> dict[str, Cut]:
+def cuts_of(product: Product, parts: Sequence[ScenePart], cutaway: Cutaway) -> dict[str, CutPlanes]:
     """Return the cut of each part by name. A cutaway takes off all on the near side of the plane through the axes along x.
 
     A quarter takes off only the side of the part's own axis that faces the eye. A train is cut about its own axis, a rack
@@ -310,7 +310,7 @@ def cuts_of(product: Product, parts: Sequence[Part], cutaway: Cutaway) -> dict[s
     """
     near, aside = (
         np.array([0.0, -1.0, 0.0]),
-        np.array([math.copysign(1.0, direction_of(product, View.CORNER).eye[0]), 0.0, 0.0]),
+        np.array([math.copysign(1.0, direction_of(product, SceneView.CORNER).eye[0]), 0.0, 0.0]),
     )
     upper = np.array([0.0, 0.0, 1.0])
     found = {}
@@ -322,11 +322,11 @@ def cuts_of(product: Product, parts: Sequence[Part], cutaway: Cutaway) -> dict[s
             point, normals = np.array([product.rack.length / 2, 0.0, product.rack.face_width / 2]), (upper, aside)
         elif isinstance(product, RackPairProduct) and part is parts[1]:
             point, normals = np.array([0.0, 0.0, part.offset[2] + product.pair.rack.face_width / 2]), (near, upper)
-        found[part.name] = Cut(point, normals if cutaway is Cutaway.QUARTER else normals[:1])
+        found[part.name] = CutPlanes(point, normals if cutaway is Cutaway.QUARTER else normals[:1])
     return found
 
 
-def apart(product: PairProduct | RackPairProduct, parts: Sequence[Part]) -> tuple[float, float, float]:
+def apart(product: PairProduct | RackPairProduct, parts: Sequence[ScenePart]) -> tuple[float, float, float]:
     """Return the shift (x, y, z) in mm that frees the second part of a pair from the first: a ring down, others aside.
 
     A gap is left between both. Trains move themselves apart.
@@ -352,7 +352,7 @@ def close_by(product: Product) -> Close:
     Raises GeometryError without a mesh.
     """
     if isinstance(product, GearProduct | RackProduct):
-        raise GeometryError("view", View.MESH, "needs a pair or a train: one part has no mesh")
+        raise GeometryError("view", SceneView.MESH, "needs a pair or a train: one part has no mesh")
     if isinstance(product, TrainProduct):
         mesh, planet = product.train.meshes[0], product.plan.layout.planets[0][0]
         central, rim = mesh.central.gear, mesh.rim.gear
@@ -378,7 +378,7 @@ class Shot:
     """A picture of a product in `size` (width, height) pixels; of one in a `loop` it moves. See `gearcad.picture`."""
 
     product: Product
-    view: View = View.CORNER
+    view: SceneView = SceneView.CORNER
     size: tuple[int, int]
     cutaway: Cutaway | None = None
     exploded: bool = False
@@ -401,12 +401,12 @@ class Shot:
             for number in range(count):
                 yield room.photograph(*self._set(number / count))
 
-    def scene(self, share: float) -> list[Part]:
+    def scene(self, share: float) -> list[ScenePart]:
         """The parts in their places at a share of the loop."""
         parts = list(self.loop.scene(share) if self.loop else self.product.scene())
         return [parts[0], *(_moved(part, self._apart) for part in parts[1:])] if any(self._apart) else parts
 
-    def _set(self, share: float) -> tuple[Sequence[Part], Camera, dict[str, Cut]]:
+    def _set(self, share: float) -> tuple[Sequence[ScenePart], Camera, dict[str, CutPlanes]]:
         parts = self.scene(share)
         return parts, self.camera, cuts_of(self.product, parts, self.cutaway) if self.cutaway else {}
 
@@ -416,7 +416,7 @@ class Shot:
         width, height = self.size
         direction = direction_of(self.product, self.view)
         points = np.concatenate([self._looked_at(number / _LOOKED_AT) for number in range(_LOOKED_AT if self.loop else 1)])
-        if self.view is not View.MESH:
+        if self.view is not SceneView.MESH:
             return framed(points, direction, width / height)
         place = close_by(self.product)
         return close_up(points, direction, (place.x, place.y), _CLOSE * place.module * max(1.0, _WIDE * height / width))
@@ -430,7 +430,7 @@ class Shot:
             points = points_of([part])
             if part.name in cuts:
                 points = points[cuts[part.name].left(points)]
-            if self.view is View.CORNER and isinstance(self.product, RackPairProduct):
+            if self.view is SceneView.CORNER and isinstance(self.product, RackPairProduct):
                 points = points[abs(points[:, 1]) <= _OF_RACK * self.product.pair.pinion.tip_diameter]
             found.append(points)
         return np.concatenate(found)
@@ -443,13 +443,13 @@ class Shot:
         return apart(self.product, self.product.scene())
 
 
-def loop_of(product: Product, view: View) -> Loop:
+def loop_of(product: Product, view: SceneView) -> Loop:
     """Return the loop in which a product turns; in a close view, a train is seen from its carrier.
 
     Raises GeometryError for a product that does not turn.
     """
     if isinstance(product, TrainProduct):
-        return train_loop(product, carrier_held=view is View.MESH)
+        return train_loop(product, carrier_held=view is SceneView.MESH)
     if isinstance(product, PairProduct):
         return pair_loop(product)
     if isinstance(product, RackPairProduct):
@@ -459,6 +459,6 @@ def loop_of(product: Product, view: View) -> Loop:
     raise GeometryError("turning", True, "needs something that turns: a rack by itself does not")
 
 
-def _moved(part: Part, by: tuple[float, float, float]) -> Part:
+def _moved(part: ScenePart, by: tuple[float, float, float]) -> ScenePart:
     x, y, z = part.offset
     return replace(part, offset=(x + by[0], y + by[1], z + by[2]))

@@ -17,8 +17,8 @@ from gearcad.core.errors import OutputError
 from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.solids.body_plan import Colour
 from gearcad.solids.facets.tessellation import Facets
-from gearcad.solids.files.cutaway import Camera, Cut, CutFace, Direction, cut_away, framed, points_of
-from gearcad.solids.files.scenes import Part
+from gearcad.solids.files.cutaway import Camera, CutFace, CutPlanes, ViewDirection, cut_away, framed, points_of
+from gearcad.solids.files.scenes import ScenePart
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -153,7 +153,7 @@ _CUT, _CUT_SHARE = (0.96, 0.38, 0.28), 0.7
 
 
 @dataclass(frozen=True, eq=False)
-class Shape:
+class StudioShape:
     """Surfaces with normals, each in a colour, the edges of facets, and lines (n, 2, 3) that are drawn always."""
 
     facets: Facets
@@ -168,19 +168,19 @@ class Shape:
         return line_data(np.concatenate([vertices, self.outlines.reshape(-1, 3)]), np.concatenate([ends, own]))
 
 
-def whole_shape(part: Part) -> Shape:
+def whole_shape(part: ScenePart) -> StudioShape:
     """A part before it is put in its place."""
-    return Shape(part.facets, Edges.of(part.facets), ((_smoothed(part.facets), part.colour),), np.zeros((0, 2, 3)))
+    return StudioShape(part.facets, Edges.of(part.facets), ((_smoothed(part.facets), part.colour),), np.zeros((0, 2, 3)))
 
 
-def cut_shape(part: Part, cut: Cut) -> Shape:
+def cut_shape(part: ScenePart, cut: CutPlanes) -> StudioShape:
     """A part in its place without what a cut takes off."""
     vertices = part.facets.vertices @ part.pose[:3, :3].T + part.pose[:3, 3]
     left = cut_away(Facets(vertices, part.facets.faces), cut)
     red, green, blue = (float(each) for each in _CUT_SHARE * np.array(_CUT) + (1 - _CUT_SHARE) * np.array(part.colour))
     surfaces = [(_smoothed(left.facets), part.colour), *((_flat(face), (red, green, blue)) for face in left.faces)]
     outlines = np.concatenate([face.outline for face in left.faces])
-    return Shape(left.facets, Edges.of(left.facets), tuple(surfaces), outlines)
+    return StudioShape(left.facets, Edges.of(left.facets), tuple(surfaces), outlines)
 
 
 def _smoothed(facets: Facets) -> vtkPolyData:
@@ -235,9 +235,9 @@ class Studio:
     size: tuple[int, int]
     transparent: bool
     finer: int
-    shapes: dict[int, Shape] = field(default_factory=dict)
+    shapes: dict[int, StudioShape] = field(default_factory=dict)
 
-    def photograph(self, parts: Sequence[Part], camera: Camera, cuts: Mapping[str, Cut] | None = None) -> Pixels:
+    def photograph(self, parts: Sequence[ScenePart], camera: Camera, cuts: Mapping[str, CutPlanes] | None = None) -> Pixels:
         """The parts, those with a cut by their name without what that takes off."""
         renderer = _renderer(camera)
         for part in parts:
@@ -269,7 +269,7 @@ class Studio:
             pixels[start : start + _BAND] = _on(_mean(found[start : start + _BAND]), self.transparent)
         return pixels
 
-    def _actors(self, part: Part, camera: Camera, cut: Cut | None) -> Iterator[vtkActor]:
+    def _actors(self, part: ScenePart, camera: Camera, cut: CutPlanes | None) -> Iterator[vtkActor]:
         pose = part.pose if cut is None else np.eye(4)
         shape = self._shape(part) if cut is None else cut_shape(part, cut)
         for surface, colour in shape.surfaces:
@@ -285,7 +285,7 @@ class Studio:
         lines.GetProperty().SetLineWidth(max(1.0, _LINE * self.finer * min(self.size)))
         yield lines
 
-    def _shape(self, part: Part) -> Shape:
+    def _shape(self, part: ScenePart) -> StudioShape:
         key = id(part.facets)  # the shape holds the facets, so nothing else can come to this number
         if key not in self.shapes:
             self.shapes[key] = whole_shape(part)
@@ -435,12 +435,12 @@ def _in_colours(image: Image, palette: Image) -> Image:
 _SIZE = 760
 """Pixels of the height and the width of each view."""
 
-_FRONT = Direction((0.0, 0.0, 1.0), (0.0, 1.0, 0.0))
-_SIDE = Direction((0.0, -1.0, 0.0), (0.0, 0.0, 1.0))
-_CORNER = Direction((0.55, -0.9, 0.8), (0.0, 0.0, 1.0))
+_FRONT = ViewDirection((0.0, 0.0, 1.0), (0.0, 1.0, 0.0))
+_SIDE = ViewDirection((0.0, -1.0, 0.0), (0.0, 0.0, 1.0))
+_CORNER = ViewDirection((0.55, -0.9, 0.8), (0.0, 0.0, 1.0))
 
 
-def write_picture(parts: Sequence[Part], path: Path | str, apart: Sequence[Part] = ()) -> None:
+def write_picture(parts: Sequence[ScenePart], path: Path | str, apart: Sequence[ScenePart] = ()) -> None:
     """Write PNG: views along the axis, from the side and from above one corner, beside each other; then `apart`, if given.
 
     Each view is as large as its parts allow. Raises OutputError on a machine without OpenGL.

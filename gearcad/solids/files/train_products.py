@@ -34,7 +34,7 @@ from gearcad.solids.facets.tessellation import Facets
 from gearcad.solids.files.dxf import draw_circles, draw_section, extent_of, gear_contour
 from gearcad.solids.files.formats import FileOptions
 from gearcad.solids.files.products import GearProduct
-from gearcad.solids.files.scenes import Part, Turning
+from gearcad.solids.files.scenes import ScenePart, Turning
 from gearcad.solids.train_plan import CarrierPlan, Standing, TrainLayout, TrainPlan
 
 if TYPE_CHECKING:
@@ -309,9 +309,9 @@ class CarrierProduct:
         """Pins and plates: see `carrier_boundary`."""
         return SolidProduct(self.name, carrier_boundary(self.plan), BRIGHT_STEEL)
 
-    def scene(self) -> list[Part]:
+    def scene(self) -> list[ScenePart]:
         """The carrier alone, in the middle."""
-        return [Part(name=self.name, facets=self.facets, colour=TRAIN_COLOURS["carrier"][0])]
+        return [ScenePart(name=self.name, facets=self.facets, colour=TRAIN_COLOURS["carrier"][0])]
 
 
 @dataclass(frozen=True)
@@ -350,11 +350,11 @@ class TrainProduct:
         """All exact solids in their places: see `train_product`."""
         return train_product(self.plan)
 
-    def scene(self, carrier_angle: float = 0.0, central_turn: float = 0.0) -> list[Part]:
+    def scene(self, carrier_angle: float = 0.0, central_turn: float = 0.0) -> list[ScenePart]:
         """All bodies in their places, what is alike with the same facets; turned as by `PlanetaryTrain.pose` (degrees)."""
         return list(self._scene(self.plan.turned(carrier_angle, central_turn)))
 
-    def other_scene(self) -> list[Part]:
+    def other_scene(self) -> list[ScenePart]:
         """Return the scene moved apart, or in mesh where the scene is apart already."""
         return list(self._scene(TrainPlan.of(self.train, carrier=self.options.carrier, exploded=not self.options.exploded)))
 
@@ -366,10 +366,10 @@ class TrainProduct:
         """All sections in mesh: see `write_train_dxf`."""
         write_train_dxf(TrainLayout(self.train, self.train.pose()), path, circles=self.options.circles)
 
-    def _scene(self, plan: TrainPlan) -> Iterator[Part]:
+    def _scene(self, plan: TrainPlan) -> Iterator[ScenePart]:
         for standing in plan.layout.standing:
             product = self.parts[standing.body.key]
-            yield Part(
+            yield ScenePart(
                 name=standing.name,
                 facets=product.facets,
                 colour=product.colour,
