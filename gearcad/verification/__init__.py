@@ -1,0 +1,1 @@
+"""Verification: every claim about a design's files and figures judged by something that did not make it."""
