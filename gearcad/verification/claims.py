@@ -43,7 +43,7 @@ class Subject(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class Claim:
-    """One claim: a `quantity` of the part or file `where`, as the program says (`computed`) and as the judge finds (`reference`).
+    """One claim: a `quantity` of a part or file, as the program says (`computed`) and as the judge finds (`reference`).
 
     `deviation` and `permitted` are in `unit`. `passed` is None where nothing was judged; `reason` then says why, and of a claim
     that failed at which place. `judge` names the program or the method that judged; `seconds` is how long it took.
@@ -86,7 +86,7 @@ def _finite(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Judge:
     """Maker of the claims that one judge decides: on a `subject`, at a `level`, about one part or file `where`."""
 

@@ -1,0 +1,153 @@
+"""Judge of facets: STL, 3MF and GLB files read by trimesh, and held against the exact surface."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearcad.core.records import Floats, Wholes
+from gearcad.geometry import Gear, Rack
+from gearcad.solids.exact.inertia import moments
+from gearcad.solids.exact.rack_solid import rack_boundary
+from gearcad.solids.exact.solid import gear_boundary
+from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.surfaces import surface_of
+
+if TYPE_CHECKING:
+    from trimesh import Trimesh
+
+SUBJECTS = {"stl": Subject.STL, "3mf": Subject.THREE_MF, "glb": Subject.GLB}
+"""Subjects of the claims by the endings of the files."""
+
+_ROUNDING = {"stl": 2.0**-24, "glb": 2.0**-24, "3mf": 0.0}
+"""Rounding of a coordinate as a share of it: STL and GLB have single precision."""
+
+_LAST_DIGIT = {"stl": 0.0, "glb": 0.0, "3mf": 5.1e-8}
+"""Rounding of a coordinate (mm): 3MF has seven decimals."""
+
+_LEAST = 1e-5
+"""Distance (mm) of a vertex from the exact surface that is permitted beside the rounding of the file."""
+
+_BODY = 1.05
+"""Factor on the chord error for the middle of a triangle: it is bounded for the sides of triangles."""
+
+
+@dataclass(frozen=True)
+class FacetPart:
+    """One body of a file: its name, its facets in mm where the part stands by itself, and its place (4, 4) in the file."""
+
+    name: str
+    mesh: Trimesh
+    place: Floats
+
+
+def read_facets(path: Path) -> list[FacetPart]:
+    """Return the bodies of an STL, 3MF or GLB file in mm, z along the gear's axis. Raises what trimesh raises."""
+    import trimesh
+
+    scene = trimesh.load_scene(path) if path.suffix != ".stl" else None
+    if scene is None:
+        return [FacetPart("", trimesh.load_mesh(path), np.eye(4))]
+    # A GLB has its vertices in mm below a node that turns y up and scales to metres.
+    to_world = np.linalg.inv(_GLB) if path.suffix == ".glb" else np.eye(4)
+    found = []
+    for node in scene.graph.nodes_geometry:
+        place, geometry = scene.graph[node]
+        found.append(FacetPart(str(geometry), scene.geometry[geometry], to_world @ place))
+    return found
+
+
+_GLB = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1]])
+"""Matrix of a GLB, whose unit is the metre and whose y axis points up, for points in mm with z up."""
+
+
+def judge_facets(path: Path, parts: Mapping[str, Gear | Rack], chord_error: float, *, names: bool = True) -> Iterator[Claim]:
+    """Judge every body of a file against the parts that it should have, by their names.
+
+    `chord_error` (mm) bounds how far facets may be off. `names`: whether the file has the names of its parts (STL has not).
+    """
+    ending = path.suffix[1:]
+    judge = Judge(SUBJECTS[ending], Level.FILES, path.name, "trimesh")
+    try:
+        found = read_facets(path)
+    except Exception as error:  # a reader may raise anything for a broken file
+        yield judge.holds("is read", False, place=f"{type(error).__name__}: {error}")
+        return
+    bodies = {part.name: part for part in found}
+    if names:
+        yield judge.equal("names of the parts", ", ".join(sorted(parts)), ", ".join(sorted(bodies)))
+    else:
+        yield judge.equal("number of bodies", len(parts), len(found))
+        bodies = dict(zip(parts, found, strict=False))
+    for name, part in parts.items():
+        if name in bodies:
+            of_part = Judge(judge.subject, judge.level, path.name if len(parts) == 1 else f"{path.name}: {name}", judge.name)
+            yield from _judge_body(of_part, bodies[name].mesh, part, ending, chord_error)
+
+
+def _judge_body(judge: Judge, mesh: Trimesh, part: Gear | Rack, ending: str, chord_error: float) -> Iterator[Claim]:
+    """Judge one body: its topology, its volume, its vertices and the middles of its triangles."""
+    exact = moments(rack_boundary(part) if isinstance(part, Rack) else gear_boundary(part)).volume
+    size = float(np.abs(mesh.vertices).max())
+    permitted = _LEAST + _ROUNDING[ending] * size * np.sqrt(3) + _LAST_DIGIT[ending]
+    yield judge.holds("is watertight", bool(mesh.is_watertight), place=_open_edge(mesh))
+    yield judge.holds("triangles are turned outwards", bool(mesh.is_winding_consistent) and mesh.volume > 0)
+    yield judge.equal("Euler number", euler_number(part), int(mesh.euler_number))
+    yield judge.near("volume", exact, float(mesh.volume), float(mesh.area) * chord_error, "mm³")
+    surface = surface_of(part)
+    vertices, faces = np.asarray(mesh.vertices, float), np.asarray(mesh.faces)
+    apart = surface.distances(vertices)
+    corners = apart[:, faces].max(axis=2)
+    off = corners.min(axis=0)
+    yield judge.below(
+        "distance of vertices from the exact surface",
+        1e3 * off.max(),
+        1e3 * permitted,
+        "µm",
+        place=_where(surface, vertices[faces], off),
+    )
+    middles = vertices[faces].mean(axis=1)
+    away = np.where(corners <= permitted, surface.distances(middles), np.inf).min(axis=0)
+    away = np.where(off <= permitted, away, 0.0)  # those are told above
+    yield judge.below(
+        "distance of facets from the exact surface",
+        1e3 * away.max(),
+        1e3 * (_BODY * chord_error + permitted),
+        "µm",
+        place=_where(surface, vertices[faces], away),
+    )
+    on_flanks = (corners[surface.flanks] <= permitted).any(axis=0)
+    count = int(part.teeth or 0) if isinstance(part, Rack) else part.tooth_count
+    numbers = set(surface.teeth(middles[on_flanks]).tolist())  # a helical rack has parts of more teeth at its ends
+    yield judge.equal("number of teeth", count, len(numbers.intersection(range(count))))
+
+
+def euler_number(part: Gear | Rack) -> int:
+    """Return the Euler number of a part's surface: 2, less 2 for each hole through it."""
+    if isinstance(part, Rack):
+        return 2
+    holes = 1 + part.body.bolt_holes if part.internal else int(part.body.bore > 0)
+    return 2 - 2 * holes
+
+
+def _where(surface: Any, triangles: Floats, off: Floats) -> str:
+    """Return in words where the greatest of the distances (n,) of triangles (n, 3, 3) is."""
+    worst = triangles[int(off.argmax())].mean(axis=0)
+    tooth = int(surface.teeth(worst[None])[0])
+    x, y, z = (f"{value:.4g}" for value in worst)
+    return f"at tooth {tooth}, x {x}, y {y}, z {z} mm"
+
+
+def _open_edge(mesh: Trimesh) -> str:
+    """Return in words where an edge has not two triangles, or "" if all have."""
+    edges: Wholes = np.sort(mesh.edges, axis=1)
+    unique, count = np.unique(edges, axis=0, return_counts=True)
+    broken = unique[count != 2]
+    if not len(broken):
+        return ""
+    x, y, z = (f"{value:.4g}" for value in mesh.vertices[broken[0]].mean(axis=0))
+    return f"{len(broken)} edges have not two triangles, the first at x {x}, y {y}, z {z} mm"
