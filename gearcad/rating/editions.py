@@ -1,4 +1,4 @@
-"""Editions of the standards, and the kinds of numbers that their formulas take: of both gears, or arrays of many variants.
+"""Editions of the standards, their own formulas, and rules that their tables share.
 
 Their texts were not at hand: Y_beta is by one public transcription, f_eps and f_ZCa are as remembered.
 """
@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from enum import StrEnum
-from typing import Any, TypeVar, cast
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearcad.core.errors import ParameterError
-from gearcad.core.records import Bools, Floats, Notice, PerGear
+from gearcad.core.records import Notice, PerGear
+from gearcad.core.values import Values, bounded, chosen, number_or_array, power
 from gearcad.geometry import FlankModification
 
 
@@ -37,63 +37,6 @@ class Edition(StrEnum):
     def dated_part(self, number: int) -> str:
         """Return the name of a part with its year, such as ISO 6336-3:2006."""
         return f"{self.part(number)}:{self.partition(':')[2]}"
-
-
-Values = TypeVar("Values", float, float | Floats)
-"""Numbers give a number; where one of them is an array the others broadcast against it, and an array comes out."""
-
-
-def bounded(values: Values, least: float, most: float) -> Values:
-    """Return the values, limited to the range from `least` to `most`."""
-    return number_or_array(values, np.clip(values, least, most))
-
-
-def chosen(condition: bool | Bools, values: Values, others: Values) -> Values:
-    """The values where the condition holds, else the others."""
-    return number_or_array(values, np.where(condition, values, others))
-
-
-def power(base: Values, exponent: Values) -> Values:
-    """Return a positive base raised to the exponent.
-
-    To a type checker `**` of two numbers could be complex.
-    """
-    return number_or_array(base, np.power(base, exponent))
-
-
-def magnitude(values: Values) -> Values:
-    """Return the magnitude (absolute value)."""
-    return number_or_array(values, np.abs(values))
-
-
-def root(values: Values) -> Values:
-    """Return the square root."""
-    return number_or_array(values, np.sqrt(values))
-
-
-def interpolated(values: Values, points: Sequence[tuple[float, float]]) -> Values:
-    """Return values interpolated linearly between points (x, y) with rising x, constant beyond them."""
-    x, y = zip(*points, strict=True)
-    return number_or_array(values, np.interp(values, x, y))
-
-
-def interpolated_over_log(values: Values, points: Sequence[tuple[float, float]]) -> Values:
-    """Return values interpolated linearly over the logarithm of x, between points (x, y) with rising x, constant beyond them.
-
-    0 and less count as before the first point.
-    """
-    x, y = zip(*points, strict=True)
-    return number_or_array(values, np.interp(np.log(np.maximum(values, x[0])), np.log(x), y))
-
-
-def interpolated_in_logs(values: Values, points: Sequence[tuple[float, float]]) -> Values:
-    """Return values interpolated linearly over the logarithms of both x and y, as `interpolated_over_log`."""
-    return number_or_array(values, np.exp(interpolated_over_log(values, [(x, math.log(y)) for x, y in points])))
-
-
-def number_or_array(_: Values, found: NDArray[Any]) -> Values:
-    """Return found values in the type of the values that they come from: a number for a number, else an array."""
-    return cast(Values, found if found.ndim else found.item())
 
 
 _FIFTH = 5

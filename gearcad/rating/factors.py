@@ -18,17 +18,9 @@ from __future__ import annotations
 import math
 
 from gearcad.core.errors import ParameterError, require_number
+from gearcad.core.values import Values, bounded, chosen, interpolated, interpolated_in_logs, interpolated_over_log, power
 from gearcad.material import MaterialGroup
-from gearcad.rating.editions import (
-    Edition,
-    Values,
-    bounded,
-    chosen,
-    interpolated,
-    interpolated_in_logs,
-    interpolated_over_log,
-    power,
-)
+from gearcad.rating.editions import Edition
 from gearcad.rating.material_limits import Family, is_cast_steel, per_family
 
 _CLAUSES = {

@@ -5,7 +5,8 @@ They go by the geometric means of the ranges that the sizes (mm) lie in. Numbers
 
 from __future__ import annotations
 
-from gearcad.rating.editions import Values, mean_of_range, root
+from gearcad.core.values import Values, root
+from gearcad.rating.editions import mean_of_range
 
 _DIAMETERS = (5, 20, 50, 125, 280, 560, 1000, 1600, 2500, 4000, 6000, 8000, 10000)
 _MODULES = (0.5, 2, 3.5, 6, 10, 16, 25, 40, 70)

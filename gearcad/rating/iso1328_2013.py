@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearcad.rating.editions import Values, root
+from gearcad.core.values import Values, root
 
 
 def single_pitch(d: Values, m_n: Values) -> Values:

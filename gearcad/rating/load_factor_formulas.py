@@ -22,9 +22,10 @@ from numpy.typing import ArrayLike
 
 from gearcad.core.errors import require_number, require_whole
 from gearcad.core.records import Floats, PerGear
+from gearcad.core.values import Values, chosen, larger, magnitude, root, smaller
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import MaterialGroup
-from gearcad.rating.editions import Edition, Values, chosen, magnitude, root
+from gearcad.rating.editions import Edition
 from gearcad.rating.options import BearingArrangement, HelixModification
 
 _LEAST_RATIO = 3.0
@@ -445,11 +446,6 @@ def proven_misalignment(deflection: Values, compensation: Values, factors: Helix
     return larger(magnitude(1.33 * factors.deflection * deflection - compensation), least)
 
 
-def larger(one: Values, other: Values) -> Values:
-    """The larger of two values."""
-    return chosen(one > other, one, other)
-
-
 def transverse_load_factor(
     total_contact_ratio: Values, mesh_stiffness: Values, deviation: Values, allowance: Values, mean_load: Values
 ) -> Values:
@@ -474,4 +470,4 @@ def root_limit(total_contact_ratio: Values, transverse_contact_ratio: Values) ->
 
 def within(factor: Values, limit: Values) -> Values:
     """A factor, at most its limit, and never below 1."""
-    return larger(chosen(factor < limit, factor, limit), 1.0)
+    return larger(smaller(factor, limit), 1.0)

@@ -17,9 +17,10 @@ import numpy as np
 
 from gearcad.core.errors import ParameterError, require_whole
 from gearcad.core.quantities import Range, Whole
+from gearcad.core.values import Values, number_or_array
 from gearcad.geometry import Gear
 from gearcad.rating import iso1328_1995, iso1328_2013
-from gearcad.rating.editions import Values, graded, number_or_array
+from gearcad.rating.editions import graded
 
 
 class Accuracy(StrEnum):

@@ -15,9 +15,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from gearcad.core.records import Notice, PerGear
+from gearcad.core.values import Values
 from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.material import Material
-from gearcad.rating.editions import Edition, Values
+from gearcad.rating.editions import Edition
 
 RIM_LIMIT = 1.2
 """s_R/h_t (external gears) from which on a rim is as good as a solid body."""

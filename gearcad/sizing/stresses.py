@@ -15,8 +15,9 @@ from functools import cached_property
 import numpy as np
 
 from gearcad.core.records import Floats, PerGear, Role
+from gearcad.core.values import interpolated_in_logs
 from gearcad.material import Material, MaterialGroup
-from gearcad.rating.editions import Edition, both, interpolated_in_logs, load_distribution_factor, modification_factor
+from gearcad.rating.editions import Edition, both, load_distribution_factor, modification_factor
 from gearcad.rating.factors import (
     Points,
     endurance_cycles,

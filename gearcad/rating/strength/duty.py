@@ -18,9 +18,10 @@ import numpy as np
 
 from gearcad.core.errors import require_number
 from gearcad.core.records import Floats, PerGear, Role, Verdict
+from gearcad.core.values import Values, interpolated_in_logs, number_or_array
 from gearcad.geometry.involute import root_between
 from gearcad.load import Load
-from gearcad.rating.editions import Values, both, interpolated_in_logs, number_or_array
+from gearcad.rating.editions import both
 from gearcad.rating.factors import Points, endurance_cycles, transition
 from gearcad.rating.load_factors import LoadFactors
 from gearcad.rating.nominal_rating import Rating
