@@ -41,8 +41,7 @@ def train_strength_lines(strength: TrainStrength, *, verdict: bool = True) -> It
             yield f"{f'safety of {name}':<22}{', '.join(texts)}"
     for mesh, rating in strength.meshes.items():
         if (scuffing := rating.scuffing) is not None and scuffing.risk is not None:
-            safeties = {"S_int": scuffing.integral_safety, "S_B": scuffing.flash_safety}
-            told = ", ".join(f"{symbol} {value:.4g}" for symbol, value in safeties.items() if value is not None)
+            told = ", ".join(f"{symbol} {value:.4g}" for symbol, value in scuffing.safeties.items())
             yield f"{f'scuffing {mesh}':<22}risk {scuffing.risk.value}: {told}"
     if strength.life is not None:
         life = strength.life
@@ -168,14 +167,6 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
 
 _WIDTH = 110
 
-_GROUPS = {
-    "load factors": "K_A K_gamma K_v K_Hbeta K_Fbeta K_Halpha K_Falpha",
-    "contact stress": "Z_H Z_E Z_eps Z_beta Z_B Z_D",
-    "flanks bear": "Z_NT Z_L Z_v Z_R Z_W Z_X",
-    "root stress": "Y_F Y_S Y_beta Y_B Y_DT",
-    "roots bear": "Y_ST Y_NT Y_delta_relT Y_RrelT Y_X Y_M",
-}
-
 
 def print_strength(name: str, result: StrengthRating | TrainStrength) -> None:
     """All of a rating, or of those of the meshes of a train, its notices, and the verdict."""
@@ -208,8 +199,8 @@ def strength_lines(rating: StrengthRating) -> Iterator[str]:
     yield from _safeties(document, names)
     yield from _wrapped("spectrum", [rating.told_load], "; ")
     yield from _wrapped("scuffing", _scuffing(rating))
-    for words, symbols in _GROUPS.items():
-        yield from _wrapped(words, (_factor(symbol, document["factors"].get(symbol), names) for symbol in symbols.split()))
+    for group, factors in rating.factors.items():
+        yield from _wrapped(group.value, (_factor(symbol, value, names) for symbol, value in factors.items()))
     for words, key in (("assumed", "assumed"), ("verify", "verify")):
         yield from _wrapped(words, document[key], "; ")
     yield from _wrapped("not judged", _not_judged(document["not_judged"]), "; ")
@@ -236,8 +227,7 @@ def _scuffing(rating: StrengthRating) -> Iterator[str]:
     found = rating.scuffing
     if found is None:
         return
-    safeties = {"S_int": found.integral_safety, "S_B": found.flash_safety}
-    yield from (f"{symbol} {_text(value)}" for symbol, value in safeties.items() if value is not None)
+    yield from (f"{symbol} {_text(value)}" for symbol, value in found.safeties.items())
     if found.risk is not None:
         yield f"risk {found.risk.value}"
     if found.reason:

@@ -33,6 +33,7 @@ __all__ = [
     "SCUFFING",
     "STIFFNESS",
     "STRENGTH",
+    "STRENGTH_FACTORS",
     "STRENGTH_FIGURES",
     "TOLERANCES",
     "Symbol",
@@ -212,6 +213,15 @@ PLANETARY_MEMBER = {
 PER_GEAR = ("working_pitch_diameters", "active_root_diameters", "tip_clearances")
 """Keys of PAIR that pinion and wheel each have."""
 
+_CONTACT_FACTORS = {
+    "Z_H": Symbol("Z_H", "", "ISO 6336-2, 6.1", "zone factor"),
+    "Z_E": Symbol("Z_E", "√MPa", "ISO 6336-2, 7", "elasticity factor"),
+    "Z_eps": Symbol("Z_ε", "", "ISO 6336-2, 8", "contact ratio factor"),
+    "Z_beta": Symbol("Z_β", "", "ISO 6336-2, 9", "helix angle factor of the contact stress"),
+    "Z_B": Symbol("Z_B", "", "ISO 6336-2, 6.2", "single contact factor of the pinion"),
+    "Z_D": Symbol("Z_D", "", "ISO 6336-2, 6.2", "single contact factor of the wheel"),
+}
+
 RATING = {
     "edition": Symbol("", "", "", "standard"),
     "F_t": Symbol("F_t", "N", "ISO 6336-1", "tangential force at the reference circle"),
@@ -231,16 +241,19 @@ RATING = {
     "c_prime_lowload": Symbol("c'", "N/(mm·µm)", "ISO 6336-1 (90)", "single stiffness at this load"),
     "c_gamma_alpha_lowload": Symbol("c_γα", "N/(mm·µm)", "ISO 6336-1 (91)", "mesh stiffness at this load"),
     "c_gamma_beta_lowload": Symbol("c_γβ", "N/(mm·µm)", "ISO 6336-1 (92)", "mesh stiffness for K_Hβ at this load"),
-    "Z_H": Symbol("Z_H", "", "ISO 6336-2, 6.1", "zone factor"),
-    "Z_E": Symbol("Z_E", "√MPa", "ISO 6336-2, 7", "elasticity factor"),
-    "Z_eps": Symbol("Z_ε", "", "ISO 6336-2, 8", "contact ratio factor"),
-    "Z_beta": Symbol("Z_β", "", "ISO 6336-2, 9", "helix angle factor of the contact stress"),
-    "Z_B": Symbol("Z_B", "", "ISO 6336-2, 6.2", "single contact factor of the pinion"),
-    "Z_D": Symbol("Z_D", "", "ISO 6336-2, 6.2", "single contact factor of the wheel"),
+    **_CONTACT_FACTORS,
     "sigma_H0": Symbol("σ_H0", "MPa", "ISO 6336-2, 5", "nominal contact stress"),
     "rho_C": Symbol("ρ_C", "mm", "Hertz", "reduced radius of curvature at the pitch point"),
     "p_0": Symbol("p_0", "MPa", "Hertz", "peak pressure at the pitch point"),
     "b_H": Symbol("b_H", "mm", "Hertz", "half width of contact at the pitch point"),
+}
+
+_ROOT_FACTORS = {
+    "Y_F": Symbol("Y_F", "", "ISO 6336-3 (9)", "form factor"),
+    "Y_S": Symbol("Y_S", "", "ISO 6336-3 (36)", "stress correction factor"),
+    "Y_beta": Symbol("Y_β", "", "ISO 6336-3, 8", "helix angle factor of the root stress"),
+    "Y_B": Symbol("Y_B", "", "ISO 6336-3, 9", "rim thickness factor"),
+    "Y_DT": Symbol("Y_DT", "", "ISO 6336-3, 10", "deep tooth factor"),
 }
 
 GEAR_RATING = {
@@ -251,11 +264,7 @@ GEAR_RATING = {
     "q_s": Symbol("q_s", "", "ISO 6336-3 (38)", "notch parameter"),
     "d_en": Symbol("d_en", "mm", "ISO 6336-3 (28)", "diameter of the load on the virtual gear"),
     "alpha_Fen": Symbol("α_Fen", "deg", "ISO 6336-3 (31)", "angle of the load"),
-    "Y_F": Symbol("Y_F", "", "ISO 6336-3 (9)", "form factor"),
-    "Y_S": Symbol("Y_S", "", "ISO 6336-3 (36)", "stress correction factor"),
-    "Y_beta": Symbol("Y_β", "", "ISO 6336-3, 8", "helix angle factor of the root stress"),
-    "Y_B": Symbol("Y_B", "", "ISO 6336-3, 9", "rim thickness factor"),
-    "Y_DT": Symbol("Y_DT", "", "ISO 6336-3, 10", "deep tooth factor"),
+    **_ROOT_FACTORS,
     "b": Symbol("b", "mm", "ISO 6336-3, 5", "width that carries at the root"),
     "sigma_F0": Symbol("σ_F0", "MPa", "ISO 6336-3, 5", "nominal root stress"),
     "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with K_A"),
@@ -292,28 +301,37 @@ TOLERANCES = {
 }
 """Symbols of flank tolerances, by the editions of 1995 and of 2013."""
 
-STRENGTH = {
-    "K_A": RATING["K_A"],
-    "K_gamma": Symbol("K_γ", "", "ISO 6336-1, 4", "mesh load factor"),
+_LOAD_FACTORS = {
     "K_v": Symbol("K_v", "", "ISO 6336-1, 6", "dynamic factor"),
     "K_Hbeta": Symbol("K_Hβ", "", "ISO 6336-1, 7", "face load factor of contact"),
     "K_Fbeta": Symbol("K_Fβ", "", "ISO 6336-1, 7", "face load factor of the root"),
     "K_Halpha": Symbol("K_Hα", "", "ISO 6336-1, 8", "transverse load factor of contact"),
     "K_Falpha": Symbol("K_Fα", "", "ISO 6336-1, 8", "transverse load factor of the root"),
-    **{key: RATING[key] for key in ("Z_H", "Z_E", "Z_eps", "Z_beta", "Z_B", "Z_D")},
+}
+
+STRENGTH_FACTORS = {
+    "K_A": RATING["K_A"],
+    "K_gamma": Symbol("K_γ", "", "ISO 6336-1, 4", "mesh load factor"),
+    **_LOAD_FACTORS,
+    **_CONTACT_FACTORS,
     "Z_NT": Symbol("Z_NT", "", "ISO 6336-2, 11", "life factor of contact"),
     "Z_L": Symbol("Z_L", "", "ISO 6336-2, 12", "lubricant factor"),
     "Z_v": Symbol("Z_v", "", "ISO 6336-2, 12", "velocity factor"),
     "Z_R": Symbol("Z_R", "", "ISO 6336-2, 12", "roughness factor of the flanks"),
     "Z_W": Symbol("Z_W", "", "ISO 6336-2, 13", "work hardening factor"),
     "Z_X": Symbol("Z_X", "", "ISO 6336-2, 14", "size factor of contact"),
-    **{key: GEAR_RATING[key] for key in ("Y_F", "Y_S", "Y_beta", "Y_B", "Y_DT")},
+    **_ROOT_FACTORS,
     "Y_ST": Symbol("Y_ST", "", "ISO 6336-3, 5", "stress correction factor of the test gears"),
     "Y_NT": Symbol("Y_NT", "", "ISO 6336-3, 12", "life factor of the root"),
     "Y_delta_relT": Symbol("Y_δrelT", "", "ISO 6336-3, 13", "relative notch sensitivity factor"),
     "Y_RrelT": Symbol("Y_RrelT", "", "ISO 6336-3, 14", "relative surface factor of the root"),
     "Y_X": Symbol("Y_X", "", "ISO 6336-3, 15", "size factor of the root"),
     "Y_M": Symbol("Y_M", "", "ISO 6336-3, B", "mean stress influence factor"),
+}
+"""Symbols of the factors of a full rating, of the load, the stresses and the permissible stresses."""
+
+STRENGTH = {
+    **STRENGTH_FACTORS,
     "sigma_Hlim": Symbol("σ_Hlim", "MPa", "ISO 6336-5", "endurance limit of contact stress"),
     "sigma_Flim": Symbol("σ_Flim", "MPa", "ISO 6336-5", "endurance limit of root stress"),
     "sigma_H0": RATING["sigma_H0"],
@@ -344,7 +362,7 @@ STRENGTH_FIGURES = {
     "permissible_torque": Symbol("T_1", "N·m", "ISO 6336-1", "torque on the pinion with the required safeties"),
     "life": Symbol("", "h", "ISO 6336-6", "life at the required safeties; empty without end"),
     "life_infinite": Symbol("", "", "ISO 6336-6", "whether that is without end"),
-    **{key: STRENGTH[key] for key in ("K_v", "K_Hbeta", "K_Fbeta", "K_Halpha", "K_Falpha")},
+    **_LOAD_FACTORS,
     **{key: STRENGTH[key] for key in ("sigma_H", "sigma_HG", "sigma_F", "sigma_FG")},
 }
 """Symbols of a rating in a table of results."""

@@ -15,7 +15,7 @@ from gearcad.core.errors import ParameterError, SolverError, require_whole
 from gearcad.core.quantities import with_assumed
 from gearcad.core.records import Notice
 from gearcad.core.runtime import Expected, Progress
-from gearcad.core.symbols import STIFFNESS
+from gearcad.core.symbols import STIFFNESS, STRENGTH_FACTORS, STRENGTH_FIGURES
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 from gearcad.geometry import GearPair
@@ -130,8 +130,6 @@ def check(
     return Check(model=model, report=False).run(as_design(subject, load, **inputs), progress)
 
 
-_FACTORS = ("K_v", "K_Hbeta", "K_Fbeta", "K_Halpha", "K_Falpha")
-_STRESSES = ("sigma_H", "sigma_HG", "sigma_F", "sigma_FG")
 _VERDICT = ("passed", "strength")
 
 
@@ -153,8 +151,8 @@ def rate_columns(document: Mapping[str, Any]) -> dict[str, Any]:
         **_least_of(document),
         "S_int": safety["scuffing"]["integral"],
         "S_B": safety["scuffing"]["flash"],
-        **{symbol: document["factors"].get(symbol) for symbol in _FACTORS},
-        **{symbol: document["stresses"][symbol] for symbol in _STRESSES},
+        **{symbol: document["factors"].get(symbol) for symbol in STRENGTH_FIGURES if symbol in STRENGTH_FACTORS},
+        **{symbol: stress for symbol, stress in document["stresses"].items() if symbol in STRENGTH_FIGURES},
         **warnings,
     }
 

@@ -232,8 +232,9 @@ class FlankRating:
     contact_factors: PerGear[float]
     nominal_stress: float
 
-    def to_dict(self) -> dict[str, float]:
-        """Values under their symbols."""
+    @property
+    def factors(self) -> dict[str, float]:
+        """Factors of the contact stress under their symbols, in the order of all outputs."""
         return {
             "Z_H": self.zone_factor,
             "Z_E": self.elasticity_factor,
@@ -241,8 +242,11 @@ class FlankRating:
             "Z_beta": self.helix_angle_factor,
             "Z_B": self.contact_factors.pinion,
             "Z_D": self.contact_factors.wheel,
-            "sigma_H0": self.nominal_stress,
         }
+
+    def to_dict(self) -> dict[str, float]:
+        """Values under their symbols."""
+        return {**self.factors, "sigma_H0": self.nominal_stress}
 
 
 def zone_factor(base_helix_angle: float, transverse_pressure_angle: float, working_transverse_pressure_angle: float) -> float:

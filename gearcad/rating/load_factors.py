@@ -465,6 +465,18 @@ class BodyLoad(NamedTuple):
         )
 
 
+LOAD_FACTORS = {
+    "K_A": "application",
+    "K_gamma": "mesh_load",
+    "K_v": "dynamic",
+    "K_Hbeta": "face_flank",
+    "K_Fbeta": "face_root",
+    "K_Halpha": "transverse_flank",
+    "K_Falpha": "transverse_root",
+}
+"""Attributes of LoadFactors by the symbols of the factors, in the order of all outputs."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class LoadFactors:
     """K_A, K_gamma, K_v, K_Hbeta, K_Fbeta, K_Halpha and K_Falpha; each is of the load times all before it.
@@ -537,13 +549,4 @@ class LoadFactors:
 
     def to_dict(self) -> dict[str, float | None]:
         """Return the values under their symbols; None for those that are not known."""
-        values = {
-            "K_A": self.application,
-            "K_gamma": self.mesh_load,
-            "K_v": self.dynamic,
-            "K_Hbeta": self.face_flank,
-            "K_Fbeta": self.face_root,
-            "K_Halpha": self.transverse_flank,
-            "K_Falpha": self.transverse_root,
-        }
-        return {symbol: None if symbol in self.unknown else value for symbol, value in values.items()}
+        return {symbol: None if symbol in self.unknown else getattr(self, name) for symbol, name in LOAD_FACTORS.items()}

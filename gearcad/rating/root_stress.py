@@ -82,6 +82,17 @@ class RootRating:
     nominal_stress: float
     formula: FormulaRoot | None = None
 
+    @property
+    def factors(self) -> dict[str, float]:
+        """Factors of the root stress under their symbols, in the order of all outputs."""
+        return {
+            "Y_F": self.form_factor,
+            "Y_S": self.stress_correction_factor,
+            "Y_beta": self.helix_angle_factor,
+            "Y_B": self.rim_thickness_factor,
+            "Y_DT": self.deep_tooth_factor,
+        }
+
     def to_dict(self) -> dict[str, Any]:
         """Values under their symbols."""
         beside = {} if self.formula is None else {"formula": self.formula.to_dict()}
@@ -92,11 +103,7 @@ class RootRating:
             "h_Fe": self.section.moment_arm,
             "q_s": self.section.notch_parameter,
             **self.load_point.to_dict(),
-            "Y_F": self.form_factor,
-            "Y_S": self.stress_correction_factor,
-            "Y_beta": self.helix_angle_factor,
-            "Y_B": self.rim_thickness_factor,
-            "Y_DT": self.deep_tooth_factor,
+            **self.factors,
             "b": self.width,
             "sigma_F0": self.nominal_stress,
             **beside,

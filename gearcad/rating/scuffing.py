@@ -98,6 +98,12 @@ class Scuffing:
         return (self.limits.flash - self.oil.temperature) / (self.flash.value - self.oil.temperature)
 
     @property
+    def safeties(self) -> dict[str, float]:
+        """Safeties that are known, under their symbols."""
+        both = {"S_int": self.integral_safety, "S_B": self.flash_safety}
+        return {symbol: value for symbol, value in both.items() if value is not None}
+
+    @property
     def margin(self) -> float | None:
         """Theta_S - Theta_B (K) (ISO/TR 13989-1, 10.5)."""
         return None if self.flash is None or self.limits is None else self.limits.flash - self.flash.value

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from gearcad.core.records import Floats, Role, texts
+from gearcad.core.symbols import STRENGTH_FACTORS
 from gearcad.dynamics.planetary.load_sharing import LoadSharing
 from gearcad.dynamics.planetary.planar_model import Spring, SpringKind
 from gearcad.dynamics.planetary.planetary_modes import ModeFamily, PlanetaryCampbell, PlanetaryModes
@@ -47,8 +48,9 @@ from gearcad.plots.planetary_vibration import (
     shown_families,
     shown_pitches,
 )
+from gearcad.rating.load_factors import LOAD_FACTORS
 from gearcad.rating.nominal_rating import Rating
-from gearcad.rating.strength import StrengthRating
+from gearcad.rating.strength import FactorGroup, StrengthRating
 from gearcad.report.document import ReportFigure, ReportRow, figure_address, page_html, sentences
 from gearcad.report.dynamics_tables import WordTable
 from gearcad.report.planetary_tables import (
@@ -343,13 +345,17 @@ _LONGEST_LIFE = 1e6
 """Hours above which a life is told as more than that."""
 
 _GEARS = ("gear", "mesh", "S_H", "S_F", "σ_H, MPa", "σ_HG, MPa", "σ_F, MPa", "σ_FG, MPa", "load cycles", "life, h")
-_FACTORS = ("mesh", "K_A", "K_γ", "K_v", "K_Hβ", "K_Fβ", "K_Hα", "K_Fα")
+_FACTORS = ("mesh", *(STRENGTH_FACTORS[key].symbol for key in LOAD_FACTORS))
 _SCUFFING = ("mesh", "risk", "θ_int, °C", "θ_intS, °C", "S_int", "Θ_B, °C", "Θ_S, °C", "S_B")
 
 
 def section_of_strength(strength: TrainStrength) -> ReportSection:
     """Safeties, load factors, scuffing; what was assumed, and what was not judged."""
-    factors = [(mesh, *_load_factors(each)) for mesh, each in strength.meshes.items() if each.load_factors is not None]
+    factors = [
+        (mesh, *map(_text, each.factors[FactorGroup.LOAD].values()))
+        for mesh, each in strength.meshes.items()
+        if each.load_factors is not None
+    ]
     scuffed = [(mesh, *_scuffing(each)) for mesh, each in strength.meshes.items() if each.scuffing is not None]
     tables = [ReportTable("", grid=WordTable(_GEARS, list(_rows(strength)), 2), symbols=True)]
     if factors:
@@ -373,14 +379,6 @@ def _rows(strength: TrainStrength) -> Iterator[tuple[str, ...]]:
                 *map(_text, (flank.safety, root.safety, *stresses, flank.cycles)),
                 _hours(min(known, default=None)),
             )
-
-
-def _load_factors(rating: StrengthRating) -> Iterator[str]:
-    of = None if rating.governing is None else rating.governing.factors
-    if of is not None:
-        values = of.to_dict()
-        names = ("K_A", "K_gamma", "K_v", "K_Hbeta", "K_Fbeta", "K_Halpha", "K_Falpha")
-        yield from (_text(values[name]) for name in names)
 
 
 def _scuffing(rating: StrengthRating) -> Iterator[str]:

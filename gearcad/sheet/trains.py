@@ -14,7 +14,7 @@ from gearcad.core.symbols import Symbol
 from gearcad.designs.train_keys import MAIN, TORQUES, TRAIN, TRAIN_PARTS
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
-from gearcad.rating.strength import RatedPart, StrengthRating
+from gearcad.rating.strength import FactorGroup, RatedPart, StrengthRating
 from gearcad.sheet.blocks import ABSENT, Block, Row, Section, block, flattened, pair_section, value_text
 
 _TRAIN_KEYS = (
@@ -95,14 +95,15 @@ _CYCLES = {RatedPart.FLANK: "ISO 6336-2, 11", RatedPart.ROOT: "ISO 6336-3, 12"}
 _BEHIND = "Behind the load factors"
 
 _GROUPS = {
-    "Load factors": "K_A K_gamma K_v K_Hbeta K_Fbeta K_Halpha K_Falpha",
-    "Contact stress": "Z_H Z_E Z_eps Z_beta Z_B Z_D sigma_H0 sigma_H",
-    "What the flanks bear": "sigma_Hlim Z_NT Z_L Z_v Z_R Z_W Z_X sigma_HG sigma_HP",
-    "Root stress": "Y_F Y_S Y_beta Y_B Y_DT sigma_F0 sigma_F",
-    "What the roots bear": "sigma_Flim Y_ST Y_NT Y_delta_relT Y_RrelT Y_X Y_M sigma_FG sigma_FP",
+    FactorGroup.LOAD: ("Load factors", (), ()),
+    FactorGroup.CONTACT_STRESS: ("Contact stress", (), ("sigma_H0", "sigma_H")),
+    FactorGroup.FLANK_STRENGTH: ("What the flanks bear", ("sigma_Hlim",), ("sigma_HG", "sigma_HP")),
+    FactorGroup.ROOT_STRESS: ("Root stress", (), ("sigma_F0", "sigma_F")),
+    FactorGroup.ROOT_STRENGTH: ("What the roots bear", ("sigma_Flim",), ("sigma_FG", "sigma_FP")),
 }
+"""Title of each group of factors, and the stresses before and after its factors."""
 
-FACTORS = (*_GROUPS, _BEHIND)
+FACTORS = (*(title for title, _, _ in _GROUPS.values()), _BEHIND)
 """Titles of the blocks of factors and stresses."""
 
 _OF_ONE = {"Z_B": Role.PINION, "Z_D": Role.WHEEL}
@@ -167,7 +168,10 @@ def factor_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> di
         symbol = symbol._replace(source=sources.get(key, symbol.source), words=words)
         return Quantity(f"factors.{key}", symbol, value, key in verify)
 
-    found = {title: [quantity(key) for key in keys.split() if key in values] for title, keys in _GROUPS.items()}
+    found = {
+        title: [quantity(key) for key in (*before, *rating.factors[group], *after) if key in values]
+        for group, (title, before, after) in _GROUPS.items()
+    }
     written, details = symbols.LOAD_FACTOR_DETAILS, document["load_factors"] or {}
     behind = [Quantity(f"load_factors.{key}", written[key], value) for key, value in details.items() if key in written]
     first, *others = found.items()

@@ -1,20 +1,27 @@
 """Tables and words of the report of a rating: whose values they are, how symbols and keys are written, what is cited."""
 
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import gearcad
+from gearcad.cli.strength import strength_lines
 from gearcad.core.quantities import symbols_of
 from gearcad.core.records import PerGear, Role
-from gearcad.core.symbols import STRENGTH
+from gearcad.core.symbols import STRENGTH, STRENGTH_FACTORS, STRENGTH_FIGURES, Symbol
 from gearcad.designs import read_spec
 from gearcad.material import Material
 from gearcad.rating import RatingOptions
-from gearcad.rating.strength import StrengthRating
+from gearcad.rating.load_factors import LOAD_FACTORS
+from gearcad.rating.strength import StrengthRating, task
+from gearcad.rating.strength.duty import Resistance
+from gearcad.rating.strength.permissible import flank_resistance
 from gearcad.rating.strength.rating import called
 from gearcad.report.document import indexed, listed, written
 from gearcad.report.strength import factor_groups, rate_html, safety_rows
+from gearcad.sheet.trains import strength_sections
 
 STARTER = Path(gearcad.__file__).parents[1] / "templates" / "reducer-21-43.toml"
 
@@ -29,6 +36,30 @@ def test_the_factors_of_one_gear_stand_under_it(rating: StrengthRating) -> None:
     assert rows["Z_B"].values == ("1.047", "–")
     assert rows["Z_D"].values == ("–", "1")
     assert rows["Z_H"].values == ("2.394",)  # one cell, that a page spans over both columns
+
+
+def test_a_new_factor_is_seen_wherever_factors_are(rating: StrengthRating, monkeypatch: pytest.MonkeyPatch) -> None:
+    def with_new(*arguments: Any) -> Resistance:
+        found = flank_resistance(*arguments)
+        both = ({**factors, "Z_new": 0.97} for factors in (found.static, found.endurance))
+        return replace(found, **dict(zip(("static", "endurance"), both, strict=True)))
+
+    monkeypatch.setattr(task, "flank_resistance", with_new)
+    monkeypatch.setitem(STRENGTH, "Z_new", Symbol("Z_new", "", "nobody", "new factor"))
+    other = gearcad.rate(read_spec(STARTER))
+    assert other.flank.pinion.safety == pytest.approx(0.97 * rating.flank.pinion.safety, rel=1e-12)
+    assert other.to_dict()["factors"]["Z_new"] == {"pinion": 0.97, "wheel": 0.97}
+    assert any(line.endswith("Z_new 0.97") for line in strength_lines(other) if line.startswith("flanks bear"))
+    rows = [row for section in strength_sections(other) for block in section.blocks for row in block.rows]
+    assert [row.texts for row in rows if row.symbol.symbol == "Z_new"] == [("0.97", "0.97")]
+    assert "new factor" in rate_html(other, "pair")
+
+
+def test_every_factor_has_a_symbol(rating: StrengthRating) -> None:
+    found = [symbol for group in rating.factors.values() for symbol in group]
+    assert found == list(rating.to_dict()["factors"]) == list(STRENGTH_FACTORS)
+    inputs = {"K_A", "K_gamma"}  # which have columns of their own
+    assert set(LOAD_FACTORS) - inputs == {symbol for symbol in STRENGTH_FIGURES if symbol in STRENGTH_FACTORS}
 
 
 def test_each_part_cites_its_own_standard(rating: StrengthRating) -> None:

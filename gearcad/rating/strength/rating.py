@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
+from enum import Enum
 from typing import Any
 
 from gearcad.core import symbols
@@ -21,6 +22,16 @@ from gearcad.rating.scuffing import Risk, Scuffing
 from gearcad.rating.strength.duty import LoadCase, PartStrength, RatedPart, told
 from gearcad.rating.strength.permissible import Y_ST
 from gearcad.rating.tolerances import GearTolerances
+
+
+class FactorGroup(Enum):
+    """Groups of factors, by what they belong to: the load, a stress, or what flanks and roots bear."""
+
+    LOAD = "load factors"
+    CONTACT_STRESS = "contact stress"
+    FLANK_STRENGTH = "flanks bear"
+    ROOT_STRESS = "root stress"
+    ROOT_STRENGTH = "roots bear"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,6 +98,21 @@ class StrengthRating(Pictured):
             for role in Role:
                 yield f"{part.value} of the {self.gear_names.pick(role)}", both.pick(role)
 
+    @property
+    def factors(self) -> Mapping[FactorGroup, Mapping[str, Any]]:
+        """All factors under their symbols, by group: one number, or those of both gears under their keys in documents.
+
+        Screen, data sheet, page, reports and rate.json show what is in here, in this order.
+        """
+        flank, root = (both.map(lambda each: each.factors) for both in (self.flank, self.root))
+        return {
+            FactorGroup.LOAD: {} if self.governing is None else self.governing.factors.to_dict(),
+            FactorGroup.CONTACT_STRESS: self.nominal.flank.factors,
+            FactorGroup.FLANK_STRENGTH: _by_symbol(self, flank),
+            FactorGroup.ROOT_STRESS: _by_symbol(self, self.nominal.roots.map(lambda each: each.factors)),
+            FactorGroup.ROOT_STRENGTH: {"Y_ST": Y_ST, **_by_symbol(self, root)},
+        }
+
     # ------------------------------------------------------------------ the least
 
     @property
@@ -110,10 +136,9 @@ class StrengthRating(Pictured):
     def scuffing_verdict(self) -> Verdict:
         """Whether both safeties against scuffing are as large as is required; not judged where none is."""
         required, found = self.options.required_safety_scuffing, self.scuffing
-        known = [] if found is None else [each for each in (found.integral_safety, found.flash_safety) if each is not None]
-        if required is None or not known:
+        if required is None or found is None or not found.safeties:
             return Verdict.NOT_JUDGED
-        return Verdict.PASSED if min(known) >= required else Verdict.FAILED
+        return Verdict.PASSED if min(found.safeties.values()) >= required else Verdict.FAILED
 
     @property
     def scuffing_unasked(self) -> str:
@@ -121,8 +146,7 @@ class StrengthRating(Pictured):
         found = self.scuffing
         if self.options.required_safety_scuffing is not None or found is None or found.risk in (None, Risk.LOW):
             return ""
-        safeties = {"S_int": found.integral_safety, "S_B": found.flash_safety}
-        known = "".join(f", {symbol} {value:.2f}" for symbol, value in safeties.items() if value is not None)
+        known = "".join(f", {symbol} {value:.2f}" for symbol, value in found.safeties.items())
         return f"scuffing not judged (no required_safety_scuffing): risk {found.risk.value}{known}"
 
     @property
@@ -226,12 +250,10 @@ def called(rating: StrengthRating, names: PerGear[str]) -> StrengthRating:
     )
 
 
-_OF_ROOTS = ("Y_F", "Y_S", "Y_beta", "Y_B", "Y_DT")
-
-
 def strength_document(of: StrengthRating) -> dict[str, Any]:
     """Return everything of a rating but its kind and name; unknown values are null."""
-    factors, stresses = _factors(of), _stresses(of)
+    factors = {symbol: value for group in of.factors.values() for symbol, value in group.items()}
+    stresses = _stresses(of)
     return {
         "standard": of.options.standard.value,
         **({} if of.own_names is None else {"gears": _gears(of, of.own_names)}),
@@ -315,23 +337,6 @@ def _by_symbol(of: StrengthRating, values: PerGear[Any]) -> dict[str, Any]:
     """Return the values of both gears by symbol, each under the gears' names; None for a gear without that symbol."""
     keys = dict.fromkeys(key for each in values for key in each)
     return {key: _gears(of, PerGear(*(each.get(key) for each in values))) for key in keys}
-
-
-def _factors(of: StrengthRating) -> dict[str, Any]:
-    """Load factors, those of the contact stress, and of each gear those of root stress and of what it bears."""
-    roots = of.nominal.roots.map(lambda root: root.to_dict())
-    permissible = {part: both.map(lambda each: each.factors) for part, both in of.parts.items()}
-
-    flank = of.nominal.flank.to_dict()
-    flank.pop("sigma_H0")
-    return {
-        **({} if of.governing is None else of.governing.factors.to_dict()),
-        **flank,
-        **_by_symbol(of, permissible[RatedPart.FLANK]),
-        **_by_symbol(of, roots.map(lambda root: {key: root[key] for key in _OF_ROOTS})),
-        "Y_ST": Y_ST,
-        **_by_symbol(of, permissible[RatedPart.ROOT]),
-    }
 
 
 def _stresses(of: StrengthRating) -> dict[str, Any]:
