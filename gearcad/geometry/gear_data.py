@@ -24,6 +24,7 @@ from gearcad.geometry.gear_parts import ISO53_A, BasicRack, Body, DoubleHelix, N
 from gearcad.geometry.involute import inverse_involute, involute, root_between
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.profile import ToothProfile
+from gearcad.geometry.toothed import GearSizes
 
 _COEFFICIENT = Range("", -5, 5)
 
@@ -42,7 +43,7 @@ _GAP_DEPTH = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
-class GearData:
+class GearData(GearSizes[float]):
     """The fields of a `Gear`, unchecked, and sizes that need no outline of a tooth. Lengths in mm, angles in degrees.
 
     Those of an internal gear have the signs of ISO 21771: teeth and diameters are negative.
@@ -85,62 +86,9 @@ class GearData:
         return 0.0 - self.profile_shift if self.internal else None
 
     @property
-    def standard_tip_diameter(self) -> float:
-        """d_a = d + 2 m_n (h_aP + x + k)."""
-        rise = self.rack.addendum + self.profile_shift + self.tip_alteration
-        return self.reference_diameter + 2 * self.normal_module * rise
-
-    @property
-    def standard_root_diameter(self) -> float:
-        """d_f = d - 2 m_n (h_fP - x)."""
-        return self.reference_diameter - 2 * self.normal_module * (self.rack.dedendum - self.profile_shift)
-
-    @property
-    def dedendum(self) -> float:
-        """Dedendum h_fP of the tool in normal modules: the rack's, or (d - d_f)/(2 m_n) + x for a given root circle."""
-        if not is_given(self.root_diameter):
-            return self.rack.dedendum
-        return (self.reference_diameter - self.root_diameter) / (2 * self.normal_module) + self.profile_shift
-
-    @property
-    def root_radius(self) -> float:
-        """Tip radius of a hob in normal modules, with "full" resolved for this gear."""
-        if self.rack.root_radius == "full":
-            return self.rack.full_root_radius(self.dedendum, self.tooth_thinning / self.normal_module)
-        return float(self.rack.root_radius)
-
-    @cached_property
-    def transverse_module(self) -> float:
-        """m_t = m_n / cos beta."""
-        return self.normal_module / math.cos(math.radians(self.helix_angle))
-
-    @cached_property
-    def transverse_pressure_angle(self) -> float:
-        """tan alpha_t = tan alpha_n / cos beta."""
-        tangent = math.tan(math.radians(self.rack.pressure_angle))
-        return math.degrees(math.atan(tangent / math.cos(math.radians(self.helix_angle))))
-
-    @cached_property
-    def base_helix_angle(self) -> float:
-        """sin beta_b = sin beta cos alpha_n; signed like the helix angle."""
-        sine = math.sin(math.radians(self.helix_angle)) * math.cos(math.radians(self.rack.pressure_angle))
-        return math.degrees(math.asin(sine))
-
-    @cached_property
-    def reference_diameter(self) -> float:
-        """Reference diameter d = z m_t (mm)."""
-        return self.teeth * self.transverse_module
-
-    @cached_property
-    def base_diameter(self) -> float:
-        """d_b = d cos alpha_t."""
-        return self.reference_diameter * math.cos(math.radians(self.transverse_pressure_angle))
-
-    @property
-    def normal_tooth_thickness(self) -> float:
-        """s_n = m_n (pi/2 + 2 x tan alpha_n) - thinning, on the reference circle."""
-        tangent = math.tan(math.radians(self.rack.pressure_angle))
-        return self.normal_module * (math.pi / 2 + 2 * self.profile_shift * tangent) - self.tooth_thinning
+    def given_root_diameter(self) -> float | None:
+        """Root diameter d_f that is prescribed; None where it follows from the rack."""
+        return self.root_diameter if is_given(self.root_diameter) else None
 
     @cached_property
     def thickness_allowance(self) -> ToothAllowance | None:
@@ -148,21 +96,6 @@ class GearData:
         if self.tooth_allowance is None:
             return None
         return tooth_thickness_allowance(self.tooth_allowance, self.reference_diameter, self.tooth_thinning)
-
-    @property
-    def transverse_tooth_thickness(self) -> float:
-        """s_t = s_n / cos beta, on the reference circle."""
-        return self.normal_tooth_thickness / math.cos(math.radians(self.helix_angle))
-
-    @property
-    def transverse_pitch(self) -> float:
-        """Transverse pitch p_t = pi m_t (mm)."""
-        return math.pi * self.transverse_module
-
-    @property
-    def transverse_base_pitch(self) -> float:
-        """p_bt = pi m_t cos alpha_t."""
-        return math.pi * self.base_diameter / self.teeth
 
     @property
     def lead(self) -> float:
@@ -188,12 +121,6 @@ class GearData:
     def twist(self) -> float:
         """Rotation of the section over the width of one hand in degrees (magnitude): 360 b / p_z."""
         return 0.0 if self.helix_angle == 0 else 360 * self.half_width / self.lead
-
-    @property
-    def virtual_teeth(self) -> float:
-        """z_n = z / (cos^2 beta_b cos beta)."""
-        base, helix = math.radians(self.base_helix_angle), math.radians(self.helix_angle)
-        return self.teeth / (math.cos(base) ** 2 * math.cos(helix))
 
 
 def twist(gear: GearData, height: float = 1.0) -> float:

@@ -15,6 +15,7 @@ from typing import Annotated, Literal, NamedTuple, Protocol
 from gearcad.core.errors import GeometryError, ParameterError, at_most
 from gearcad.core.quantities import Derived, InPlaceOf, Range, Whole, Words, derive, is_given, require_fields, schema_of
 from gearcad.core.records import concise
+from gearcad.core.values import Values
 
 ISO_54_I = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50)
 """Modules that the standard prefers."""
@@ -47,16 +48,22 @@ class BasicRack:
         require_fields(self)
 
     def full_root_radius(self, dedendum: float | None = None, thinning: float = 0.0) -> float:
-        """Largest root radius (in normal modules): the arc that touches both flanks and the bottom of the rack's space.
+        """Largest root radius (in normal modules), see `full_root_radius`.
 
-        rho = (pi/4 + t/2 - h_fP tan a) cos a / (1 - sin a), with the tooth thinning t in normal modules (the tool's
-        tooth is thicker by as much). `dedendum` replaces the rack's own where a root diameter is prescribed.
-        Negative where the tool's flanks meet before its tip: no such tool exists.
+        `dedendum` replaces the rack's own where a root diameter is prescribed.
         """
-        angle = math.radians(self.pressure_angle)
-        depth = self.dedendum if dedendum is None else dedendum
-        half_tip = math.pi / 4 + thinning / 2 - depth * math.tan(angle)
-        return half_tip * math.cos(angle) / (1 - math.sin(angle))
+        return full_root_radius(self.pressure_angle, self.dedendum if dedendum is None else dedendum, thinning)
+
+
+def full_root_radius(pressure_angle: float, dedendum: Values, thinning: Values) -> Values:
+    """Largest root radius (in normal modules): the arc that touches both flanks and the bottom of the rack's space.
+
+    rho = (pi/4 + t/2 - h_fP tan a) cos a / (1 - sin a), with the tooth thinning t in normal modules (the tool's
+    tooth is thicker by as much). Negative where the tool's flanks meet before its tip: no such tool exists.
+    """
+    angle = math.radians(pressure_angle)
+    half_tip = math.pi / 4 + thinning / 2 - dedendum * math.tan(angle)
+    return half_tip * math.cos(angle) / (1 - math.sin(angle))
 
 
 ISO53_A = BasicRack(dedendum=1.25, root_radius=0.38)

@@ -28,6 +28,7 @@ from gearcad.geometry.gear_data import LEAST_RIM
 from gearcad.geometry.gear_parts import ISO53_A, LEAST_FEATURE, BasicRack, NormalDiametralPitch, NormalModule, derive_module
 from gearcad.geometry.inspection import RackInspection
 from gearcad.geometry.profile import LEAST_LAND, RADIUS_SLACK, PlaneCurve, parameters_within
+from gearcad.geometry.toothed import Toothed
 
 _LENGTH = Range("mm", 0, None, ends="(]")
 _FEATURE = Range("mm", 0, None)
@@ -37,7 +38,7 @@ WHOLE_PITCH = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
-class RackData:
+class RackData(Toothed[float]):
     """The fields of a `Rack`, unchecked, and sizes that need no outline of a tooth. Lengths in mm, angles in degrees."""
 
     name: Annotated[str, Words("name")] = "rack"
@@ -60,32 +61,10 @@ class RackData:
             return self.rack.full_root_radius(thinning=self.tooth_thinning / self.normal_module)
         return float(self.rack.root_radius)
 
-    @cached_property
-    def transverse_module(self) -> float:
-        """m_t = m_n / cos beta."""
-        return self.normal_module / math.cos(math.radians(self.helix_angle))
-
-    @cached_property
-    def transverse_pressure_angle(self) -> float:
-        """tan alpha_t = tan alpha_n / cos beta."""
-        tangent = math.tan(math.radians(self.rack.pressure_angle))
-        return math.degrees(math.atan(tangent / math.cos(math.radians(self.helix_angle))))
-
-    @cached_property
-    def base_helix_angle(self) -> float:
-        """sin beta_b = sin beta cos alpha_n; signed like the helix angle."""
-        sine = math.sin(math.radians(self.helix_angle)) * math.cos(math.radians(self.rack.pressure_angle))
-        return math.degrees(math.asin(sine))
-
     @property
     def normal_pitch(self) -> float:
         """p_n = pi m_n, square to the teeth."""
         return math.pi * self.normal_module
-
-    @property
-    def transverse_pitch(self) -> float:
-        """p_t = pi m_t, along the rack."""
-        return math.pi * self.transverse_module
 
     @property
     def transverse_base_pitch(self) -> float:
@@ -96,11 +75,6 @@ class RackData:
     def normal_tooth_thickness(self) -> float:
         """s_n = pi m_n/2 - thinning, on the reference line."""
         return self.normal_module * math.pi / 2 - self.tooth_thinning
-
-    @property
-    def transverse_tooth_thickness(self) -> float:
-        """s_t = s_n / cos beta, on the reference line."""
-        return self.normal_tooth_thickness / math.cos(math.radians(self.helix_angle))
 
     @property
     def tip_height(self) -> float:
