@@ -46,97 +46,59 @@ A class for each in `gearcad.jobs` writes the files of a result: `gearcad.jobs.s
 
 from __future__ import annotations
 
-from gearcad.version import __version__
+import lazy_loader
 
-TYPE_CHECKING = False  # as in guard.py
+from gearcad.version import __version__ as __version__
+
+TYPE_CHECKING = False  # typing takes longer to import than all of this
 if TYPE_CHECKING:
-    from gearcad.core.errors import GearcadError, GeometryError, ParameterError, SolverError, SpecError
-    from gearcad.core.records import Notice, PerGear
-    from gearcad.designs import read_spec as read
-    from gearcad.geometry import (
-        ISO53_A,
-        ISO53_B,
-        ISO53_C,
-        ISO53_D,
-        BasicRack,
-        Body,
-        DoubleHelix,
-        FlankModification,
-        Gear,
-        GearPair,
-        HubSide,
-        Rack,
-        RackPair,
-        ReliefShape,
-        ShaperCutter,
-        ShiftSplit,
-        ToothProfile,
-    )
-    from gearcad.jobs.verbs import *  # noqa: F403 - that of each verb
-    from gearcad.load import Load
-    from gearcad.material import Material
-    from gearcad.mounting import Mounting
-    from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
+    from pathlib import Path
 
-__all__ = [
-    "ISO53_A",
-    "ISO53_B",
-    "ISO53_C",
-    "ISO53_D",
-    "BasicRack",
-    "Body",
-    "Carrier",
-    "Central",
-    "DoubleHelix",
-    "FlankModification",
-    "Gear",
-    "GearPair",
-    "GearcadError",
-    "GeometryError",
-    "HubSide",
-    "Load",
-    "Material",
-    "Mounting",
-    "Notice",
-    "PairStage",
-    "ParameterError",
-    "PerGear",
-    "PlanetaryTrain",
-    "Rack",
-    "RackPair",
-    "ReliefShape",
-    "Rim",
-    "ShaperCutter",
-    "ShiftSplit",
-    "SolverError",
-    "SpecError",
-    "ToothProfile",
-    "TrainLoad",
-    "__version__",
-    "read",
-]
+    from gearcad.designs import Design
 
-_ROOMS = (
-    *("batch", "check", "contact", "designs", "dynamics", "identify", "jobs", "meshing", "planetary", "plots", "rating"),
-    *("sizing", "solids", "stiffness"),
+_CALLABLE_ROOMS = ("check", "dynamics", "identify", "planetary", "stiffness")
+"""Rooms that are verbs too."""
+
+_ROOMS = ("batch", "contact", "designs", "jobs", "meshing", "plots", "rating", "sizing", "solids")
+
+_HOMES = ("geometry", "load", "material", "mounting")
+"""Rooms whose names are those of the package: `dir` lists the names alone."""
+
+__getattr__, _, _names = lazy_loader.attach(
+    __name__,
+    (*_CALLABLE_ROOMS, *_ROOMS, *_HOMES),
+    {
+        "core.errors": ["GearcadError", "GeometryError", "ParameterError", "SolverError", "SpecError"],
+        "core.records": ["Notice", "PerGear"],
+        "geometry": [
+            *("ISO53_A", "ISO53_B", "ISO53_C", "ISO53_D", "BasicRack", "Body", "DoubleHelix", "FlankModification", "Gear"),
+            *("GearPair", "HubSide", "Rack", "RackPair", "ReliefShape", "ShaperCutter", "ShiftSplit", "ToothProfile"),
+        ],
+        "jobs.build": ["build"],
+        "jobs.draw": ["draw", "picture"],
+        "jobs.job": ["data"],
+        "jobs.mesh": ["mesh"],
+        "jobs.modify": ["modify"],
+        "jobs.strength": ["rate"],
+        "load": ["Load"],
+        "material": ["Material"],
+        "mounting": ["Mounting"],
+        "planetary": ["Carrier", "Central", "PairStage", "PlanetaryTrain", "Rim", "TrainLoad"],
+    },
 )
 
-if not TYPE_CHECKING:
-    import sys
-
-    from gearcad.jobs.verbs import VERBS, WITHOUT_DESIGN, module_of
-    from gearcad.lazy import Entrance, lazily
-
-    __all__ += (*VERBS, *WITHOUT_DESIGN)
-    __getattr__ = lazily(
-        __name__,
-        __all__,
-        ("core.errors", "core.records", "geometry", "load", "material", "mounting", "planetary"),
-        _ROOMS,
-        {"read": "designs.read_spec", **{verb: f"jobs.{module_of(verb)}.{verb}" for verb in (*VERBS, *WITHOUT_DESIGN)}},
-    )
-    sys.modules[__name__].__class__ = Entrance
+__all__ = sorted({*_names, "__version__", "read"} - {*_ROOMS, *_HOMES})
 
 
 def __dir__() -> list[str]:
     return sorted({*__all__, *_ROOMS, *(name for name in globals() if name.startswith("__"))})
+
+
+def read(path: Path | str) -> Design:
+    """Read a TOML spec: a gear, a rack, a pair or a train, with its load and options. Raises SpecError.
+
+    The name of the design is its own, else the stem of the file.
+    """
+    from gearcad.designs import read_spec
+
+    return read_spec(path)

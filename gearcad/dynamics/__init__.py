@@ -1,5 +1,10 @@
 """Dynamics of gear pairs and trains."""
 
+import sys
+
 import lazy_loader
 
+from gearcad.callable_room import CallableRoom
+
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+sys.modules[__name__].__class__ = CallableRoom

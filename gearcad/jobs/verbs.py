@@ -12,19 +12,7 @@ TYPE_CHECKING = False  # typing takes longer to import than `gearcad` may
 if TYPE_CHECKING:
     from typing import Any
 
-    from gearcad.jobs.build import build as build
-    from gearcad.jobs.draw import draw as draw
-    from gearcad.jobs.draw import picture as picture
-    from gearcad.jobs.dynamics import dynamics as dynamics
     from gearcad.jobs.job import Job
-    from gearcad.jobs.job import data as data
-    from gearcad.jobs.mesh import mesh as mesh
-    from gearcad.jobs.modify import modify as modify
-    from gearcad.jobs.planetary import planetary as planetary
-    from gearcad.jobs.searches import identify as identify
-    from gearcad.jobs.strength import check as check
-    from gearcad.jobs.strength import rate as rate
-    from gearcad.jobs.strength import stiffness as stiffness
 
 VERBS = ("data", "build", "draw", "picture", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")
 WITHOUT_DESIGN = ("identify",)

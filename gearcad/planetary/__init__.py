@@ -1,5 +1,10 @@
 """Planetary trains: sets of planets of any type, their speeds, torques, assembly, phases and poses. Numpy only."""
 
+import sys
+
 import lazy_loader
 
+from gearcad.callable_room import CallableRoom
+
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+sys.modules[__name__].__class__ = CallableRoom

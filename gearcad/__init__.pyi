@@ -1,0 +1,64 @@
+from pathlib import Path
+
+from . import batch as batch
+from . import contact as contact
+from . import designs as designs
+from . import geometry as geometry
+from . import jobs as jobs
+from . import load as load
+from . import material as material
+from . import meshing as meshing
+from . import mounting as mounting
+from . import plots as plots
+from . import rating as rating
+from . import sizing as sizing
+from . import solids as solids
+from .core.errors import GearcadError as GearcadError
+from .core.errors import GeometryError as GeometryError
+from .core.errors import ParameterError as ParameterError
+from .core.errors import SolverError as SolverError
+from .core.errors import SpecError as SpecError
+from .core.records import Notice as Notice
+from .core.records import PerGear as PerGear
+from .designs import Design
+from .geometry import ISO53_A as ISO53_A
+from .geometry import ISO53_B as ISO53_B
+from .geometry import ISO53_C as ISO53_C
+from .geometry import ISO53_D as ISO53_D
+from .geometry import BasicRack as BasicRack
+from .geometry import Body as Body
+from .geometry import DoubleHelix as DoubleHelix
+from .geometry import FlankModification as FlankModification
+from .geometry import Gear as Gear
+from .geometry import GearPair as GearPair
+from .geometry import HubSide as HubSide
+from .geometry import Rack as Rack
+from .geometry import RackPair as RackPair
+from .geometry import ReliefShape as ReliefShape
+from .geometry import ShaperCutter as ShaperCutter
+from .geometry import ShiftSplit as ShiftSplit
+from .geometry import ToothProfile as ToothProfile
+from .jobs.build import build as build
+from .jobs.draw import draw as draw
+from .jobs.draw import picture as picture
+from .jobs.dynamics import dynamics as dynamics
+from .jobs.job import data as data
+from .jobs.mesh import mesh as mesh
+from .jobs.modify import modify as modify
+from .jobs.planetary import planetary as planetary
+from .jobs.searches import identify as identify
+from .jobs.strength import check as check
+from .jobs.strength import rate as rate
+from .jobs.strength import stiffness as stiffness
+from .load import Load as Load
+from .material import Material as Material
+from .mounting import Mounting as Mounting
+from .planetary import Carrier as Carrier
+from .planetary import Central as Central
+from .planetary import PairStage as PairStage
+from .planetary import PlanetaryTrain as PlanetaryTrain
+from .planetary import Rim as Rim
+from .planetary import TrainLoad as TrainLoad
+from .version import __version__ as __version__
+
+def read(path: Path | str) -> Design: ...
