@@ -12,7 +12,7 @@ from gearcad.drawing.gear_data_rows import GearDataRow
 from gearcad.drawing.gear_sheet import DrawingSheet, mass_of_pair
 from gearcad.drawing.layout import Arrangement, Fixed, View, Views, arranged
 from gearcad.drawing.options import DrawingOptions, PartDrawing, SheetSize
-from gearcad.drawing.requirements import grade_of
+from gearcad.drawing.requirements import accuracy_grade_of
 from gearcad.drawing.sheet_frame import Furnished, Furniture, title_values
 from gearcad.drawing.sheet_tables import PartLine
 from gearcad.drawing.sheet_template import SheetTemplate
@@ -191,32 +191,32 @@ def _pair_rows(drawn: DrawnPair, words: SheetWords) -> Iterator[GearDataRow]:
     first = drawn.parts[0].gear
     yield distance_row(pair, words)
     if isinstance(pair, GearPair) and pair.axial_offset:
-        yield _pair_row(
+        yield _data_row(
             "axial_offset", words, "", words.shortest(pair.axial_offset, 3), {"pair.axial_offset": pair.axial_offset}, item="2"
         )
     numbers = {"pinion.normal_module": first.normal_module}
-    yield _pair_row("normal_module", words, "m_n", words.shortest(first.normal_module, 6), numbers)
+    yield _data_row("normal_module", words, "m_n", words.shortest(first.normal_module, 6), numbers)
     yield _teeth(drawn, words)
     if isinstance(pair, GearPair):
         ratio = pair.gear_ratio
-        yield _pair_row("gear_ratio", words, "u", words.number(ratio, 4), {"pair.gear_ratio": ratio})
+        yield _data_row("gear_ratio", words, "u", words.number(ratio, 4), {"pair.gear_ratio": ratio})
     else:
         travel = pair.travel_per_revolution
         length = pair.rack.length
-        yield _pair_row("rack_length", words, "L", words.shortest(length, 3), {f"{drawn.parts[1].role}.length": length})
-        yield _pair_row("travel", words, "", words.number(travel, 3), {"pair.travel_per_revolution": travel})
+        yield _data_row("rack_length", words, "L", words.shortest(length, 3), {f"{drawn.parts[1].role}.length": length})
+        yield _data_row("travel", words, "", words.number(travel, 3), {"pair.travel_per_revolution": travel})
     if first.helix_angle:
         yield _helix(first, pair, words)
     for name, symbol in (("circumferential_backlash", "j_wt"), ("normal_backlash", "j_bn")):
         yield backlash_row(name, symbol, pair, words)
     for number, part in enumerate(drawn.parts, 1):
         if isinstance(part.gear, Rack):
-            yield _pair_row("accuracy", words, "", f"— ({words['data.not_of_racks']})", {}, item=str(number))
+            yield _data_row("accuracy", words, "", f"— ({words['data.not_of_racks']})", {}, item=str(number))
             continue
-        grade = grade_of(part)
+        grade = accuracy_grade_of(part)
         assumed = f" ({words['assembly.assumed']})" if part.grade is None else ""
         text = f"{grade}  {part.accuracy.value}{assumed}"
-        yield _pair_row("accuracy", words, "", text, {f"{part.role}.tolerances.grade": grade}, item=str(number))
+        yield _data_row("accuracy", words, "", text, {f"{part.role}.tolerances.grade": grade}, item=str(number))
 
 
 def distance_row(pair: GearPair | RackPair, words: SheetWords) -> GearDataRow:
@@ -225,12 +225,12 @@ def distance_row(pair: GearPair | RackPair, words: SheetWords) -> GearDataRow:
     """
     if isinstance(pair, RackPair):
         value = pair.mounting_distance
-        return _pair_row("mounting_distance", words, "H", words.number(value, 3), {"pair.mounting_distance": value})
+        return _data_row("mounting_distance", words, "H", words.number(value, 3), {"pair.mounting_distance": value})
     text, numbers = words.number(abs(pair.centre_distance), 3), {"pair.centre_distance": pair.centre_distance}
     if pair.centre_distance_tolerance is not None:
         text += f" ±{words.shortest(pair.centre_distance_allowance / 1000, 4)}"
         numbers["pair.backlash_limits.centre_distance_allowance"] = pair.centre_distance_allowance
-    return _pair_row("centre_distance", words, "a", text, numbers)
+    return _data_row("centre_distance", words, "a", text, numbers)
 
 
 def backlash_row(name: str, symbol: str, pair: GearPair | RackPair, words: SheetWords) -> GearDataRow:
@@ -240,7 +240,7 @@ def backlash_row(name: str, symbol: str, pair: GearPair | RackPair, words: Sheet
     limits = pair.backlash_limits if isinstance(pair, GearPair) else None
     if limits is None:
         value = getattr(pair, name)
-        return _pair_row(name, words, symbol, words.number(value, 3), {f"pair.{name}": value})
+        return _data_row(name, words, symbol, words.number(value, 3), {f"pair.{name}": value})
     kind = name.removesuffix("_backlash")
     found = {f"pair.backlash_limits.{kind}_{end}": getattr(limits, f"{kind}_{end}") for end in ("greatest", "least")}
     greatest, least = (words.number(value, 3) for value in found.values())
@@ -251,7 +251,7 @@ def _teeth(drawn: DrawnPair, words: SheetWords) -> GearDataRow:
     """Return the row with the numbers of teeth of both parts; a ring's number is negative, as in its own table."""
     counts = {f"{part.role}.teeth": float(part.gear.teeth or 0) for part in drawn.parts}
     text = " / ".join(words.number(count, 0) for count in counts.values())
-    return _pair_row("teeth", words, "z_1 / z_2", text, counts, first="1", second="2")
+    return _data_row("teeth", words, "z_1 / z_2", text, counts, first="1", second="2")
 
 
 def _helix(gear: Gear | Rack, pair: GearPair | RackPair, words: SheetWords) -> GearDataRow:
@@ -261,10 +261,10 @@ def _helix(gear: Gear | Rack, pair: GearPair | RackPair, words: SheetWords) -> G
     if isinstance(pair, GearPair) and pair.double_helical:
         hand = "double_helical"
     text = f"{words.number(abs(angle), 4)}° {words[f'assembly.{hand}']}"
-    return _pair_row("helix_angle", words, "β", text, {"pinion.helix_angle": angle}, item="1")
+    return _data_row("helix_angle", words, "β", text, {"pinion.helix_angle": angle}, item="1")
 
 
-def _pair_row(key: str, words: SheetWords, symbol: str, text: str, numbers: Mapping[str, float], **named: str) -> GearDataRow:
+def _data_row(key: str, words: SheetWords, symbol: str, text: str, numbers: Mapping[str, float], **named: str) -> GearDataRow:
     label = words[f"assembly.{key}"].format(**named)
     return GearDataRow(key=key, words=label, symbol=symbol, text=text, numbers=numbers)
 
@@ -352,14 +352,14 @@ def _train_rows(train: PlanetaryTrain, items: Mapping[str, int], words: SheetWor
     if train.ratio is not None:
         numbers = {"planetary.ratio": train.ratio}
         input_end, output_end = map(words.within_text, titles.values())
-        yield _train_row("ratio", words, "i", words.number(train.ratio, 4), numbers, input=input_end, output=output_end)
+        yield _data_row("ratio", words, "i", words.number(train.ratio, 4), numbers, input=input_end, output=output_end)
     else:
-        yield _train_row("input_output", words, "", " / ".join(titles.values()), {})
+        yield _data_row("input_output", words, "", " / ".join(titles.values()), {})
     fixed = words["assembly.no_fixed"] if train.fixed is None else member_title(train, train.fixed, words)
-    yield _train_row("fixed", words, "", fixed, {})
-    yield _train_row("planets", words, "N", str(train.planets), {"planetary.planets": float(train.planets)})
+    yield _data_row("fixed", words, "", fixed, {})
+    yield _data_row("planets", words, "N", str(train.planets), {"planetary.planets": float(train.planets)})
     distance = float(train.centre_distance)
-    yield _train_row("centre_distance", words, "a", words.number(distance, 3), {"planetary.centre_distance": distance})
+    yield _data_row("centre_distance", words, "a", words.number(distance, 3), {"planetary.centre_distance": distance})
     for mesh in train.meshes:
         gears = {mesh.central.name: mesh.central.gear, mesh.rim.name: mesh.rim.gear}
         yield from _mesh(gears, mesh.pair, f"planetary.meshes.{mesh.name}", items, words)
@@ -381,7 +381,7 @@ def _mesh(
     numbers |= {f"{name}.teeth": float(gear.teeth) for name, gear in gears.items()}
     teeth = " / ".join(words.number(gear.teeth, 0) for gear in gears.values())
     module = words.shortest(pair.pinion.normal_module, 6)
-    yield _train_row("mesh", words, "m_n; z", f"{module}; {teeth}", numbers, **_pair_of(gears, items))
+    yield _data_row("mesh", words, "m_n; z", f"{module}; {teeth}", numbers, **_pair_of(gears, items))
     row = backlash_row("normal_backlash", "j_bn", pair, words)
     found = {name.replace("pair", where, 1): value for name, value in row.numbers.items()}
     label = words["assembly.mesh_backlash"].format(**_pair_of(gears, items))
@@ -392,10 +392,6 @@ def _pair_of(gears: Mapping[str, Gear], items: Mapping[str, int]) -> dict[str, s
     """Return the item numbers of two gears under the names that the words have in braces."""
     first, second = (str(items[key]) for key in gears)
     return {"first": first, "second": second}
-
-
-def _train_row(key: str, words: SheetWords, symbol: str, text: str, numbers: Mapping[str, float], **named: str) -> GearDataRow:
-    return GearDataRow(key=key, words=words[f"assembly.{key}"].format(**named), symbol=symbol, text=text, numbers=numbers)
 
 
 _EVEN = 1e-3

@@ -10,7 +10,7 @@ from gearcad.core.quantities import Range, is_given, symbols_of
 from gearcad.core.records import Notice
 from gearcad.drawing.drawing_subjects import DrawnGear, Mate, material_text, treatment_text
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.requirements import flank_roughness, grade_of
+from gearcad.drawing.requirements import accuracy_grade_of, flank_roughness
 from gearcad.drawing.words import SheetWords, kind_of, titled
 from gearcad.geometry import NAMED_RACKS, FlankModification, Gear, Rack, RackPair, ReliefShape
 from gearcad.geometry.gear_data import corner_radius, shaped
@@ -222,7 +222,7 @@ _TOLERANCES = {
 
 def grade_row(drawn: DrawnGear, write: RowWriter) -> GearDataRow:
     """Return the row of accuracy grade, standard and year; a grade that was not given is marked as assumed."""
-    grade = grade_of(drawn)
+    grade = accuracy_grade_of(drawn)
     assumed = f" ({write.word('assumed')})" if drawn.grade is None else ""
     return write.text("accuracy", f"{grade}{assumed}", "", {"tolerances.grade": grade}, standard=drawn.accuracy.value)
 
@@ -234,7 +234,7 @@ def tolerance_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[GearDataRow]:
     if not isinstance(drawn.gear, Gear):
         yield write.text("tolerances", f"— ({write.word('not_of_racks')})", standard=drawn.accuracy.value)
         return
-    found = gear_tolerances(drawn.gear, grade_of(drawn), drawn.accuracy)
+    found = gear_tolerances(drawn.gear, accuracy_grade_of(drawn), drawn.accuracy)
     for name, (key, symbol) in _TOLERANCES[drawn.accuracy].items():
         try:
             value = getattr(found, name)
@@ -248,13 +248,13 @@ def tolerance_notices(drawn: DrawnGear) -> Iterator[Notice]:
     """Yield notices of an assumed grade and of missing tolerances."""
     if not isinstance(drawn.gear, Gear):
         said = f"{drawn.accuracy.value} is not for racks: the sheet has no tolerances of pitch, say them in notes"
-        text = f"tolerances: {said}; roughness, flatness and parallelism are what goes with grade {grade_of(drawn)}"
+        text = f"tolerances: {said}; roughness, flatness and parallelism are what goes with grade {accuracy_grade_of(drawn)}"
         yield Notice("rack-tolerances", text)
         return
     if drawn.grade is None:
-        said = f"no grade is given; tolerances, run-out and roughness are those of grade {grade_of(drawn)}"
+        said = f"no grade is given; tolerances, run-out and roughness are those of grade {accuracy_grade_of(drawn)}"
         yield Notice("grade-assumed", f"accuracy: {said} of {drawn.accuracy.value}")
-    for reason in gear_tolerances(drawn.gear, grade_of(drawn), drawn.accuracy).to_dict()["not_covered"]:
+    for reason in gear_tolerances(drawn.gear, accuracy_grade_of(drawn), drawn.accuracy).to_dict()["not_covered"]:
         yield Notice("not-covered", f"tolerances: {drawn.accuracy.value} does not cover all: {reason}")
 
 

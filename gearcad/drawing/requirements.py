@@ -50,7 +50,7 @@ _GROUND_FIT = 6
 """Last grade of ISO 286 to which bores and rims are ground."""
 
 
-def grade_of(drawn: DrawnGear) -> int:
+def accuracy_grade_of(drawn: DrawnGear) -> int:
     """Return the accuracy grade of a gear; if none was given, the default grade of ratings."""
     return RatingOptions().accuracy_grade if drawn.grade is None else drawn.grade
 
@@ -60,13 +60,13 @@ def flank_roughness(drawn: DrawnGear) -> Roughness:
     given = drawn.gear.flank_roughness if isinstance(drawn.gear, Gear) else None
     if given is not None:
         return Roughness("Rz", given)
-    grade = grade_of(drawn)
+    grade = accuracy_grade_of(drawn)
     return Roughness("Ra", next((value for most, value in _FLANKS if grade <= most), _COARSEST), given=False)
 
 
 def seat_roughness(drawn: DrawnGear, fit: str = "") -> float:
     """Return Ra (µm) of bore, rim and end faces: 0.8 for ground grades and for fits that need grinding, else 1.6."""
-    ground = grade_of(drawn) <= _GROUND or (bool(fit) and grade_of_class(fit) <= _GROUND_FIT)
+    ground = accuracy_grade_of(drawn) <= _GROUND or (bool(fit) and grade_of_class(fit) <= _GROUND_FIT)
     return 0.8 if ground else 1.6
 
 
@@ -79,7 +79,7 @@ def blank_runout(drawn: DrawnGear) -> float | None:
     if not isinstance(drawn.gear, Gear):
         return None
     try:
-        teeth = gear_tolerances(drawn.gear, grade_of(drawn), drawn.accuracy).runout
+        teeth = gear_tolerances(drawn.gear, accuracy_grade_of(drawn), drawn.accuracy).runout
     except ParameterError:
         return None
     return max(float(teeth // 2), 1.0)
@@ -89,7 +89,7 @@ def back_parallelism(drawn: DrawnGear, rack: Rack) -> float:
     """Return the parallelism (µm) of a rack's tips to its back: the standard tolerance IT of its grade, 5 to 11, for its
     length.
     """
-    grade = min(max(grade_of(drawn), 5), 11)
+    grade = min(max(accuracy_grade_of(drawn), 5), 11)
     return standard_tolerance(grade, round(min(rack.length, LARGEST_SIZE), 3))
 
 

@@ -40,7 +40,10 @@ Found = TypeVar("Found")
 
 
 def of_last(find: Callable[[Of], Found]) -> Callable[[Of], Found]:
-    """Return a function that remembers what it has found of the last design, equal in what is given and in what is assumed."""
+    """Return a function that keeps its result for the last design, equal in what is given and in what is assumed.
+
+    Designs hold dictionaries, so they have no hash, which `functools.lru_cache` would need.
+    """
     last: list[tuple[Of, Found]] = []
 
     @wraps(find)
