@@ -1,7 +1,7 @@
 """Judge of assemblies: gears where a file has placed them must not overlap, and have the backlash that is told.
 
-The outline of one gear, as points, is brought to the frame of its mate and held against the exact thickness of the mate's teeth:
-how far can the mate turn until the flanks touch? No boolean operation is needed.
+The outline of one gear, as points, is brought to the frame of its mate and held against the exact thickness of its teeth: how
+far can the mate turn until the flanks touch? No boolean operation is needed.
 """
 
 from __future__ import annotations
@@ -20,6 +20,9 @@ from gearcad.geometry.profile import Involute
 from gearcad.verification.claims import Claim, Judge
 
 Booleans = NDArray[np.bool_]
+
+OUTLINES = "exact outlines"
+"""Name of the judge."""
 
 _POINTS = 1000
 """Points on each curve of the outline that is brought to the mate."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,12 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearcad.core.records import Floats, Wholes
-from gearcad.geometry import Gear, Rack
-from gearcad.solids.exact.inertia import moments
-from gearcad.solids.exact.rack_solid import rack_boundary
-from gearcad.solids.exact.solid import gear_boundary
+from gearcad.verification.assemblies import OUTLINES, PlacedMesh, PlacedPart, judge_places
 from gearcad.verification.claims import Claim, Judge, Level, Subject
-from gearcad.verification.surfaces import surface_of
+from gearcad.verification.exact_parts import ExactPart
 
 if TYPE_CHECKING:
     from trimesh import Trimesh
@@ -28,6 +25,9 @@ _ROUNDING = {"stl": 2.0**-24, "glb": 2.0**-24, "3mf": 0.0}
 
 _LAST_DIGIT = {"stl": 0.0, "glb": 0.0, "3mf": 5.1e-8}
 """Rounding of a coordinate (mm): 3MF has seven decimals."""
+
+_PLACE = {"stl": 0.0, "glb": 2e-4, "3mf": 1e-6}
+"""Rounding (mm at the working circle) of the place of a part: GLB has quaternions and shifts in single precision."""
 
 _LEAST = 1e-5
 """Distance (mm) of a vertex from the exact surface that is permitted beside the rounding of the file."""
@@ -65,8 +65,15 @@ _GLB = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1
 """Matrix of a GLB, whose unit is the metre and whose y axis points up, for points in mm with z up."""
 
 
-def judge_facets(path: Path, parts: Mapping[str, Gear | Rack], chord_error: float, *, names: bool = True) -> Iterator[Claim]:
-    """Judge every body of a file against the parts that it should have, by their names.
+def judge_facets(
+    path: Path,
+    parts: Mapping[str, ExactPart],
+    chord_error: float,
+    meshes: Sequence[PlacedMesh] = (),
+    *,
+    names: bool = True,
+) -> Iterator[Claim]:
+    """Judge every body of a file against the parts that it should have, by their names; of an assembly also the `meshes`.
 
     `chord_error` (mm) bounds how far facets may be off. `names`: whether the file has the names of its parts (STL has not).
     """
@@ -87,20 +94,23 @@ def judge_facets(path: Path, parts: Mapping[str, Gear | Rack], chord_error: floa
         if name in bodies:
             of_part = Judge(judge.subject, judge.level, path.name if len(parts) == 1 else f"{path.name}: {name}", judge.name)
             yield from _judge_body(of_part, bodies[name].mesh, part, ending, chord_error)
+    placed = [PlacedPart(part.name, part.place[:3]) for part in found]
+    places = Judge(judge.subject, judge.level, path.name, OUTLINES)
+    yield from judge_places(places, meshes, placed, rounding=_PLACE[ending])
 
 
-def _judge_body(judge: Judge, mesh: Trimesh, part: Gear | Rack, ending: str, chord_error: float) -> Iterator[Claim]:
+def _judge_body(judge: Judge, mesh: Trimesh, part: ExactPart, ending: str, chord_error: float) -> Iterator[Claim]:
     """Judge one body: its topology, its volume, its vertices and the middles of its triangles."""
-    exact = moments(rack_boundary(part) if isinstance(part, Rack) else gear_boundary(part)).volume
     size = float(np.abs(mesh.vertices).max())
     permitted = _LEAST + _ROUNDING[ending] * size * np.sqrt(3) + _LAST_DIGIT[ending]
-    yield judge.holds("is watertight", bool(mesh.is_watertight), place=_open_edge(mesh))
+    closed = bool(mesh.is_watertight)
+    yield judge.holds("is watertight", closed, place="" if closed else _open_edge(mesh))
     yield judge.holds("triangles are turned outwards", bool(mesh.is_winding_consistent) and mesh.volume > 0)
-    yield judge.equal("Euler number", euler_number(part), int(mesh.euler_number))
-    yield judge.near("volume", exact, float(mesh.volume), float(mesh.area) * chord_error, "mm³")
-    surface = surface_of(part)
+    yield judge.equal("Euler number", part.euler_number, int(mesh.euler_number))
+    yield judge.near("volume", part.moments.volume, float(mesh.volume), float(mesh.area) * chord_error, "mm³")
+    surface = part.surface
     vertices, faces = np.asarray(mesh.vertices, float), np.asarray(mesh.faces)
-    apart = surface.distances(vertices)
+    apart = part.distances(vertices)
     corners = apart[:, faces].max(axis=2)
     off = corners.min(axis=0)
     yield judge.below(
@@ -121,17 +131,8 @@ def _judge_body(judge: Judge, mesh: Trimesh, part: Gear | Rack, ending: str, cho
         place=_where(surface, vertices[faces], away),
     )
     on_flanks = (corners[surface.flanks] <= permitted).any(axis=0)
-    count = int(part.teeth or 0) if isinstance(part, Rack) else part.tooth_count
     numbers = set(surface.teeth(middles[on_flanks]).tolist())  # a helical rack has parts of more teeth at its ends
-    yield judge.equal("number of teeth", count, len(numbers.intersection(range(count))))
-
-
-def euler_number(part: Gear | Rack) -> int:
-    """Return the Euler number of a part's surface: 2, less 2 for each hole through it."""
-    if isinstance(part, Rack):
-        return 2
-    holes = 1 + part.body.bolt_holes if part.internal else int(part.body.bore > 0)
-    return 2 - 2 * holes
+    yield judge.equal("number of teeth", part.teeth, len(numbers.intersection(range(part.teeth))))
 
 
 def _where(surface: Any, triangles: Floats, off: Floats) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 
 from gearcad.core.records import Floats
-from gearcad.geometry import Gear, Rack
 from gearcad.solids.body_plan import Colour
 from gearcad.solids.exact.boundary import Frame
 from gearcad.solids.exact.inertia import moments
 from gearcad.solids.exact.solid import AssembledProduct, Product, SolidProduct
 from gearcad.solids.exact.tooth_layout import accuracy_for
-from gearcad.verification.areas import surface_area
+from gearcad.verification.assemblies import OUTLINES, PlacedMesh, PlacedPart, judge_places
 from gearcad.verification.claims import Claim, Judge, Level, Subject
-from gearcad.verification.surfaces import ExactSurface, surface_of
+from gearcad.verification.exact_parts import ExactPart
+from gearcad.verification.surfaces import ExactSurface
 
 _SAME = 1e-6
 """Relative difference of volume, area and inertia that is permitted."""
@@ -113,8 +113,13 @@ def _on_screen(light: float) -> float:
     return 12.92 * light if light <= 0.0031308 else 1.055 * float(light ** (1 / 2.4)) - 0.055
 
 
-def judge_step(path: Path, product: Product, parts: Mapping[str, Gear | Rack]) -> Iterator[Claim]:
-    """Judge a STEP file that should hold a product; `parts` are its gears and racks by their names as products."""
+def judge_step(
+    path: Path, product: Product, parts: Mapping[str, ExactPart], meshes: Sequence[PlacedMesh] = ()
+) -> Iterator[Claim]:
+    """Judge a STEP file that should hold a product; `parts` are its gears and racks by their names as products.
+
+    `meshes` are those of an assembly, whose gears must be in their places.
+    """
     from OCP import __version__ as version
 
     judge = Judge(Subject.STEP, Level.FILES, path.name, f"Open CASCADE {version}")
@@ -136,6 +141,17 @@ def judge_step(path: Path, product: Product, parts: Mapping[str, Gear | Rack]) -
         node = found[made.name]
         yield of_part.equal("colour", _hex(made.colour), _hex(node.colour))
         yield from _judge_solid(of_part, node.shape, made, parts.get(made.name))
+    placed = [part for root in nodes for part in _placed(root)]
+    yield from judge_places(Judge(judge.subject, judge.level, path.name, OUTLINES), meshes, placed)
+
+
+def _placed(node: StepNode, place: Floats | None = None) -> Iterator[PlacedPart]:
+    """The parts of a tree in their places."""
+    here = (np.eye(4) if place is None else place) @ np.vstack([node.place, [0.0, 0.0, 0.0, 1.0]])
+    if not node.children:
+        yield PlacedPart(node.product, here[:3])
+    for child in node.children:
+        yield from _placed(child, here)
 
 
 def _solid_products(product: Product) -> list[SolidProduct]:
@@ -182,7 +198,7 @@ def _hex(colour: Colour | None) -> str:
     return "none" if colour is None else ", ".join(f"{value:.4f}" for value in colour)
 
 
-def _judge_solid(judge: Judge, shape: Any, made: SolidProduct, part: Gear | Rack | None) -> Iterator[Claim]:
+def _judge_solid(judge: Judge, shape: Any, made: SolidProduct, part: ExactPart | None) -> Iterator[Claim]:
     """Judge one solid: validity, closure, volume, area, inertia, and its faces against the exact surface."""
     from OCP.BRepCheck import BRepCheck_Analyzer
     from OCP.BRepGProp import BRepGProp
@@ -193,18 +209,18 @@ def _judge_solid(judge: Judge, shape: Any, made: SolidProduct, part: Gear | Rack
     yield judge.equal("solids", 1, len(solids))
     yield judge.holds("is valid (BRepCheck)", bool(BRepCheck_Analyzer(shape).IsValid()))
     yield judge.holds("is closed", len(shells) == 1 and _closed(shape))
-    exact, found, area = moments(made.boundary), GProp_GProps(), GProp_GProps()
+    exact = part.moments if part is not None else moments(made.boundary)
+    found, area = GProp_GProps(), GProp_GProps()
     BRepGProp.VolumeProperties_s(shape, found)
     yield judge.near("volume", exact.volume, found.Mass(), _SAME, "", relative=True)
     if part is None:
         return
-    told = surface_area(part)
-    if told is None:
+    if part.area is None:
         yield judge.not_judged("area", "the exact area is not known with end chamfers")
     else:
         BRepGProp.SurfaceProperties_s(shape, area)
-        yield judge.near("area", told, area.Mass(), _SAME, "", relative=True)
-    if isinstance(part, Gear):
+        yield judge.near("area", part.area, area.Mass(), _SAME, "", relative=True)
+    if part.gear is not None:
         from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt
 
         polar = found.MomentOfInertia(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)))
@@ -233,13 +249,13 @@ def _closed(shape: Any) -> bool:
     return all(faces.FindFromIndex(i).Extent() == 2 for i in range(1, faces.Extent() + 1))
 
 
-def _judge_faces(judge: Judge, shape: Any, part: Gear | Rack) -> Iterator[Claim]:
+def _judge_faces(judge: Judge, shape: Any, part: ExactPart) -> Iterator[Claim]:
     """Judge points between the knots of every tooth face, the corners of all faces, and the number of teeth."""
     from OCP.BRep import BRep_Tool
     from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_VERTEX
     from OCP.TopoDS import TopoDS
 
-    surface = surface_of(part)
+    surface = part.surface
     corners = np.array([_coordinates(BRep_Tool.Pnt_s(TopoDS.Vertex_s(each))) for each in _within(shape, TopAbs_VERTEX)])
     points = [found for face in _within(shape, TopAbs_FACE) if (found := _between_knots(TopoDS.Face_s(face))) is not None]
     corners = np.concatenate([corners, *(_on_edge(TopoDS.Edge_s(each)) for each in _within(shape, TopAbs_EDGE))])
@@ -249,13 +265,15 @@ def _judge_faces(judge: Judge, shape: Any, part: Gear | Rack) -> Iterator[Claim]
     )
     on_teeth = np.concatenate(points) if points else corners[surface.tooth_distances(corners) <= _LEAST]
     if points:
-        away, permitted = surface.tooth_distances(on_teeth), _FITS * accuracy_for(part) if isinstance(part, Gear) else _LEAST
+        away, permitted = (
+            surface.tooth_distances(on_teeth),
+            _FITS * accuracy_for(part.gear) if part.gear is not None else _LEAST,
+        )
         place = _place(surface, on_teeth, away)
         yield judge.below(
             "distance of tooth faces from the exact surface", 1e3 * away.max(), 1e3 * permitted, "µm", place=place
         )
-    count = int(part.teeth or 0) if isinstance(part, Rack) else part.tooth_count
-    yield judge.equal("number of teeth", count, len(set(surface.teeth(on_teeth).tolist()).intersection(range(count))))
+    yield judge.equal("number of teeth", part.teeth, len(set(surface.teeth(on_teeth).tolist()).intersection(range(part.teeth))))
 
 
 def _on_edge(edge: Any) -> Floats:

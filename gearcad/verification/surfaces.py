@@ -113,13 +113,18 @@ class GearSurface:
         return flank_curves(self.gear)
 
     def _from_teeth(self, points: Floats) -> Floats:
-        """Distances (k, n) in mm from the k pieces of the flanks, of left or right ones, whichever are nearer."""
-        found = np.empty((len(self._pieces), len(points)))
-        for start in range(0, len(points), _CHUNK):
-            chosen = slice(start, start + _CHUNK)
-            for number, piece in enumerate(self._pieces):
-                sides = [self._from_piece(piece, left, points[chosen]) for left in (True, False)]
-                found[number, chosen] = np.minimum(*sides)
+        """Distances (k, n) in mm from the k pieces of the flanks; infinite for points farther than a module from one."""
+        found = np.full((len(self._pieces), len(points)), np.inf)
+        radius, angle = self._section(points)
+        angle = angle - self._pitch * np.rint(angle / self._pitch)
+        for number, piece in enumerate(self._pieces):
+            low, high = sorted(float(piece.curve.polar(end)[0]) for end in (0.0, 1.0))
+            near = (radius > low - self.gear.normal_module) & (radius < high + self.gear.normal_module)
+            for left in (True, False):
+                chosen = np.flatnonzero(near & ((angle >= 0) == left))
+                for start in range(0, len(chosen), _CHUNK):
+                    which = chosen[start : start + _CHUNK]
+                    found[number, which] = self._from_piece(piece, left, radius[which], angle[which], points[which, 2])
         return found
 
     def _section(self, points: Floats) -> tuple[Floats, Floats]:
@@ -127,12 +132,11 @@ class GearSurface:
         x, y, z = points.T
         return np.hypot(x, y), np.arctan2(y, x) - section_turn(self.gear, z)
 
-    def _from_piece(self, piece: FlankCurve, left: bool, points: Floats) -> Floats:
-        """Distances (n,) in mm from one piece of the left or the right flanks of all teeth."""
+    def _from_piece(self, piece: FlankCurve, left: bool, radius: Floats, angle: Floats, z: Floats) -> Floats:
+        """Distances (n,) in mm of points (radius in mm, angle in rad from the middle of a tooth) from a piece of one side."""
         gear, curve, sense = self.gear, piece.curve, 1 if left else -1
-        height = height_in_half(gear, points[:, 2])
-        radius, angle = self._section(points)
-        angle = sense * (angle - self._pitch * np.rint(angle / self._pitch))
+        height = height_in_half(gear, z)
+        angle = sense * angle
         s = _on_radius(curve, radius)
         for last in (*[False] * _STEPS, True):
             turned = angle - sense * piece.turn(gear.flank_form, s, height, left=left)

@@ -1,8 +1,10 @@
-"""Exact area of the surface of a gear or a rack, by quadrature over its profile: what the area of a solid is held against."""
+"""Exact figures of a gear or a rack: surface, volume, inertia, and area by quadrature over its profile."""
 
 from __future__ import annotations
 
+import hashlib
 import math
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -13,11 +15,63 @@ from gearcad.geometry import Gear, Rack
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.gear_data import twist
 from gearcad.solids.body_plan import keyway_half_angle
+from gearcad.solids.exact.inertia import Moments, moments
+from gearcad.solids.exact.rack_solid import rack_boundary
+from gearcad.solids.exact.solid import gear_boundary
+from gearcad.verification.surfaces import ExactSurface, surface_of
 
 _PLACES, _WEIGHTS = leggauss(24)
 
 _STEP = 1e-5
 """Step of a curve's parameter over which derivatives are taken."""
+
+
+class ExactPart:
+    """A gear or a rack, and what files of it are held against; each is found once, at its first use."""
+
+    def __init__(self, part: Gear | Rack) -> None:
+        self.part = part
+        self._distances: dict[bytes, Floats] = {}
+
+    @property
+    def gear(self) -> Gear | None:
+        """The part if it is a gear."""
+        return None if isinstance(self.part, Rack) else self.part
+
+    @property
+    def teeth(self) -> int:
+        """Number of whole teeth."""
+        return int(self.part.teeth or 0) if isinstance(self.part, Rack) else self.part.tooth_count
+
+    @cached_property
+    def surface(self) -> ExactSurface:
+        """The exact surface."""
+        return surface_of(self.part)
+
+    @cached_property
+    def moments(self) -> Moments:
+        """Volume (mm³) and polar moment (mm⁵) of the exact solid."""
+        return moments(rack_boundary(self.part) if isinstance(self.part, Rack) else gear_boundary(self.part))
+
+    @cached_property
+    def area(self) -> float | None:
+        """Exact area (mm²) of the whole surface, None for a gear with end chamfers."""
+        return surface_area(self.part)
+
+    @property
+    def euler_number(self) -> int:
+        """Euler number of the surface: 2, less 2 for each hole through the part."""
+        if isinstance(self.part, Rack):
+            return 2
+        body = self.part.body
+        return 2 - 2 * (1 + body.bolt_holes if self.part.internal else int(body.bore > 0))
+
+    def distances(self, points: Floats) -> Floats:
+        """Return the distances (k, n) in mm of points (n, 3) from each of the k surfaces; equal points are looked at once."""
+        key = hashlib.sha256(np.ascontiguousarray(points).tobytes()).digest()
+        if key not in self._distances:
+            self._distances = {key: self.surface.distances(points)}
+        return self._distances[key]
 
 
 def surface_area(part: Gear | Rack) -> float | None:
