@@ -10,12 +10,12 @@ from typing import Any
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, SOLID_FACTORS, sweep_points, three_meshes, three_solid_meshes
 from gearcad.check.gates import compare_plane, compare_solid
 from gearcad.check.notices import common_notices
-from gearcad.check.options import CheckOptions, Model
+from gearcad.check.options import Model
 from gearcad.check.pictures import tooth_stresses
 from gearcad.check.relief_start import relief_starts, start_comparisons, start_notices
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
 from gearcad.check.summary import PLANE, SOLID, SolidSummary, summarise_plane, summarise_solid
-from gearcad.check.task import CheckTask, check_task
+from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle, plane_pressure, thin_faces, wide_plane_contacts
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.contact.shared.line_of_action import loaded_left
@@ -24,14 +24,12 @@ from gearcad.contact.solid.pair import LEFT, POSITION_SECONDS, SolidPair, SolidS
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Floats, Notice, freeze
 from gearcad.core.runtime import Agenda, Expected, Progress, Share, machine_memory, unheard
-from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Materials, of_both
 from gearcad.meshing.outline import MeshSizes
 from gearcad.mounting import Mounting
 from gearcad.rating.load_factors import BodyLoad, LoadedMesh, Misalignment, dynamic_factor
 from gearcad.rating.nominal_rating import require_ratable
-from gearcad.rating.options import HelixModification, RatingOptions
+from gearcad.rating.options import HelixModification
 
 BODIES, CYCLE, SWEEP, RATING = "bodies of pinion and wheel", "mesh cycle", "torque sweep", "rating"
 COARSER, FINER = "coarser bodies, for the error", "finer bodies, for the error"
@@ -331,31 +329,23 @@ class LoadDistribution:
         }
 
 
-def load_distribution(
-    pair: GearPair,
-    material: Materials,
-    load: Load,
-    rating: RatingOptions | None = None,
-    *,
-    mounting: Mounting | None = None,
-    check: CheckOptions | None = None,
-    tell: Share = unheard,
-) -> LoadDistribution:
+def load_distribution(task: CheckTask, tell: Share = unheard) -> LoadDistribution:
     """The worst distribution of the load along the face width, on coarse solid bodies with their flank modifications.
 
     The flanks stand off by the misalignment of the mounting or, where that is 0, by F_beta_x of Method C, to the worse side,
     with B_1 = B_2 = 1; y_beta runs in. The bodies are held all along their width, so that shafts and the pinion itself give
-    way in f_sh alone. `check` says how the bodies are held. Raises ParameterError, GeometryError and SolverError.
+    way in f_sh alone. The options of the task say how the bodies are held. Raises ParameterError, GeometryError and
+    SolverError.
     """
-    options, mounting = rating or RatingOptions(), mounting or Mounting()
+    options, mounting = task.rating_options, task.mounting
     plain = replace(options, helix_modification=HelixModification.NONE)  # the flanks have their own
-    mesh = LoadedMesh(pair=mounting.mounted(pair), materials=of_both(material), load=load, options=plain)
-    require_ratable(mesh.pair, load)
+    mesh = LoadedMesh(pair=task.pair, materials=task.materials, load=task.load, options=plain)
+    require_ratable(mesh.pair, task.load)
     speed_factor = dynamic_factor(mesh).factors["K_v"]
     off = _standing_off(mesh, mounting, speed_factor)
-    torque = load.torque * load.application_factor * options.mesh_load_factor * speed_factor
-    asked = replace(check or CheckOptions(), model=Model.SOLID.value, refinement=COARSE, convergence="off", torques=())
-    model = solid_model(check_task(pair, material, Load(torque=torque), asked, mounting, options), tell=tell)
+    torque = task.torque * options.mesh_load_factor * speed_factor
+    asked = replace(task.options, model=Model.SOLID.value, refinement=COARSE, convergence="off", torques=())
+    model = solid_model(replace(task, load=Load(torque=torque), options=asked), tell=tell)
     sides = (off,) if mounting.misalignment or not off else (off, -off)
     found = [_distribution(model, torque, side, mounted=bool(mounting.misalignment)) for side in sides]
     return max(found, key=lambda each: each.face_load_factor)
@@ -384,42 +374,20 @@ def _distribution(model: SolidPair, torque: float, misalignment: float, *, mount
     )
 
 
-def check_pair(
-    pair: GearPair,
-    material: Materials,
-    load: Load,
-    options: CheckOptions | None = None,
-    progress: Progress | None = None,
-    mounting: Mounting | None = None,
-    rating: RatingOptions | None = None,
-) -> CheckResult:
+def check_pair(task: CheckTask, progress: Progress | None = None) -> CheckResult:
     """Check a pair under a load: a plane through the middle of the common face width, or solid bodies.
 
-    `rating` is what the references by ISO 6336 or DIN 3990 go by.
     Raises ParameterError and GeometryError for input that cannot be checked, SolverError where a solver fails.
     """
-    task = check_task(pair, material, load, options, mounting, rating)
     if task.rating_options.face_load_factor == "fe":
-        found = load_distribution(pair, material, load, rating, mounting=mounting, check=options)
-        task = replace(task, body_load=found.body_load)
+        task = replace(task, body_load=load_distribution(task).body_load)
     if task.model is Model.PLANE:
         return check_plane(task, Agenda(progress, plane_steps(task)))
     return check_solid(task, Agenda(progress, solid_steps(task)))
 
 
-def expected_check(
-    pair: GearPair,
-    material: Materials,
-    load: Load,
-    options: CheckOptions | None = None,
-    mounting: Mounting | None = None,
-    rating: RatingOptions | None = None,
-) -> Expected:
-    """Return the seconds and the memory that `check_pair` is expected to take.
-
-    Raises what it raises for input that cannot be checked.
-    """
-    task = check_task(pair, material, load, options, mounting, rating)
+def expected_check(task: CheckTask) -> Expected:
+    """Return the seconds and the memory that `check_pair` is expected to take."""
     if task.model is Model.PLANE:
         return Expected(sum(plane_steps(task).values()), PLANE_MEMORY)
     return expected_solid(task)

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, as_choice, require_number
 from gearcad.core.quantities import NOT_GIVEN, is_given, schema_of
@@ -38,6 +38,10 @@ from gearcad.geometry.mating import check_ring, wrong_side
 from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
 from gearcad.rating.options import RatingOptions
+
+if TYPE_CHECKING:
+    from gearcad.check.options import CheckOptions
+    from gearcad.check.task import CheckTask
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,6 +102,17 @@ class PairDesign(GearedDesign):
         if self.load is None:
             raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {why}")
         return self.load
+
+    def check_task(self, why: str, options: CheckOptions | None = None) -> CheckTask:
+        """Return the task of a check of the pair in its mounting, with its own options where none are given.
+
+        Raises ParameterError if there is no load; the message ends with `why` it is needed. Raises ParameterError and
+        GeometryError for a pair or a load that cannot be checked.
+        """
+        from gearcad.check.task import check_task
+
+        material, load = self.material or Material(), self.loaded(why)
+        return check_task(self.pair, material, load, options or self.check, self.mounting, self.rating)
 
 
 def _require_pair(tables: Mapping[str, Any], where: Where) -> None:

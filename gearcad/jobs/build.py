@@ -124,7 +124,6 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     verb = "build"
     accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "there are no teeth"
-    solves = False
 
     formats: tuple[Format, ...] = _DEFAULT
     options: FileOptions = field(default_factory=FileOptions)
@@ -134,7 +133,8 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         if not self.formats:
             raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
 
-    def _run(self, design: ToothedDesign, _progress: Progress | None) -> ToothedDesign:
+    def run(self, design: Design, progress: Progress | None = None) -> ToothedDesign:
+        design = self.accepted(design, progress)
         if self.options.bracket and design.kind is not DesignKind.PAIR:
             alone = "a single gear has no assembly" if design.assembly is None else "it stands on the shafts of both"
             alone = "a planetary train has a carrier" if design.kind is DesignKind.PLANETARY else alone

@@ -16,6 +16,7 @@ from gearcad.core.output import staged_files
 from gearcad.core.records import Notice, is_assumed
 from gearcad.core.runtime import Progress
 from gearcad.designs import (
+    Design,
     DesignKind,
     GearDesign,
     Inputs,
@@ -158,7 +159,6 @@ class Draw(Job[ToothedDesign, Drawing]):
     verb = "draw"
     accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "there are no teeth"
-    solves = False
 
     formats: tuple[SheetFormat, ...] = _ALL
     given: Mapping[str, Any] = field(default_factory=dict)
@@ -167,7 +167,8 @@ class Draw(Job[ToothedDesign, Drawing]):
         object.__setattr__(self, "formats", _formats(self.formats))
         overridden(DrawingOptions(), self.given)
 
-    def _run(self, design: ToothedDesign, _progress: Progress | None) -> Drawing:
+    def run(self, design: Design, progress: Progress | None = None) -> Drawing:
+        design = self.accepted(design, progress)
         sheets = tuple(self._sheets(design))
         if SheetFormat.PDF in self.formats:
             sheets = tuple(replace(sheet, notices=(*sheet.notices, *unshown(sheet.figure))) for sheet in sheets)
@@ -357,7 +358,6 @@ class Picture(Job[ToothedDesign, PictureShot]):
     verb = "picture"
     accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "there are no teeth"
-    solves = False
     writes_long = True
 
     view: SceneView = SceneView.CORNER
@@ -376,7 +376,8 @@ class Picture(Job[ToothedDesign, PictureShot]):
                 require_whole(f"size.{name}", value, at_least=_LEAST, at_most=_MOST)
             self._require_memory(1)
 
-    def _run(self, design: ToothedDesign, _progress: Progress | None) -> PictureShot:
+    def run(self, design: Design, progress: Progress | None = None) -> PictureShot:
+        design = self.accepted(design, progress)
         self._require_parts(design)
         module = min(each.normal_module for each in _toothed(design))
         options = FileOptions(chord_error=_FINE * module, exploded=self.explode and isinstance(design, PlanetaryDesign))

@@ -16,7 +16,7 @@ from gearcad.check.options import CheckOptions
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SolverError
 from gearcad.core.quantities import with_assumed
 from gearcad.core.records import Notice, PerGear, Role
-from gearcad.core.runtime import Agenda, Expected, Progress
+from gearcad.core.runtime import Agenda, Expected, Progress, one_thread
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, TrainDesign
 from gearcad.designs.cells import cell_text, guarded_text, write_csv
 from gearcad.designs.spec_writers import pair_specs
@@ -174,13 +174,16 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
     why = "a single gear has no mesh"
     sometimes = tuple(file_name("dynamics", name) for name in _TABLES)
 
-    def _run(self, design: PairDesign | TrainDesign, progress: Progress | None) -> Study:
+    @one_thread()
+    def run(self, design: Design, progress: Progress | None = None) -> Study:
+        design = self.accepted(design, progress)
         if isinstance(design, TrainDesign):
             return _of_train(design, progress)
         return _of_pair(design, progress)
 
-    def _expected(self, design: PairDesign | TrainDesign) -> Expected | None:
+    def expected(self, design: Design) -> Expected | None:
         """Return the expected effort of a train's runs in time, which may take minutes, or None."""
+        design = self.accepted(design)
         if not isinstance(design, TrainDesign) or not design.train.meshes:
             return None
         if design.other_models or not (design.dynamics.drawn or design.dynamics.spectra):
@@ -359,14 +362,16 @@ class DynamicsBeside(Dynamics):
 
     variants: Variants
 
-    def _run(self, design: PairDesign | TrainDesign, progress: Progress | None) -> Study:
-        designs = [self._accepted(each) for each in self.variants.designs]
+    @one_thread()
+    def run(self, design: Design, progress: Progress | None = None) -> Study:
+        design = self.accepted(design, progress)
+        designs = [self.accepted(each) for each in self.variants.designs]
         for each in designs:
             _require_chart(each)
         count, studies = len(designs), []
         for number, (label, each) in enumerate(zip(self.variants.labels, designs, strict=True)):
             own = None if progress is None else partial(_told, progress, label, number, count)
-            studies.append(_over_speed(super()._run(each, own), label))
+            studies.append(_over_speed(super().run(each, own), label))
         of = self.variants
         return SideBySide(name=design.name, what=of.what, labels=of.labels, studies=tuple(studies), key=of.key)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Mapping, Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass, fields, replace
 from enum import Enum
 from functools import partial
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeAlias, TypeVar, Un
 from gearcad.core.errors import ParameterError, as_path
 from gearcad.core.output import json_text, staged_files
 from gearcad.core.records import Notice, PerGear
-from gearcad.core.runtime import Agenda, Expected, Progress, one_thread
+from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
@@ -47,34 +46,33 @@ class Job(ABC, Generic[Accepted, Result]):
     why: ClassVar[str]
     """Why it takes no other: the end of a message."""
 
-    solves: ClassVar[bool] = True
-    """Whether it solves systems. They are small, or solved side by side: more threads cost more than they bring."""
-
     writes_long: ClassVar[bool] = False
     """Whether its files are so large that one wants to see which of them is being written."""
 
     sometimes: ClassVar[tuple[str, ...]] = ()
     """Files that not every result has: one that is there of a former result goes, for it would belong to another."""
 
-    def run(self, design: Design, progress: Progress | None = None) -> Result:
-        """The result for a design. Raises ParameterError for a kind that it does not take, and what its solvers raise."""
-        _require_progress(progress)
-        with one_thread() if self.solves else nullcontext():
-            return self._run(self._accepted(design), progress)
-
     @abstractmethod
-    def _run(self, design: Accepted, progress: Progress | None) -> Result:
-        """The result for a design of a kind that it takes."""
+    def run(self, design: Design, progress: Progress | None = None) -> Result:
+        """Return the result for a design. Raises ParameterError for a kind that it does not take, and what its solvers raise.
+
+        It begins with `accepted`. One that solves systems runs in `one_thread`: they are small, or solved side by side, and
+        more threads cost more than they bring.
+        """
 
     def expected(self, design: Design) -> Expected | None:
         """Return the expected effort of `run`, or None if it is unknown.
 
         Raises the errors of `run` for input that cannot be treated.
         """
-        return self._expected(self._accepted(design))
-
-    def _expected(self, _design: Accepted) -> Expected | None:
+        self.accepted(design)
         return None
+
+    def accepted(self, design: Design, progress: Progress | None = None) -> Accepted:
+        """Return the design. Raises ParameterError for a kind that this job does not take, and for a wrong `progress`."""
+        _require_progress(progress)
+        design.require_kind(*self.accepts, why=self.why)
+        return cast("Accepted", design)
 
     @abstractmethod
     def document(self, result: Result) -> dict[str, Any]:
@@ -129,10 +127,6 @@ class Job(ABC, Generic[Accepted, Result]):
     def figures(self, _document: dict[str, Any]) -> dict[str, Any]:
         """Return the figures of a document for a table of results; their columns begin with the verb."""
         return {}
-
-    def _accepted(self, design: Design) -> Accepted:
-        design.require_kind(*self.accepts, why=self.why)
-        return cast("Accepted", design)
 
 
 def _require_progress(progress: object) -> None:
@@ -198,10 +192,9 @@ class Data(Job[Design, Design]):
     verb = "data"
     accepts = tuple(DesignKind)
     why = "every kind has derived quantities"
-    solves = False
 
-    def _run(self, design: Design, _progress: Progress | None) -> Design:
-        return design
+    def run(self, design: Design, progress: Progress | None = None) -> Design:
+        return self.accepted(design, progress)
 
     def document(self, result: Design) -> dict[str, Any]:
         """Return the content of data.json: inputs and derived properties under their field names (mm, degrees)."""

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any, Unpack
 
 from gearcad.check.options import CheckOptions, Model
-from gearcad.check.task import CheckTask, check_task
+from gearcad.check.task import CheckTask
 from gearcad.core.records import Notice, PerGear, Role
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.decks.pair import PairDecks
@@ -104,8 +104,7 @@ def _makers(
 
 def _task(design: PairDesign, model: Model) -> CheckTask:
     options = replace(design.check or CheckOptions(), model=model.value)
-    load = design.loaded("a deck is of pressed flanks")
-    return check_task(design.pair, design.material or Material(), load, options, design.mounting, design.rating)
+    return design.check_task("a deck is of pressed flanks", options)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,7 +117,6 @@ class Mesh(Job[GearedDesign, MeshResult]):
     verb = "mesh"
     accepts = (DesignKind.GEAR, DesignKind.PAIR)
     why = "there are no teeth"
-    solves = False
     writes_long = True
 
     given: Mapping[str, Any] = field(default_factory=dict)
@@ -126,7 +124,8 @@ class Mesh(Job[GearedDesign, MeshResult]):
     def __post_init__(self) -> None:
         MeshOptions(**self.given)
 
-    def _run(self, design: GearedDesign, progress: Progress | None) -> MeshResult:
+    def run(self, design: Design, progress: Progress | None = None) -> MeshResult:
+        design = self.accepted(design, progress)
         plan = self._plan(design)
         require_room(plan)
         decks = make_decks(design, plan, progress) if isinstance(design, PairDesign) else {}
@@ -144,7 +143,8 @@ class Mesh(Job[GearedDesign, MeshResult]):
             plan = _pressed(plan, plan.pair, design.material or Material(), design.load)
         return plan.counted()
 
-    def _expected(self, design: GearedDesign) -> Expected | None:
+    def expected(self, design: Design) -> Expected | None:
+        design = self.accepted(design)
         plan = self._plan(design)
         require_room(plan)
         return expected_mesh(plan)

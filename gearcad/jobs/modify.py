@@ -20,7 +20,7 @@ from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.core.errors import GeometryError, ParameterError, as_choice
 from gearcad.core.quantities import STRENGTH, TORQUE
 from gearcad.core.records import Floats, Notice, Pictured, texts
-from gearcad.core.runtime import Agenda, Progress
+from gearcad.core.runtime import Agenda, Progress, one_thread
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign
 from gearcad.geometry import GearPair, ReliefShape
 from gearcad.jobs.job import Job, as_design
@@ -211,7 +211,9 @@ class Modify(Job[PairDesign, Proposal]):
         if self.shape is not None:
             object.__setattr__(self, "shape", as_choice("shape", self.shape, ReliefShape))
 
-    def _run(self, design: PairDesign, progress: Progress | None) -> Proposal:
+    @one_thread()
+    def run(self, design: Design, progress: Progress | None = None) -> Proposal:
+        design = self.accepted(design, progress)
         pair, torque = self._task(design)
         options, agenda = design.check or CheckOptions(), Agenda(progress, dict.fromkeys(_STEPS, 1.0))
         model = _model(design, pair, torque, options, agenda)

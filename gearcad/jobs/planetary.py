@@ -12,7 +12,7 @@ from gearcad.core.errors import ParameterError, require_switch
 from gearcad.core.output import json_text
 from gearcad.core.quantities import with_assumed
 from gearcad.core.records import Notice
-from gearcad.core.runtime import Progress
+from gearcad.core.runtime import Progress, one_thread
 from gearcad.designs import Design, DesignKind, Inputs, PlanetaryDesign
 from gearcad.designs.spec_writers import MeshPairs
 from gearcad.dynamics.planetary.planetary_result import PlanetaryStudy, study_document
@@ -50,7 +50,9 @@ class Planetary(Job[PlanetaryDesign, Studied]):
     def __post_init__(self) -> None:
         require_switch("response", self.response)
 
-    def _run(self, design: PlanetaryDesign, progress: Progress | None) -> Studied:
+    @one_thread()
+    def run(self, design: Design, progress: Progress | None = None) -> Studied:
+        design = self.accepted(design, progress)
         study = study_planetary(
             design.train,
             design.load,

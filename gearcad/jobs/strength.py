@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult, check_document, reported_document
 from gearcad.check.run import check_pair, expected_check
+from gearcad.check.task import CheckTask
 from gearcad.core.errors import ParameterError, SolverError, require_whole
 from gearcad.core.quantities import with_assumed
 from gearcad.core.records import Notice
-from gearcad.core.runtime import Expected, Progress
+from gearcad.core.runtime import Expected, Progress, one_thread
 from gearcad.core.symbols import STIFFNESS, STRENGTH_FACTORS, STRENGTH_FIGURES
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from gearcad.dynamics.planetary.planetary_result import PlanetaryStudy
 
 
-_CHECK_NO_LOAD = "without it there is no stress"
+_NO_LOAD = "without it there is no stress"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,21 +52,21 @@ class Check(Job[PairDesign, CheckResult]):
     model: str | None = None
     report: bool = True
 
-    def _run(self, design: PairDesign, progress: Progress | None) -> CheckResult:
-        load, material, options = design.loaded(_CHECK_NO_LOAD), design.material or Material(), self._options(design)
-        result = check_pair(design.pair, material, load, options, progress, design.mounting, design.rating)
+    @one_thread()
+    def run(self, design: Design, progress: Progress | None = None) -> CheckResult:
+        design = self.accepted(design, progress)
+        result = check_pair(self._task(design), progress)
         if self.report:
             result.solve_shown()
         return result
 
-    def _expected(self, design: PairDesign) -> Expected:
-        load, material, options = design.loaded(_CHECK_NO_LOAD), design.material or Material(), self._options(design)
-        return expected_check(design.pair, material, load, options, design.mounting, design.rating)
+    def expected(self, design: Design) -> Expected:
+        return expected_check(self._task(self.accepted(design)))
 
-    def _options(self, design: PairDesign) -> CheckOptions | None:
-        if self.model is None:
-            return design.check
-        return replace(design.check or CheckOptions(), model=self.model)
+    def _task(self, design: PairDesign) -> CheckTask:
+        """Return the task of the design, by the model of the job if it has one."""
+        options = design.check or CheckOptions()
+        return design.check_task(_NO_LOAD, options if self.model is None else replace(options, model=self.model))
 
     def document(self, result: CheckResult) -> dict[str, Any]:
         """Return the content of check.json.
@@ -189,8 +190,6 @@ def _least(values: Any) -> float | None:
 KEYS = {"torque": "load.torque", "hardness": "material.hardness"}
 """Keys of values that only the rating finds to be wrong."""
 
-_NO_LOAD = "without it there is no stress"
-
 
 @dataclass(frozen=True, kw_only=True)
 class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | TrainStrength]):
@@ -205,9 +204,9 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
 
     report: bool = True
 
-    def _run(
-        self, design: PairDesign | RackPairDesign | PlanetaryDesign, _progress: Progress | None
-    ) -> StrengthRating | TrainStrength:
+    @one_thread()
+    def run(self, design: Design, progress: Progress | None = None) -> StrengthRating | TrainStrength:
+        design = self.accepted(design, progress)
         if isinstance(design, PlanetaryDesign):
             return _of_train(design)
         load = design.loaded(_NO_LOAD)
@@ -261,8 +260,7 @@ def _of_bodies(design: PairDesign, load: Load) -> BodyLoad | None:
         return None
     from gearcad.check.run import load_distribution
 
-    found = load_distribution(design.pair, design.materials, load, options, mounting=design.mounting, check=design.check)
-    return found.body_load
+    return load_distribution(design.check_task(_NO_LOAD)).body_load
 
 
 def _of_train(design: PlanetaryDesign) -> TrainStrength:
@@ -339,7 +337,9 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
             )
             require_whole("fourier", self.fourier, at_least=0, at_most=max(fewest // 4, 0))
 
-    def _run(self, design: PairDesign, progress: Progress | None) -> StiffnessComparison:
+    @one_thread()
+    def run(self, design: Design, progress: Progress | None = None) -> StiffnessComparison:
+        design = self.accepted(design, progress)
         return compare_methods(
             design.pair,
             design.material or Material(),
@@ -351,7 +351,8 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
             progress=progress,
         )
 
-    def _expected(self, design: PairDesign) -> Expected:
+    def expected(self, design: Design) -> Expected:
+        design = self.accepted(design)
         design.loaded(_STIFFNESS_NO_LOAD)
         pair, material, body = design.pair, design.material or Material(), (design.check or CheckOptions()).body
         return expected_methods(pair, material, self.methods, body=body, mounting=design.mounting, positions=self.positions)

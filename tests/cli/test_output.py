@@ -156,7 +156,7 @@ def test_a_long_job_does_not_begin_where_nothing_can_be_written(
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "file").touch()
     (tmp_path / "it.toml").write_text("[gear]\nteeth = 20\nnormal_module = 2\nface_width = 5\n")
-    monkeypatch.setattr(Mesh, "_run", None)
+    monkeypatch.setattr(Mesh, "run", None)
     done = CliRunner().invoke(main, ["mesh", str(tmp_path / "it.toml"), "-o", str(tmp_path / place)])
     said = f"Error: output = '{tmp_path / place}': cannot be written (Not a directory); give a folder you may write to\n"
     assert (done.exit_code, done.stderr) == (2, said)

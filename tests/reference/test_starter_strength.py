@@ -18,6 +18,7 @@ import pytest
 from gearcad import Material, read
 from gearcad.check.options import CheckOptions
 from gearcad.check.run import check_pair
+from gearcad.check.task import check_task
 from gearcad.core.runtime import templates
 from gearcad.rating import RatingOptions
 
@@ -34,7 +35,7 @@ def test_root_stress_with_load_factors(name: str) -> None:
     load = replace(design.load, speed=design.load.speed or 1500.0)
     options = replace(design.check or CheckOptions(), model="2d", convergence="off")
     rating = replace(design.rating or RatingOptions(), life=20000.0)
-    result = check_pair(design.pair, Material(name="Eh MQ"), load, options, None, design.mounting, rating)
+    result = check_pair(check_task(design.pair, Material(name="Eh MQ"), load, options, design.mounting, rating))
     ratios = [found.raised / found.rated.stress for found in result.safeties.root]
     assert ratios == pytest.approx(RATIOS[name], abs=MESH)
     nominal = [

@@ -12,6 +12,7 @@ from gearcad.check.comparison import Subject
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair
+from gearcad.check.task import check_task
 from gearcad.contact.shared.bodies import BodyModel, Hold
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import PerGear
@@ -26,7 +27,7 @@ def _checked(bore: float, load: float = 150.0, **options: Any) -> CheckResult:
     wheel = replace(pinion, teeth=24, profile_shift=0.1715, body=Body(bore=30))
     chosen = CheckOptions(convergence="off", torques=(load,), positions=12, **options)
     material = Material(root_limit=LIMIT)
-    return check_pair(GearPair(pinion=pinion, wheel=wheel), material, Load(torque=load), chosen)
+    return check_pair(check_task(GearPair(pinion=pinion, wheel=wheel), material, Load(torque=load), chosen))
 
 
 def _gate(result: CheckResult, quantity: str) -> Any:

@@ -10,6 +10,7 @@ import pytest
 
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.check.run import load_distribution
+from gearcad.check.task import check_task
 from gearcad.core.errors import ParameterError
 from gearcad.geometry import FlankModification
 from gearcad.mounting import Mounting
@@ -25,9 +26,9 @@ LOAD = Load(torque=150.0, speed=1500.0)
 
 def test_needs_what_a_rating_needs() -> None:
     with pytest.raises(ParameterError, match="torque"):
-        load_distribution(SPUR, EH, replace(LOAD, torque=0.0))
+        load_distribution(check_task(SPUR, EH, replace(LOAD, torque=0.0)))
     with pytest.raises(ParameterError, match="contact_endurance_limit"):
-        load_distribution(SPUR, Material(group="V"), LOAD)  # type: ignore[arg-type]
+        load_distribution(check_task(SPUR, Material(group="V"), LOAD))  # type: ignore[arg-type]
 
 
 @pytest.mark.long
@@ -38,7 +39,7 @@ def test_a_misaligned_spur_pair_beside_method_c() -> None:
     What bodies twist is part of that, but moves all of the width alike: against a tilt there is 1.28 times as much, 26.5
     N/(mm·µm), by the slope of the load over the face width. The ends of an even load carry 3.5 % more besides.
     """
-    found, by_method_c = load_distribution(SPUR, EH, LOAD), LoadFactors.of(SPUR, EH, LOAD)
+    found, by_method_c = load_distribution(check_task(SPUR, EH, LOAD)), LoadFactors.of(SPUR, EH, LOAD)
     off, mean, c = (by_method_c.details[each] for each in ("F_betay", "F_m_b", "c_gamma_beta"))
     assert isinstance(off, float) and isinstance(mean, float) and isinstance(c, float)
     assert abs(found.misalignment) == pytest.approx(off, rel=1e-12)
@@ -56,14 +57,17 @@ def test_a_misaligned_spur_pair_beside_method_c() -> None:
 @pytest.mark.long
 def test_flanks_and_mounting_change_it() -> None:
     """The gap grows towards larger z: the low end carries; crowning helps; far off, the end carries all, whatever the model."""
-    aside = load_distribution(SPUR, EH, LOAD, mounting=Mounting(misalignment=20.0))
+    aside = load_distribution(check_task(SPUR, EH, LOAD, mounting=Mounting(misalignment=20.0)))
     assert aside.misalignment == pytest.approx(17.0)  # 3 µm run in
     assert aside.load[:30].sum() > 2 * aside.load[30:].sum()
-    mirrored = load_distribution(SPUR, EH, replace(LOAD, torque=-150.0), mounting=Mounting(misalignment=20.0))
+    mirrored = load_distribution(check_task(SPUR, EH, replace(LOAD, torque=-150.0), mounting=Mounting(misalignment=20.0)))
     assert mirrored.face_load_factor == pytest.approx(aside.face_load_factor, rel=1e-9)
     crowned = replace(SPUR, pinion=replace(SPUR.pinion, modification=FlankModification(lead_crowning=8.0)))
-    assert load_distribution(crowned, EH, LOAD).face_load_factor < 0.9 * load_distribution(SPUR, EH, LOAD).face_load_factor
+    assert (
+        load_distribution(check_task(crowned, EH, LOAD)).face_load_factor
+        < 0.9 * load_distribution(check_task(SPUR, EH, LOAD)).face_load_factor
+    )
     given = RatingOptions(dynamic_factor=1.0, mesh_load_factor=1.5)
-    far = load_distribution(SPUR, EH, LOAD, given, mounting=Mounting(misalignment=900.0))
+    far = load_distribution(check_task(SPUR, EH, LOAD, rating=given, mounting=Mounting(misalignment=900.0)))
     assert far.torque == 225.0
     assert far.face_load_factor > 15

@@ -35,4 +35,6 @@ def test_all_of_them_are_what_the_check_takes() -> None:
     from gearcad import Material
 
     asked = CheckOptions(model="2d")
-    assert expected_check(PAIR, Material(), Load(torque=302.0), asked).seconds == pytest.approx(sum(steps().values()))
+    assert expected_check(check_task(PAIR, Material(), Load(torque=302.0), asked)).seconds == pytest.approx(
+        sum(steps().values())
+    )

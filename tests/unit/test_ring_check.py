@@ -15,6 +15,7 @@ from gearcad.check.gates import compare_plane
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair
+from gearcad.check.task import check_task
 from gearcad.contact.plane.cycle import PlaneCycle, conformal
 from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
 from gearcad.contact.plane.pair import plane_pair
@@ -57,7 +58,7 @@ def said(result: CheckResult, code: str) -> str:
 
 @pytest.fixture(scope="module")
 def result() -> CheckResult:
-    return check_pair(PAIR, STEEL, Load(torque=100.0), FEW)
+    return check_pair(check_task(PAIR, STEEL, Load(torque=100.0), FEW))
 
 
 def test_a_pair_with_a_ring_is_checked_like_any_other(result: CheckResult) -> None:
@@ -80,17 +81,17 @@ def test_torsional_stiffness_of_both_gears_is_that_of_their_parts_of_the_approac
 
 
 def test_a_ring_without_a_rim_is_held_three_and_a_half_modules_outside_its_roots() -> None:
-    bare = check_pair(ring(), STEEL, Load(torque=100.0), FEW)
+    bare = check_pair(check_task(ring(), STEEL, Load(torque=100.0), FEW))
     diameter = abs(RING.root_diameter) + 14.0
     assert bare.bodies["wheel"] == f"full ring, held on diameter {diameter:g} mm"
     assert f"held on diameter {diameter:g} mm, 3.5 m_n outside its roots" in said(bare, "no-rim")
 
 
 def test_a_thin_rim_and_bolts_are_told() -> None:
-    thin = check_pair(ring(rim_diameter=155.0), STEEL, Load(torque=100.0), FEW)
+    thin = check_pair(check_task(ring(rim_diameter=155.0), STEEL, Load(torque=100.0), FEW))
     thickness = (155 - abs(RING.root_diameter)) / 4
     assert f"the ring's rim ({thickness:.3g} m_n, below 3.5) is held all round" in said(thin, "rigid-rim")
-    bolted = check_pair(PAIR, STEEL, Load(torque=100.0), replace(FEW, wheel_support="bolts"))
+    bolted = check_pair(check_task(PAIR, STEEL, Load(torque=100.0), replace(FEW, wheel_support="bolts")))
     assert bolted.bodies["wheel"] == "full ring, held by 8 bolts on diameter 160 mm, the loaded tooth midway between two"
     assert "root stresses are those of the loaded teeth" in said(bolted, "bolted-ring")
     assert bolted.passed
@@ -110,7 +111,7 @@ def test_a_thin_rim_and_bolts_are_told() -> None:
 )
 def test_what_cannot_hold_a_ring_is_refused(body: dict[str, Any], options: dict[str, Any], message: str) -> None:
     with pytest.raises((ParameterError, GeometryError), match=message):
-        check_pair(ring(rim_diameter=170.0, **body), STEEL, Load(torque=100.0), replace(FEW, **options))
+        check_pair(check_task(ring(rim_diameter=170.0, **body), STEEL, Load(torque=100.0), replace(FEW, **options)))
 
 
 # Bolts
@@ -159,7 +160,7 @@ def test_the_fewer_bolts_the_softer_the_ring_and_bolts_at_every_tooth_are_a_hous
 
 
 def test_wide_contacts_are_told_and_not_held_against_cylinders(monkeypatch: pytest.MonkeyPatch) -> None:
-    heavy = check_pair(PAIR, STEEL, Load(torque=400.0), FEW)
+    heavy = check_pair(check_task(PAIR, STEEL, Load(torque=400.0), FEW))
     wide = [contact for _, contact in heavy.cycle.interior_contacts if conformal(contact)]
     assert 0 < len(wide) < len(list(heavy.cycle.interior_contacts))
     assert "Hertz can be more than 1 % off" in said(heavy, "conformal-contact")

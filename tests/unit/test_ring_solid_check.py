@@ -54,7 +54,7 @@ TORQUE = 60.0
 
 @pytest.fixture(scope="module")
 def result() -> SolidCheck:
-    found = check_pair(PAIR, STEEL, Load(torque=TORQUE), COARSE)
+    found = check_pair(check_task(PAIR, STEEL, Load(torque=TORQUE), COARSE))
     assert isinstance(found, SolidCheck)
     return found
 
@@ -106,7 +106,7 @@ def test_its_stress_is_written_and_drawn_as_the_ring_stands(result: SolidCheck, 
 
 def test_right_flanks_carry_as_left_ones_do(result: SolidCheck) -> None:
     """A pair whose middles stand in one plane is the image of that of the other hand, seen from the other end."""
-    other = check_pair(PAIR, STEEL, Load(torque=-TORQUE), COARSE)
+    other = check_pair(check_task(PAIR, STEEL, Load(torque=-TORQUE), COARSE))
     assert other.summary.mesh_stiffness_mean == pytest.approx(result.summary.mesh_stiffness_mean, rel=1e-6)
     assert other.summary.root_tension == pytest.approx(tuple(result.summary.root_tension), rel=1e-5)
     assert other.cycle.load_along_face[1] == pytest.approx(result.cycle.load_along_face[1][::-1], rel=1e-4)
@@ -131,7 +131,7 @@ def test_method_c_minds_which_flank_of_the_ring_carries() -> None:
 def test_solid_rings_are_held_all_round(hold: str) -> None:
     options = CheckOptions(model="3d", wheel_support=hold)
     with pytest.raises(ParameterError, match=rf"check.wheel_support = '{hold}': must be \"rigid\""):
-        check_pair(PAIR, STEEL, Load(torque=TORQUE), options)
+        check_pair(check_task(PAIR, STEEL, Load(torque=TORQUE), options))
 
 
 def least_gap(line: LineOfAction, tooth: int, length: float) -> float:

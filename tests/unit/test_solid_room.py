@@ -35,7 +35,7 @@ def needed(monkeypatch: pytest.MonkeyPatch) -> float:
 def test_bodies_for_which_there_is_no_memory_are_refused(needed: float) -> None:
     there = re.escape(f"there are {0.9 * needed / 1e9:.3g} GB")
     with pytest.raises(ParameterError, match=f"GB of memory, or fewer without convergence, and {there}; about 0.92 would do"):
-        check_pair(PAIR, Material(), Load(torque=100), CheckOptions())
+        check_pair(check_task(PAIR, Material(), Load(torque=100), CheckOptions()))
 
 
 def test_what_is_told_would_do(needed: float) -> None:
