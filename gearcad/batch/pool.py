@@ -1,7 +1,7 @@
 """Worker processes of a batch: threads of this machine, or of a Dask cluster, that each own a process.
 
-`isolated` is what every thread of a pool runs, on this machine or on a Dask worker. A child is started by its command line and
-not by multiprocessing, which would run the user's script again in it and forbids children to the processes of Dask.
+`isolated` is what every thread of a pool runs, on this machine or on a Dask worker. Calls and answers are pickles, each after
+its length.
 """
 
 from __future__ import annotations
@@ -18,11 +18,12 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from functools import partial
 from types import FrameType
 from typing import IO, Any, Generic, TypeVar
 
-from gearcad.core.errors import GearcadError, ParameterError, format_number, require_whole
-from gearcad.core.guard import death, die_with
+from gearcad.core.child_process import become_child, end_with_input, ending_words, pipes_of, start_child, time_limit_words
+from gearcad.core.errors import GearcadError, ParameterError, require_whole
 from gearcad.core.runtime import cores
 from gearcad.version import __version__
 
@@ -65,9 +66,6 @@ def remembered_interrupt() -> Iterator[Callable[[], None]]:
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
-
-ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-"""The parallel unit is the row; one thread each also gives the same bytes on every machine."""
 
 _LENGTH_BYTES = 8
 
@@ -124,11 +122,13 @@ class _Worker:
         watch.daemon = True
         watch.start()
         try:
-            _send(_pipe(process.stdin), message)
-            answer = _receive(_pipe(process.stdout))
+            requests, answers = pipes_of(process)
+            _send(requests, message)
+            answer = _receive(answers)
         except (EOFError, OSError):
             process.kill()
-            raise WorkerLostError(_reason(process.wait(), time_limit if expired.is_set() else None)) from None
+            status = process.wait()
+            raise WorkerLostError(time_limit_words(time_limit) if expired.is_set() else ending_words(status)) from None
         finally:
             watch.cancel()
         succeeded, value = pickle.loads(answer)
@@ -150,23 +150,8 @@ class _Worker:
             if self.closed:
                 raise WorkerLostError("the run was ended")
             if self._process is None or self._process.poll() is not None:
-                self._process = _start()
+                self._process = start_child(__name__)
             return self._process
-
-
-def _start() -> subprocess.Popen[bytes]:
-    return subprocess.Popen(
-        [sys.executable, "-c", f"import sys; sys.path[:] = {sys.path!r}; from {__name__} import serve; serve()"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        env=os.environ | ONE_THREAD,
-    )
-
-
-def _pipe(pipe: IO[bytes] | None) -> IO[bytes]:
-    assert pipe is not None  # Popen was asked for pipes
-    return pipe
 
 
 def _send(pipe: IO[bytes], message: bytes) -> None:
@@ -192,23 +177,11 @@ def _end(process: subprocess.Popen[bytes], expired: threading.Event) -> None:
     process.kill()
 
 
-def _reason(status: int, time_limit: float | None) -> str:
-    """Why a child is gone, in words."""
-    if time_limit is not None:
-        return f"was stopped at its time limit of {format_number(time_limit)} s"
-    if status >= 0:
-        return f"ended its process (exit status {status})"
-    return death(-status)
-
-
 def serve() -> None:
     """The child: answer calls from stdin until it closes, which also ends work in progress: nobody waits for it any more."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all processes of a terminal; the parent decides
-    die_with(os.getppid())  # the thread that listens has no say while a kernel holds the interpreter
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # whatever a library prints must not mix with the answers
+    answers = os.fdopen(become_child(), "wb")
     calls: queue.SimpleQueue[bytes] = queue.SimpleQueue()
-    threading.Thread(target=_listen, args=(calls,), daemon=True).start()
+    end_with_input(partial(_listen, calls), 0)
     while True:
         call = calls.get()
         try:
@@ -222,10 +195,7 @@ def serve() -> None:
 
 def _listen(calls: queue.SimpleQueue[bytes]) -> None:
     while True:
-        try:
-            calls.put(_receive(sys.stdin.buffer))
-        except (EOFError, OSError):
-            os._exit(0)
+        calls.put(_receive(sys.stdin.buffer))
 
 
 def _sendable(error: Exception) -> Exception:

@@ -1,6 +1,6 @@
 """Process of one run: one job on the text of a spec, its progress, and its files in a folder.
 
-It is started by its command line, as the workers of a batch are. It reads one line of JSON and answers by lines of JSON:
+It reads one line of JSON and answers by lines of JSON:
 {"expected": ...}, {"step", "done", "whole"}, and last {"result": ...} or {"error": "the line of the command line"}.
 """
 
@@ -9,9 +9,7 @@ from __future__ import annotations
 import asyncio
 import json
 import os
-import signal
 import sys
-import threading
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -21,8 +19,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from gearcad.batch.pool import close_workers, isolated, own_worker
+from gearcad.core.child_process import become_child, end_with_input
 from gearcad.core.errors import GearcadError, out_of_memory, printable, shown
-from gearcad.core.guard import die_with
 from gearcad.designs.design import Design, files_only_in, tables_of_text
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.reader import design_from_tables
@@ -213,20 +211,11 @@ class Asked:
 
 def serve() -> None:
     """Do the run that stands on stdin, whose closing ends it: nobody waits for it any more."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all processes of a terminal; the parent decides
-    die_with(os.getppid())
-    tell = _Teller(os.dup(1))
-    os.dup2(2, 1)  # whatever a library prints must not mix with the answers
+    tell = _Teller(become_child())
     asked = Asked(**json.loads(sys.stdin.buffer.readline()))
-    threading.Thread(target=_listen, daemon=True).start()
+    end_with_input(sys.stdin.buffer.read, 1)
     _bound()
     tell(**_outcome(asked, tell))
-
-
-def _listen() -> None:
-    with suppress(OSError):
-        sys.stdin.buffer.read()
-    os._exit(1)
 
 
 def _bound() -> None:

@@ -10,7 +10,6 @@ import secrets
 import shutil
 import signal
 import subprocess
-import sys
 import tempfile
 import threading
 import time
@@ -27,9 +26,8 @@ from typing import Any, ClassVar
 from fastapi import FastAPI, Request, Response
 from fastapi.responses import FileResponse
 
-from gearcad.batch.pool import ONE_THREAD
-from gearcad.core.errors import ParameterError, format_number, require_number
-from gearcad.core.guard import death
+from gearcad.core.child_process import ending_words, pipes_of, start_child, time_limit_words
+from gearcad.core.errors import ParameterError, require_number
 from gearcad.core.runtime import Clock, Expected, cores, machine_memory
 from gearcad.page.run_process import RUNS, Asked
 
@@ -116,23 +114,22 @@ _PAGE_SIZE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
 def do_run(run: Run, limits: RunLimits) -> None:
     """Start the process of a run, hear it, and see that it keeps to its limits."""
     run.state = RunState.RUNNING
-    process = _started()
+    process = start_child("gearcad.page.run_process", own_session=True)
+    requests, answers = pipes_of(process)
     lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
-    assert process.stdin is not None and process.stdout is not None  # Popen was asked for pipes
-    threading.Thread(target=_hear, args=(process.stdout, lines), daemon=True).start()
+    threading.Thread(target=_hear, args=(answers, lines), daemon=True).start()
     try:
         with suppress(BrokenPipeError):
-            process.stdin.write(run.asked.line())
-            process.stdin.flush()
+            requests.write(run.asked.line())
+            requests.flush()
         _follow(run, process, lines, limits)
     finally:
         _kill(process)
         with suppress(OSError):
-            process.stdin.close()
+            requests.close()
         status = process.wait()
     if not run.state.ended:
-        why = death(-status) if status < 0 else f"ended its process (exit status {status})"
-        run.state, run.line = RunState.FAILED, why
+        run.state, run.line = RunState.FAILED, ending_words(status)
 
 
 def _follow(run: Run, process: subprocess.Popen[bytes], lines: queue.SimpleQueue[bytes], limits: RunLimits) -> None:
@@ -154,7 +151,7 @@ def _follow(run: Run, process: subprocess.Popen[bytes], lines: queue.SimpleQueue
 def _excess(process: subprocess.Popen[bytes], end: float, limits: RunLimits) -> str:
     """Which limit it exceeds, in words; "" for none."""
     if time.monotonic() > end:
-        return f"was stopped at its time limit of {format_number(limits.seconds)} s"
+        return time_limit_words(limits.seconds)
     if _memory_of(process.pid) > limits.memory:
         return f"was stopped at its memory limit of {limits.memory / GIGABYTE:.3g} GB"
     return ""
@@ -185,21 +182,6 @@ def _flat(figures: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, A
             yield from _flat(value, f"{before}{key}.")
         elif not isinstance(value, list):
             yield f"{before}{key}", value
-
-
-def _started() -> subprocess.Popen[bytes]:
-    return subprocess.Popen(
-        [
-            sys.executable,
-            "-c",
-            f"import sys; sys.path[:] = {sys.path!r}; from gearcad.page.run_process import serve; serve()",
-        ],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        env=os.environ | ONE_THREAD,
-        start_new_session=True,
-    )
 
 
 def _hear(pipe: Any, lines: queue.SimpleQueue[bytes]) -> None:
