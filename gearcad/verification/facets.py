@@ -101,6 +101,9 @@ def judge_facets(
 
 def _judge_body(judge: Judge, mesh: Trimesh, part: ExactPart, ending: str, chord_error: float) -> Iterator[Claim]:
     """Judge one body: its topology, its volume, its vertices and the middles of its triangles."""
+    if not len(mesh.faces):
+        yield judge.holds("has facets", False)
+        return
     size = float(np.abs(mesh.vertices).max())
     permitted = _LEAST + _ROUNDING[ending] * size * np.sqrt(3) + _LAST_DIGIT[ending]
     closed = bool(mesh.is_watertight)

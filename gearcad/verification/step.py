@@ -257,11 +257,19 @@ def _judge_faces(judge: Judge, shape: Any, part: ExactPart) -> Iterator[Claim]:
 
     surface = part.surface
     corners = np.array([_coordinates(BRep_Tool.Pnt_s(TopoDS.Vertex_s(each))) for each in _within(shape, TopAbs_VERTEX)])
-    points = [found for face in _within(shape, TopAbs_FACE) if (found := _between_knots(TopoDS.Face_s(face))) is not None]
-    corners = np.concatenate([corners, *(_on_edge(TopoDS.Edge_s(each)) for each in _within(shape, TopAbs_EDGE))])
+    points, middles = list[Floats](), list[Floats]()
+    for face in _within(shape, TopAbs_FACE):
+        found = _between_knots(TopoDS.Face_s(face))
+        (middles if found is None else points).append(_middle(TopoDS.Face_s(face)) if found is None else found)
+    on_edges = (_on_edge(TopoDS.Edge_s(each)) for each in _within(shape, TopAbs_EDGE))
+    corners = np.concatenate([corners, *middles, *on_edges])
     off = surface.distances(corners).min(axis=0)
     yield judge.below(
-        "distance of edges from the exact surface", 1e3 * off.max(), 1e3 * _LEAST, "µm", place=_place(surface, corners, off)
+        "distance of edges and plain faces from the exact surface",
+        1e3 * off.max(),
+        1e3 * _LEAST,
+        "µm",
+        place=_place(surface, corners, off),
     )
     on_teeth = np.concatenate(points) if points else corners[surface.tooth_distances(corners) <= _LEAST]
     if points:
@@ -283,6 +291,16 @@ def _on_edge(edge: Any) -> Floats:
     curve = BRepAdaptor_Curve(edge)
     first, last = curve.FirstParameter(), curve.LastParameter()
     return np.array([_coordinates(curve.Value(first + share * (last - first))) for share in (0.25, 0.5, 0.75)])
+
+
+def _middle(face: Any) -> Floats:
+    """Point (1, 3) on a plane, a cylinder or a cone, in the middle of the face's bounds."""
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.BRepTools import BRepTools
+
+    low_u, high_u, low_v, high_v = BRepTools.UVBounds_s(face)
+    point = BRepAdaptor_Surface(face).Value((low_u + high_u) / 2, (low_v + high_v) / 2)
+    return np.array([_coordinates(point)])
 
 
 def _between_knots(face: Any) -> Floats | None:
