@@ -200,8 +200,14 @@ class ToothProfile:
     internal: ClassVar[bool] = False
     """Whether the tip is inside the root."""
 
+    @property
+    def _side(self) -> int:
+        """Sign of a step from root to tip along a radius: -1 for a ring, whose tip is inside, else 1."""
+        return -1 if self.internal else 1
+
     def __repr__(self) -> str:
-        return f"<ToothProfile: {self.teeth:.6g} teeth, diameters {self.root_diameter:.6g} to {self.tip_diameter:.6g} mm>"
+        diameters = f"{self.root_diameter:.6g} to {self.tip_diameter:.6g} mm"
+        return f"<{type(self).__name__}: {self.teeth:.6g} teeth, diameters {diameters}>"
 
     def __post_init__(self) -> None:
         if self.root_diameter <= 0:
@@ -279,8 +285,8 @@ class ToothProfile:
 
     @property
     def tip_form_diameter(self) -> float:
-        """Tip form circle d_Fa (mm), where the involute ends: the tip circle less the chamfers."""
-        return self.tip_diameter - 2 * self.tip_chamfer
+        """Tip form circle |d_Fa| (mm), where the involute ends: the chamfers lie between it and the tip circle."""
+        return self.tip_diameter - self._side * 2 * self.tip_chamfer
 
     @property
     def outer_diameter(self) -> float:
@@ -359,6 +365,7 @@ class ToothProfile:
             math.radians(self.base_half_angle),
             self._roll(self.form_diameter / 2),
             self._roll(self.tip_form_diameter / 2),
+            internal=self.internal,
         )
 
     @cached_property
@@ -366,9 +373,10 @@ class ToothProfile:
         return self._chamfer_of(self.tip_chamfer)
 
     def _chamfer_of(self, height: float) -> Chamfer:
-        radius, tip = self.tip_diameter / 2 - height, self.tip_diameter / 2
-        run = (math.sqrt(2 * tip**2 - radius**2) - radius) / 2
-        return Chamfer(radius, float(self._involute_half_angle(radius)), run)
+        tip = self.tip_diameter / 2
+        radius = tip - self._side * height
+        run = self._side * (math.sqrt(2 * tip**2 - radius**2) - radius) / 2
+        return Chamfer(radius, float(self._involute_half_angle(radius)), run, internal=self.internal)
 
     @cached_property
     def land_half_angle(self) -> float:
@@ -393,27 +401,28 @@ class ToothProfile:
         return (*curves, Land(CurveKind.TIP, tip, self.land_half_angle, 0.0))
 
     def half_angle(self, radius: ArrayLike) -> Any:
-        """Transverse half tooth angle in degrees at `radius` (mm), on trochoid, involute and tip chamfer alike.
+        """Transverse half tooth angle in degrees at `radius` (mm), on fillet, involute and tip chamfer alike.
 
-        Scalar or array. Raises ParameterError for a radius outside root circle ... tip circle.
+        Scalar or array. Raises ParameterError for a radius that is not between root circle and tip circle.
         """
-        given = np.asarray(radius, float)
-        root, tip = self.root_diameter / 2, self.tip_diameter / 2
-        outside = ~((given >= root * (1 - RADIUS_SLACK)) & (given <= tip * (1 + RADIUS_SLACK)))
+        given, side = np.asarray(radius, float), self._side
+        inner, outer = sorted((self.root_diameter / 2, self.tip_diameter / 2))
+        outside = ~((given >= inner * (1 - RADIUS_SLACK)) & (given <= outer * (1 + RADIUS_SLACK)))
         if np.any(outside):
-            worst = float(given[outside].flat[0])
-            raise ParameterError("radius", worst, f"must be from {root:.10g} to {tip:.10g} mm (root to tip circle)", "mm")
-        flat = np.clip(given.ravel(), root, tip)
+            circles = "tip to root circle" if self.internal else "root to tip circle"
+            permitted = f"must be from {inner:.10g} to {outer:.10g} mm ({circles})"
+            raise ParameterError("radius", float(given[outside].flat[0]), permitted, "mm")
+        flat = np.clip(given.ravel(), inner, outer)
         result = np.asarray(self._involute_half_angle(np.maximum(flat, self.base_diameter / 2)))
-        low = flat < self.form_diameter / 2
+        low = side * flat < side * self.form_diameter / 2
         if np.any(low):
             theta = self.tool.theta_at(flat[low], self._last_theta)
             result[low] = self._half_pitch - self.tool.cut(theta)[1]
-        high = flat > self.tip_form_diameter / 2
+        high = side * flat > side * self.tip_form_diameter / 2
         if self.tip_chamfer and np.any(high):
             start = self._chamfer.radius
-            run = (np.sqrt(2 * flat[high] ** 2 - start**2) - start) / 2
-            result[high] = self._chamfer.angle - np.arctan2(run, start + run)
+            run = side * (np.sqrt(2 * flat[high] ** 2 - start**2) - start) / 2
+            result[high] = self._chamfer.angle - np.arctan2(run, start + side * run)
         degrees = np.degrees(result).reshape(given.shape)
         return float(degrees) if degrees.ndim == 0 else degrees
 
@@ -447,7 +456,7 @@ class ToothProfile:
         base = self.base_diameter / 2
         radius = np.asarray(radius, float)
         tangent = np.sqrt((radius - base) * (radius + base)) / base
-        return math.radians(self.base_half_angle) - involute_at_roll(tangent)
+        return math.radians(self.base_half_angle) - self._side * involute_at_roll(tangent)
 
 
 def base_half_angle(teeth: float, normal_thickness: float, normal_module: float, transverse_pressure_angle: float) -> float:
@@ -455,7 +464,7 @@ def base_half_angle(teeth: float, normal_thickness: float, normal_module: float,
     return math.degrees(normal_thickness / (normal_module * teeth) + involute(transverse_pressure_angle))
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class InternalProfile(ToothProfile):
     """Exact transverse outline of one tooth of a ring: root land outside, fillet, involute, tip chamfer, tip land inside.
 
@@ -465,9 +474,6 @@ class InternalProfile(ToothProfile):
     """
 
     internal: ClassVar[bool] = True
-
-    def __repr__(self) -> str:
-        return f"<InternalProfile: {self.teeth:.6g} teeth, diameters {self.root_diameter:.6g} to {self.tip_diameter:.6g} mm>"
 
     def __post_init__(self) -> None:
         if self.tip_diameter <= self.base_diameter:
@@ -493,59 +499,8 @@ class InternalProfile(ToothProfile):
             permitted = f"must be at most {self._widest_chamfer(deepest)} mm: no tip land is left"
             raise GeometryError("tip_chamfer", self.tip_chamfer, permitted, "mm")
 
-    @property
-    def tip_form_diameter(self) -> float:
-        """Tip form circle |d_Fa| (mm), where the involute ends: the tip circle and the chamfers."""
-        return self.tip_diameter + 2 * self.tip_chamfer
-
     @cached_property
     def _pointed_diameter(self) -> float:
         """Diameter (mm) at which the flanks meet, and what a land of LEAST_LAND needs; a tooth is pointed inside it."""
         angle = math.radians(inverse_involute(max(math.radians(-self.base_half_angle), 0.0)))
         return self.base_diameter / math.cos(angle) + 2 * LEAST_LAND / max(math.tan(angle), 1e-3)
-
-    @cached_property
-    def _flank(self) -> Involute:
-        return Involute(
-            self.base_diameter / 2,
-            math.radians(self.base_half_angle),
-            self._roll(self.form_diameter / 2),
-            self._roll(self.tip_form_diameter / 2),
-            internal=True,
-        )
-
-    def _chamfer_of(self, height: float) -> Chamfer:
-        radius, tip = self.tip_diameter / 2 + height, self.tip_diameter / 2
-        run = (radius - math.sqrt(2 * tip**2 - radius**2)) / 2
-        return Chamfer(radius, float(self._involute_half_angle(radius)), run, internal=True)
-
-    def half_angle(self, radius: ArrayLike) -> Any:
-        """Transverse half tooth angle in degrees at `radius` (mm), on fillet, involute and tip chamfer alike.
-
-        Scalar or array. Raises ParameterError for a radius outside tip circle ... root circle.
-        """
-        given = np.asarray(radius, float)
-        root, tip = self.root_diameter / 2, self.tip_diameter / 2
-        outside = ~((given >= tip * (1 - RADIUS_SLACK)) & (given <= root * (1 + RADIUS_SLACK)))
-        if np.any(outside):
-            worst = float(given[outside].flat[0])
-            raise ParameterError("radius", worst, f"must be from {tip:.10g} to {root:.10g} mm (tip to root circle)", "mm")
-        flat = np.clip(given.ravel(), tip, root)
-        result = np.asarray(self._involute_half_angle(flat))
-        deep = flat > self.form_diameter / 2
-        if np.any(deep):
-            theta = self.tool.theta_at(flat[deep], self._last_theta)
-            result[deep] = self._half_pitch - self.tool.cut(theta)[1]
-        high = flat < self.tip_form_diameter / 2
-        if self.tip_chamfer and np.any(high):
-            start = self._chamfer.radius
-            run = (start - np.sqrt(2 * flat[high] ** 2 - start**2)) / 2
-            result[high] = self._chamfer.angle - np.arctan2(run, start - run)
-        degrees = np.degrees(result).reshape(given.shape)
-        return float(degrees) if degrees.ndim == 0 else degrees
-
-    def _involute_half_angle(self, radius: ArrayLike) -> Any:
-        base = self.base_diameter / 2
-        radius = np.asarray(radius, float)
-        tangent = np.sqrt((radius - base) * (radius + base)) / base
-        return math.radians(self.base_half_angle) + involute_at_roll(tangent)
