@@ -154,6 +154,8 @@ class Material:
     __repr__ = concise
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise ParameterError("name", self.name, "must be a text")
         require_fields(self)
         self._take_grade()
         for name in ("contact_limit", "root_limit"):
@@ -162,7 +164,7 @@ class Material:
 
     def _take_grade(self) -> None:
         """Group and quality of a name that stands for them. Raises GeometryError where others are given."""
-        named = grade_of(self.name) if isinstance(self.name, str) else None
+        named = grade_of(self.name)
         for field, value in () if named is None else named._asdict().items():
             given = getattr(self, field)
             if given not in (None, value):

@@ -400,8 +400,6 @@ class Spec:
         """
         values = self.fields_of(owner) if values is None else values
         with self.blame(owner):
-            if not isinstance(values.get("name", ""), str):
-                raise ParameterError("name", values["name"], "must be a text")
             return kind(**_missing(FIELDS[owner.rpartition(".")[2]]) | _with_parts(values, PARTS_BESIDE.get(owner, {})))
 
     def gear_inputs(self, owner: str) -> dict[str, Any]:

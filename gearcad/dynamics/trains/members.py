@@ -10,7 +10,7 @@ from enum import Enum
 from typing import Annotated, Any, NamedTuple
 
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.core.errors import GeometryError, ParameterError, format_number, require_switch
+from gearcad.core.errors import GeometryError, ParameterError, format_number, require_name, require_switch
 from gearcad.core.quantities import (
     ANGULAR_DAMPING,
     BACKLASH,
@@ -171,6 +171,8 @@ class Shaft(NamedPart):
 
     def __post_init__(self) -> None:
         self._check_fields()
+        for end in ("start", "end"):
+            require_name(f"{self.name}.{end}", getattr(self, end))
         self._check_shape()
 
     def _check_shape(self) -> None:
@@ -259,6 +261,8 @@ class ToothMesh(NamedPart):
         else:
             self._take_none()
         self._check_fields()
+        for role in Role:
+            require_name(f"{self.name}.{role.value}", getattr(self, role.value))
         object.__setattr__(self, "base_radii", _two_radii(self.name, self.base_radii))
         object.__setattr__(self, "pitch_deviations", _deviations(self.name, self.pitch_deviations, self.teeth))
         require_switch(f"{self.name}.internal", self.internal)
