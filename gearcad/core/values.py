@@ -41,17 +41,28 @@ def chosen(condition: bool | Bools, values: Values, others: Values) -> Values:
 
 def larger(one: Values, other: Values) -> Values:
     """Return the larger of two values."""
-    return number_or_array(one, np.maximum(one, other))
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return cast(Values, np.maximum(one, other))
+    return max(one, other)
 
 
 def smaller(one: Values, other: Values) -> Values:
     """Return the smaller of two values."""
-    return number_or_array(one, np.minimum(one, other))
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return cast(Values, np.minimum(one, other))
+    return min(one, other)
 
 
 def magnitude(values: Values) -> Values:
     """Return the magnitude (absolute value)."""
-    return number_or_array(values, np.abs(values))
+    return cast(Values, np.abs(values)) if isinstance(values, np.ndarray) else abs(values)
+
+
+def with_sign(values: Values, signed: Values) -> Values:
+    """Return the magnitude of values with the sign of others."""
+    if isinstance(values, np.ndarray) or isinstance(signed, np.ndarray):
+        return cast(Values, np.copysign(values, signed))
+    return math.copysign(values, signed)
 
 
 # ---------------------------------------------------------------------- powers
@@ -67,7 +78,7 @@ def power(base: Values, exponent: Values) -> Values:
 
 def root(values: Values) -> Values:
     """Return the square root."""
-    return number_or_array(values, np.sqrt(values))
+    return cast(Values, np.sqrt(values)) if isinstance(values, np.ndarray) else math.sqrt(values)
 
 
 def fourth_root(values: Values) -> Values:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearcad.core.errors import ParameterError, SolverError
 from gearcad.core.records import Floats
+from gearcad.core.values import Values, larger, root, with_sign
 
 _MAX_NEWTON_STEPS = 60
 
@@ -38,13 +39,13 @@ def involute_at_roll(roll: NDArray[np.float64]) -> NDArray[np.float64]:
     return result
 
 
-def tangent_length(diameter: float, base_diameter: float) -> float:
+def tangent_length(diameter: Values, base_diameter: Values) -> Values:
     """Length of the base tangent out to a circle, the radius of curvature of the involute there; 0 inside the base circle.
 
     All in mm, signed like the diameters: negative on an internal gear.
     """
-    square = max((diameter - base_diameter) * (diameter + base_diameter), 0.0)
-    return math.copysign(math.sqrt(square) / 2, base_diameter)
+    square = larger((diameter - base_diameter) * (diameter + base_diameter), 0.0)
+    return with_sign(root(square) / 2, base_diameter)
 
 
 @overload

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 from gearcad.core.errors import GeometryError, as_choice, at_least, at_most
 from gearcad.core.quantities import NOT_GIVEN, OFFSET, Range, Words
 from gearcad.core.records import Floats, PerGear, Role
+from gearcad.core.values import Values, arctan, cos, degrees, radians
 from gearcad.geometry.fits import Backlash, BacklashLimits, backlash, centre_distance_allowance, settled
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.involute import inverse_involute, involute, root_between, tangent_length
@@ -39,12 +40,30 @@ class ShiftSplit(Enum):
     EQUAL_SPECIFIC_SLIDING = "equal_specific_sliding"
 
 
-def _transverse(normal_module: float, teeth: int, helix_angle: float, pressure_angle: float) -> tuple[float, float, float]:
+def transverse_section(
+    normal_module: Values, teeth: Values, helix_angle: Values, pressure_angle: float
+) -> tuple[Values, Values, Values]:
     """Reference radius (mm), base radius (mm) and transverse pressure angle (deg)."""
-    cosine = math.cos(math.radians(helix_angle))
-    angle = math.atan(math.tan(math.radians(pressure_angle)) / cosine)
+    cosine = cos(radians(helix_angle))
+    angle = arctan(math.tan(math.radians(pressure_angle)) / cosine)
     radius = normal_module * teeth / cosine / 2
-    return radius, radius * math.cos(angle), math.degrees(angle)
+    return radius, radius * cos(angle), degrees(angle)
+
+
+def shift_sum_between(teeth: Values, transverse_angle: Values, working_angle: Values, pressure_angle: float) -> Values:
+    """x_1 + x_2 = (z_1 + z_2)(inv alpha_wt - inv alpha_t)/(2 tan alpha_n); `teeth` z_1 + z_2, angles in degrees."""
+    rise = involute(working_angle) - involute(transverse_angle)
+    return teeth * rise / (2 * math.tan(math.radians(pressure_angle)))
+
+
+def working_involute(shift_sum: Values, teeth: Values, transverse_angle: Values, pressure_angle: float) -> Values:
+    """inv alpha_wt = inv alpha_t + 2 tan alpha_n (x_1 + x_2)/(z_1 + z_2); not above 0 where nothing meshes without backlash."""
+    limit = _shift_sum_limit(teeth, transverse_angle, pressure_angle)
+    return 2 * math.tan(math.radians(pressure_angle)) * (shift_sum - limit) / teeth
+
+
+def _shift_sum_limit(teeth: Values, transverse_angle: Values, pressure_angle: float) -> Values:
+    return -teeth * involute(transverse_angle) / (2 * math.tan(math.radians(pressure_angle)))
 
 
 def profile_shift_sum(
@@ -52,14 +71,13 @@ def profile_shift_sum(
 ) -> float:
     """x_1 + x_2 that meshes without backlash at `centre_distance` (mm); angles in degrees (ISO 21771).
 
-    (z_1 + z_2)(inv alpha_wt - inv alpha_t)/(2 tan alpha_n). Raises GeometryError where the base circles would overlap.
+    See `shift_sum_between`. Raises GeometryError where the base circles would overlap.
     """
-    _, base, angle = _transverse(normal_module, sum(teeth), helix_angle, pressure_angle)
+    _, base, angle = transverse_section(normal_module, float(sum(teeth)), helix_angle, pressure_angle)
     if abs(centre_distance) <= abs(base):
         permitted = f"must be {_beyond(base, teeth)} mm, where the base circles touch"
         raise GeometryError("centre_distance", centre_distance, permitted, "mm")
-    working = math.degrees(math.acos(base / centre_distance))
-    return sum(teeth) * (involute(working) - involute(angle)) / (2 * math.tan(math.radians(pressure_angle)))
+    return shift_sum_between(float(sum(teeth)), angle, math.degrees(math.acos(base / centre_distance)), pressure_angle)
 
 
 def zero_backlash_centre_distance(
@@ -67,13 +85,12 @@ def zero_backlash_centre_distance(
 ) -> float:
     """Centre distance (mm) at which teeth with this shift sum mesh without backlash; angles in degrees (ISO 21771).
 
-    a = a_d cos alpha_t/cos alpha_wt with inv alpha_wt = inv alpha_t + 2 tan alpha_n (x_1 + x_2)/(z_1 + z_2). Raises
-    GeometryError for a sum so far off that there is none.
+    a = a_d cos alpha_t/cos alpha_wt, see `working_involute`. Raises GeometryError for a sum so far off that there is none.
     """
-    base = _transverse(normal_module, sum(teeth), helix_angle, pressure_angle)[1]
-    limit = shift_sum_limit(teeth=teeth, helix_angle=helix_angle, pressure_angle=pressure_angle)
-    value = 2 * math.tan(math.radians(pressure_angle)) * (shift_sum - limit) / sum(teeth)
+    _, base, angle = transverse_section(normal_module, float(sum(teeth)), helix_angle, pressure_angle)
+    value = working_involute(shift_sum, float(sum(teeth)), angle, pressure_angle)
     if value <= 0:
+        limit = shift_sum_limit(teeth=teeth, helix_angle=helix_angle, pressure_angle=pressure_angle)
         permitted = f"must be {_beyond(limit, teeth)}: no centre distance meshes without backlash"
         raise GeometryError("profile_shift_sum", shift_sum, permitted)
     return base / math.cos(math.radians(inverse_involute(value)))
@@ -81,8 +98,8 @@ def zero_backlash_centre_distance(
 
 def shift_sum_limit(*, teeth: PerGear[int], helix_angle: float, pressure_angle: float) -> float:
     """x_1 + x_2 at which inv alpha_wt is 0 and the base circles touch: the least that meshes, or with a ring the most."""
-    _, _, angle = _transverse(1.0, sum(teeth), helix_angle, pressure_angle)
-    return -sum(teeth) * involute(angle) / (2 * math.tan(math.radians(pressure_angle)))
+    _, _, angle = transverse_section(1.0, float(sum(teeth)), helix_angle, pressure_angle)
+    return _shift_sum_limit(float(sum(teeth)), angle, pressure_angle)
 
 
 def _beyond(limit: float, teeth: PerGear[int]) -> str:
@@ -131,7 +148,7 @@ def split_profile_shift(
     if split is ShiftSplit.PINION:
         return PerGear(total, 0.0)
 
-    references, bases, _ = zip(*(_transverse(normal_module, z, helix_angle, pressure_angle) for z in teeth), strict=True)
+    references, bases, _ = zip(*(transverse_section(normal_module, z, helix_angle, pressure_angle) for z in teeth), strict=True)
 
     def imbalance(first: float) -> float:
         rises = (addendum + x + tip_alteration for addendum, x in zip(addenda, (first, total - first), strict=True))

@@ -18,7 +18,9 @@ from numpy.typing import ArrayLike
 
 from gearcad.core.errors import GeometryError, at_most, plain_numbers, require_number
 from gearcad.core.records import Floats, Notice, PerGear, Role
-from gearcad.geometry import Gear, GearPair
+from gearcad.core.values import Values, cos, larger, radians, root, sin, smaller
+from gearcad.geometry import GearPair
+from gearcad.geometry.toothed import GearSizes
 from gearcad.material import Material, MaterialGroup, Materials, elastic_constants, of_both
 from gearcad.rating.editions import Edition, modification_factor, relieved
 
@@ -249,12 +251,12 @@ class FlankRating:
         return {**self.factors, "sigma_H0": self.nominal_stress}
 
 
-def zone_factor(base_helix_angle: float, transverse_pressure_angle: float, working_transverse_pressure_angle: float) -> float:
+def zone_factor(
+    base_helix_angle: Values, transverse_pressure_angle: Values, working_transverse_pressure_angle: Values
+) -> Values:
     """Z_H = sqrt(2 cos beta_b cos alpha_wt/(cos^2 alpha_t sin alpha_wt)) (6.1): curvature at the pitch point."""
-    beta_b, alpha_t, alpha_wt = map(
-        math.radians, (base_helix_angle, transverse_pressure_angle, working_transverse_pressure_angle)
-    )
-    return math.sqrt(2 * math.cos(beta_b) * math.cos(alpha_wt) / (math.cos(alpha_t) ** 2 * math.sin(alpha_wt)))
+    alpha_t, alpha_wt = radians(transverse_pressure_angle), radians(working_transverse_pressure_angle)
+    return root(2 * cos(radians(base_helix_angle)) * cos(alpha_wt) / (cos(alpha_t) ** 2 * sin(alpha_wt)))
 
 
 def elasticity_factor(youngs_moduli: tuple[float, float], poisson_ratios: tuple[float, float]) -> float:
@@ -286,49 +288,41 @@ def elasticity_notices(materials: PerGear[Material]) -> Iterator[Notice]:
             yield Notice("modulus-of-steel", f"Z_E: {here}; that of this group is usually {usual} MPa")
 
 
-def contact_ratio_factor(transverse_contact_ratio: float, overlap_ratio: float) -> float:
+def contact_ratio_factor(transverse_contact_ratio: Values, overlap_ratio: Values) -> Values:
     """Z_eps (clause 8): sqrt((4 - eps_alpha)/3 (1 - eps_beta) + eps_beta/eps_alpha), with eps_beta at most 1."""
-    overlap = min(overlap_ratio, 1.0)
-    return math.sqrt((4 - transverse_contact_ratio) / 3 * (1 - overlap) + overlap / transverse_contact_ratio)
+    overlap = smaller(overlap_ratio, 1.0)
+    return root((4 - transverse_contact_ratio) / 3 * (1 - overlap) + overlap / transverse_contact_ratio)
 
 
-def helix_angle_factor(helix_angle: float, edition: Edition) -> float:
+def helix_angle_factor(helix_angle: Values, edition: Edition) -> Values:
     """Z_beta (clause 9): 1/sqrt(cos beta) since the corrigendum of 2008; sqrt(cos beta) in DIN 3990-2."""
-    root = math.sqrt(math.cos(math.radians(helix_angle)))
-    return root if edition is Edition.DIN_1987 else 1 / root
+    cosine = root(cos(radians(helix_angle)))
+    return cosine if edition is Edition.DIN_1987 else 1 / cosine
 
 
-def contact_factor(curvature: float, overlap_ratio: float) -> float:
+def contact_factor(curvature: Values, overlap_ratio: Values) -> Values:
     """Z_B or Z_D (6.2): at least 1, M for a spur pair, M - eps_beta (M - 1) between, 1 from eps_beta = 1 on.
 
     `curvature` is M_1 or M_2 of `single_contact_curvature`.
     """
-    overlap = min(overlap_ratio, 1.0)
-    return max(curvature - overlap * (curvature - 1), 1.0)
+    overlap = smaller(overlap_ratio, 1.0)
+    return larger(curvature - overlap * (curvature - 1), 1.0)
 
 
-def profile_factor(edition: Edition, pinion: Gear, modified: bool) -> float:
+def profile_factor(edition: Edition, helix_angle: Values, modified: bool) -> Values:
     """f_ZCa of the edition of 2019, by which Z_B and Z_D are multiplied, by whether profiles are taken back; 1 in others."""
-    return modification_factor(pinion.helix_angle, modified=modified) if edition is Edition.ISO_2019 else 1.0
+    return modification_factor(helix_angle, modified=modified) if edition is Edition.ISO_2019 else 1.0
 
 
 def single_contact_curvature(pair: GearPair) -> PerGear[float]:
     """M_1 (17) and M_2 (18): how much the inner point of single contact of either gear is more curved than the pitch point.
 
-    M_1 = tan alpha_wt/sqrt((sqrt(d_a1^2/d_b1^2 - 1) - 2 pi/z_1) (sqrt(d_a2^2/d_b2^2 - 1) - (eps_alpha - 1) 2 pi/z_2)), with
-    the tip form circles for d_a; M_2 with the gears exchanged, z_2 < 0 for a ring. Raises GeometryError where such a point is
-    off the involute.
+    See `inner_point_rolls`. Raises GeometryError where such a point is off the involute.
     """
-    rest = pair.transverse_contact_ratio - 1
     tangent = math.tan(math.radians(pair.working_transverse_pressure_angle))
 
-    def from_tip(role: Role, pitches: float) -> float:
-        """Roll length over base radius, so many base pitches below the tip."""
-        gear = pair.gears.pick(role)
-        return math.sqrt((gear.tip_form_diameter / gear.base_diameter) ** 2 - 1) - pitches * (2 * math.pi / gear.teeth)
-
     def curvature(own: Role) -> float:
-        inner, outer = from_tip(own, 1), from_tip(own.mate, rest)
+        inner, outer = inner_point_rolls(pair.gears, pair.transverse_contact_ratio, own)
         if inner <= 0 or outer <= 0:
             size, below = ("larger", own) if inner <= 0 else ("smaller", own.mate)
             permitted = f"must be {size} for a rating: single contact begins below the {below.value}'s base circle"
@@ -338,13 +332,29 @@ def single_contact_curvature(pair: GearPair) -> PerGear[float]:
     return PerGear.each(curvature)
 
 
-def nominal_contact_stress(pair: GearPair, factors: float, tangential_force: float) -> float:
+def inner_point_rolls(gears: PerGear[Any], transverse_contact_ratio: Values, own: Role) -> tuple[Values, Values]:
+    """Roll lengths over base radii of both flanks at the inner point of single contact of the gear `own`, its own first.
+
+    Either is above 0 where the point is on the involutes: in M_1 = tan alpha_wt/sqrt((sqrt(d_a1^2/d_b1^2 - 1) - 2 pi/z_1)
+    (sqrt(d_a2^2/d_b2^2 - 1) - (eps_alpha - 1) 2 pi/z_2)), with the tip form circles for d_a, they are the two factors below
+    the root. M_2 is with the gears exchanged, z_2 < 0 for a ring.
+    """
+    return _roll(gears.pick(own), 1), _roll(gears.pick(own.mate), transverse_contact_ratio - 1)
+
+
+def _roll(gear: GearSizes[Values], pitches: Values) -> Values:
+    """Roll length over base radius, so many base pitches below the tip."""
+    return root((gear.tip_form_diameter / gear.base_diameter) ** 2 - 1) - pitches * (2 * math.pi / gear.teeth)
+
+
+def nominal_contact_stress(
+    factors: Values, tangential_force: Values, reference_diameter: Values, width: Values, gear_ratio: Values
+) -> Values:
     """sigma_H0 = Z_H Z_E Z_eps Z_beta sqrt(F_t/(d_1 b) (u + 1)/u) (clause 5), b the common face width, u < 0 for a ring.
 
     `factors` is the product of the four Z; F_t at the reference circle, in N.
     """
-    d_1, b, u = pair.pinion.reference_diameter, pair.common_width.width, pair.gear_ratio
-    return factors * math.sqrt(tangential_force / (d_1 * b) * (u + 1) / u)
+    return factors * root(tangential_force / (reference_diameter * width) * (gear_ratio + 1) / gear_ratio)
 
 
 def flank_rating(pair: GearPair, materials: PerGear[Material], tangential_force: float, edition: Edition) -> FlankRating:
@@ -355,7 +365,7 @@ def flank_rating(pair: GearPair, materials: PerGear[Material], tangential_force:
     ratio = contact_ratio_factor(pair.transverse_contact_ratio, pair.overlap_ratio)
     helix = helix_angle_factor(pinion.helix_angle, edition)
     curvatures = single_contact_curvature(pair) if pair.overlap_ratio < 1 else PerGear(1.0, 1.0)
-    raised = profile_factor(edition, pinion, relieved(pinion.modification, pair.wheel.modification))
+    raised = profile_factor(edition, pinion.helix_angle, relieved(pinion.modification, pair.wheel.modification))
     contact = curvatures.map(lambda curvature: raised * contact_factor(curvature, pair.overlap_ratio))
     if pair.internal:
         contact = PerGear(contact.pinion, 1.0)  # Z_D is 1 for a ring (6.2, to be verified)
@@ -365,7 +375,13 @@ def flank_rating(pair: GearPair, materials: PerGear[Material], tangential_force:
         contact_ratio_factor=ratio,
         helix_angle_factor=helix,
         contact_factors=contact,
-        nominal_stress=nominal_contact_stress(pair, zone * elasticity * ratio * helix, tangential_force),
+        nominal_stress=nominal_contact_stress(
+            zone * elasticity * ratio * helix,
+            tangential_force,
+            pinion.reference_diameter,
+            pair.common_width.width,
+            pair.gear_ratio,
+        ),
     )
 
 

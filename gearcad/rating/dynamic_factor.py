@@ -100,7 +100,7 @@ class DynamicFactor:
         pair: GearPair,
         materials: PerGear[Material],
         specific_load: float,
-        stiffness: MeshStiffness,
+        stiffness: MeshStiffness[float],
         mass: float,
         options: RatingOptions,
     ) -> DynamicFactor:

@@ -16,9 +16,21 @@ harder pinion does (13.2.2). Hardness is Brinell's. The pinion itself has 1.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from gearcad.core.errors import ParameterError, require_number
-from gearcad.core.values import Values, bounded, chosen, interpolated, interpolated_in_logs, interpolated_over_log, power
+from gearcad.core.values import (
+    Numbers,
+    Values,
+    bounded,
+    chosen,
+    fourth_root,
+    interpolated,
+    interpolated_in_logs,
+    interpolated_over_log,
+    power,
+    root,
+)
 from gearcad.material import MaterialGroup
 from gearcad.rating.editions import Edition
 from gearcad.rating.material_limits import Family, is_cast_steel, per_family
@@ -310,26 +322,29 @@ def strength_range(group: MaterialGroup) -> tuple[float, float] | None:
     return None if len(points) == 1 else (points[0][0], points[-1][0])
 
 
-def cautious_strength(notch_parameter: float, group: MaterialGroup) -> float | None:
+def cautious_strength(notch_parameter: Values, group: MaterialGroup) -> Values | None:
     """The strength in the range of a group that makes Y_delta_relT least, for a material whose own is not known."""
-    ends = strength_range(group)
-    return None if ends is None else min(ends, key=lambda each: notch_sensitivity_factor(notch_parameter, group, each))
+    if (ends := strength_range(group)) is None:
+        return None
+    low, high = (notch_sensitivity_factor(notch_parameter, group, end) for end in ends)
+    return chosen(low <= high, *ends)
 
 
-def slip_layer_thickness(group: MaterialGroup, strength: float | None = None) -> float:
+def slip_layer_thickness(group: MaterialGroup, strength: Numbers | None = None) -> Numbers:
     """rho' (mm, table 2): by the strength between its values, and that of the nearest beyond. Raises ParameterError."""
     points = _SLIP_LAYERS[Family.of(group)]
     return points[0][1] if len(points) == 1 else interpolated(_known(strength, group), points)
 
 
-def notch_sensitivity_factor(notch_parameter: Values, group: MaterialGroup, strength: float | None = None) -> Values:
+def notch_sensitivity_factor(notch_parameter: Values, group: MaterialGroup, strength: Numbers | None = None) -> Values:
     """Y_delta_relT = (1 + sqrt(0.2 rho' (1 + 2 q_s)))/(1 + sqrt(1.2 rho')), 1 at q_sT = 2.5. Raises ParameterError."""
-    rho = slip_layer_thickness(group, strength)
-    return (1 + power(0.2 * rho * (1 + 2 * notch_parameter), 0.5)) / (1 + math.sqrt(1.2 * rho))
+    rho: Any = slip_layer_thickness(group, strength)
+    result: Values = (1 + power(0.2 * rho * (1 + 2 * notch_parameter), 0.5)) / (1 + root(1.2 * rho))
+    return result
 
 
 def static_notch_sensitivity_factor(
-    stress_correction_factor: Values, group: MaterialGroup, strength: float | None = None
+    stress_correction_factor: Values, group: MaterialGroup, strength: Numbers | None = None
 ) -> Values:
     """Y_delta_relT of static strength by Y_S, 1 at Y_ST = 2 (to be verified). Raises ParameterError.
 
@@ -341,11 +356,12 @@ def static_notch_sensitivity_factor(
         a, b = _CAST_STEEL if is_cast_steel(group) else _STATIC_LINES[family]
         return a * stress_correction_factor + b
     c, reference = _STATIC_SUPPORT[family]
-    relief = c * math.pow(reference / _known(strength, group), 0.25)
-    return (1 + relief * (stress_correction_factor - 1)) / (1 + relief)
+    relief: Any = c * fourth_root(reference / _known(strength, group))
+    result: Values = (1 + relief * (stress_correction_factor - 1)) / (1 + relief)
+    return result
 
 
-def _known(strength: float | None, group: MaterialGroup) -> float:
+def _known(strength: Numbers | None, group: MaterialGroup) -> Numbers:
     if strength is None:
         name = "tensile_strength" if Family.of(group) is Family.GREY_IRON else "yield_strength"
         raise ParameterError(name, strength, f"must be given for {group.value}: Y_delta_relT needs it", "MPa")

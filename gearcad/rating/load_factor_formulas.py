@@ -86,6 +86,11 @@ class RunningFactors(NamedTuple, Generic[Values]):
     c_v7: Values
 
 
+def circumferential_speed(diameter: Values, speed: float) -> Values:
+    """Return the speed v = pi d n/60000 (m/s) on a diameter (mm), from rpm; a magnitude."""
+    return math.pi * diameter * abs(speed) / 60_000
+
+
 def resonance_speed(teeth: Values, mesh_stiffness: Values, mass: Values) -> Values:
     """n_E1 (rpm) = 30000/(pi z1) sqrt(c_gamma_alpha/m_red) (6)."""
     return 30000 / (math.pi * teeth) * root(mesh_stiffness / mass)

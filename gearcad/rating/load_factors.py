@@ -5,7 +5,6 @@ The formulas of K_v (Method B) and of K_Hbeta (from a misalignment) are in `gear
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -27,6 +26,7 @@ from gearcad.rating.load_factor_formulas import (
     HelixFactors,
     arrangement_factor,
     bearing_width,
+    circumferential_speed,
     dynamic_factor_c,
     face_load_exponent,
     face_load_factor,
@@ -109,14 +109,14 @@ class LoadedMesh:
         return force * self.load.application_factor * self.options.mesh_load_factor / self.width
 
     @cached_property
-    def stiffness(self) -> MeshStiffness:
+    def stiffness(self) -> MeshStiffness[float]:
         """Mesh stiffness under the specific load, N/(mm·µm)."""
         return mesh_stiffness(self.pair, self.materials, self.specific_load)
 
     @cached_property
     def speed(self) -> float:
         """v at the reference circle."""
-        return math.pi * self.pair.pinion.reference_diameter * abs(self.load.speed) / 60_000
+        return circumferential_speed(self.pair.pinion.reference_diameter, self.load.speed)
 
     @cached_property
     def wear(self) -> FlankWear:

@@ -70,9 +70,9 @@ class Rating:
     normal_force: float
     application_factor: float
     specific_load: float
-    stiffness: MeshStiffness
+    stiffness: MeshStiffness[float]
     flank: FlankRating
-    roots: PerGear[RootRating]
+    roots: PerGear[RootRating[float]]
     pitch_point: LineContact
     notices: tuple[Notice, ...]
     verify: tuple[str, ...] = ()
@@ -164,7 +164,7 @@ def rate(
     )
 
 
-def _recalled(pair: GearPair, edition: Edition, wheel: RootRating) -> tuple[str, ...]:
+def _recalled(pair: GearPair, edition: Edition, wheel: RootRating[float]) -> tuple[str, ...]:
     """Return the symbols to be verified in the rating of a ring, or in a rating by the edition of 2019."""
     formula = () if wheel.formula is None else ("wheel.formula",)
     ring = ("q_prime", "Z_D", "wheel.Y_B", *formula) if pair.internal else ()
@@ -295,19 +295,27 @@ def _loaded_width(pair: RackPair, face_width: float) -> float:
     return pair.common_width + 2 * min((face_width - pair.common_width) / 2, pair.pinion.normal_module)
 
 
-def _rack_root(pair: RackPair, mesh: RootMesh) -> RootRating:
+def _rack_root(pair: RackPair, mesh: RootMesh[float]) -> RootRating[float]:
     load = rack_load_point(pair.rack, mesh.virtual_contact_ratio)
     section, width = rack_section(pair.rack, load), _loaded_width(pair, pair.rack.face_width)
     return mesh.rating(section, load, virtual_rack(pair.rack), width=width, rim_thickness_factor=1.0)
 
 
-def _stiffness(pair: RackPair, materials: PerGear[Material], specific_load: float) -> MeshStiffness:
+def _stiffness(pair: RackPair, materials: PerGear[Material], specific_load: float) -> MeshStiffness[float]:
     """Return the mesh stiffness of a pinion and a rack: 1/z_n2 = 0, x_2 = 0, C_R and C_B are the means of pinion and rack."""
     pinion, rack = pair.pinion, pair.rack
     q = tooth_flexibility((pinion.virtual_teeth, math.inf), (pinion.profile_shift, 0.0))
     dedendum = rack.root_depth / rack.normal_module
     factors = [basic_rack_factor(each, pinion.rack.pressure_angle) for each in (pinion.dedendum, dedendum)]
-    return stiffness_of(q, (blank_factor(pinion) + 1) / 2, sum(factors) / 2, pair, materials, specific_load)
+    return stiffness_of(
+        materials,
+        specific_load,
+        flexibility=q,
+        blank_factor=(blank_factor(pinion) + 1) / 2,
+        rack_factor=sum(factors) / 2,
+        helix_angle=pinion.helix_angle,
+        transverse_contact_ratio=pair.transverse_contact_ratio,
+    )
 
 
 def _flank(pair: RackPair, materials: PerGear[Material], force: float, edition: Edition) -> FlankRating:
@@ -324,7 +332,7 @@ def _flank(pair: RackPair, materials: PerGear[Material], force: float, edition: 
     if pair.overlap_ratio < 1 and min(path.B, path.D) <= 0:
         permitted = "must be larger for a rating: single contact begins below the pinion's base circle"
         raise GeometryError("pinion.tip_diameter", pinion.tip_diameter, permitted, "mm")
-    raised = profile_factor(edition, pinion, relieved(pinion.modification))
+    raised = profile_factor(edition, pinion.helix_angle, relieved(pinion.modification))
     inner = PerGear(path.B, path.D) if pair.overlap_ratio < 1 else PerGear(path.C, path.C)
     factors = zone * elasticity * ratio * helix
     return FlankRating(
@@ -348,7 +356,7 @@ def _rack_notices(pair: RackPair) -> Iterator[Notice]:
         yield Notice("flank-contact-ratio", f"sigma_H: {text}: two pairs of teeth share the load at any time")
 
 
-def _rack_root_notices(rating: RootRating, mesh: RootMesh) -> Iterator[Notice]:
+def _rack_root_notices(rating: RootRating[float], mesh: RootMesh[float]) -> Iterator[Notice]:
     if not rating.section.on_fillet:
         text = "the tangent at 30 deg touches beyond the fillet, so Y_F and Y_S do not hold"
         yield Notice("tangent-off-fillet", text, "rack root")

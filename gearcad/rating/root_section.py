@@ -22,78 +22,95 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Generic, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core.errors import GeometryError
-from gearcad.core.records import Floats
+from gearcad.core.records import Bools, Floats
+from gearcad.core.values import (
+    Numbers,
+    Values,
+    arccos,
+    arctan2,
+    cos,
+    degrees,
+    hypot,
+    radians,
+    root,
+    sin,
+    smaller,
+    tan,
+    with_sign,
+)
 from gearcad.geometry import Gear, Rack, involute
 from gearcad.geometry.fillets import FilletTool, ShaperTip, ToolTip
 from gearcad.geometry.gear_data import corner_radius, shaped
 from gearcad.geometry.involute import inverse_involute, root_between
+from gearcad.geometry.toothed import GearSizes
 
 
 @dataclass(frozen=True, kw_only=True)
-class VirtualGear:
+class VirtualGear(Generic[Values]):
     """Spur gear with the teeth of a helical gear's normal section. Lengths in mm, the pressure angle in degrees.
 
     `teeth` z_n is any number. `tooth_angle` s_n/(m_n z_n) is the half tooth angle on the reference circle, in degrees.
     Of a ring number of teeth, diameters and half tooth angles are negative.
     """
 
-    normal_module: float
+    normal_module: Values
     pressure_angle: float
-    teeth: float
-    reference_diameter: float
-    base_diameter: float
-    tip_diameter: float
-    tooth_angle: float
+    teeth: Values
+    reference_diameter: Values
+    base_diameter: Values
+    tip_diameter: Values
+    tooth_angle: Values
 
     @classmethod
-    def of(cls, gear: Gear) -> VirtualGear:
+    def of(cls, gear: GearSizes[Values]) -> VirtualGear[Values]:
         """z_n (21), d_n (24), d_bn (26), d_an = d_n + d_a - d (27), with the tip form circle for d_a."""
         m_n, z_n, alpha_n = gear.normal_module, gear.virtual_teeth, gear.rack.pressure_angle
         d_n = m_n * z_n
-        return cls(
+        return VirtualGear(
             normal_module=m_n,
             pressure_angle=alpha_n,
             teeth=z_n,
             reference_diameter=d_n,
             base_diameter=d_n * math.cos(math.radians(alpha_n)),
             tip_diameter=d_n + gear.tip_form_diameter - gear.reference_diameter,
-            tooth_angle=math.degrees(gear.normal_tooth_thickness / d_n),
+            tooth_angle=degrees(gear.normal_tooth_thickness / d_n),
         )
 
     @property
-    def side(self) -> float:
+    def side(self) -> Values:
         """The sign of its diameters."""
-        return math.copysign(1.0, self.teeth)
+        return with_sign(1.0, self.teeth)
 
-    def half_angle(self, diameter: float) -> float:
+    def half_angle(self, diameter: Values) -> Values:
         """Half tooth angle (degrees) of the involute at a diameter (mm) that is not inside the base circle."""
-        at = math.degrees(math.acos(min(self.base_diameter / diameter, 1.0)))
-        return self.tooth_angle + math.degrees(involute(self.pressure_angle) - involute(at))
+        at = degrees(arccos(smaller(self.base_diameter / diameter, 1.0)))
+        return self.tooth_angle + degrees(involute(self.pressure_angle) - involute(at))
 
 
 @dataclass(frozen=True, kw_only=True)
-class LoadPoint:
+class LoadPoint(Generic[Values]):
     """Outer point of single pair contact on the virtual gear: diameter d_en (mm), angles alpha_en, gamma_e, alpha_Fen (deg).
 
     Diameter and half angle are negative on a ring.
     """
 
-    diameter: float
-    pressure_angle: float
-    half_angle: float
-    load_angle: float
+    diameter: Values
+    pressure_angle: Values
+    half_angle: Values
+    load_angle: Values
 
-    def to_dict(self) -> dict[str, float]:
+    def to_dict(self) -> dict[str, Values]:
         """Values under their symbols."""
         return {"d_en": self.diameter, "alpha_Fen": self.load_angle}
 
 
-def load_point(virtual: VirtualGear, virtual_contact_ratio: float) -> LoadPoint:
+def load_point(virtual: VirtualGear[Values], virtual_contact_ratio: Values) -> LoadPoint[Values]:
     """Return the outer point of single pair contact, from the virtual contact ratio eps_alphan = eps_alpha/cos^2 beta_b.
 
     d_en = 2 sqrt((sqrt(d_an^2/4 - d_bn^2/4) - p_bn (eps_alphan - 1))^2 + d_bn^2/4) (28), p_bn = pi m_n cos alpha_n;
@@ -103,14 +120,20 @@ def load_point(virtual: VirtualGear, virtual_contact_ratio: float) -> LoadPoint:
     r_an, r_bn = virtual.tip_diameter / 2, virtual.base_diameter / 2
     p_bn = math.pi * virtual.normal_module * math.cos(math.radians(virtual.pressure_angle))
     side = virtual.side
-    along = side * math.sqrt((r_an - r_bn) * (r_an + r_bn)) - p_bn * (virtual_contact_ratio - 1)
-    d_en = side * 2 * math.hypot(along, r_bn)
-    alpha_en = math.degrees(math.atan2(side * along, side * r_bn))
+    along = side * root((r_an - r_bn) * (r_an + r_bn)) - p_bn * (virtual_contact_ratio - 1)
+    d_en = side * 2 * hypot(along, r_bn)
+    alpha_en = degrees(arctan2(side * along, side * r_bn))
     gamma_e = virtual.half_angle(d_en)
     return LoadPoint(diameter=d_en, pressure_angle=alpha_en, half_angle=gamma_e, load_angle=alpha_en - gamma_e)
 
 
-def virtual_tool(gear: Gear, virtual: VirtualGear) -> FilletTool:
+def lever_of(load: LoadPoint[Values]) -> Values:
+    """(cos gamma_e - sin gamma_e tan alpha_Fen) d_en (mm), of (18): twice the height at which the load meets the middle."""
+    gamma_e, alpha_fen = radians(load.half_angle), radians(load.load_angle)
+    return (cos(gamma_e) - sin(gamma_e) * tan(alpha_fen)) * load.diameter
+
+
+def virtual_tool(gear: Gear, virtual: VirtualGear[float]) -> FilletTool:
     """Return the tip of the tool, set to cut the virtual gear; for a spur gear this is its own tool.
 
     A hob stays what it is; a shaper cutter becomes its own virtual spur gear, with z_0 z_n/z teeth, the same shift and corner.
@@ -124,7 +147,7 @@ def virtual_tool(gear: Gear, virtual: VirtualGear) -> FilletTool:
     return _virtual_shaper(gear, virtual, tool.radius) if isinstance(tool, ShaperTip) else tool
 
 
-def _virtual_shaper(gear: Gear, virtual: VirtualGear, radius: float) -> ShaperTip:
+def _virtual_shaper(gear: Gear, virtual: VirtualGear[float], radius: float) -> ShaperTip:
     """Return the tip of the shaper cutter for the virtual gear, with a corner of `radius` (mm).
 
     Without a cutter it is the gear's own counterpart, on the gear's axis. Raises GeometryError if such a tip is not feasible.
@@ -152,7 +175,7 @@ def _virtual_shaper(gear: Gear, virtual: VirtualGear, radius: float) -> ShaperTi
     return tip
 
 
-def _centre_distance(gear: Gear, virtual: VirtualGear, cutter_teeth: float) -> float:
+def _centre_distance(gear: Gear, virtual: VirtualGear[float], cutter_teeth: float) -> float:
     """a_0 (mm), by inv alpha_w0 = inv alpha_n + 2 tan alpha_n (x + x_0)/(z_n + z_n0)."""
     teeth, angle = virtual.teeth + cutter_teeth, math.radians(virtual.pressure_angle)
     shift = gear.profile_shift + gear.cutter.profile_shift
@@ -179,22 +202,22 @@ _SHARP = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
-class RootSection:
+class RootSection(Generic[Values]):
     """Section at the 30-degree tangents: `tangent_angle` theta (deg), chord s_Fn, fillet radius rho_F, and the arm h_Fe (mm).
 
     `lean` (deg) is the angle of the tangents to the middle of the tooth, 60 on a ring. `on_fillet` is False where the tangent
     would touch beyond the fillet, on the flank: then the formulas do not hold.
     """
 
-    tangent_angle: float
-    chord: float
-    fillet_radius: float
-    moment_arm: float
-    on_fillet: bool
+    tangent_angle: Values
+    chord: Values
+    fillet_radius: Values
+    moment_arm: Values
+    on_fillet: bool | Bools
     lean: float = _LEAN
 
     @property
-    def notch_parameter(self) -> float:
+    def notch_parameter(self) -> Values:
         """q_s = s_Fn/(2 rho_F) (38)."""
         return self.chord / (2 * self.fillet_radius)
 
@@ -204,18 +227,23 @@ def lean_of(gear: Gear) -> float:
     return _RING_LEAN if gear.internal else _LEAN
 
 
-def root_section(gear: Gear, virtual: VirtualGear, load: LoadPoint) -> RootSection:
+def root_section(gear: Gear, virtual: VirtualGear[float], load: LoadPoint[float]) -> RootSection[float]:
     """The section at the tangents to the fillet, and the arm at which the load bends it.
 
     Raises GeometryError for teeth without such a section, as of a gear with three.
     """
-    return (generated_section if shaped(gear) else hob_section)(gear, virtual, load)
+    if shaped(gear):
+        return generated_section(gear, virtual, load)
+    section = hob_section(gear, virtual, load)
+    if math.isnan(section.tangent_angle):
+        raise _no_tangent(gear)
+    return section
 
 
 # ---------------------------------------------------------------------- cut by a hob
 
 
-def tool_half_width(gear: Gear) -> float:
+def tool_half_width(gear: GearSizes[Values]) -> Values:
     """E (10) (mm): from the middle of the tool's tooth to the centre of its tip arc.
 
     pi m_n/4 - h_fP tan alpha_n - (1 - sin alpha_n) rho_fP/cos alpha_n, plus half the tooth thinning. No protuberance.
@@ -225,40 +253,56 @@ def tool_half_width(gear: Gear) -> float:
     return m_n * (math.pi / 4 - gear.dedendum * math.tan(alpha_n) - corner) + gear.tooth_thinning / 2
 
 
-def tangent_angle(g: float, h: float, virtual_teeth: float) -> float | None:
-    """theta (rad) of theta = (2 G/z_n) tan theta - H (14), by Newton from the standard's pi/6; None where there is none."""
-    slope, theta, step = 2 * g / virtual_teeth, math.pi / 6, math.inf
+_ARRAY_STEPS, _SETTLED = 6, 1e-12
+"""Newton's steps for arrays; the change of theta (rad) in the last step beyond which there is no tangent."""
+
+
+def tangent_angle(g: Values, h: Values, virtual_teeth: Values) -> Values:
+    """theta (rad) of theta = (2 G/z_n) tan theta - H (14), by Newton from the standard's pi/6; nan where there is none."""
+    slope = 2 * g / virtual_teeth
+    if isinstance(slope, np.ndarray) or isinstance(h, np.ndarray):
+        return cast(Values, _tangent_angles(slope, h))
+    return _tangent_angle_of_one(slope, h)
+
+
+def _tangent_angle_of_one(slope: float, h: float) -> float:
+    theta, step = math.pi / 6, math.inf
     for _ in range(50):
         step = (theta - slope * math.tan(theta) + h) / (1 - slope / math.cos(theta) ** 2)
         theta -= step
         if abs(step) < 1e-15:
             break
-    return theta if abs(step) < 1e-12 and 1e-9 < theta < math.pi / 2 else None
+    return theta if abs(step) < _SETTLED and 1e-9 < theta < math.pi / 2 else math.nan
 
 
-def hob_section(gear: Gear, virtual: VirtualGear, load: LoadPoint) -> RootSection:
-    """Return the root section by the equations for a hob, with the gear's own rack.
+def _tangent_angles(slope: Numbers, h: Numbers) -> Floats:
+    """Return the angles by six steps each: steps for the few that never settle would cost all."""
+    theta = step = np.full(np.broadcast_shapes(np.shape(slope), np.shape(h)), math.pi / 6)
+    for _ in range(_ARRAY_STEPS):
+        tangent = np.tan(theta)
+        step = (theta - slope * tangent + h) / (1 - slope * (1 + tangent**2))
+        theta = theta - step
+    return np.where((np.abs(step) < _SETTLED) & (theta > 1e-9) & (theta < math.pi / 2), theta, np.nan)
+
+
+def hob_section(gear: GearSizes[Values], virtual: VirtualGear[Values], load: LoadPoint[Values]) -> RootSection[Values]:
+    """Return the root section by the equations for a hob, with the gear's own rack; nan for teeth without such a section.
 
     G = rho_fP/m_n - h_fP/m_n + x (12), H = (2/z_n) (pi/2 - E/m_n) - pi/3 (13), then s_Fn (15), rho_F (17) and h_Fe (18).
-    Raises GeometryError for teeth without such a section.
     """
     m_n, z_n, rho = gear.normal_module, virtual.teeth, gear.root_radius
     g = rho - gear.dedendum + gear.profile_shift
-    h = 2 / z_n * (math.pi / 2 - tool_half_width(gear) / m_n) - math.pi / 3
-    theta = tangent_angle(g, h, z_n)
-    if theta is None:
-        raise _no_tangent(gear)
-    centre = g / math.cos(theta) - rho
-    s_fn = z_n * math.sin(math.pi / 3 - theta) + math.sqrt(3) * centre
-    rho_f = rho + 2 * g**2 / (math.cos(theta) * (z_n * math.cos(theta) ** 2 - 2 * g))
-    gamma_e, alpha_fen = math.radians(load.half_angle), math.radians(load.load_angle)
-    lever = (math.cos(gamma_e) - math.sin(gamma_e) * math.tan(alpha_fen)) * load.diameter / m_n
-    height = z_n * math.cos(math.pi / 3 - theta) + centre
+    theta = tangent_angle(g, 2 / z_n * (math.pi / 2 - tool_half_width(gear) / m_n) - math.pi / 3, z_n)
+    cosine = cos(theta)
+    centre = g / cosine - rho
+    s_fn = z_n * sin(math.pi / 3 - theta) + math.sqrt(3) * centre
+    rho_f = rho + 2 * g**2 / (cosine * (z_n * cosine**2 - 2 * g))
+    height = z_n * cos(math.pi / 3 - theta) + centre
     return RootSection(
-        tangent_angle=math.degrees(theta),
+        tangent_angle=degrees(theta),
         chord=m_n * s_fn,
         fillet_radius=m_n * rho_f,
-        moment_arm=m_n * (lever - height) / 2,
+        moment_arm=m_n * (lever_of(load) / m_n - height) / 2,
         # Undercut takes away only the top of the fillet, where it leans by less than the involute there.
         on_fillet=theta <= math.pi / 2 - math.radians(virtual.pressure_angle),
     )
@@ -271,7 +315,7 @@ def _no_tangent(gear: Gear) -> GeometryError:
 # ---------------------------------------------------------------------- on the generated fillet
 
 
-def generated_section(gear: Gear, virtual: VirtualGear, load: LoadPoint) -> RootSection:
+def generated_section(gear: Gear, virtual: VirtualGear[float], load: LoadPoint[float]) -> RootSection[float]:
     """Return the root section on the fillet that the tool generates on the virtual gear.
 
     Chord, radius of curvature and place are those of the curve.
@@ -340,7 +384,7 @@ def substitute_radius(gear: Gear, cutter_teeth: int) -> float:
     return gear.normal_module * (rho + math.pow(max(reach - rho, 0.0), 1.95) / (3.156 * math.pow(1.036, cutter_teeth)))
 
 
-def ring_section(gear: Gear, virtual: VirtualGear, load: LoadPoint, radius: float) -> RootSection | None:
+def ring_section(gear: Gear, virtual: VirtualGear[float], load: LoadPoint[float], radius: float) -> RootSection[float] | None:
     """The section at the 60-degree tangents of a ring whose substitute rack has a tip of `radius` rho_fPv (mm).
 
     G = rho_fPv - h_fP + x, H = (2/z_n) (pi/2 - E) - pi/6, theta as of external gears; then
@@ -352,14 +396,12 @@ def ring_section(gear: Gear, virtual: VirtualGear, load: LoadPoint, radius: floa
     g = rho - gear.dedendum + gear.profile_shift
     h = 2 / z_n * (math.pi / 2 - _half_width(gear, rho)) - math.pi / 6
     theta = tangent_angle(g, h, z_n)
-    if theta is None:
+    if math.isnan(theta):
         return None
     centre = g / math.cos(theta) - rho
     s_fn = z_n * math.sin(math.pi / 6 - theta) + centre
     rho_f = rho + 2 * g**2 / (math.cos(theta) * (z_n * math.cos(theta) ** 2 - 2 * g))
-    gamma_e, alpha_fen = math.radians(load.half_angle), math.radians(load.load_angle)
-    lever = (math.cos(gamma_e) - math.sin(gamma_e) * math.tan(alpha_fen)) * load.diameter / m_n
-    h_fe = (lever - z_n * math.cos(math.pi / 6 - theta) - math.sqrt(3) * centre) / 2
+    h_fe = (lever_of(load) / m_n - z_n * math.cos(math.pi / 6 - theta) - math.sqrt(3) * centre) / 2
     if min(s_fn, rho_f, h_fe) <= 0:
         return None
     return RootSection(
@@ -383,7 +425,7 @@ _RACK_ROOT_LEAN = math.radians(30)
 
 
 @dataclass(frozen=True, kw_only=True)
-class RackLoadPoint(LoadPoint):
+class RackLoadPoint(LoadPoint[float]):
     """Outer point of single pair contact on a rack, `height` (mm) above its reference line."""
 
     height: float
@@ -393,7 +435,7 @@ class RackLoadPoint(LoadPoint):
         return {"h_en": self.height, "alpha_Fen": self.load_angle}
 
 
-def virtual_rack(rack: Rack) -> VirtualGear:
+def virtual_rack(rack: Rack) -> VirtualGear[float]:
     """The normal section of a rack: a gear of infinite size."""
     return VirtualGear(
         normal_module=rack.normal_module,
@@ -422,7 +464,7 @@ def rack_load_point(rack: Rack, virtual_contact_ratio: float) -> RackLoadPoint:
     )
 
 
-def rack_section(rack: Rack, load: RackLoadPoint) -> RootSection:
+def rack_section(rack: Rack, load: RackLoadPoint) -> RootSection[float]:
     """The section at the 30-degree tangents, and the arm at which the load bends it.
 
     The middle of the fillet's arc is u = s_n/2 + (h_f - rho) tan alpha_n + rho/cos alpha_n from the middle of the tooth. Raises

@@ -12,9 +12,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import cached_property
+from typing import Any, Generic
 
 from gearcad.core.records import Notice, Role
+from gearcad.core.values import Values, chosen, cos, magnitude, radians, smaller
 from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.gear_data import shaped
 from gearcad.rating.editions import Edition, helix_angle_divisor, load_distribution_factor
@@ -35,13 +37,13 @@ class FormulaRoot:
     """What the formulas for rings give in place of the generated fillet: rho_fPv (mm), section, Y_F, Y_S, sigma_F0 (MPa)."""
 
     tool_radius: float
-    section: RootSection
+    section: RootSection[float]
     form_factor: float
     stress_correction_factor: float
     nominal_stress: float
 
     @classmethod
-    def of(cls, rating: RootRating, tool_radius: float) -> FormulaRoot:
+    def of(cls, rating: RootRating[float], tool_radius: float) -> FormulaRoot:
         """Return the section, factors and stress of a rating by formula; `tool_radius` is rho_fPv (mm)."""
         return cls(
             tool_radius=tool_radius,
@@ -65,25 +67,25 @@ class FormulaRoot:
 
 
 @dataclass(frozen=True, kw_only=True)
-class RootRating:
+class RootRating(Generic[Values]):
     """Root stress of one gear: its section, factors, the width that carries (mm) and sigma_F0 without load factors (MPa).
 
     `formula` has what the standard's formulas say beside it, of a ring that a shaper cutter makes.
     """
 
-    section: RootSection
-    load_point: LoadPoint
-    form_factor: float
-    stress_correction_factor: float
-    helix_angle_factor: float
-    rim_thickness_factor: float
-    deep_tooth_factor: float
-    width: float
-    nominal_stress: float
+    section: RootSection[Values]
+    load_point: LoadPoint[Values]
+    form_factor: Values
+    stress_correction_factor: Values
+    helix_angle_factor: Values
+    rim_thickness_factor: Values
+    deep_tooth_factor: Values
+    width: Values
+    nominal_stress: Values
     formula: FormulaRoot | None = None
 
     @property
-    def factors(self) -> dict[str, float]:
+    def factors(self) -> dict[str, Values]:
         """Factors of the root stress under their symbols, in the order of all outputs."""
         return {
             "Y_F": self.form_factor,
@@ -110,35 +112,39 @@ class RootRating:
         }
 
 
-def form_factor(section: RootSection, load: LoadPoint, virtual: VirtualGear, load_distribution: float = 1.0) -> float:
+def form_factor(
+    section: RootSection[Values], load: LoadPoint[Values], virtual: VirtualGear[Values], load_distribution: Values = 1.0
+) -> Values:
     """Y_F = 6 (h_Fe/m_n) cos alpha_Fen/((s_Fn/m_n)^2 cos alpha_n) (9), times f_eps, which came with the edition of 2019."""
     m_n = virtual.normal_module
-    lever = 6 * section.moment_arm / m_n * math.cos(math.radians(load.load_angle))
+    lever = 6 * section.moment_arm / m_n * cos(radians(load.load_angle))
     stiff = (section.chord / m_n) ** 2 * math.cos(math.radians(virtual.pressure_angle))
     return lever / stiff * load_distribution
 
 
-def stress_correction_factor(section: RootSection) -> float:
+def stress_correction_factor(section: RootSection[Values]) -> Values:
     """Y_S = (1.2 + 0.13 L) q_s^(1/(1.21 + 2.3/L)) (36) with L = s_Fn/h_Fe (37)."""
     slimness = section.chord / section.moment_arm
-    return (1.2 + 0.13 * slimness) * math.pow(section.notch_parameter, 1 / (1.21 + 2.3 / slimness))
+    result: Values = (1.2 + 0.13 * slimness) * section.notch_parameter ** (1 / (1.21 + 2.3 / slimness))
+    return result
 
 
-def helix_angle_factor(helix_angle: float, overlap_ratio: float, edition: Edition = Edition.ISO_2006) -> float:
+def helix_angle_factor(helix_angle: Values, overlap_ratio: Values, edition: Edition = Edition.ISO_2006) -> Values:
     """Y_beta = 1 - eps_beta |beta|/120 deg (clause 8), with eps_beta at most 1 and |beta| at most 30 deg; 2019: /cos^3 beta."""
-    plain = 1 - min(overlap_ratio, 1.0) * min(abs(helix_angle), 30.0) / 120
+    plain = 1 - smaller(overlap_ratio, 1.0) * smaller(magnitude(helix_angle), 30.0) / 120
     return plain / helix_angle_divisor(helix_angle) if edition is Edition.ISO_2019 else plain
 
 
-def deep_tooth_factor(virtual_contact_ratio: float, accuracy_grade: int, edition: Edition) -> float:
+def deep_tooth_factor(virtual_contact_ratio: Values, accuracy_grade: int, edition: Edition) -> Values:
     """Y_DT (clause 10): 2.366 - 0.666 eps_alphan from 2.05 to 2.5, then 0.7, for accuracy grade 4 or better; else 1.
 
     The lower factor also asks for a profile modification that spreads the load; DIN 3990-3 has none. In the edition of 2019
     f_eps spreads it, to be verified: it is not taken twice.
     """
-    if accuracy_grade > 4 or edition is not Edition.ISO_2006 or virtual_contact_ratio <= 2.05:
+    if accuracy_grade > 4 or edition is not Edition.ISO_2006:
         return 1.0
-    return 0.7 if virtual_contact_ratio > 2.5 else 2.366 - 0.666 * virtual_contact_ratio
+    falling = chosen(virtual_contact_ratio > 2.5, 0.7, 2.366 - 0.666 * virtual_contact_ratio)
+    return chosen(virtual_contact_ratio > 2.05, falling, 1.0)
 
 
 def loaded_width(pair: GearPair, role: Role) -> float:
@@ -149,51 +155,64 @@ def loaded_width(pair: GearPair, role: Role) -> float:
     return common.width + sum(min(each, gear.normal_module) for each in over)
 
 
-def nominal_root_stress(tangential_force: float, width: float, normal_module: float, factors: float) -> float:
+def nominal_root_stress(tangential_force: Values, width: Values, normal_module: Values, factors: Values) -> Values:
     """sigma_F0 = F_t/(b m_n) Y_F Y_S Y_beta Y_B Y_DT (clause 5); `factors` is the product of the five Y, F_t in N."""
     return tangential_force / (width * normal_module) * factors
 
 
+def virtual_contact_ratio(transverse_contact_ratio: Values, base_helix_angle: Values) -> Values:
+    """eps_alphan = eps_alpha/cos^2 beta_b (23)."""
+    return transverse_contact_ratio / cos(radians(base_helix_angle)) ** 2
+
+
 @dataclass(frozen=True, kw_only=True)
-class RootMesh:
-    """What loads the roots of a mesh: F_t at the reference circle (N), eps_alphan, eps_beta, helix angle (deg); and the rules.
+class RootMesh(Generic[Values]):
+    """What loads the roots of a mesh: F_t at the reference circle (N), eps_alphan, eps_beta, helix angle (deg); the rules."""
 
-    eps_alphan = eps_alpha/cos^2 beta_b (23).
-    """
-
-    tangential_force: float
-    virtual_contact_ratio: float
-    overlap_ratio: float
-    helix_angle: float
+    tangential_force: Values
+    virtual_contact_ratio: Values
+    overlap_ratio: Values
+    helix_angle: Values
     edition: Edition
     accuracy_grade: int
 
     @classmethod
-    def of(cls, pair: GearPair | RackPair, tangential_force: float, edition: Edition, accuracy_grade: int) -> RootMesh:
+    def of(cls, pair: GearPair | RackPair, tangential_force: float, edition: Edition, accuracy_grade: int) -> RootMesh[float]:
         """Return the load and rules of the roots of a pair, under `tangential_force` F_t (N)."""
         pinion = pair.pinion
-        return cls(
+        return RootMesh(
             tangential_force=tangential_force,
-            virtual_contact_ratio=pair.transverse_contact_ratio / math.cos(math.radians(pinion.base_helix_angle)) ** 2,
+            virtual_contact_ratio=virtual_contact_ratio(pair.transverse_contact_ratio, pinion.base_helix_angle),
             overlap_ratio=pair.overlap_ratio,
             helix_angle=pinion.helix_angle,
             edition=edition,
             accuracy_grade=accuracy_grade,
         )
 
-    @property
-    def load_distribution(self) -> float:
+    @cached_property
+    def load_distribution(self) -> Values:
         """f_eps: 1 but in the edition of 2019."""
         if self.edition is not Edition.ISO_2019:
             return 1.0
         return load_distribution_factor(self.virtual_contact_ratio, self.overlap_ratio)
 
+    @cached_property
+    def helix_angle_factor(self) -> Values:
+        """Helix angle factor Y_beta of both gears."""
+        return helix_angle_factor(self.helix_angle, self.overlap_ratio, self.edition)
+
     def rating(
-        self, section: RootSection, load: LoadPoint, virtual: VirtualGear, *, width: float, rim_thickness_factor: float
-    ) -> RootRating:
+        self,
+        section: RootSection[Values],
+        load: LoadPoint[Values],
+        virtual: VirtualGear[Values],
+        *,
+        width: Values,
+        rim_thickness_factor: float,
+    ) -> RootRating[Values]:
         """Return the root rating of a tooth that carries over `width` (mm)."""
         y_f, y_s = form_factor(section, load, virtual, self.load_distribution), stress_correction_factor(section)
-        y_beta = helix_angle_factor(self.helix_angle, self.overlap_ratio, self.edition)
+        y_beta = self.helix_angle_factor
         y_dt = deep_tooth_factor(self.virtual_contact_ratio, self.accuracy_grade, self.edition)
         factors = y_f * y_s * y_beta * rim_thickness_factor * y_dt
         return RootRating(
@@ -209,12 +228,12 @@ class RootMesh:
         )
 
 
-def root_rating(gear: Gear, mesh: RootMesh, width: float) -> RootRating:
+def root_rating(gear: Gear, mesh: RootMesh[float], width: float) -> RootRating[float]:
     """Root stress of a gear that carries over a width (mm)."""
     virtual = VirtualGear.of(gear)
     load, y_b = load_point(virtual, mesh.virtual_contact_ratio), rim_of(gear).factor(mesh.edition)
 
-    def rated(section: RootSection) -> RootRating:
+    def rated(section: RootSection[float]) -> RootRating[float]:
         return mesh.rating(section, load, virtual, width=width, rim_thickness_factor=y_b)
 
     found = rated(root_section(gear, virtual, load))
@@ -226,7 +245,7 @@ def root_rating(gear: Gear, mesh: RootMesh, width: float) -> RootRating:
     return found if section is None else replace(found, formula=FormulaRoot.of(rated(section), radius))
 
 
-def root_notices(gear: Gear, role: Role, rating: RootRating, mesh: RootMesh) -> Iterator[Notice]:
+def root_notices(gear: Gear, role: Role, rating: RootRating[float], mesh: RootMesh[float]) -> Iterator[Notice]:
     """Yield a notice for each way in which one gear leaves the range that ISO 6336-3 states for its formulas."""
     root = f"{role.value} root"
     yield from _section_notices(gear, rating, root)
@@ -235,20 +254,20 @@ def root_notices(gear: Gear, role: Role, rating: RootRating, mesh: RootMesh) -> 
     yield from deep_notices(mesh, root)
 
 
-def notch_notices(rating: RootRating, root: str) -> Iterator[Notice]:
+def notch_notices(rating: RootRating[float], root: str) -> Iterator[Notice]:
     """Yield a notice if q_s is outside the range that Y_S is stated for."""
     if not 1 <= (notch := rating.section.notch_parameter) < 8:
         yield Notice("notch-parameter", f"Y_S is stated for q_s from 1 to 8, here {notch:.3g}", root)
 
 
-def deep_notices(mesh: RootMesh, root: str) -> Iterator[Notice]:
+def deep_notices(mesh: RootMesh[float], root: str) -> Iterator[Notice]:
     """Yield a notice if more than one pair of teeth carries at any time."""
     if (ratio := mesh.virtual_contact_ratio) >= 2:
         text = f"Y_F assumes that one pair of teeth carries alone, but eps_alphan is {ratio:.4f}"
         yield Notice("deep-teeth", text, root)
 
 
-def _section_notices(gear: Gear, rating: RootRating, root: str) -> Iterator[Notice]:
+def _section_notices(gear: Gear, rating: RootRating[float], root: str) -> Iterator[Notice]:
     """Yield notices on how the section was found, or why the formulas do not hold for it."""
     if shaped(gear):
         yield Notice("generated-root", _generated(gear, rating), root)
@@ -260,7 +279,7 @@ def _section_notices(gear: Gear, rating: RootRating, root: str) -> Iterator[Noti
         yield Notice("sharp-tool", "Y_F and Y_S are stated for a tool with a rounded tip, here it is sharp", root)
 
 
-def _generated(gear: Gear, rating: RootRating) -> str:
+def _generated(gear: Gear, rating: RootRating[float]) -> str:
     """Return the text that names the generated section as our own method, and gives the values of the standard's formulas."""
     own = (
         f"Y_F and Y_S are those of the fillet as it is generated, at tangents of {rating.section.lean:g} deg (ours, no clause)"

@@ -376,7 +376,7 @@ def _temperatures(
     return integral, flash
 
 
-def _reliefs(pair: GearPair, mesh: SlidingMesh, specific_load: float, stiffness: MeshStiffness) -> _Reliefs:
+def _reliefs(pair: GearPair, mesh: SlidingMesh, specific_load: float, stiffness: MeshStiffness[float]) -> _Reliefs:
     """Over C_eff of the load F_t K_A K_gamma/b (N/mm): by c' (spur) or c_gamma_alpha (part 2, 33 to 38; part 1, B.1).
 
     The driving gear's relief counts where its recess is long, epsilon_a > 1.5 epsilon_f; else that of the driven one.

@@ -11,12 +11,13 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import partial
 from types import MappingProxyType
-from typing import Any, Generic, NamedTuple, Protocol
+from typing import Generic, NamedTuple, Protocol
 
 import numpy as np
 
 from gearcad.core.errors import ParameterError, require_whole
 from gearcad.core.quantities import Range, Whole
+from gearcad.core.records import JsonObject
 from gearcad.core.values import Values, number_or_array
 from gearcad.geometry import Gear
 from gearcad.rating import iso1328_1995, iso1328_2013
@@ -239,7 +240,7 @@ class GearTolerances(Generic[Values]):
 
     # ------------------------------------------------------------------ all of them
 
-    def to_dict(self, total_contact_ratio: Values | None = None) -> dict[str, Any]:
+    def to_dict(self, total_contact_ratio: Values | None = None) -> JsonObject:
         """Return the tolerances (µm) under the standard's symbols in ASCII.
 
         Those that it does not cover are None, and `not_covered` says why.

@@ -13,10 +13,12 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Generic
 
 from gearcad.core.records import Notice, PerGear
-from gearcad.core.values import Values
-from gearcad.geometry import Gear, GearPair, RackPair
+from gearcad.core.values import Values, cos, fourth_root, radians, smaller
+from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
 from gearcad.rating.editions import Edition
 
@@ -156,37 +158,37 @@ HIGH_LOAD = 1600.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeshStiffness:
+class MeshStiffness(Generic[Values]):
     """Factors and stiffnesses of clause 9. `single`, `mesh_alpha` and `mesh_beta` are c', c_gamma_alpha and c_gamma_beta.
 
     These are those of the load of the rating; `high_load_single` is c' from a specific load of 100 N/mm on.
     """
 
-    flexibility: float
-    theoretical: float
-    blank_factor: float
-    rack_factor: float
+    flexibility: Values
+    theoretical: Values
+    blank_factor: Values
+    rack_factor: Values
     material_factor: float
-    low_load_factor: float
-    high_load_single: float
-    transverse_contact_ratio: float
+    low_load_factor: Values
+    high_load_single: Values
+    transverse_contact_ratio: Values
 
-    @property
-    def single(self) -> float:
+    @cached_property
+    def single(self) -> Values:
         """c' under the load: (90) reduces it below 100 N/mm."""
         return self.high_load_single * self.low_load_factor
 
-    @property
-    def mesh_alpha(self) -> float:
+    @cached_property
+    def mesh_alpha(self) -> Values:
         """c_gamma_alpha of the load (91)."""
         return mesh_stiffness_alpha(self.single, self.transverse_contact_ratio)
 
-    @property
-    def mesh_beta(self) -> float:
+    @cached_property
+    def mesh_beta(self) -> Values:
         """c_gamma_beta of the load (92)."""
         return mesh_stiffness_beta(self.mesh_alpha)
 
-    def to_dict(self) -> dict[str, float]:
+    def to_dict(self) -> dict[str, Values]:
         """Return the values under their symbols.
 
         Those for the load itself end in `_lowload` (equal where the load is not low).
@@ -230,7 +232,7 @@ def tooth_flexibility(virtual_teeth: tuple[Values, Values], profile_shifts: tupl
     )
 
 
-def theoretical_stiffness(flexibility: float) -> float:
+def theoretical_stiffness(flexibility: Values) -> Values:
     """c'_th = 1/q' (81)."""
     return 1 / flexibility
 
@@ -261,58 +263,62 @@ def pair_modulus(materials: PerGear[Material]) -> float:
     return first * (2 * second / (first + second))  # exactly E of two that are equal
 
 
-def low_load_factor(specific_load: float) -> float:
+def low_load_factor(specific_load: Values) -> Values:
     """((F_t K_A/b)/100)^0.25 (90) below 100 N/mm, else 1; `specific_load` F_t K_A/b in N/mm."""
-    return math.pow(min(specific_load / LOW_LOAD, 1.0), 0.25)
+    return fourth_root(smaller(specific_load / LOW_LOAD, 1.0))
 
 
-def single_stiffness(theoretical: float, blank_factor: float, rack_factor: float, helix_angle: float) -> float:
+def single_stiffness(theoretical: Values, blank_factor: Values, rack_factor: Values, helix_angle: Values) -> Values:
     """c' = c'_th C_M C_R C_B cos beta (80)."""
-    return theoretical * CORRECTION_FACTOR * blank_factor * rack_factor * math.cos(math.radians(helix_angle))
+    return theoretical * CORRECTION_FACTOR * blank_factor * rack_factor * cos(radians(helix_angle))
 
 
-def mesh_stiffness_alpha(single: float, transverse_contact_ratio: float) -> float:
+def mesh_stiffness_alpha(single: Values, transverse_contact_ratio: Values) -> Values:
     """c_gamma_alpha = c' (0.75 epsilon_alpha + 0.25) (91)."""
     return single * (0.75 * transverse_contact_ratio + 0.25)
 
 
-def mesh_stiffness_beta(mesh_alpha: float) -> float:
+def mesh_stiffness_beta(mesh_alpha: Values) -> Values:
     """c_gamma_beta = 0.85 c_gamma_alpha (92)."""
     return 0.85 * mesh_alpha
 
 
-def mesh_stiffness(pair: GearPair, materials: PerGear[Material], specific_load: float) -> MeshStiffness:
+def mesh_stiffness(pair: GearPair, materials: PerGear[Material], specific_load: float) -> MeshStiffness[float]:
     """Stiffness of a pair at a specific load F_t K_A/b (N/mm); C_R, as C_B, is the mean of both gears."""
     first, second = _by_teeth(pair)
+    shifts = first.profile_shift, second.profile_shift
     return stiffness_of(
-        tooth_flexibility((_virtual_teeth(first), _virtual_teeth(second)), (first.profile_shift, second.profile_shift)),
-        sum(blank_factor(gear) for gear in (first, second)) / 2,
-        sum(basic_rack_factor(gear.dedendum, gear.rack.pressure_angle) for gear in (first, second)) / 2,  # (87)
-        pair,
         materials,
         specific_load,
+        flexibility=tooth_flexibility((_virtual_teeth(first), _virtual_teeth(second)), shifts),
+        blank_factor=sum(blank_factor(gear) for gear in (first, second)) / 2,
+        rack_factor=sum(basic_rack_factor(gear.dedendum, gear.rack.pressure_angle) for gear in (first, second)) / 2,  # (87)
+        helix_angle=pair.pinion.helix_angle,
+        transverse_contact_ratio=pair.transverse_contact_ratio,
     )
 
 
 def stiffness_of(
-    flexibility: float,
-    blank: float,
-    rack: float,
-    pair: GearPair | RackPair,
     materials: PerGear[Material],
-    specific_load: float,
-) -> MeshStiffness:
-    """Return the mesh stiffness of a pair from q', C_R and C_B."""
+    specific_load: Values,
+    *,
+    flexibility: Values,
+    blank_factor: Values,
+    rack_factor: Values,
+    helix_angle: Values,
+    transverse_contact_ratio: Values,
+) -> MeshStiffness[Values]:
+    """Return the mesh stiffness of a pair at a specific load F_t K_A/b (N/mm), from q', C_R and C_B."""
     xi, theoretical = material_factor(pair_modulus(materials)), theoretical_stiffness(flexibility)
     return MeshStiffness(
         flexibility=flexibility,
         theoretical=theoretical,
-        blank_factor=blank,
-        rack_factor=rack,
+        blank_factor=blank_factor,
+        rack_factor=rack_factor,
         material_factor=xi,
         low_load_factor=low_load_factor(specific_load),
-        high_load_single=xi * single_stiffness(theoretical, blank, rack, pair.pinion.helix_angle),
-        transverse_contact_ratio=pair.transverse_contact_ratio,
+        high_load_single=xi * single_stiffness(theoretical, blank_factor, rack_factor, helix_angle),
+        transverse_contact_ratio=transverse_contact_ratio,
     )
 
 

@@ -24,11 +24,11 @@ import numpy as np
 from gearcad.core.errors import ParameterError
 from gearcad.core.quantities import is_given
 from gearcad.core.records import Bools, Floats, PerGear, Role, Wholes
+from gearcad.core.values import Numbers
 from gearcad.geometry import BasicRack, Gear, GearPair
-from gearcad.geometry.involute import inverse_involute, involute
-
-Numbers = float | Floats
-"""One for each variant, or one that holds for all."""
+from gearcad.geometry.involute import inverse_involute, involute, tangent_length
+from gearcad.geometry.pair_data import shift_sum_between, transverse_section, working_involute
+from gearcad.geometry.toothed import GearSizes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,127 +66,61 @@ def _changed(value: Any, change: Callable[[np.ndarray[Any, Any]], np.ndarray[Any
     return change(value) if isinstance(value, np.ndarray) else value
 
 
-def involute_of(angle: Numbers) -> Numbers:
-    """Involute of an angle in radians."""
-    result: Numbers = np.tan(angle) - angle
-    return result
-
-
-def form_reach(diameter: Numbers, transverse_angle: Numbers, depth: Numbers) -> Floats:
-    """r sin alpha_t - h/sin alpha_t: length of the base tangent out to the root form circle that a hob leaves.
-
-    `depth` h is that of the end of its straight flanks (mm) below the reference circle. Below 0 the tooth is undercut.
-    """
-    sine = np.sin(transverse_angle)
-    result: Floats = diameter / 2 * sine - depth / sine
-    return result
-
-
-def tip_thickness(
-    diameter: Numbers, base: Numbers, tip: Numbers, thickness: Numbers, transverse_angle: Numbers, helix_angle: Numbers
-) -> Floats:
-    """s_at = d_a (s_t/d + inv alpha_t - inv alpha_at), times cos beta_a; below 0 the flanks meet before.
-
-    `thickness` s_t is that on the reference circle.
-    """
-    at_tip = np.arccos(np.minimum(base / tip, 1.0))
-    transverse = tip * (thickness / diameter + involute_of(transverse_angle) - involute_of(at_tip))
-    result: Floats = transverse / np.hypot(1.0, np.tan(np.radians(helix_angle)) * tip / diameter)
-    return result
-
-
 @dataclass(frozen=True, kw_only=True)
-class ManyTeeth:
-    """Gears by their given values: numbers, or arrays that go together; helix angles in degrees, thinning in mm.
+class ManyTeeth(GearSizes[Numbers]):
+    """Gears by their given values: numbers, or arrays that go together; `given_...` are diameters (mm) that are prescribed.
 
-    `given_tip` and `given_root` are diameters (mm) that do not follow from the profile shift.
+    Form circle and tip thickness are in closed form here. A Gear measures them at its outline, which is of one tooth.
     """
 
     teeth: Numbers
-    normal_module: float
+    normal_module: Numbers
     helix_angle: Numbers
-    shift: Numbers
+    profile_shift: Numbers
     rack: BasicRack
     tip_alteration: Numbers = 0.0
-    thinning: float = 0.0
+    tooth_thinning: float = 0.0
     tip_chamfer: float = 0.0
-    given_tip: float | None = None
-    given_root: float | None = None
-
-    @cached_property
-    def transverse_angle(self) -> Numbers:
-        """Transverse pressure angle alpha_t."""
-        result: Numbers = np.arctan(math.tan(math.radians(self.rack.pressure_angle)) / self._cosine)
-        return result
-
-    @property
-    def _cosine(self) -> Numbers:
-        result: Numbers = np.cos(np.radians(self.helix_angle))
-        return result
-
-    @cached_property
-    def diameter(self) -> Numbers:
-        """Reference diameter d (mm)."""
-        return self.teeth * self.normal_module / self._cosine
-
-    @cached_property
-    def base_diameter(self) -> Numbers:
-        """Base diameter d_b (mm)."""
-        result: Numbers = self.diameter * np.cos(self.transverse_angle)
-        return result
+    given_tip_diameter: float | None = None
+    given_root_diameter: float | None = None
 
     @cached_property
     def tip_diameter(self) -> Numbers:
         """Tip diameter d_a (mm)."""
-        if self.given_tip is not None:
-            return self.given_tip
-        return self.diameter + 2 * self.normal_module * (self.rack.addendum + self.shift + self.tip_alteration)
+        return self.standard_tip_diameter if self.given_tip_diameter is None else self.given_tip_diameter
 
-    @cached_property
+    @property
+    def tip_form_diameter(self) -> Numbers:
+        """d_Fa: the tip circle less the tip chamfers."""
+        return self.tip_diameter - 2 * self.tip_chamfer
+
+    @property
     def root_diameter(self) -> Numbers:
         """Root diameter d_f (mm)."""
-        return self.diameter - 2 * self.normal_module * (self.dedendum - self.shift)
-
-    @property
-    def dedendum(self) -> Numbers:
-        """h_fP of the tool in normal modules, where the root circle is given that which cuts it."""
-        if self.given_root is None:
-            return self.rack.dedendum
-        return (self.diameter - self.given_root) / (2 * self.normal_module) + self.shift
-
-    @property
-    def root_radius(self) -> Numbers:
-        """rho_fP in normal modules, with "full" resolved."""
-        if self.rack.root_radius != "full":
-            return float(self.rack.root_radius)
-        full = self.rack.full_root_radius(thinning=self.thinning / self.normal_module)
-        angle = math.radians(self.rack.pressure_angle)
-        return full - (self.dedendum - self.rack.dedendum) * math.sin(angle) / (1 - math.sin(angle))
+        return self.standard_root_diameter if self.given_root_diameter is None else self.given_root_diameter
 
     @cached_property
     def form_reach(self) -> Floats:
-        """Length of the base tangent out to the root form circle; below 0 the tooth is undercut."""
-        straight = self.dedendum - self.root_radius * (1 - math.sin(math.radians(self.rack.pressure_angle)))
-        return form_reach(self.diameter, self.transverse_angle, self.normal_module * (straight - self.shift))
+        """Length of the base tangent out to the root form circle that a hob leaves; below 0 the tooth is undercut.
+
+        r sin alpha_t - h/sin alpha_t, h the depth at which the straight flanks of the hob end, below the reference circle.
+        """
+        corner = self.root_radius * (1 - math.sin(math.radians(self.rack.pressure_angle)))
+        depth, sine = self.dedendum - corner - self.profile_shift, np.sin(np.radians(self.transverse_pressure_angle))
+        return np.asarray(self.reference_diameter / 2 * sine - self.normal_module * depth / sine)
 
     @cached_property
     def tip_reach(self) -> Floats:
         """Length of the base tangent out to where the flank ends: the tip circle, less a chamfer."""
-        end, base = self.tip_diameter - 2 * self.tip_chamfer, self.base_diameter
-        result: Floats = np.sqrt(np.maximum((end - base) * (end + base), 0.0)) / 2
-        return result
+        return np.asarray(tangent_length(self.tip_form_diameter, self.base_diameter))
 
     @property
-    def tooth_thickness(self) -> Numbers:
-        """s_t on the reference circle."""
-        tangent = math.tan(math.radians(self.rack.pressure_angle))
-        return (self.normal_module * (math.pi / 2 + 2 * self.shift * tangent) - self.thinning) / self._cosine
-
-    @cached_property
     def tip_thickness(self) -> Floats:
-        """s_an, before a tip chamfer."""
-        parts = (self.diameter, self.base_diameter, self.tip_diameter, self.tooth_thickness)
-        return tip_thickness(*parts, self.transverse_angle, self.helix_angle)
+        """s_an, before a tip chamfer: d_a (s_t/d + inv alpha_t - inv alpha_at) cos beta_a; below 0 the flanks meet before."""
+        tip, d = self.tip_diameter, self.reference_diameter
+        at_tip = np.degrees(np.arccos(np.minimum(self.base_diameter / tip, 1.0)))
+        half = self.transverse_tooth_thickness / d + involute(self.transverse_pressure_angle) - involute(at_tip)
+        return np.asarray(tip * half / np.hypot(1.0, np.tan(np.radians(self.helix_angle)) * tip / d))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -204,100 +138,80 @@ class ManyPairs(Columns):
     shifts: PerGear[Floats]
     rack: BasicRack
 
-    # ------------------------------------------------------------------ angles
+    # ------------------------------------------------------------------ teeth
 
     @cached_property
-    def normal_angle(self) -> float:
-        """alpha_n."""
-        return math.radians(self.rack.pressure_angle)
+    def gears(self) -> PerGear[ManyTeeth]:
+        """Teeth of both gears."""
+        return PerGear.each(self._gear)
 
-    @cached_property
-    def cosine(self) -> Floats:
-        """Cosine of the helix angle beta."""
-        return np.cos(np.radians(self.helix_angle))
-
-    @cached_property
-    def transverse_angle(self) -> Floats:
-        """Transverse pressure angle alpha_t."""
-        return np.arctan(math.tan(self.normal_angle) / self.cosine)
-
-    @cached_property
-    def base_helix(self) -> Floats:
-        """Base helix angle beta_b."""
-        return np.arcsin(np.sin(np.radians(np.abs(self.helix_angle))) * math.cos(self.normal_angle))
-
-    @cached_property
-    def working_angle(self) -> Floats:
-        """alpha_wt, of a centre distance beyond the base circles."""
-        bases = self.base_diameters.pinion + self.base_diameters.wheel
-        result: Floats = np.arccos(np.minimum(bases / (2 * self.centre_distance), 1.0))
-        return result
-
-    # ------------------------------------------------------------------ circles
-
-    @cached_property
-    def transverse_module(self) -> Floats:
-        """Transverse module m_t (mm)."""
-        return self.normal_module / self.cosine
-
-    @cached_property
-    def diameters(self) -> PerGear[Floats]:
-        """Reference diameters d (mm)."""
-        return PerGear(*(z * self.transverse_module for z in self.teeth))
-
-    @cached_property
-    def base_diameters(self) -> PerGear[Floats]:
-        """Base diameters d_b (mm)."""
-        across = np.cos(self.transverse_angle)
-        return PerGear(*(d * across for d in self.diameters))
+    def _gear(self, role: Role) -> ManyTeeth:
+        return ManyTeeth(
+            teeth=self.teeth.pick(role),
+            normal_module=self.normal_module,
+            helix_angle=self.helix_angle,
+            profile_shift=self.shifts.pick(role),
+            rack=self.rack,
+            tip_alteration=self.tip_alteration,
+        )
 
     @cached_property
     def tip_alteration(self) -> Floats:
         """k of both gears: (a - a_d)/m_n - (x_1 + x_2), never positive."""
-        change = (self.centre_distance - (self.diameters.pinion + self.diameters.wheel) / 2) / self.normal_module
+        references = (self.teeth.pinion + self.teeth.wheel) * self.normal_module / np.cos(np.radians(self.helix_angle)) / 2
+        change = (self.centre_distance - references) / self.normal_module
         result: Floats = np.minimum(change - (self.shifts.pinion + self.shifts.wheel), 0.0)
         return result
 
     @cached_property
+    def diameters(self) -> PerGear[Floats]:
+        """Reference diameters d (mm)."""
+        return self.gears.map(lambda gear: np.asarray(gear.reference_diameter))
+
+    @cached_property
+    def base_diameters(self) -> PerGear[Floats]:
+        """Base diameters d_b (mm)."""
+        return self.gears.map(lambda gear: np.asarray(gear.base_diameter))
+
+    @cached_property
     def tip_diameters(self) -> PerGear[Floats]:
         """Tip diameters d_a (mm)."""
-        rise = self.rack.addendum + self.tip_alteration
-        return PerGear(*(d + 2 * self.normal_module * (rise + x) for d, x in zip(self.diameters, self.shifts, strict=True)))
+        return self.gears.map(lambda gear: np.asarray(gear.tip_diameter))
 
     @cached_property
     def root_diameters(self) -> PerGear[Floats]:
         """Root diameters d_f (mm)."""
-        dedendum = self.rack.dedendum
-        return PerGear(*(d - 2 * self.normal_module * (dedendum - x) for d, x in zip(self.diameters, self.shifts, strict=True)))
+        return self.gears.map(lambda gear: np.asarray(gear.root_diameter))
 
-    @cached_property
-    def virtual_teeth(self) -> PerGear[Floats]:
-        """z_n = z/(cos^2 beta_b cos beta)."""
-        divisor = np.cos(self.base_helix) ** 2 * self.cosine
-        return PerGear(*(z / divisor for z in self.teeth))
+    @property
+    def tip_thicknesses(self) -> PerGear[Floats]:
+        """s_an, normal tooth thickness on the tip circle; below 0 the flanks meet before."""
+        return self.gears.map(lambda gear: gear.tip_thickness)
+
+    # ------------------------------------------------------------------ path of contact
 
     @property
     def ratio(self) -> Floats:
         """Gear ratio u."""
         return self.teeth.wheel / self.teeth.pinion
 
-    # ------------------------------------------------------------------ path of contact
+    @cached_property
+    def working_angle(self) -> Floats:
+        """alpha_wt (deg), of a centre distance beyond the base circles."""
+        bases = self.base_diameters.pinion + self.base_diameters.wheel
+        result: Floats = np.degrees(np.arccos(np.minimum(bases / (2 * self.centre_distance), 1.0)))
+        return result
 
     @cached_property
     def tangent(self) -> Floats:
         """T1T2 = a sin alpha_wt."""
-        result: Floats = self.centre_distance * np.sin(self.working_angle)
+        result: Floats = self.centre_distance * np.sin(np.radians(self.working_angle))
         return result
 
     @cached_property
     def tip_reach(self) -> PerGear[Floats]:
         """Length of the base tangent out to the tip circle, of either gear; 0 inside the base circle."""
-        return PerGear(
-            *(
-                np.sqrt(np.maximum((tip - base) * (tip + base), 0.0)) / 2
-                for tip, base in zip(self.tip_diameters, self.base_diameters, strict=True)
-            )
-        )
+        return self.gears.map(lambda gear: gear.tip_reach)
 
     @property
     def lowest_contact(self) -> PerGear[Floats]:
@@ -307,22 +221,12 @@ class ManyPairs(Columns):
     @property
     def form_reach(self) -> PerGear[Floats]:
         """Length of the base tangent out to the root form circle that a hob leaves; below 0 the tooth is undercut."""
-        return PerGear(*map(self._form_reach, self.diameters, self.shifts))
-
-    def _form_reach(self, diameter: Floats, shift: Floats) -> Floats:
-        straight = self.rack.dedendum - self.root_radius * (1 - math.sin(self.normal_angle))
-        return form_reach(diameter, self.transverse_angle, self.normal_module * (straight - shift))
+        return self.gears.map(lambda gear: gear.form_reach)
 
     @property
-    def root_radius(self) -> float:
-        """rho_fP in normal modules, with "full" resolved."""
-        radius = self.rack.root_radius
-        return self.rack.full_root_radius() if radius == "full" else float(radius)
-
-    @cached_property
     def base_pitch(self) -> Floats:
         """Transverse base pitch p_bt (mm)."""
-        return math.pi * self.transverse_module * np.cos(self.transverse_angle)
+        return np.asarray(self.gears.pinion.transverse_base_pitch)
 
     @cached_property
     def contact_ratio(self) -> Floats:
@@ -343,18 +247,6 @@ class ManyPairs(Columns):
                 made.append(np.where(rho > 0, 1 - ratio * tips.pick(role.mate) / rho, -np.inf))
         return PerGear(*made)
 
-    # ------------------------------------------------------------------ tips
-
-    @property
-    def tip_thicknesses(self) -> PerGear[Floats]:
-        """s_an, normal tooth thickness on the tip circle; below 0 the flanks meet before."""
-        parts = (self.diameters, self.base_diameters, self.tip_diameters, self.shifts)
-        return PerGear(*map(self._tip_thickness, *parts))
-
-    def _tip_thickness(self, d: Floats, base: Floats, tip: Floats, shift: Floats) -> Floats:
-        thickness = self.transverse_module * (math.pi / 2 + 2 * shift * math.tan(self.normal_angle))
-        return tip_thickness(d, base, tip, thickness, self.transverse_angle, self.helix_angle)
-
     @property
     def meshes(self) -> Bools:
         """Mask of the pairs whose base circles are apart."""
@@ -369,13 +261,10 @@ def shift_sum_at(
 
     As `profile_shift_sum` of one pair; angles in degrees.
     """
-    cosine = np.cos(np.radians(helix_angle))
-    transverse = np.arctan(math.tan(math.radians(pressure_angle)) / cosine)
-    nearest = normal_module / cosine * teeth / 2 * np.cos(transverse)
+    _, nearest, transverse = transverse_section(normal_module, teeth, helix_angle, pressure_angle)
     with np.errstate(invalid="ignore"):
-        working = np.arccos(np.where(nearest < distance, nearest / distance, np.nan))
-    result: Floats = teeth * (involute_of(working) - involute_of(transverse)) / (2 * math.tan(math.radians(pressure_angle)))
-    return result
+        working = np.degrees(np.arccos(np.where(nearest < distance, nearest / distance, np.nan)))
+    return np.asarray(shift_sum_between(teeth, transverse, working, pressure_angle))
 
 
 def distance_for(shift_sum: Floats, teeth: Floats, normal_module: Floats, helix_angle: Floats, pressure_angle: float) -> Floats:
@@ -383,13 +272,10 @@ def distance_for(shift_sum: Floats, teeth: Floats, normal_module: Floats, helix_
 
     As `zero_backlash_centre_distance` of one pair; angles in degrees.
     """
-    cosine = np.cos(np.radians(helix_angle))
-    transverse = np.arctan(math.tan(math.radians(pressure_angle)) / cosine)
-    value = involute(np.degrees(transverse)) + 2 * math.tan(math.radians(pressure_angle)) * shift_sum / teeth
+    _, nearest, transverse = transverse_section(normal_module, teeth, helix_angle, pressure_angle)
+    value = np.asarray(working_involute(shift_sum, teeth, transverse, pressure_angle))
     working = np.radians(inverse_involute(np.maximum(value, 0.0)))
-    reference = normal_module / cosine * teeth / 2
-    result: Floats = np.where(value > 0, reference * np.cos(transverse) / np.cos(working), np.nan)
-    return result
+    return np.where(value > 0, nearest / np.cos(working), np.nan)
 
 
 _ROUNDING = 1e-4
@@ -508,13 +394,13 @@ def _teeth(gear: Gear, teeth: Numbers, helix: Numbers, shift: Numbers, alteratio
         teeth=teeth,
         normal_module=gear.normal_module,
         helix_angle=helix,
-        shift=shift,
+        profile_shift=shift,
         rack=gear.rack,
         tip_alteration=alteration,
-        thinning=float(gear.tooth_thinning),
+        tooth_thinning=float(gear.tooth_thinning),
         tip_chamfer=gear.body.tip_chamfer,
-        given_tip=gear.tip_diameter if is_given(gear.tip_diameter) else None,
-        given_root=gear.root_diameter if is_given(gear.root_diameter) else None,
+        given_tip_diameter=gear.tip_diameter if is_given(gear.tip_diameter) else None,
+        given_root_diameter=gear.given_root_diameter,
     )
 
 
@@ -522,7 +408,7 @@ def _of_teeth(gear: ManyTeeth, role: Role | None) -> tuple[Limit, ...]:
     """Undercut, and thickness of the teeth and their tips."""
     m = gear.normal_module
     return (
-        Limit(LimitKind.THICKNESS, role, gear.tooth_thickness * np.cos(np.radians(gear.helix_angle)) / m),
+        Limit(LimitKind.THICKNESS, role, np.asarray(gear.normal_tooth_thickness / m)),
         Limit(LimitKind.UNDERCUT, role, gear.form_reach / m),
         Limit(LimitKind.TIP, role, gear.tip_thickness / m),
     )
@@ -534,10 +420,9 @@ def _of_mesh(gears: PerGear[ManyTeeth], distance: Floats) -> tuple[Limit, ...]:
     m = first.normal_module
     bases = np.asarray(first.base_diameter + second.base_diameter)
     with np.errstate(invalid="ignore"):
-        working = np.arccos(np.where(bases < 2 * distance, bases / (2 * distance), np.nan))
-    tangent = distance * np.sin(working)
-    pitch = math.pi * first.base_diameter / first.teeth
-    ratio = (first.tip_reach + second.tip_reach - tangent) / pitch
+        working = np.degrees(np.arccos(np.where(bases < 2 * distance, bases / (2 * distance), np.nan)))
+    tangent = distance * np.sin(np.radians(working))
+    ratio = (first.tip_reach + second.tip_reach - tangent) / first.transverse_base_pitch
     limits = [Limit(LimitKind.CONTACT_RATIO, None, ratio)]
     for role, own in gears.items():
         margin = tangent - gears.pick(role.mate).tip_reach - own.form_reach
@@ -552,7 +437,7 @@ def _backlash(gears: PerGear[ManyTeeth], distance: Floats, working: Floats) -> F
     whole = np.asarray(gears.pinion.teeth + gears.wheel.teeth)
     left = 2 * math.pi / gears.pinion.teeth + np.zeros_like(distance)
     for gear in gears:
-        half = gear.tooth_thickness / gear.diameter + involute_of(gear.transverse_angle)
-        left = left - 2 * gear.teeth / gears.pinion.teeth * (half - involute_of(working))
+        half = gear.transverse_tooth_thickness / gear.reference_diameter + involute(gear.transverse_pressure_angle)
+        left = left - 2 * gear.teeth / gears.pinion.teeth * (half - involute(working))
     result: Floats = left * distance * gears.pinion.teeth / whole
     return result

@@ -11,7 +11,7 @@ import numpy as np
 
 from gearcad.core.errors import InputError, ParameterError, SolverError
 from gearcad.core.quantities import AssumedNumber, Range, Whole, Words, require_fields
-from gearcad.core.records import Notice, Verdict, concise
+from gearcad.core.records import JsonObject, Notice, Verdict, concise
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.dynamics.planetary.planar_model import MemberMass, TrainMasses
 from gearcad.dynamics.planetary.planetary_strength import PUBLISHED, PublishedFactor, TrainStrength, rate_train
@@ -154,7 +154,7 @@ class SizedSet:
         """Whether all was judged and has the safety that is required."""
         return self.strength.strength is Verdict.PASSED
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the set as a document for JSON: mm, kg."""
         return {
             **self.candidate.to_dict(),
@@ -185,7 +185,7 @@ class SizedSets:
         """Sentences on inputs that were not given and are used in the ratings of the sets found, each once."""
         return tuple(dict.fromkeys(text for each in self.found for text in each.strength.assumed))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the sets as a document for JSON."""
         return {
             "kind": "planetary sizes",

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from gearcad.core.errors import GearcadError, InputError
-from gearcad.core.records import PerGear, Pictured, Verdict
+from gearcad.core.records import JsonObject, PerGear, Pictured, Verdict
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.pair_data import profile_shift_sum
@@ -154,7 +154,7 @@ class SizedPair:
         gears = PerGear(*map(gear, PerGear._fields, self.teeth, shifts, hands))
         return GearPair(name=self.name, pinion=gears.pinion, wheel=gears.wheel, centre_distance=self.centre_distance)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the pair as a document for JSON."""
         given = {each: getattr(self, each) for each in _FIGURES}
         pairs = {each: getattr(self, each)._asdict() for each in ("teeth", "flank_safeties", "root_safeties")}
@@ -225,7 +225,7 @@ class Sizing(Pictured):
         rated = (each.strength for each in self.found)
         return tuple(dict.fromkeys(text for strength in rated if strength is not None for text in strength.assumed))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the content of size.json."""
         task = self.task
         given = {name: getattr(task, name) for name in _OF_TASKS}

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from gearcad.core.records import Bools, Floats, Indices, PerGear, Role, Wholes
-from gearcad.rating.contact_stress import elasticity_of
+from gearcad.core.values import Numbers
 from gearcad.rating.dynamic_factor import flank_wear
 from gearcad.rating.editions import Both, both
 from gearcad.rating.load_factor_formulas import (
@@ -22,6 +22,7 @@ from gearcad.rating.load_factor_formulas import (
     FlankWear,
     arrangement_factor,
     body_mass,
+    circumferential_speed,
     dynamic_factor_b,
     dynamic_factor_c,
     face_load_factor,
@@ -53,8 +54,7 @@ from gearcad.rating.scuffing_temperatures import (
     thermo_elastic_factor,
 )
 from gearcad.rating.tolerances import GearTolerances
-from gearcad.rating.tooth_stiffness import material_factor, pair_modulus
-from gearcad.sizing.geometry import Columns, ManyPairs, Numbers
+from gearcad.sizing.geometry import Columns, ManyPairs
 from gearcad.sizing.stresses import NominalStresses, Strengths
 from gearcad.sizing.task import SizeTask
 
@@ -88,7 +88,7 @@ class ManyLoadFactors:
     @cached_property
     def speed(self) -> Numbers:
         """v (m/s) at the reference circle."""
-        return math.pi * self.pairs.diameters.pinion * abs(self.task.load.speed) / 60_000
+        return circumferential_speed(self.pairs.diameters.pinion, self.task.load.speed)
 
     @cached_property
     def outer_load(self) -> Numbers:
@@ -128,7 +128,7 @@ class ManyLoadFactors:
     @cached_property
     def base_pitch_deviation(self) -> Numbers:
         """f_pb, the larger of both gears."""
-        across = np.cos(self.pairs.transverse_angle)
+        across = np.cos(np.radians(self.pairs.gears.pinion.transverse_pressure_angle))
         return _larger(self._deviations(self._options.base_pitch_deviation, lambda each: across * each.single_pitch))
 
     @cached_property
@@ -167,8 +167,12 @@ class ManyLoadFactors:
 
     @property
     def _by_resonance(self) -> Numbers:
-        f_pb, f_fa, stiff = self.base_pitch_deviation, self.profile_form_deviation, self.nominal.single / self.outer_load
-        resonance = resonance_speed(self.pairs.teeth.pinion, self.nominal.mesh_alpha, self.mass)
+        f_pb, f_fa, stiff = (
+            self.base_pitch_deviation,
+            self.profile_form_deviation,
+            self.nominal.stiffness.single / self.outer_load,
+        )
+        resonance = resonance_speed(self.pairs.teeth.pinion, self.nominal.stiffness.mesh_alpha, self.mass)
         return dynamic_factor_b(
             abs(self.task.load.speed) / resonance,
             self.outer_load,
@@ -211,7 +215,7 @@ class ManyLoadFactors:
             return np.full_like(self.outer_load, given)
         initial = self._misalignment
         left = initial - self._wear.beta(initial, self.speed)
-        return face_load_factor(left, 0.85 * self.nominal.mesh_alpha, self._mean_load)
+        return face_load_factor(left, self.nominal.stiffness.mesh_beta, self._mean_load)
 
     @property
     def _misalignment(self) -> Numbers:
@@ -259,7 +263,7 @@ class ManyLoadFactors:
         f_pb, f = self.base_pitch_deviation, np.maximum(self.base_pitch_deviation, self.profile_form_deviation)
         runs_in = f_pb if self._options.alpha_deviation_rule is AlphaDeviation.KISSSOFT_2017 else f
         worn, load = self._wear.alpha(runs_in, self.speed), self._mean_load * self.face_flank
-        return transverse_load_factor(self.total_contact_ratio, self.nominal.mesh_alpha, f, worn, load)
+        return transverse_load_factor(self.total_contact_ratio, self.nominal.stiffness.mesh_alpha, f, worn, load)
 
     @property
     def transverse_flank(self) -> Numbers:
@@ -388,8 +392,7 @@ def nominal_of(task: SizeTask, pairs: ManyPairs, width: Floats) -> NominalStress
         width=width,
         torque=task.load.torque,
         outer_factor=task.load.application_factor * task.rating.mesh_load_factor,
-        elasticity_factor=elasticity_of(task.materials),
-        material_factor=material_factor(pair_modulus(task.materials)),
+        materials=task.materials,
         edition=task.rating.standard,
         accuracy_grade=task.rating.accuracy_grade,
     )
@@ -412,8 +415,8 @@ def _rated(task: SizeTask, pairs: ManyPairs, width: Floats, wanted: Bools, order
     common = nominal.nominal_contact_stress * np.sqrt(loads.flank)
     parts = zip(strengths.flanks, nominal.contact_factors, strict=True)
     flanks = PerGear(*(strength / (factor * common) for strength, factor in parts))
-    parts = zip(strengths.roots, nominal.nominal_root_stresses, strict=True)
-    roots = PerGear(*(strength / (stress * loads.root) for strength, stress in parts))
+    pairs_of = zip(strengths.roots, nominal.roots, strict=True)
+    roots = PerGear(*(strength / (root.nominal_stress * loads.root) for strength, root in pairs_of))
     least = task.rating
     margin = np.minimum(np.minimum(*flanks) / least.required_safety_flank, np.minimum(*roots) / least.required_safety_root)
     rows, columns = np.nonzero(wanted & loads.known & np.isfinite(margin))
@@ -448,17 +451,17 @@ def _temperature(task: SizeTask, nominal: NominalStresses, loads: ManyLoadFactor
     pairs, options = nominal.pairs, task.rating
     if task.load.speed == 0:
         return np.full(nominal.width.shape, np.nan)
-    middle = pairs.base_diameters.pinion / 2 * np.tan(pairs.working_angle)
-    oil, degrees = Oil.of(options), np.degrees
+    middle = pairs.base_diameters.pinion / 2 * np.tan(np.radians(pairs.working_angle))
+    oil = Oil.of(options)
     temperature = IntegralTemperature(
         mesh=SlidingMesh(
             gear_ratio=pairs.ratio,
             centre_distance=pairs.centre_distance,
             normal_pressure_angle=pairs.rack.pressure_angle,
             helix_angle=np.abs(pairs.helix_angle),
-            transverse_pressure_angle=degrees(pairs.transverse_angle),
-            working_pressure_angle=degrees(pairs.working_angle),
-            base_helix_angle=degrees(pairs.base_helix),
+            transverse_pressure_angle=pairs.gears.pinion.transverse_pressure_angle,
+            working_pressure_angle=pairs.working_angle,
+            base_helix_angle=np.abs(pairs.gears.pinion.base_helix_angle),
             wheel_part=(middle - pairs.lowest_contact.pinion) / pairs.base_pitch,
             pinion_part=(pairs.tip_reach.pinion - middle) / pairs.base_pitch,
             tip_curvature=pairs.tip_reach.pinion,

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property, partial
-from typing import Any
+from typing import Any, Generic
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from gearcad.rating.options import LoadBin, RatingOptions
 
 
 @dataclass(frozen=True, kw_only=True)
-class Resistance:
+class Resistance(Generic[Values]):
     """`reference` (MPa) times factors under their symbols: of static strength, and of endurance; the life factor's `points`.
 
     The reference is sigma_Hlim, or sigma_Flim Y_ST. The factors go over from one to the other as `transition` has it.
@@ -38,23 +38,23 @@ class Resistance:
     reference: float
     life_symbol: str
     points: Points
-    static: Mapping[str, float]
-    endurance: Mapping[str, float]
+    static: Mapping[str, Values]
+    endurance: Mapping[str, Values]
 
-    def factors(self, cycles: float | None) -> dict[str, float]:
+    def factors(self, cycles: Values | None) -> dict[str, Values]:
         """Return all factors after a number of load cycles; None means the endurance limit, where the life factor is 1."""
-        count = endurance_cycles(self.points) if cycles is None else cycles
+        count: Values = endurance_cycles(self.points) if cycles is None else cycles
         others = {
             symbol: transition(count, self.static[symbol], value, self.points) for symbol, value in self.endurance.items()
         }
         return {self.life_symbol: interpolated_in_logs(count, self.points), **others}
 
-    def stress(self, cycles: float | None) -> float:
+    def stress(self, cycles: Values | None) -> Values:
         """sigma_HG or sigma_FG (MPa) after so many load cycles."""
         return self.reference * math.prod(self.factors(cycles).values())
 
     @cached_property
-    def curve(self) -> Points:
+    def curve(self: Resistance[float]) -> Points:
         """Corners of the S-N line, straight in log-log: load cycles, rising, and stress (MPa)."""
         return tuple((cycles, self.stress(cycles)) for cycles, _ in self.points)
 
@@ -88,7 +88,7 @@ class PartStrength:
     part: RatedPart
     required: float
     stress: float | None = None
-    resistance: Resistance | None = None
+    resistance: Resistance[float] | None = None
     cycles: float | None = None
     safety: float | None = None
     damage: float | None = None
@@ -394,7 +394,7 @@ def _falling(curve: Points) -> list[tuple[float, float]]:
     return corners
 
 
-def judged(part: RatedPart, role: Role, duty: Duty, resistance: Resistance, required: float) -> PartStrength:
+def judged(part: RatedPart, role: Role, duty: Duty, resistance: Resistance[float], required: float) -> PartStrength:
     """Return the strength of a part under its duty.
 
     The safety under a spectrum is the factor on the stresses at which the damage is 1 (ISO 6336-6).
@@ -418,7 +418,7 @@ def judged(part: RatedPart, role: Role, duty: Duty, resistance: Resistance, requ
     )
 
 
-def _safety(part: RatedPart, role: Role, duty: Duty, resistance: Resistance, scale: float) -> float:
+def _safety(part: RatedPart, role: Role, duty: Duty, resistance: Resistance[float], scale: float) -> float:
     """Return the safety of a part with all torques times `scale`."""
     cycles = duty.cycles.pick(role)
     shares, stresses = duty.stresses(part, role, scale)
@@ -427,13 +427,15 @@ def _safety(part: RatedPart, role: Role, duty: Duty, resistance: Resistance, sca
     return safety_at_failure(cycles * shares, stresses, resistance.curve)
 
 
-def _beyond_knee(cycles: Floats, stresses: Floats, resistance: Resistance) -> float:
+def _beyond_knee(cycles: Floats, stresses: Floats, resistance: Resistance[float]) -> float:
     """Share of the damage by stresses (MPa) below the last corner."""
     whole, above = (damage_sum(cycles, stresses, resistance.curve, endurance=end) for end in (False, True))
     return 1 - above / whole if 0 < whole < math.inf else 0.0
 
 
-def _permissible_torque(part: RatedPart, role: Role, duty: Duty, resistance: Resistance, required: float) -> float | None:
+def _permissible_torque(
+    part: RatedPart, role: Role, duty: Duty, resistance: Resistance[float], required: float
+) -> float | None:
     """Return the permissible torque (N·m), or None if it is beyond the range of the search."""
     scale = torque_at_safety(partial(_safety, part, role, duty, resistance), required, 1.0)
     return scale * abs(duty.whole_torque) if math.isfinite(scale) else None

@@ -5,8 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Generic
+
+import numpy as np
 
 from gearcad.core.records import PerGear, Role
+from gearcad.core.values import Values, larger
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.load import Load
 from gearcad.material import Material, MaterialGroup
@@ -29,6 +33,7 @@ from gearcad.rating.factors import (
     through_hardened_factor,
     work_hardening_factor,
 )
+from gearcad.rating.load_factor_formulas import circumferential_speed
 from gearcad.rating.material_limits import Family
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.root_stress import RootRating
@@ -43,30 +48,30 @@ ROOT_ROUGHNESS = 20.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Conditions:
+class Conditions(Generic[Values]):
     """Viscosity at 40 °C (mm²/s), speed at the reference circle (m/s), rho_red at the pitch point (mm), Rz (µm), m_n (mm).
 
     `assumed` says in words what was not given.
     """
 
     viscosity_40: float
-    speed: float
-    reduced_radius: float
+    speed: Values
+    reduced_radius: Values
     flank_roughness: PerGear[float]
     root_roughness: PerGear[float]
-    normal_module: float
-    gear_ratio: float
-    assumed: tuple[str, ...]
+    normal_module: Values
+    gear_ratio: Values
+    assumed: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, pair: GearPair | RackPair, load: Load, options: RatingOptions) -> Conditions:
+    def of(cls, pair: GearPair | RackPair, load: Load, options: RatingOptions) -> Conditions[float]:
         """Return the conditions of a pair at the speed of the load."""
         pinion = pair.pinion
         teeth: PerGear[Gear | Rack] = PerGear(pinion, pair.wheel if isinstance(pair, GearPair) else pair.rack)
         given = {name: PerGear(*(getattr(gear, name, None) for gear in teeth)) for name in _ROUGHNESS}
-        return cls(
-            viscosity_40=VISCOSITY if options.oil_viscosity_40 is None else options.oil_viscosity_40,
-            speed=math.pi * pinion.reference_diameter * abs(load.speed) / 60_000,
+        return Conditions(
+            viscosity_40=viscosity_of(options),
+            speed=circumferential_speed(pinion.reference_diameter, load.speed),
             reduced_radius=_reduced_radius(pair),
             flank_roughness=_or(given["flank_roughness"], FLANK_ROUGHNESS),
             root_roughness=_or(given["root_roughness"], ROOT_ROUGHNESS),
@@ -74,6 +79,11 @@ class Conditions:
             gear_ratio=pair.gear_ratio if isinstance(pair, GearPair) else math.inf,
             assumed=tuple(_assumed(given, options, "wheel" if isinstance(pair, GearPair) else "rack")),
         )
+
+
+def viscosity_of(options: RatingOptions) -> float:
+    """Return the viscosity at 40 °C (mm²/s), given or assumed."""
+    return VISCOSITY if options.oil_viscosity_40 is None else options.oil_viscosity_40
 
 
 _ROUGHNESS = {"flank_roughness": FLANK_ROUGHNESS, "root_roughness": ROOT_ROUGHNESS}
@@ -113,15 +123,15 @@ HARD = (Family.CASE_HARDENED, Family.SURFACE_HARDENED, Family.NITRIDED, Family.N
 
 
 @dataclass(frozen=True, kw_only=True)
-class WorkHardening:
+class WorkHardening(Generic[Values]):
     """Z_W of the wheel, of static strength and of endurance; `assumed` says what was not given for it."""
 
-    static: float = 1.0
-    endurance: float = 1.0
+    static: Values = 1.0
+    endurance: Values = 1.0
     assumed: str = ""
 
 
-def work_hardening(materials: PerGear[Material], conditions: Conditions) -> WorkHardening:
+def work_hardening(materials: PerGear[Material], conditions: Conditions[Values]) -> WorkHardening[Values]:
     """Return Z_W by clause 13: for a soft steel wheel whose pinion is hard (13.2) or harder (13.3). Of a pinion it is 1."""
     pinion, wheel = materials
     if pinion.group is None or wheel.group is None or not is_soft(wheel.group):
@@ -149,12 +159,12 @@ def brinell(material: Material) -> float | None:
     return material.hardness if structural else _BRINELL_OF_VICKERS * material.hardness
 
 
-def _by_hard_pinion(hardness: float, conditions: Conditions) -> WorkHardening:
+def _by_hard_pinion(hardness: float, conditions: Conditions[Values]) -> WorkHardening[Values]:
     rough = equivalent_roughness(
         *conditions.flank_roughness,
         conditions.reduced_radius,
         conditions.viscosity_40,
-        max(conditions.speed, _SLOWEST),
+        larger(conditions.speed, _SLOWEST),
     )
     return WorkHardening(
         static=static_work_hardening_factor(hardness),
@@ -166,10 +176,10 @@ def flank_resistance(
     role: Role,
     limits: PerGear[float],
     group: MaterialGroup,
-    hardening: WorkHardening,
-    conditions: Conditions,
+    hardening: WorkHardening[Values],
+    conditions: Conditions[Values],
     options: RatingOptions,
-) -> Resistance:
+) -> Resistance[Values]:
     """sigma_HG of one gear: sigma_Hlim Z_NT Z_L Z_v Z_R Z_W Z_X (5); the film goes by the softer gear's sigma_Hlim (12)."""
     softer = min(limits)
     roughness = sum(conditions.flank_roughness) / 2
@@ -182,7 +192,7 @@ def flank_resistance(
         static={"Z_L": 1.0, "Z_v": 1.0, "Z_R": 1.0, "Z_W": hardening.static if wheel else 1.0, "Z_X": size},
         endurance={
             "Z_L": lubricant_factor(softer, conditions.viscosity_40),
-            "Z_v": speed_factor(softer, max(conditions.speed, _SLOWEST)),
+            "Z_v": speed_factor(softer, larger(conditions.speed, _SLOWEST)),
             "Z_R": flank_roughness_factor(softer, roughness, conditions.reduced_radius),
             "Z_W": hardening.endurance if wheel else 1.0,
             "Z_X": size,
@@ -195,31 +205,33 @@ Y_ST = 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class NotchStrength:
+class NotchStrength(Generic[Values]):
     """The strength (MPa) that Y_delta_relT goes by; None of groups that need none. `assumed`: in words, if it was not given."""
 
-    value: float | None
+    value: Values | None
     assumed: str = ""
 
 
-def notch_strength(material: Material, group: MaterialGroup, notch_parameter: float) -> NotchStrength:
+def notch_strength(material: Material, group: MaterialGroup, notch_parameter: Values) -> NotchStrength[Values]:
     """The material's own, or that of its group which makes the factor least."""
     grey = Family.of(group) is Family.GREY_IRON
     name, own = ("tensile_strength", material.tensile_strength) if grey else ("yield_strength", material.yield_strength)
     if own is not None or (cautious := cautious_strength(notch_parameter, group)) is None:
         return NotchStrength(value=own)
-    return NotchStrength(value=cautious, assumed=f"{name} = {cautious:g} MPa of {group.value}: where Y_delta_relT is least")
+    of_one = not isinstance(cautious, np.ndarray)
+    assumed = f"{name} = {cautious:g} MPa of {group.value}: where Y_delta_relT is least" if of_one else ""
+    return NotchStrength(value=cautious, assumed=assumed)
 
 
 def root_resistance(
     role: Role,
     limit: float,
     group: MaterialGroup,
-    strength: float | None,
-    root: RootRating,
-    conditions: Conditions,
+    strength: Values | None,
+    root: RootRating[Values],
+    conditions: Conditions[Values],
     options: RatingOptions,
-) -> Resistance:
+) -> Resistance[Values]:
     """sigma_FG of one gear: sigma_Flim Y_ST Y_NT Y_delta_relT Y_RrelT Y_X (5), and Y_M; static: Y_RrelT = Y_X = 1."""
     mean_stress = both(options.mean_stress_factor).pick(role)
     return Resistance(

@@ -9,7 +9,7 @@ from enum import Enum
 from typing import Any
 
 from gearcad.core import symbols
-from gearcad.core.records import NOT_ASKED_WORDS, Notice, PerGear, Pictured, Role, Verdict, strength_verdict, texts
+from gearcad.core.records import NOT_ASKED_WORDS, JsonObject, Notice, PerGear, Pictured, Role, Verdict, strength_verdict, texts
 from gearcad.geometry import GearPair, RackPair
 from gearcad.load import Load
 from gearcad.material import Material
@@ -215,7 +215,7 @@ class StrengthRating(Pictured):
         """The notices in words."""
         return texts(self.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the content of rate.json without its kind and name."""
 
         return strength_document(self)
@@ -250,7 +250,7 @@ def called(rating: StrengthRating, names: PerGear[str]) -> StrengthRating:
     )
 
 
-def strength_document(of: StrengthRating) -> dict[str, Any]:
+def strength_document(of: StrengthRating) -> JsonObject:
     """Return everything of a rating but its kind and name; unknown values are null."""
     factors = {symbol: value for group in of.factors.values() for symbol, value in group.items()}
     stresses = _stresses(of)
@@ -339,7 +339,7 @@ def _by_symbol(of: StrengthRating, values: PerGear[Any]) -> dict[str, Any]:
     return {key: _gears(of, PerGear(*(each.get(key) for each in values))) for key in keys}
 
 
-def _stresses(of: StrengthRating) -> dict[str, Any]:
+def _stresses(of: StrengthRating) -> JsonObject:
     found: dict[str, Any] = {
         "sigma_Hlim": _gears(of, of.limits.map(lambda each: each.contact)),
         "sigma_H0": of.nominal.flank.nominal_stress,

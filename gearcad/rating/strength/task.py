@@ -92,7 +92,7 @@ class Reasons:
     load: Load
     options: RatingOptions
     limits: PerGear[EnduranceLimits]
-    roots: PerGear[RootRating]
+    roots: PerGear[RootRating[float]]
     error: InputError | None
 
     def of(self, part: RatedPart, role: Role) -> str:
@@ -181,7 +181,7 @@ class StrengthTask:
         return endurance_limits_of(self.materials)
 
     @cached_property
-    def conditions(self) -> Conditions:
+    def conditions(self) -> Conditions[float]:
         """Oil, speed, roughness; under a spectrum the speed is that of its greatest torque."""
         speed = max(self.options.bins, key=lambda each: each.torque).speed if self.options.bins else 1.0
         return Conditions.of(self.pair, replace(self.load, speed=self.load.speed * speed), self.options)
@@ -228,7 +228,7 @@ class StrengthTask:
         return Reasons(self.rated, self.materials, self.load, self.options, self.limits, self.nominal.roots, error)
 
     @cached_property
-    def hardening(self) -> WorkHardening:
+    def hardening(self) -> WorkHardening[float]:
         """Work hardening factor Z_W."""
         return work_hardening(self.materials, self.conditions)
 
@@ -249,7 +249,7 @@ class StrengthTask:
             reason=reason,
         )
 
-    def resistance(self, part: RatedPart, role: Role) -> Resistance | None:
+    def resistance(self, part: RatedPart, role: Role) -> Resistance[float] | None:
         """sigma_HG or sigma_FG of a gear; None without its limits, or group."""
         group, limits = self.materials.pick(role).group, self.limits
         contact = limits.map(lambda each: each.contact)
