@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, fields, replace
 from enum import Enum
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,9 @@ Wholes = NDArray[np.int64]
 
 Indices = NDArray[np.intp]
 """Places in arrays, of the machine's own size."""
+
+JsonObject: TypeAlias = dict[str, Any]
+"""An object of a JSON document: numbers, texts, lists and further objects by their keys."""
 
 
 def distinct(values: Floats) -> Floats:
