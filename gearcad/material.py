@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from enum import StrEnum
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.quantities import (
@@ -20,7 +20,7 @@ from gearcad.core.quantities import (
     Words,
     require_fields,
 )
-from gearcad.core.records import PerGear, concise
+from gearcad.core.records import JsonObject, PerGear, concise
 
 __all__ = [
     "STEEL_MODULUS",
@@ -201,7 +201,7 @@ def by_gear(material: Materials) -> dict[str, Material]:
     return {role.value: each for role, each in materials.items()}
 
 
-def materials_document(material: Materials) -> dict[str, Any]:
+def materials_document(material: Materials) -> JsonObject:
     """Return the materials as documents have them: "material" of both, or "materials" by gear."""
     if isinstance(material, Material):
         return {"material": asdict(material)}

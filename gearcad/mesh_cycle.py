@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core.errors import SolverError, require_whole
-from gearcad.core.records import Floats, Notice, Pictured, texts
+from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
 
 __all__ = ["FourierSeries", "MeshCycle"]
 
@@ -32,7 +32,7 @@ class FourierSeries(NamedTuple):
         """Amplitude of each harmonic (N/µm)."""
         return np.hypot(self.cosine, self.sine)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the series as `stiffness.json` has it."""
         return {
             "mean": self.mean,
@@ -194,7 +194,7 @@ class MeshCycle(Pictured):
         weighted = 2 * self.weights * values
         return FourierSeries(float(self.weights @ values), np.cos(turns) @ weighted, np.sin(turns) @ weighted)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return figures and curves as `stiffness.json` has them: N/µm, µm/N, µm, degrees; per face width N/(mm·µm)."""
         course: dict[str, Any] = (
             {}

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 
 from gearcad.core.errors import GearcadError, OutputError, ParameterError, SpecError, out_of_memory
 from gearcad.core.output import UNWRITABLE, json_text, locked, unwritable
-from gearcad.core.records import PerGear
+from gearcad.core.records import JsonObject, PerGear
 from gearcad.core.runtime import PACKAGE
 from gearcad.core.symbols import PER_GEAR
 from gearcad.designs import Design
@@ -279,7 +279,7 @@ def _since(began: float) -> float:
     return round(time.perf_counter() - began, 4)
 
 
-def _document(task: Task, folder: Path) -> dict[str, Any]:
+def _document(task: Task, folder: Path) -> JsonObject:
     """Return the content of data.json, with the figures of the other jobs' documents under their verbs."""
     document = _read(folder, DATA)
     for job in task.stages:

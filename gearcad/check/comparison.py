@@ -7,12 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from enum import Enum
 from functools import cached_property
-from typing import Any
 
 from gearcad.check.options import Model
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
-from gearcad.core.records import PerGear, Role, Verdict
+from gearcad.core.records import JsonObject, PerGear, Role, Verdict
 from gearcad.rating.load_factors import LoadFactors
 from gearcad.rating.strength import PartStrength, RatedPart, StrengthRating
 from gearcad.rating.strength.duty import stresses_of
@@ -89,7 +88,7 @@ class Comparison:
             return abs(deviation) <= self.tolerance
         return deviation >= 0 if self.least else deviation <= 0
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the comparison as `check.json` has it."""
         words = {"role": self.role.value, "subject": self.subject.value}
         found = {"deviation": self.deviation, "evaluated": self.evaluated, "passed": self.passed}
@@ -328,7 +327,7 @@ class CheckStrength:
         """Whether the strength of any part was judged."""
         return any(each.rated.safety is not None for both in self.parts.values() for each in both)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the strength as `check.json` has it."""
         parts = {part.value: {role.value: each.to_dict() for role, each in both.items()} for part, both in self.parts.items()}
         applied = {part.value: dict(factors) for part, factors in self.applied.items()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from gearcad.check.summary import STRESSES, by_name, figures
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.shared.loaded import Cycle
 from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.core.records import PerGear, Role
+from gearcad.core.records import JsonObject, PerGear, Role
 
 FEW_POSITIONS = 12
 """Positions of a mesh cycle where only its extremes matter."""
@@ -65,7 +65,7 @@ class Convergence:
         """Name of the figure in a summary."""
         return _FIGURES[self.quantity]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the convergence as `check.json` has it."""
         return asdict(self)
 
@@ -172,7 +172,7 @@ class SweepPoint(NamedTuple):
     root_tension: PerGear[float]
     torsional_stiffness: PerGear[float]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the point as `check.json` has it."""
         return by_name(self._asdict())
 
@@ -222,7 +222,7 @@ class SweepTrends(NamedTuple):
         low, high = self.first.torque, self.last.torque
         return math.log(values[-1] / values[0]) / math.log(high / low) if high > low else None
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the exponents as `check.json` has them."""
         roots = self.root_exponents
         return {

@@ -14,7 +14,7 @@ from gearcad.check.task import CheckTask, face_factors
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.shared.loaded import Cycle
 from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.core.records import Floats, PerGear, Role
+from gearcad.core.records import Floats, JsonObject, PerGear, Role
 from gearcad.meshing.outline import OutlineSide
 from gearcad.rating.tooth_stiffness import mesh_stiffness_alpha
 
@@ -57,7 +57,7 @@ _SAME_WIDTH = 1e-6
 class Explanation:
     """Figures that explain a difference."""
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the figures as `check.json` has them."""
         return {name: _plain(value) for name, value in vars(self).items()}
 

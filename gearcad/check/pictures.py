@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -30,7 +30,7 @@ from gearcad.contact.solid.cycle import (
     worst_field,
     write_vtu,
 )
-from gearcad.core.records import Bools, Floats, PerGear, Role, Wholes
+from gearcad.core.records import Bools, Floats, JsonObject, PerGear, Role, Wholes
 from gearcad.geometry import Gear
 from gearcad.meshing.outline import OutlineSide
 from gearcad.rating.contact_stress import LineContact, Stresses
@@ -266,7 +266,7 @@ class AlongFace(NamedTuple):
         """Mean of the load (N/mm)."""
         return float(np.mean(self.load))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the curves as `check.json` has them."""
         return {
             "across": self.across.tolist(),

@@ -11,7 +11,7 @@ from gearcad.check.task import CheckTask
 from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.contact.shared.loaded import Cycle, FlankCompliance, FlexiblePair, PairContact
 from gearcad.contact.shared.local_contact import onsets, start_lengths
-from gearcad.core.records import Notice, PerGear, Role
+from gearcad.core.records import JsonObject, Notice, PerGear, Role
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.modification import ReliefTransition, TransitionSource, longest_transition
 
@@ -59,7 +59,7 @@ class ReliefStart:
         others = [f"{value:.5g} MPa with {words} t" for value, words in ((self.half, "half"), (self.twice, "twice")) if value]
         return "; ".join([*of_each, *others])
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the start as `check.json` has it: lengths in mm, w in µm, pressures in MPa."""
         reliefs = {
             of.name: {

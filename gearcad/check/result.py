@@ -47,7 +47,7 @@ from gearcad.contact.shared.loaded import Cycle, Extreme, LoadedPosition, RootSt
 from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact
 from gearcad.core.errors import GearcadError
 from gearcad.core.quantities import with_assumed
-from gearcad.core.records import NOT_ASKED_WORDS, Notice, PerGear, Pictured, Verdict, strength_verdict, texts
+from gearcad.core.records import NOT_ASKED_WORDS, JsonObject, Notice, PerGear, Pictured, Verdict, strength_verdict, texts
 from gearcad.core.runtime import one_thread
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -72,7 +72,7 @@ class StiffnessMethods(NamedTuple):
     comparison: StiffnessComparison | None
     reason: str = ""
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """The figures of each as in `stiffness.json`, which has their curves too; stiffness in N/µm."""
         if self.comparison is None:
             return {"methods": {}, "left_out": {}, "reason": self.reason}
@@ -225,7 +225,7 @@ class CheckResult(Pictured, ABC):
     # ------------------------------------------------------------------ files and documents
 
     @property
-    def own_document(self) -> dict[str, Any]:
+    def own_document(self) -> JsonObject:
         """Part of `check.json` that only this model has."""
         return {}
 
@@ -311,7 +311,7 @@ class CheckResult(Pictured, ABC):
         return (*self.notices, *(notice.within("rating") for notice in self.rating.notices))
 
 
-def check_document(result: CheckResult) -> dict[str, Any]:
+def check_document(result: CheckResult) -> JsonObject:
     """Return everything of a check under the names of check.json."""
     document = {
         "kind": "check",
@@ -347,7 +347,7 @@ def check_document(result: CheckResult) -> dict[str, Any]:
     return with_assumed(document)
 
 
-def reported_document(result: CheckResult) -> dict[str, Any]:
+def reported_document(result: CheckResult) -> JsonObject:
     """Return the document with all that a report shows: also the mesh stiffness by other methods.
 
     This takes part of the check's time.
@@ -362,7 +362,7 @@ def _extreme(of: Extreme | None) -> dict[str, float | None] | None:
     return {"value": of.value, "roll_angle": of.roll_angle, "error": of.error if math.isfinite(of.error) else None}
 
 
-def _cycle(result: CheckResult) -> dict[str, Any]:
+def _cycle(result: CheckResult) -> JsonObject:
     """Lists over the positions; those of load share and pressure hold one value for each of `pairs`, 0 out of contact.
 
     The pressure of a contact of edges alone is null: it depends on the mesh.
@@ -503,7 +503,7 @@ class SolidCheck(CheckResult):
     # ------------------------------------------------------------------ files and documents
 
     @property
-    def own_document(self) -> dict[str, Any]:
+    def own_document(self) -> JsonObject:
         return {"load_distribution": load_distribution(self.cycle), "face": self.along_face.to_dict()}
 
     @property

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
 
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, SOLID_FACTORS, sweep_points, three_meshes, three_solid_meshes
 from gearcad.check.gates import compare_plane, compare_solid
@@ -22,7 +21,7 @@ from gearcad.contact.shared.line_of_action import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle, wide_solid_contacts
 from gearcad.contact.solid.pair import LEFT, POSITION_SECONDS, SolidPair, SolidSizes, expected_bodies, solid_pair
 from gearcad.core.errors import ParameterError
-from gearcad.core.records import Floats, Notice, freeze
+from gearcad.core.records import Floats, JsonObject, Notice, freeze
 from gearcad.core.runtime import Agenda, Expected, Progress, Share, machine_memory, unheard
 from gearcad.load import Load
 from gearcad.meshing.outline import MeshSizes
@@ -318,7 +317,7 @@ class LoadDistribution:
         """Face load factor and misalignment in the form that a rating takes."""
         return BodyLoad(factor=self.face_load_factor, misalignment=abs(self.misalignment), mounted=self.mounted)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the distribution as documents have it."""
         return {
             "K_Hbeta": self.face_load_factor,

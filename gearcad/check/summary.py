@@ -19,7 +19,7 @@ from gearcad.contact.plane.cycle import (
 )
 from gearcad.contact.shared.loaded import INTERIOR, Cycle, Extreme, ExtremeQuantity, LoadedPosition, RootStress
 from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact, SolidPosition
-from gearcad.core.records import Floats, PerGear, Role
+from gearcad.core.records import Floats, JsonObject, PerGear, Role
 from gearcad.rating.contact_stress import LineContact
 
 _Position: TypeAlias = LoadedPosition[Any]
@@ -73,7 +73,7 @@ SOLID: tuple[ExtremeQuantity[SolidPosition], ...] = (
 _ABOUT = ("missing", "extremes", "mean_error")
 
 
-def by_name(values: Mapping[str, Any]) -> dict[str, Any]:
+def by_name(values: Mapping[str, Any]) -> JsonObject:
     """Return values by the names in `check.json`: a figure of both gears gets a name for each, `root_tension_pinion`."""
     document: dict[str, Any] = {}
     for name, value in values.items():
@@ -135,7 +135,7 @@ class Summary:
         known = {name: of.error for name, of in self.extremes.items() if of is not None}
         return {"mesh_stiffness_mean": self.mean_error, **known}
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the figures as `check.json` has them, without the fields about the figures."""
         return by_name({name: value for name, value in vars(self).items() if name not in _ABOUT})
 

@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Protocol, Self
 
 from gearcad.core.errors import ParameterError, SpecError, format_number, shown, shown_path
 from gearcad.core.output import file_bytes
-from gearcad.core.records import Notice, concise, texts
+from gearcad.core.records import JsonObject, Notice, concise, texts
 from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear
 from gearcad.version import __version__
@@ -276,7 +276,7 @@ class Described(Protocol):
     @property
     def notices(self) -> tuple[Notice, ...]: ...
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Inputs and derived properties under their field names."""
 
 
@@ -328,7 +328,7 @@ class Design(ABC):
         if self.kind not in kinds:
             raise ParameterError("kind", self.kind.words, f"must be {kinds_in_words(kinds)}: {self.elsewhere or why}")
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
         document: dict[str, Any] = {"kind": self.kind.value, "name": self.name, "gearcad": __version__}
         return document | {name: each.to_dict() for name, each in self.described.items()}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypedDict
 
 from gearcad.core.errors import GeometryError, SpecError, format_number, shown
 from gearcad.core.quantities import parts_of, with_assumed
-from gearcad.core.records import PerGear
+from gearcad.core.records import JsonObject, PerGear
 from gearcad.designs.design import Described, Design, Where
 from gearcad.designs.keys import BESIDE, KEYS, MAIN_TABLES, DesignKind, explain_unknown_table
 from gearcad.designs.spec import AUTO, Spec, drawing_documents, drawings_of, khk_reminder, materials_of
@@ -52,7 +52,7 @@ class ToothedDesign(Design):
         """Return the pair in mesh, or None for a single gear or rack."""
         return None
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """The document of `data.json`: inputs and derived properties under their field names (mm, degrees).
 
         "assumed" has the inputs that nobody gave, such as "load.application_factor = 1".

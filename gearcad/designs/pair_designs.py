@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, as_choice, require_number
 from gearcad.core.quantities import NOT_GIVEN, is_given, schema_of
-from gearcad.core.records import PerGear, Role, naming
+from gearcad.core.records import JsonObject, PerGear, Role, naming
 from gearcad.designs.design import Described, Where
 from gearcad.designs.gear_designs import GearedDesign, ToothedDesign, beside_teeth, require_tables, require_tables_of_racks
 from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_GEAR_PAIRS, OF_RACK_PAIRS, SHARED, DesignKind
@@ -374,7 +374,7 @@ class RackPairDesign(ToothedDesign):
         """Pinion and rack, and the pair that they make."""
         return {"pinion": self.pair.pinion, "rack": self.pair.rack, "pair": self.pair}
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """The document of `data.json`; what a load comes to on the rack is "drive" there."""
         document = super().to_dict()
         if self.load is None:

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Self, TypeVar
 from gearcad.check.options import CheckOptions
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, format_number
 from gearcad.core.quantities import schema_of
-from gearcad.core.records import Notice, Role
+from gearcad.core.records import JsonObject, Notice, Role
 from gearcad.designs.design import Described, Where, require_plain_name
 from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import BESIDE, OF_SETS, SHARED, SPEEDS, DesignKind
@@ -319,7 +319,7 @@ class PlanetaryDesign(ToothedDesign):
             raise ParameterError("load.output_torque", None, permitted)
         return self.load
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """The document of `data.json`: gears under their names, the train under "planetary" (mm, degrees)."""
         return super().to_dict() | ({SPEEDS: dict(self.speeds)} if self.speeds else {})
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 from gearcad.check.options import CheckOptions
 from gearcad.core.errors import InputError, ParameterError, SpecError, as_choice, format_number, printable, shown
 from gearcad.core.quantities import FieldSchema, parts_of, schema_of, with_assumed
-from gearcad.core.records import Role
+from gearcad.core.records import JsonObject, Role
 from gearcad.designs.design import Design, Where, kinds_in_words, read_tables, require_plain_name
 from gearcad.designs.keys import BESIDE, MAIN_TABLES, OF_SETS, DesignKind, permitted_words
 from gearcad.designs.pair_designs import PairDesign
@@ -341,7 +341,7 @@ class TrainDesign(Design):
             raise ParameterError("kind", self.kind.words, f"must be {kinds_in_words(kinds)}: {pairs}")
         super().require_kind(*kinds, why=why)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """The document of `data.json`: the train and its parts, each kind under its table, and the options."""
         options = {
             key: value

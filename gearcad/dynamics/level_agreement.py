@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.core.records import Bools, Floats, Indices, freeze
+from gearcad.core.records import Bools, Floats, Indices, JsonObject, freeze
 from gearcad.dynamics.options import OperatingRange
 from gearcad.dynamics.response.kv_chart import KvChart
 from gearcad.dynamics.train_result import TrainStudy
@@ -62,7 +62,7 @@ class Doubt(NamedTuple):
     words: str
     charts: tuple[str, ...]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the doubt in `dynamics.json`."""
         return {"words": self.words, "charts": list(self.charts)}
 
@@ -75,7 +75,7 @@ class NotJudged(NamedTuple):
     reason: Reason
     charts: tuple[str, ...]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the range in `dynamics.json`."""
         return {**self._asdict(), "reason": self.reason.value, "charts": list(self.charts)}
 
@@ -93,7 +93,7 @@ class Difference(NamedTuple):
         """Difference of both loads, in parts of the load at rest."""
         return self.greater - self.other
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the difference in `dynamics.json`."""
         return {
             **self.curve._asdict(),

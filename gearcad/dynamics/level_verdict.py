@@ -11,11 +11,11 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Set
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.core.records import Floats
+from gearcad.core.records import Floats, JsonObject
 from gearcad.dynamics.level_agreement import OUTSIDE, SHIFT, Agreement, CurveName, Difference, NotJudged, percent
 from gearcad.dynamics.options import OperatingRange
 from gearcad.dynamics.response.speed_curves import LEAST_RATIO, quasi_static_spectrum
@@ -73,7 +73,7 @@ class Share(NamedTuple):
         """Share, energy and part in words, for use in a sentence."""
         return f"{percent(self.share)} of its {self.energy} energy in {self.part}"
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the share in `dynamics.json`."""
         return {**self._asdict(), "through": list(self.through), "energy": self.energy}
 
@@ -94,7 +94,7 @@ class Decision(NamedTuple):
     frequency: float
     shares: tuple[Share, ...]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the decision in `dynamics.json`."""
         return {**self._asdict(), "curve": self.curve._asdict(), "shares": [each.to_dict() for each in self.shares]}
 
@@ -266,7 +266,7 @@ class LevelResonance(NamedTuple):
         """Relative difference in speed of the level's resonance from that of the reference; None if the level has none."""
         return None if self.own_speed is None else self.own_speed / self.speed - 1
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the resonance in `dynamics.json`."""
         return {**self._asdict(), "moved": self.moved}
 
@@ -379,7 +379,7 @@ class LevelVerdict:
         for doubt in self.agreement.doubts:
             yield f"not sure: {doubt.words}, in {' and '.join(doubt.charts)}"
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the verdict in `dynamics.json`."""
         return {
             "model": self.model.value,
@@ -503,7 +503,7 @@ class LevelStudy(SideBySide):
             parts.append(f"Shafts that carry next to nothing at rest are not judged: {', '.join(self.idle_shafts)}.")
         return tuple(parts)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the document of the study for `dynamics.json`."""
         return {
             **super().to_dict(),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from gearcad.core.quantities import (
     Words,
     require_fields,
 )
-from gearcad.core.records import Bools, Floats, Notice, PerGear, concise
+from gearcad.core.records import Bools, Floats, JsonObject, Notice, PerGear, concise
 from gearcad.dynamics.time_domain.contact_model import EngagedPairs
 from gearcad.dynamics.time_domain.transient_result import TransientOptions
 from gearcad.dynamics.trains.tooth_deviations import ErrorDistribution
@@ -343,7 +343,7 @@ class OperatingRange(NamedTuple):
             return self
         return OperatingRange(float(speeds[0]), float(speeds[-1]), RangeSource.CHART)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the range in `dynamics.json`."""
         return {**self._asdict(), "source": self.source.value}
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
-from gearcad.core.records import Floats, Notice, PerGear, Pictured, texts
+from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Pictured, texts
 from gearcad.dynamics.options import idle_without_levels, undamped_bearings
 from gearcad.dynamics.result_tables import Tables, campbell_columns, cycle_columns, history_columns, spectrum_columns
 from gearcad.dynamics.time_domain.contact_model import ContactModel
@@ -90,7 +89,7 @@ class PairStudy(Pictured):
             )
             yield Notice("free-ring", text)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the document of the study for `dynamics.json`."""
         return {
             "model": "mesh",
@@ -145,7 +144,7 @@ class ContactStudy(Pictured):
         """The notices in words."""
         return texts(self.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the document of the study for `dynamics.json`."""
         model = self.model
         return {

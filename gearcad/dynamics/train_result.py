@@ -6,12 +6,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.core.records import Floats, Notice, Pictured, texts
+from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
 from gearcad.dynamics.options import DynamicsOptions, OperatingRange, operating_range
 from gearcad.dynamics.response.chart_findings import (
     ChartResonance,
@@ -77,7 +76,7 @@ class Course:
     order: Floats
     line: Floats
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the course in `dynamics.json`."""
         return {name: value if isinstance(value, float) else value.tolist() for name, value in vars(self).items()}
 
@@ -133,7 +132,7 @@ class ModalStudy:
     def lasting(self, _mesh: int) -> None:
         """Return None: without loads over speed there is no lasting force to compare a run with."""
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the document of the study for `dynamics.json`, without chart and course."""
         return {
             "model": self.train.model.value,
@@ -331,7 +330,7 @@ class TrainStudy(Pictured):
         """The notices in words."""
         return texts(self.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the document of the study for `dynamics.json`; frequencies in Hz and 1/s, speeds in rpm."""
         return {
             "model": self.train.model.value,

@@ -6,12 +6,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.core.errors import ParameterError
-from gearcad.core.records import Floats, Notice, Pictured, joined, texts
+from gearcad.core.records import Floats, JsonObject, Notice, Pictured, joined, texts
 from gearcad.dynamics.result_tables import Tables, stacked
 from gearcad.dynamics.time_domain.spectra import outstanding
 from gearcad.dynamics.tooth_errors.error_result import ErrorStudy
@@ -299,7 +299,7 @@ class SideBySide(Pictured):
         """The notices in words."""
         return texts(self.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the document for `dynamics.json`: `studies` are documents of their own, in the order of the labels."""
         return {
             "what": self.what,
@@ -314,7 +314,7 @@ class SideBySide(Pictured):
             "notices": [notice.to_dict() for notice in self.notices],
         }
 
-    def _resonance_dict(self, resonance: SameResonance) -> dict[str, Any]:
+    def _resonance_dict(self, resonance: SameResonance) -> JsonObject:
         shown = [
             None if peak is None else {**peak._asdict(), "moved": resonance.moved(study, self.reference)}
             for study, peak in enumerate(resonance.shown)

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
 from html import escape
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Polynomial
@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from gearcad.core import symbols
 from gearcad.core.errors import GeometryError, InputError, format_number
 from gearcad.core.quantities import derive, symbols_of
-from gearcad.core.records import Floats, Notice, PerGear, Role, concise, texts
+from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Role, concise, texts
 from gearcad.geometry.feasibility import check_given, check_tool, trimming_notices
 from gearcad.geometry.gear_data import GearData, check_body, corner_notices, fillet_tool, shaper_tip, twist
 from gearcad.geometry.gear_parts import DoubleHelix
@@ -416,7 +416,7 @@ class Gear(GearData):
     def _repr_html_(self) -> str:
         return gear_html(self, self.profile)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
         parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix", "body")}
         parts["body"]["hub_side"] = self.body.hub_side.value

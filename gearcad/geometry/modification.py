@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from gearcad.core.errors import GeometryError, at_most
 from gearcad.core.quantities import Range, Words, require_fields
-from gearcad.core.records import Floats, concise
+from gearcad.core.records import Floats, JsonObject, concise
 from gearcad.geometry.involute import tangent_length
 from gearcad.geometry.profile import ToothProfile
 
@@ -180,7 +180,7 @@ class FlankModification:
         """True if the depth depends on the place along the face width."""
         return any((self.lead_crowning, self.end_relief, self.helix_angle_modification, self.twist))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """All fields, shapes as words."""
         values = {each.name: getattr(self, each.name) for each in fields(self)}
         return {name: value.value if isinstance(value, ReliefShape) else value for name, value in values.items()}
@@ -274,7 +274,7 @@ class FlankForm:
             found[name] = ReliefTransition(self._starts[name], transition, amount / 1000 / length, source)
         return found
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return all fields of the modification and what `in_use` adds to them, None where there is no transition."""
         added = {f"{name}_{what}": None for name in _PROFILE_RELIEFS for what in ("transition_source", "rounding")}
         return self.modification.to_dict() | added | self.in_use

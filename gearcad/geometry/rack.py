@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from gearcad.core import symbols
 from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, require_name
 from gearcad.core.quantities import NOT_GIVEN, Range, Whole, Words, derive, derive_count, is_given, require_fields, symbols_of
-from gearcad.core.records import Floats, Notice, concise, texts
+from gearcad.core.records import Floats, JsonObject, Notice, concise, texts
 from gearcad.geometry.feasibility import LEAST_HELIX
 from gearcad.geometry.gear import CHORD_ERROR, THIN_TIP, Gear, Pose, RackPose, drawing, gear_shapes, polygon, sheet
 from gearcad.geometry.gear_data import LEAST_RIM
@@ -533,7 +533,7 @@ class Rack(RackData):
     def _repr_html_(self) -> str:
         return rack_html(self, self.profile)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Inputs and derived properties under their field names, for JSON."""
         inputs = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "rack"}
         rack = {f.name: getattr(self.rack, f.name) for f in fields(self.rack)}

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 from gearcad.core.errors import InputError, SolverError
 from gearcad.core.quantities import NOT_GIVEN
-from gearcad.core.records import Floats, Notice, Pictured, texts
+from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
 from gearcad.geometry import BasicRack, Gear
 from gearcad.identify.fit import FittedHypothesis, read_off, touches
 from gearcad.identify.measurements import Measured, Reading
@@ -73,7 +72,7 @@ class Candidate:
         """Standard uncertainty of the normal tooth thinning (mm)."""
         return self.gear.tooth_thinning * self.fit.uncertainty(Unknown.THINNING)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the candidate as identify.json has it."""
         gear = self.gear
         return {
@@ -205,7 +204,7 @@ class Deciding:
     predicted: tuple[float, ...]
     apart: tuple[float, ...]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the measurement as identify.json has it."""
         said, less = self.place.to_dict(), None if self.less is None else self.less.to_dict()
         for each in (said, less or {}):
@@ -288,7 +287,7 @@ class Identification(Pictured):
         """The notices in words."""
         return texts(self.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the content of identify.json."""
         return {
             "kind": "identify",

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 from gearcad.core.errors import ParameterError, is_finite_number, plain_numbers, require_whole
 from gearcad.core.quantities import Range, Whole, Words
-from gearcad.core.records import Notice
+from gearcad.core.records import JsonObject, Notice
 
 LENGTH, ANGLE = Range("mm", 0, 1e6, ends="(]"), Range("deg", -60, 60, ends="()")
 """Kinds of readings."""
@@ -120,7 +120,7 @@ class Reading:
         words = _SIZED.get(self.gauge, self.gauge.value.replace("_", " "))
         return words.format(self.size, "spaces" if ring else "teeth")
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the reading as documents have it."""
         size = {"teeth": int(self.size)} if self.gauge is Gauge.SPAN else {self._size: self.size}
         beside = size if self.gauge in _SIZED else {}

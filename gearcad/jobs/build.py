@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from gearcad.core.errors import GeometryError, ParameterError, as_choice
-from gearcad.core.records import Notice
+from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Progress
 from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import ToothedDesign
@@ -152,7 +152,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             require_facets(design, self.options)
         return design
 
-    def document(self, result: ToothedDesign) -> dict[str, Any]:
+    def document(self, result: ToothedDesign) -> JsonObject:
         """Return the document that `--json` prints: kind, name of the design, and gearcad's version."""
         return {"kind": "build", "name": result.name, "gearcad": __version__}
 

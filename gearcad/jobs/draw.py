@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 from gearcad.core.dxf import write_document as write_dxf
 from gearcad.core.errors import GeometryError, InputError, ParameterError, as_choice, as_path, require_switch, require_whole
 from gearcad.core.output import staged_files
-from gearcad.core.records import Notice, is_assumed
+from gearcad.core.records import JsonObject, Notice, is_assumed
 from gearcad.core.runtime import Progress
 from gearcad.designs import (
     Design,
@@ -189,7 +189,7 @@ class Draw(Job[ToothedDesign, Drawing]):
             with _blaming("" if assembly is None else gear.role):
                 yield draw_gear(gear, options, own.get(gear.role), alone=assembly is None)
 
-    def document(self, result: Drawing) -> dict[str, Any]:
+    def document(self, result: Drawing) -> JsonObject:
         """Return the content of draw.json: the files of each sheet, and the unrounded values of the numbers on it."""
         sheets = [
             {
@@ -209,7 +209,7 @@ class Draw(Job[ToothedDesign, Drawing]):
     def notices(self, result: Drawing) -> Sequence[Notice]:
         return result.notices
 
-    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+    def figures(self, document: JsonObject) -> JsonObject:
         """Return the number of sheets, and the notices about them as warnings."""
         notices = (Notice(**each) for each in document["notices"])
         return {"sheets": len(document["sheets"]), "warnings": [str(each) for each in notices]}
@@ -422,7 +422,7 @@ class Picture(Job[ToothedDesign, PictureShot]):
         if width * height * frames > most:
             raise ParameterError("size", f"{width}x{height}", f"must be at most {most / 1e6:.0f} million pixels{words}")
 
-    def document(self, result: PictureShot) -> dict[str, Any]:
+    def document(self, result: PictureShot) -> JsonObject:
         """Return the content of picture.json."""
         loop = result.shot.loop
         turning = loop and {

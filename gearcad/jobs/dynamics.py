@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from gearcad.check.options import CheckOptions
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SolverError
 from gearcad.core.quantities import with_assumed
-from gearcad.core.records import Notice, PerGear, Role
+from gearcad.core.records import JsonObject, Notice, PerGear, Role
 from gearcad.core.runtime import Agenda, Expected, Progress, one_thread
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, TrainDesign
 from gearcad.designs.cells import cell_text, guarded_text, write_csv
@@ -77,7 +77,7 @@ _MOST_FREQUENCIES = 6
 """Natural frequencies above 0 that a line has of a train."""
 
 
-def dynamics_columns(document: Mapping[str, Any]) -> dict[str, Any]:
+def dynamics_columns(document: Mapping[str, Any]) -> JsonObject:
     """Return the figures of a document of dynamics for one line of a table.
 
     Of a pair: inertias and stiffness, its natural frequency, K_v at the speed and the highest. Of a train: its first natural
@@ -103,7 +103,7 @@ def dynamics_columns(document: Mapping[str, Any]) -> dict[str, Any]:
     return {**found, "warnings": document["warnings"]}
 
 
-def _dynamics_columns_of_train(document: Mapping[str, Any]) -> dict[str, Any]:
+def _dynamics_columns_of_train(document: Mapping[str, Any]) -> JsonObject:
     modes = document["modes"]
     elastic = modes["frequency"][modes["rigid"] :][:_MOST_FREQUENCIES]
     found = {f"frequency_{number}": each for number, each in enumerate(elastic, 1)}
@@ -193,14 +193,14 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
         except (InputError, SolverError):
             return None  # `run` says why
 
-    def document(self, result: Study) -> dict[str, Any]:
+    def document(self, result: Study) -> JsonObject:
         """Return the content of dynamics.json: everything but the long arrays."""
         return with_assumed({"kind": "dynamics", "name": result.name, "gearcad": __version__, **result.to_dict()})
 
     def notices(self, result: Study) -> Sequence[Notice]:
         return result.notices
 
-    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+    def figures(self, document: JsonObject) -> JsonObject:
         """Return the figures for one line of a table."""
         return dynamics_columns(document)
 

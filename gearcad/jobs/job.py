@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeAlias, TypeVar, Un
 
 from gearcad.core.errors import ParameterError, as_path
 from gearcad.core.output import json_text, staged_files
-from gearcad.core.records import Notice, PerGear
+from gearcad.core.records import JsonObject, Notice, PerGear
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
@@ -75,7 +75,7 @@ class Job(ABC, Generic[Accepted, Result]):
         return cast("Accepted", design)
 
     @abstractmethod
-    def document(self, result: Result) -> dict[str, Any]:
+    def document(self, result: Result) -> JsonObject:
         """Return the content of VERB.json, which `--json` prints."""
 
     def notices(self, _result: Result) -> Sequence[Notice]:
@@ -124,7 +124,7 @@ class Job(ABC, Generic[Accepted, Result]):
         """Return the job that makes these parts of a row, without options that the row does not use."""
         return self
 
-    def figures(self, _document: dict[str, Any]) -> dict[str, Any]:
+    def figures(self, _document: JsonObject) -> JsonObject:
         """Return the figures of a document for a table of results; their columns begin with the verb."""
         return {}
 
@@ -196,7 +196,7 @@ class Data(Job[Design, Design]):
     def run(self, design: Design, progress: Progress | None = None) -> Design:
         return self.accepted(design, progress)
 
-    def document(self, result: Design) -> dict[str, Any]:
+    def document(self, result: Design) -> JsonObject:
         """Return the content of data.json: inputs and derived properties under their field names (mm, degrees)."""
         return result.to_dict()
 
@@ -204,7 +204,7 @@ class Data(Job[Design, Design]):
         return result.notices
 
 
-def data(subject: Subject | Train, load: Load | None = None, **inputs: Unpack[Inputs]) -> dict[str, Any]:
+def data(subject: Subject | Train, load: Load | None = None, **inputs: Unpack[Inputs]) -> JsonObject:
     """Every derived quantity of a gear, a rack, a pair or a train with its inputs, nested as data.json has it: mm, degrees.
 
     >>> from gearcad import Gear

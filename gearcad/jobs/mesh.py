@@ -9,7 +9,7 @@ from typing import Any, Unpack
 
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.task import CheckTask
-from gearcad.core.records import Notice, PerGear, Role
+from gearcad.core.records import JsonObject, Notice, PerGear, Role
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.decks.pair import PairDecks
 from gearcad.decks.plane import PlaneDecks, plane_tooth_deck
@@ -149,7 +149,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
         require_room(plan)
         return expected_mesh(plan)
 
-    def document(self, result: MeshResult) -> dict[str, Any]:
+    def document(self, result: MeshResult) -> JsonObject:
         """Return the content of mesh.json."""
         beside = [f"{name}{end}" for name in result.meshes for kind in result.plan.options.formats for end in kind.entry.beside]
         return mesh_document(result, [*self.files(result), *beside])
@@ -174,7 +174,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
         """Every file of a format is its own."""
         return self.verb if file == "mesh.json" or file.rpartition(".")[2] in SUFFIXES else ""
 
-    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+    def figures(self, document: JsonObject) -> JsonObject:
         """The verdict and the summary."""
         return {"passed": document["passed"], **document["summary"], "warnings": document["warnings"]}
 

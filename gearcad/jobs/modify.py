@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple, Unpack
+from typing import ClassVar, NamedTuple, Unpack
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.core.errors import GeometryError, ParameterError, as_choice
 from gearcad.core.quantities import STRENGTH, TORQUE
-from gearcad.core.records import Floats, Notice, Pictured, texts
+from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
 from gearcad.core.runtime import Agenda, Progress, one_thread
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign
 from gearcad.geometry import GearPair, ReliefShape
@@ -150,7 +150,7 @@ class Proposal(Pictured):
         """The notices as texts."""
         return texts(self.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """The proposal under the names of its document."""
         return {
             "model": self.model.value,
@@ -265,14 +265,14 @@ class Modify(Job[PairDesign, Proposal]):
         known = [limit[0] if isinstance(limit, tuple) else limit for limit in limits if limit is not None]
         return [min(known)] if len(known) == len(limits) else []
 
-    def document(self, result: Proposal) -> dict[str, Any]:
+    def document(self, result: Proposal) -> JsonObject:
         """Return the content of modify.json: µm, MPa, mm of roll; the changes under their keys of a spec."""
         return {"kind": "modify", "name": result.name, "gearcad": __version__, **result.to_dict()}
 
     def notices(self, result: Proposal) -> Sequence[Notice]:
         return result.notices
 
-    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+    def figures(self, document: JsonObject) -> JsonObject:
         """The modifications, and what the mesh comes to without and with them."""
         changes = {key: value for key, value in document["changes"].items() if key != "pair.name"}
         named = ("torque", "pressure_bound", "variants", "before", "after", "warnings")

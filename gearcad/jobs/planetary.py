@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple, Unpack
+from typing import NamedTuple, Unpack
 
 from gearcad.core.errors import ParameterError, require_switch
 from gearcad.core.output import json_text
 from gearcad.core.quantities import with_assumed
-from gearcad.core.records import Notice
+from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Progress, one_thread
 from gearcad.designs import Design, DesignKind, Inputs, PlanetaryDesign
 from gearcad.designs.spec_writers import MeshPairs
@@ -65,7 +65,7 @@ class Planetary(Job[PlanetaryDesign, Studied]):
         )
         return Studied(replace(design, load=study.load, speeds=study.given_speeds), study)
 
-    def document(self, result: Studied) -> dict[str, Any]:
+    def document(self, result: Studied) -> JsonObject:
         """Return the content of planetary.json."""
         head = {"kind": self.verb, "name": result.design.name, "gearcad": __version__}
         return with_assumed(head | study_document(result.study))
@@ -73,7 +73,7 @@ class Planetary(Job[PlanetaryDesign, Studied]):
     def notices(self, result: Studied) -> Sequence[Notice]:
         return result.study.notices
 
-    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+    def figures(self, document: JsonObject) -> JsonObject:
         """Return the figures for one line of a table.
 
         They are ratio, efficiencies, speeds and torques, K_gamma, torsional stiffness and the first natural frequencies.

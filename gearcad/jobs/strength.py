@@ -14,7 +14,7 @@ from gearcad.check.run import check_pair, expected_check
 from gearcad.check.task import CheckTask
 from gearcad.core.errors import ParameterError, SolverError, require_whole
 from gearcad.core.quantities import with_assumed
-from gearcad.core.records import Notice
+from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Expected, Progress, one_thread
 from gearcad.core.symbols import STIFFNESS, STRENGTH_FACTORS, STRENGTH_FIGURES
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
@@ -68,7 +68,7 @@ class Check(Job[PairDesign, CheckResult]):
         options = design.check or CheckOptions()
         return design.check_task(_NO_LOAD, options if self.model is None else replace(options, model=self.model))
 
-    def document(self, result: CheckResult) -> dict[str, Any]:
+    def document(self, result: CheckResult) -> JsonObject:
         """Return the content of check.json.
 
         Stiffness is in N/(mm·µm) of common face width, transmission error in µm, stresses in MPa.
@@ -84,7 +84,7 @@ class Check(Job[PairDesign, CheckResult]):
     def conclusion(self, name: str, result: CheckResult) -> str:
         return f"{name} at {result.torque:g} N·m: {result.verdict}"
 
-    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+    def figures(self, document: JsonObject) -> JsonObject:
         """The verdict, the summary and the rating."""
         verdict = {name: document[name] for name in ("passed", "numerics", "strength")}
         return {**verdict, **document["summary"], "rating": document["rating"], "warnings": document["warnings"]}
@@ -134,7 +134,7 @@ def check(
 _VERDICT = ("passed", "strength")
 
 
-def rate_columns(document: Mapping[str, Any]) -> dict[str, Any]:
+def rate_columns(document: Mapping[str, Any]) -> JsonObject:
     """Return the figures of a rate.json for one line of a table.
 
     They are the verdict, safeties of each gear and the least, torque, life, scuffing, load factors and stresses. Of a planetary
@@ -215,7 +215,7 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
         pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
         return rate_strength(pair, design.materials, load, design.rating, body_load=_of_bodies(design, load))
 
-    def document(self, result: StrengthRating | TrainStrength) -> dict[str, Any]:
+    def document(self, result: StrengthRating | TrainStrength) -> JsonObject:
         """Values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.STRENGTH` has the words."""
         return {"kind": self.verb, "name": result.name, "gearcad": __version__, **result.to_dict()}
 
@@ -229,7 +229,7 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
         at = f" at {load_words(result)}" if isinstance(result, StrengthRating) else ""
         return f"{name}{at}: {result.verdict}"
 
-    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+    def figures(self, document: JsonObject) -> JsonObject:
         """Return the figures for one line of a table."""
         return rate_columns(document)
 
@@ -357,7 +357,7 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
         pair, material, body = design.pair, design.material or Material(), (design.check or CheckOptions()).body
         return expected_methods(pair, material, self.methods, body=body, mounting=design.mounting, positions=self.positions)
 
-    def document(self, result: StiffnessComparison) -> dict[str, Any]:
+    def document(self, result: StiffnessComparison) -> JsonObject:
         """Return the content of stiffness.json: N/µm, per face width N/(mm·µm), degrees, µm."""
         head = {"kind": "stiffness", "name": result.pair.name, "gearcad": __version__}
         return with_assumed(head | result.to_dict(self.fourier))
@@ -365,7 +365,7 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
     def notices(self, result: StiffnessComparison) -> Sequence[Notice]:
         return result.notices
 
-    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+    def figures(self, document: JsonObject) -> JsonObject:
         """Return the figures of each method over one base pitch.
 
         Notes of the methods, and the reasons why others are left out, are warnings.

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
 
-from gearcad.core.records import Notice, PerGear, Pictured, Role, naming, texts
+from gearcad.core.records import JsonObject, Notice, PerGear, Pictured, Role, naming, texts
 from gearcad.core.runtime import Agenda, Progress
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.body_mesh import posed
@@ -51,7 +51,7 @@ class Gate:
         bound = f"{'at least' if self.least else 'at most'} {self.limit:g}"
         return f"{self.quantity}: {self.value:.3g}, must be {bound}{' ' if self.unit else ''}{self.unit}"
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of mesh.json."""
         bound = "at_least" if self.least else "at_most"
         return {"quantity": self.quantity, "value": self.value, bound: self.limit, "unit": self.unit, "passed": self.passed}
@@ -118,7 +118,7 @@ class JudgedMesh:
         """Greatest distance (µm) of the surface from the exact one, as far as measured between nodes."""
         return max(self.deviations.between, self.others.between)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of mesh.json."""
         solid = self.quality.element.shape.dimension == 3
         size = "area" if solid else "length"
@@ -192,7 +192,7 @@ class MeshResult(Pictured):
         return "passed" if self.passed else "failed"
 
 
-def mesh_document(result: MeshResult, files: Iterable[str]) -> dict[str, Any]:
+def mesh_document(result: MeshResult, files: Iterable[str]) -> JsonObject:
     """Lengths in mm, areas in mm², volumes in mm³, deviations in µm, angles in degrees, memory in bytes.
 
     "summary" is of all meshes: sums of counts, the worst of all else. "meshes" are by gear, also where a file has both.

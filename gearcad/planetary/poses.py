@@ -6,10 +6,10 @@ import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from gearcad.core.errors import ParameterError
-from gearcad.core.records import PerGear, Role
+from gearcad.core.records import JsonObject, PerGear, Role
 from gearcad.geometry import involute
 from gearcad.geometry.gear_data import twist
 from gearcad.planetary.members import SetMesh, TrainLoad
@@ -196,7 +196,7 @@ class MeshPhases:
         """Position of each planet in the mesh cycle of the pair, 0 to 1: roll angle of the pinion over that of a base pitch."""
         return self.ahead if self.driver is Role.PINION else tuple(_fraction(-each) for each in self.ahead)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the phases as a document for JSON."""
         return {
             "ahead": list(self.ahead),

@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from gearcad.core.errors import ParameterError, SolverError, require_number
-from gearcad.core.records import PerGear, Role, is_assumed
+from gearcad.core.records import JsonObject, PerGear, Role, is_assumed
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.planetary.members import PairStage, SetMesh, TrainLoad, base_radius
@@ -174,7 +174,7 @@ class PowerFlow:
             return f"power circulates: {self.rolling_ratio:.4g} times what goes in rolls through the meshes"
         return f"no power circulates: {self.rolling_ratio:.4g} of what goes in rolls through the meshes"
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the flow of power as a document for JSON."""
         return {
             "speeds": self.speeds.to_dict(),
@@ -339,7 +339,7 @@ class TrainForces:
     pin: PinForce
     stages: Mapping[str, MeshForce]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the forces as a document for JSON."""
         return {
             "meshes": {name: asdict(force) for name, force in self.meshes.items()},
@@ -496,7 +496,7 @@ class MeshLoad:
         gears = self.mesh.pair.gears
         return PerGear.each(lambda role: rolled / gears.pick(role).tooth_count * self.contacts.pick(role))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the load as a document for JSON: N·m, rpm and N."""
         return {
             "torque": self.load.torque,

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearcad.core.errors import InputError
-from gearcad.core.records import Wholes
+from gearcad.core.records import JsonObject, Wholes
 from gearcad.geometry import Gear
 from gearcad.planetary.members import Central, Rim, SetType
 from gearcad.planetary.tooth_numbers import CONDITIONS, MEMBERS, ManySets, SearchTask, TeethGrid, grids, ratios
@@ -103,7 +103,7 @@ class PlanetarySet:
             **roles._asdict(),
         )
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the candidate as a document for JSON."""
         return {
             "name": self.name,
@@ -154,7 +154,7 @@ class SearchResult:
     left: int
     nearest: tuple[float, ...] = ()
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the result as a document for JSON."""
         return {
             "kind": "planetary search",

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, require_name
 from gearcad.core.quantities import require_fields, schema_of
-from gearcad.core.records import Notice, concise, texts
+from gearcad.core.records import JsonObject, Notice, concise, texts
 from gearcad.geometry import Gear
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim, SetMesh
 from gearcad.planetary.poses import GearPlace, MeshPhases, TrainPose, assembled, mesh_phases, train_pose
@@ -358,7 +358,7 @@ def _named(mesh: SetMesh) -> Iterator[Notice]:
 _GIVEN = ("planets", "input", "output", "fixed", "tip_distance", "basic_ratio", "positions", "unbalance")
 
 
-def train_document(train: TrainData) -> dict[str, Any]:
+def train_document(train: TrainData) -> JsonObject:
     """Return the given and derived values of a train, with its meshes, as a document for JSON.
 
     The gears have documents of their own.
@@ -416,7 +416,7 @@ class PlanetaryTrain(TrainData):
         found = speeds(self, {self.input: 1.0}).members
         return found[self.input] / found[self.output]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the given and derived values for JSON (the gears have their own)."""
         return {"ratio": self.ratio, **train_document(self)}
 

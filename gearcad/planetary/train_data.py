@@ -12,11 +12,11 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 from gearcad.core.errors import GeometryError, InputError, ParameterError
 from gearcad.core.quantities import NOT_GIVEN, SPEED, Derived, Range, Whole, Words, derive, is_given
-from gearcad.core.records import Role
+from gearcad.core.records import JsonObject, Role
 from gearcad.geometry import Gear
 from gearcad.geometry.mating import check_mates, check_shift_sum
 from gearcad.geometry.pair_data import PairData
@@ -322,7 +322,7 @@ class Speeds:
     planet: float
     planet_relative: float
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the speeds as a document for JSON."""
         return {"members": dict(self.members), "planet": self.planet, "planet_relative": self.planet_relative}
 

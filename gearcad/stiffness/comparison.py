@@ -6,12 +6,12 @@ import csv
 import io
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.core.records import Floats, Notice, Pictured, texts
+from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Materials, materials_document
@@ -123,7 +123,7 @@ class StiffnessComparison(Pictured):
         """The notices in words."""
         return texts(self.notices)
 
-    def to_dict(self, harmonics: int = 0) -> dict[str, Any]:
+    def to_dict(self, harmonics: int = 0) -> JsonObject:
         """The document of `stiffness.json`, with so many Fourier coefficients of each curve."""
         return {
             "load": asdict(self.load),

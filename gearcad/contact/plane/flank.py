@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from gearcad.contact.plane.ring import Ring, SurfaceStresses, far_responses
 from gearcad.contact.plane.sector import PlaneElasticity, element_forces, key_load, node_dofs
 from gearcad.contact.shared.bodies import Hold
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, FlankCompliance, LoadedFlank, RootStress
-from gearcad.core.records import Floats, Wholes
+from gearcad.core.records import Floats, JsonObject, Wholes
 from gearcad.geometry import Gear
 from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.quads import GAUSS, edge_shapes, edge_slopes, edges_of_chain, mesh_quality
@@ -182,7 +182,7 @@ class PlaneCompliance(FlankCompliance):
         return len(self.ring.sector.mesh.points)
 
     @property
-    def mesh_document(self) -> dict[str, Any]:
+    def mesh_document(self) -> JsonObject:
         """Size and quality of the mesh of one tooth sector, as documents have it."""
         mesh = self.ring.sector.mesh
         return {"nodes": self.nodes, **asdict(mesh_quality(mesh.points, mesh.triangles))}

@@ -19,7 +19,7 @@ import numpy as np
 
 from gearcad.contact.shared.line_of_action import LineOfAction
 from gearcad.core.errors import ParameterError
-from gearcad.core.records import Floats, PerGear, Role
+from gearcad.core.records import Floats, JsonObject, PerGear, Role
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.involute import involute_at_roll
 from gearcad.rating.contact_stress import half_width, reduced_radius
@@ -97,7 +97,7 @@ class FlankCompliance(ABC):
 
     @property
     @abstractmethod
-    def mesh_document(self) -> dict[str, Any]:
+    def mesh_document(self) -> JsonObject:
         """Size and quality of the mesh of one tooth sector, as documents have it."""
 
 

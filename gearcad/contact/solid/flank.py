@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any, ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from gearcad.contact.shared.loaded import FlankCompliance, LoadedFlank
 from gearcad.contact.solid.body import SolidBody
 from gearcad.contact.solid.elements import boundary_faces, layer_matrices, summing
 from gearcad.core.errors import SolverError
-from gearcad.core.records import Floats, Wholes
+from gearcad.core.records import Floats, JsonObject, Wholes
 from gearcad.core.runtime import Share, unheard
 from gearcad.geometry import Gear
 from gearcad.material import Material
@@ -332,7 +332,7 @@ class SolidCompliance(FlankCompliance):
         return self.body.sector.mesh.nodes
 
     @property
-    def mesh_document(self) -> dict[str, Any]:
+    def mesh_document(self) -> JsonObject:
         """Size of the mesh of one tooth sector, as documents have it."""
         mesh = self.body.sector.mesh
         return {

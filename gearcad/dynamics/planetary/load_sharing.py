@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import product
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.core.records import Floats, Notice, texts
+from gearcad.core.records import Floats, JsonObject, Notice, texts
 from gearcad.dynamics.planetary.planetary_statics import TrainStatics, planar_notices, train_statics
 from gearcad.dynamics.planetary.planetary_strength import PublishedFactor, published_factors
 from gearcad.planetary import PlanetaryTrain, TrainLoad
@@ -66,7 +65,7 @@ class MeshLoads:
     greatest: Floats
     least: Floats
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return plain lists for JSON."""
         return {name: value.tolist() for name, value in vars(self).items()}
 
@@ -79,7 +78,7 @@ class PlanetPins:
     tangential: Floats
     greatest: Floats
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return plain lists for JSON."""
         return {name: value.tolist() for name, value in vars(self).items()}
 
@@ -153,7 +152,7 @@ class LoadSharing:
         """The notices in words."""
         return texts(self.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the load sharing as a part of `planetary.json`."""
         return {
             "mesh_load_factor": self.mesh_load_factor,

@@ -11,13 +11,12 @@ import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core.errors import GearcadError, ParameterError
-from gearcad.core.records import Floats, Indices, PerGear, Role
+from gearcad.core.records import Floats, Indices, JsonObject, PerGear, Role
 from gearcad.geometry import Gear
 from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, SetMesh
 from gearcad.planetary.members import TrainMaterial, material_of
@@ -164,7 +163,7 @@ class MemberMass:
     given: tuple[str, ...] = ()
     why: str = ""
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the mass as documents have it."""
         found = {"mass": self.mass, "inertia": self.inertia, "given": list(self.given)}
         return {**found, "why": self.why} if self.why else found
@@ -185,7 +184,7 @@ class TrainMasses:
         """Reasons why masses or inertias are unknown, one line each; () where all are known."""
         return tuple(each.why for each in (*self.members.values(), self.planet) if each.why)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the masses as documents have them."""
         return {**{name: each.to_dict() for name, each in self.members.items()}, "planet": self.planet.to_dict()}
 

@@ -10,12 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.core.errors import GeometryError, ParameterError, require_number, require_whole
-from gearcad.core.records import Floats, Indices, Notice, freeze
+from gearcad.core.records import Floats, Indices, JsonObject, Notice, freeze
 from gearcad.dynamics.planetary.planar_model import MemberMass, PlanarTrain, SpringKind, TrainMasses, TrainSprings
 from gearcad.planetary import MeshPhases, PlanetaryTrain
 from gearcad.planetary.train_data import speeds
@@ -229,7 +229,7 @@ class ModeFamily(NamedTuple):
     multiplicity: int
     first: int
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the family as a part of `planetary.json`."""
         return {"frequency": self.frequency, "kind": self.kind.value, "multiplicity": self.multiplicity}
 
@@ -284,7 +284,7 @@ class PlanetaryModes:
         """Return the numbers of the modes of a kind, from 0."""
         return np.flatnonzero([each is kind for each in self.kinds])
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return plain lists."""
         return {
             "frequencies": [family.to_dict() for family in self.families],
@@ -477,7 +477,7 @@ class PlanetaryCampbell:
         found = {family.kind for family, share in zip(self.families, self.shares[row], strict=True) if share > 0}
         return tuple(kind for kind in ModeKind if kind in found)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return plain lists; no value (null) where a share is not judged."""
         return {
             "speed": self.speed,

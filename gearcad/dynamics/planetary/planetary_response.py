@@ -11,12 +11,11 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from gearcad.core.errors import GeometryError, ParameterError, SolverError, require_number
-from gearcad.core.records import Bools, Floats, Indices, Notice, texts
+from gearcad.core.records import Bools, Floats, Indices, JsonObject, Notice, texts
 from gearcad.dynamics.options import DynamicsOptions, OperatingRange, operating_range
 from gearcad.dynamics.planetary.load_sharing import share_load
 from gearcad.dynamics.planetary.planar_model import (
@@ -330,7 +329,7 @@ class PlanetaryResponse:
         """Notices to read before the response is used."""
         return (*self.found, *self.over.notices, *self.up.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return plain lists: rpm, N, Hz."""
         at_load = self.at_load
         return {
@@ -405,7 +404,7 @@ def planetary_response(
     )
 
 
-def _factor_document(found: GreatestFactor) -> dict[str, Any]:
+def _factor_document(found: GreatestFactor) -> JsonObject:
     """Return a factor as planetary.json has it."""
     return {"factor": found.factor, "mesh": found.mesh, "speed": found.speed, "lasts": found.stable}
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from gearcad.core.records import Notice, Pictured, Verdict, strength_verdict, texts
+from gearcad.core.records import JsonObject, Notice, Pictured, Verdict, strength_verdict, texts
 from gearcad.dynamics.planetary.load_sharing import LoadSharing
 from gearcad.dynamics.planetary.planar_model import TrainMasses
 from gearcad.dynamics.planetary.planetary_excitation import PlanetMeshStiffness
@@ -109,7 +109,7 @@ class PlanetaryStudy(Pictured):
             yield Notice("not-computed", why, where=f"no {', '.join(parts)}")
 
 
-def study_document(study: PlanetaryStudy) -> dict[str, Any]:
+def study_document(study: PlanetaryStudy) -> JsonObject:
     """Return the document of a study, without what data.json has of pairs: rpm, N·m, N, µm, Hz.
 
     A part that is missing is None; `why_not` says why.

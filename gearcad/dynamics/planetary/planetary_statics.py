@@ -15,13 +15,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from enum import Enum
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core.errors import GeometryError, ParameterError, SolverError
-from gearcad.core.records import Bools, Floats, Notice, texts
+from gearcad.core.records import Bools, Floats, JsonObject, Notice, texts
 from gearcad.dynamics.planetary.planar_model import (
     PlanarMember,
     PlanarTrain,
@@ -463,7 +463,7 @@ class TorsionalStiffness:
         """The notices in words."""
         return texts(self.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the part of `planetary.json`: N·m/rad, degrees."""
         return {
             "stiffness": self.stiffness,

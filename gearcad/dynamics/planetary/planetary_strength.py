@@ -8,7 +8,17 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from gearcad.core.errors import InputError, ParameterError
-from gearcad.core.records import NOT_ASKED_WORDS, Notice, PerGear, Pictured, Verdict, is_assumed, strength_verdict, texts
+from gearcad.core.records import (
+    NOT_ASKED_WORDS,
+    JsonObject,
+    Notice,
+    PerGear,
+    Pictured,
+    Verdict,
+    is_assumed,
+    strength_verdict,
+    texts,
+)
 from gearcad.dynamics.planetary.planar_model import TrainMasses
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -33,7 +43,7 @@ class PublishedFactor:
     factor: float
     recalled: bool
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return a dictionary for JSON."""
         return {"source": self.source, "factor": self.factor, "recalled": self.recalled}
 
@@ -127,7 +137,7 @@ class GearStrength:
         yield from self.flank.values()
         yield from self.root.values()
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the least safeties, each with its mesh; None where nothing was judged."""
         found = {part.value: self.least(part) for part in RatedPart}
         return {
@@ -251,7 +261,7 @@ class TrainStrength(Pictured):
             "passed": self.passed,
         }
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the contents of rate.json, without kind and name."""
         return {
             "meshes": {name: each.to_dict() for name, each in self.meshes.items()},
@@ -401,7 +411,7 @@ class MeshRating:
         """Symbols to verify of all of the rating, those for planets included."""
         return (*self.rating.verify, *self.planets_verify)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the rating as a part of `rate.json`, with K_gamma, K_v, Y_M and the load of the mesh."""
         found = self.rating.to_dict()
         for role, factor in self.mean_stress_factor.items():
@@ -442,7 +452,7 @@ class TrainRating:
         found += [Notice("unrated", f"no rating: {why}", where=name) for name, why in self.unrated.items()]
         return tuple(notice.within("rating") for notice in found)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return a dictionary for JSON: nominal ratings by the names of meshes and stages.
 
         The full rating of each is its "rate".

@@ -6,13 +6,13 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core.errors import ParameterError, require_whole
-from gearcad.core.records import Complexes, Floats, Notice, texts
+from gearcad.core.records import Complexes, Floats, JsonObject, Notice, texts
 from gearcad.dynamics.planetary.planar_model import mesh_force
 from gearcad.dynamics.planetary.planetary_statics import SpringState, TrainStatics, planar_notices, train_statics, twist_of
 from gearcad.mesh_cycle import MeshCycle
@@ -169,7 +169,7 @@ class Ripple:
     amplitude: Mapping[str, Floats]
     speed: float | None
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return plain values for JSON."""
         return {
             "period": self.period,
@@ -252,7 +252,7 @@ class Running:
         """The notices in words."""
         return texts(self.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the figures of `planetary.json`: degrees, and the ripple of the twist in arc seconds and µrad, too."""
         return {
             "span": float(self.rolled[-1]),

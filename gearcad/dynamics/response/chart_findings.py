@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.core.records import Bools, Floats
+from gearcad.core.records import Bools, Floats, JsonObject
 from gearcad.dynamics.response.kv_chart import KvChart
 from gearcad.dynamics.trains.steady_response import Direction
 from gearcad.dynamics.trains.train_modes import NaturalModes
@@ -51,7 +51,7 @@ class GreatestFactor(NamedTuple):
     direction: Direction | None
     stable: bool
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the factor in `dynamics.json`."""
         return {**self._asdict(), "direction": None if self.direction is None else self.direction.value}
 
@@ -82,7 +82,7 @@ class ChartResonance(NamedTuple):
     met: MetMode | None
     damped: float
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the resonance in `dynamics.json`."""
         plain = {
             "directions": [each.value for each in self.directions],
@@ -231,7 +231,7 @@ class GreatestAmplitude(NamedTuple):
     frequency: float
     direction: Direction | None
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the amplitude in `dynamics.json`."""
         return {**self._asdict(), "direction": None if self.direction is None else self.direction.value}
 
@@ -246,7 +246,7 @@ class GreatestBearingForce(NamedTuple):
     frequency: float
     direction: Direction | None
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the force in `dynamics.json`."""
         return {**self._asdict(), "direction": None if self.direction is None else self.direction.value}
 

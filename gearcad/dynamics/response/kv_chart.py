@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from enum import Enum
-from typing import Any, NamedTuple, Self
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.core.errors import GeometryError, ParameterError
-from gearcad.core.records import Bools, Floats, Indices, Notice, texts
+from gearcad.core.records import Bools, Floats, Indices, JsonObject, Notice, texts
 from gearcad.dynamics.time_domain.spectra import outstanding
 from gearcad.dynamics.trains.shaft_lines import System
 from gearcad.dynamics.trains.steady_response import PeriodicResponse, StaticState
@@ -134,7 +134,7 @@ class Displacements:
             "approach_greatest": self.deepest,
         }
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the displacements in `dynamics.json`: arcsec and µm, null where nothing holds an inertia."""
         return {
             "turn_amplitude": columns(self.inertia_names, self.turns),
@@ -197,7 +197,7 @@ class BearingLoads:
         """Return the arrays of the .npz file by name."""
         return {"bearing_static_force": self.static, **{f"bearing_{name}": each for name, each in self._over_speed().items()}}
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the bearing loads in `dynamics.json`: N and µm."""
         static = dict(zip(self.gears, self.static.tolist(), strict=True))
         return {"static_force": static, **{name: columns(self.gears, each) for name, each in self._over_speed().items()}}
@@ -377,7 +377,7 @@ class KvChart:
             **({} if self.bearings is None else self.bearings.arrays()),
         }
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the chart in `dynamics.json`: 1/s, N, N·m; null where a shaft has no factor."""
         shafts = [[None if np.isnan(value) else float(value) for value in row] for row in self.shaft_factors.T]
         return {

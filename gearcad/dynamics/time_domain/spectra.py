@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearcad.core.errors import ParameterError, require_number, require_whole
-from gearcad.core.records import Floats, Notice, texts
+from gearcad.core.records import Floats, JsonObject, Notice, texts
 
 Places = NDArray[np.intp]
 
@@ -184,7 +184,7 @@ class SpeedSpectra(ABC):
         """The notices in words."""
         return texts(self.notices)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return a row per speed, for JSON; the spectra themselves are arrays."""
         names = ("mean_approach", "greatest_approach", "deepest", "out_of_contact", "growth", "digits_lost", "chaotic")
         return {
@@ -237,7 +237,7 @@ class MeshCampbell(SpeedSpectra):
             found = (*found, Notice("unbounded", text))
         return tuple(each.within("campbell") for each in found)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return a row per speed, for JSON."""
         return {"mesh": self.mesh, "settled": self.settled, "unbounded": list(self.unbounded), **super().to_dict()}
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.core.errors import GeometryError
 from gearcad.core.quantities import DURATION, SAMPLING, SPEED, Range, Words, require_fields
-from gearcad.core.records import Floats, Notice, concise, freeze
+from gearcad.core.records import Floats, JsonObject, Notice, concise, freeze
 
 _FACTOR = Range("", -1e3, 1e3)
 _TIME = DURATION._replace(least=0.0)
@@ -188,7 +188,7 @@ class Transient:
                 found.append(Parting(name, *times, *speeds, share))
         return tuple(found)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the entry of the run in `dynamics.json`; the courses are arrays."""
         return {
             "speed_from": self.speeds[0],

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.core.records import Bools, Floats, Notice, freeze
+from gearcad.core.records import Bools, Floats, JsonObject, Notice, freeze
 from gearcad.dynamics.trains.tooth_deviations import ErrorDistribution
 
 BAND = (0.05, 0.95)
@@ -190,7 +190,7 @@ class ErrorStudy:
             )
             yield Notice("few-samples", text)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the study as a dictionary for `dynamics.json`: curves over speed of each mesh."""
         return {
             "law": self.law.value,

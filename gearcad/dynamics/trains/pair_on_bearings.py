@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from typing import Any
 
 import numpy as np
 
 from gearcad.core.errors import plain_numbers, require_number
-from gearcad.core.records import Bools, Floats, PerGear, freeze
+from gearcad.core.records import Bools, Floats, JsonObject, PerGear, freeze
 from gearcad.dynamics.trains.shaft_lines import Bearings, System
 
 _SHAKEN = 1e-6
@@ -68,7 +67,7 @@ class BearingModes:
         """Words for the greatest motion in each mode."""
         return tuple("both gears turn as a whole" if mode == 0 else self._words(mode) for mode in range(len(self)))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return plain lists, under the names of the fields, and the words."""
         return {**{each.name: getattr(self, each.name).tolist() for each in fields(self)}, "words": list(self.words)}
 

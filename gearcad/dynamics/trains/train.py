@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gearcad.core.errors import GeometryError, ParameterError, require_name
 from gearcad.core.quantities import SPEED, TORQUE, Whole, Words, require_fields
-from gearcad.core.records import Floats, Notice, concise
+from gearcad.core.records import Floats, JsonObject, Notice, concise
 from gearcad.dynamics.trains.members import GROUND, Graph, Inertia, MeshCourse, MeshPair, Shaft, ToothMesh, turning_pieces
 
 
@@ -109,7 +109,7 @@ class EngagedMesh(ToothMesh):
         assert isinstance(self.pair, MeshPair)  # it became one when the mesh was made
         return self.pair
 
-    def pair_document(self) -> dict[str, Any]:
+    def pair_document(self) -> JsonObject:
         """Return the pair's part of `dynamics.json`.
 
         Torque in N·m on the pinion, force in N, stiffness in N/µm, errors and backlash in µm, phase in tooth periods.
@@ -331,7 +331,7 @@ def coarse_elements(train: Train, speed: float) -> tuple[Notice, ...]:
     return (Notice("coarse-elements", text),)
 
 
-def train_document(train: Train) -> dict[str, Any]:
+def train_document(train: Train) -> JsonObject:
     """Return inputs and derived quantities of a train and its parts, under the keys of tables; lengths in mm, otherwise SI.
 
     Speeds (rpm) and tooth frequencies (Hz) are there where `train.speed` is given. Forces (N) are the mean ones of the model.

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.core.errors import ParameterError, SolverError, require_number, require_whole
-from gearcad.core.records import Floats, freeze
+from gearcad.core.records import Floats, JsonObject, freeze
 from gearcad.dynamics.trains.shaft_lines import (
     ShaftLines,
     clamped_modes_below,
@@ -54,7 +54,7 @@ class ComponentModes:
     def __post_init__(self) -> None:
         freeze(self)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the modes as plain lists, with turns by the names of inertias and shafts."""
         return {
             "circular": self.circular.tolist(),
@@ -126,7 +126,7 @@ class NaturalModes:
         mode = int(shares.sum(axis=1).argmax())
         return mode + self.rigid, float(shares[mode].sum())
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return plain lists, under the names of the fields, and the leading parts."""
         values = {each.name: getattr(self, each.name) for each in fields(self) if each.name != "component_modes"}
         plain = {

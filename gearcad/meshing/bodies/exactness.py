@@ -8,14 +8,13 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.polynomial import Chebyshev
 from numpy.polynomial.chebyshev import chebpts1
 from numpy.polynomial.legendre import leggauss
 
-from gearcad.core.records import Floats
+from gearcad.core.records import Floats, JsonObject
 from gearcad.geometry import Gear
 from gearcad.geometry.gear import FlankCurve, flank_curves, middle_section
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
@@ -106,7 +105,7 @@ class Deviations:
     between: float
     worst: str
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the deviations as an entry of mesh.json."""
         return {"nodes": self.nodes, "between_nodes": self.between, "worst": self.worst}
 
@@ -233,7 +232,7 @@ class SideDeviations:
     between: float
     worst: str
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the deviations as an entry of mesh.json."""
         return {"nodes": self.nodes, "between_nodes": self.between, "worst": self.worst}
 

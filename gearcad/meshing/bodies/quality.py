@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from itertools import combinations, product
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.core.errors import SolverError
-from gearcad.core.records import Floats, Wholes
+from gearcad.core.records import Floats, JsonObject, Wholes
 from gearcad.meshing.bodies.element_mesh import Element, ElementMesh, local_places, shape_slopes, shape_values
 
 LEAST_SCALED_JACOBIAN = {
@@ -56,7 +56,7 @@ class WorstElement:
         near = f" near {self.near}" if self.near else ""
         return f"element {self.number + 1} at ({x:.4g}, {y:.4g}, {z:.4g}) mm{near}"
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the element as an entry of mesh.json. Elements are counted from 1, as in files."""
         return {
             "element": self.number + 1,
@@ -85,7 +85,7 @@ class Quality:
     least_angle: float
     worst: tuple[WorstElement, ...]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> JsonObject:
         """Return the quality as an entry of mesh.json."""
         return {
             "least_scaled_jacobian": self.least_jacobian,
