@@ -1,17 +1,14 @@
 """Compiled loops of solid bodies: fields of point loads, and sums of matrices. Import this module inside functions only.
 
-Import this room inside functions only. Loads of `forces` (m,) in N stand at `at` (m, 3), their half-spaces lie along `inward`
-(m, 3).
-
-Compiled by numba: import this room inside functions only. Places are those of nodes in the order of the whole, its own first; a
-node at a negative place is left out. Two nodes may have the same place.
+Loads of `forces` (m,) in N stand at `at` (m, 3), their half-spaces lie along `inward` (m, 3). Places are those of nodes in the
+order of the whole, its own first; a node at a negative place is left out. Two nodes may have the same place.
 """
 
 from __future__ import annotations
 
 import math
 
-from gearcad.core.compiled import compiled
+from gearcad.core.compiled import compiled, inlined
 from gearcad.core.records import Floats, Wholes
 
 _AT_LOAD = 1e-9
@@ -21,20 +18,29 @@ _OUTSIDE = 1e-6
 """Least 1 + c: it only vanishes straight outside the half-space."""
 
 
+@inlined
+def _displacement(x: float, y: float, z: float, depth: float, poisson_ratio: float) -> tuple[float, float]:
+    """Factors f and g (1/mm, 1/mm^2) of the displacement 2 pi E/(1 + nu) u = f n + g a at a = (x, y, z) from 1 N along n.
+
+    Boussinesq's, in the form of `half_space_displacement`; `depth` (mm) is that of a along n.
+    """
+    rest = 1 - 2 * poisson_ratio
+    distance = math.sqrt(x * x + y * y + z * z)
+    near = 1 / distance if distance >= _AT_LOAD else 0.0
+    c = depth * near
+    aside = near * near * (c - rest / max(1 + c, _OUTSIDE))
+    return near * (1 + rest + c * c) - aside * depth, aside
+
+
 @compiled
 def add_displacements(points: Floats, at: Floats, inward: Floats, forces: Floats, poisson_ratio: float, result: Floats) -> None:
     """Add 2 pi E/(1 + nu) u at points (n, 3) to a result (n, 3)."""
-    rest = 1 - 2 * poisson_ratio
     for load in range(len(at)):
         nx, ny, nz = inward[load]
         for point in range(len(points)):
             x, y, z = points[point, 0] - at[load, 0], points[point, 1] - at[load, 1], points[point, 2] - at[load, 2]
-            depth, distance = x * nx + y * ny + z * nz, math.sqrt(x * x + y * y + z * z)
-            near = 1 / distance if distance >= _AT_LOAD else 0.0
-            c = depth * near
-            aside = near * near * (c - rest / max(1 + c, _OUTSIDE))
-            along = forces[load] * (near * (1 + rest + c * c) - aside * depth)
-            aside *= forces[load]
+            along, aside = _displacement(x, y, z, x * nx + y * ny + z * nz, poisson_ratio)
+            along, aside = forces[load] * along, forces[load] * aside
             result[point, 0] += along * nx + aside * x
             result[point, 1] += along * ny + aside * y
             result[point, 2] += along * nz + aside * z
@@ -45,7 +51,6 @@ def add_normal_displacements(
     points: Floats, normals: Floats, at: Floats, inward: Floats, forces: Floats, poisson_ratio: float, result: Floats
 ) -> None:
     """Add the same along `normals` (n, 3), by groups of loads (m, k, 3), to a result (n, m)."""
-    rest = 1 - 2 * poisson_ratio
     for point in range(len(points)):
         tx, ty, tz = normals[point]
         for group in range(len(at)):
@@ -54,11 +59,7 @@ def add_normal_displacements(
                 y = points[point, 1] - at[group, load, 1]
                 z = points[point, 2] - at[group, load, 2]
                 nx, ny, nz = inward[group, load]
-                depth, distance = x * nx + y * ny + z * nz, math.sqrt(x * x + y * y + z * z)
-                near = 1 / distance if distance >= _AT_LOAD else 0.0
-                c = depth * near
-                aside = near * near * (c - rest / max(1 + c, _OUTSIDE))
-                along = near * (1 + rest + c * c) - aside * depth
+                along, aside = _displacement(x, y, z, x * nx + y * ny + z * nz, poisson_ratio)
                 moved = along * (nx * tx + ny * ty + nz * tz) + aside * (x * tx + y * ty + z * tz)
                 result[point, group] += forces[load] * moved
 
