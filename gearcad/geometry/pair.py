@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core import symbols
 from gearcad.core.quantities import derive, is_given, symbols_of
-from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Role, concise, texts
+from gearcad.core.records import JsonObject, Notice, PerGear, Role, concise, texts
 from gearcad.geometry.gear import Pose, pair_html, wheel_pose
 from gearcad.geometry.gear_data import twist
 from gearcad.geometry.interference import FilletCut, InterferenceMargins, fillet_cut
@@ -29,13 +28,11 @@ from gearcad.geometry.mating import (
     interference_notices,
 )
 from gearcad.geometry.pair_data import (
-    BaseTangent,
     ContactLineLengths,
     ContactZone,
     PairData,
-    PathOfContact,
     SpecificSliding,
-    sliding_along,
+    overlap_ratio_of,
     sliding_document,
 )
 
@@ -81,41 +78,15 @@ class GearPair(PairData):
 
     # ------------------------------------------------------------------ contact
 
-    @cached_property
-    def base_tangent(self) -> BaseTangent:
-        """The common tangent of the base circles, the line of action."""
-        bases, pitch = self.gears.map(lambda gear: gear.base_diameter), self.pinion.transverse_base_pitch
-        return BaseTangent(bases, self.centre_distance, self.working_transverse_pressure_angle, pitch)
-
-    @cached_property
-    def path_of_contact(self) -> PathOfContact:
-        """A, B, C, D, E on the line of action between the tip (form) circles, as distances from T1 (mm)."""
-        return self.base_tangent.path(self.gears.map(lambda gear: gear.tip_form_diameter))
-
     @property
     def usable_path(self) -> tuple[float, float]:
         """First and last contact (mm from T1) when the root form circles limit the path as well."""
         return self.base_tangent.usable(self.path_of_contact, self.gears.map(lambda gear: gear.form_diameter))
 
-    def rolling_speeds(self, distances: ArrayLike) -> PerGear[Floats]:
-        """Velocities (n,) of both flanks along their common tangent (mm per radian of the pinion) at distances (mm) from T1."""
-        along = np.atleast_1d(np.asarray(distances, float))
-        return PerGear(along, (self.base_tangent.length - along) * self.pinion.teeth / self.wheel.teeth)
-
-    def specific_sliding_at(self, distances: ArrayLike) -> PerGear[Floats]:
-        """Specific sliding zeta (n,) of pinion and wheel at distances (mm) from T1 along the path of contact (ISO 21771)."""
-        return sliding_along(self.rolling_speeds(distances))
-
     @property
     def specific_sliding(self) -> SpecificSliding:
         """Specific sliding of both flanks at the first and the last contact, and the greatest."""
         return SpecificSliding.between(self.rolling_speeds(self.usable_path))
-
-    @property
-    def transverse_contact_ratio(self) -> float:
-        """epsilon_alpha from the tip circles, less tip chamfers."""
-        path = self.path_of_contact
-        return (path.E - path.A) / self.pinion.transverse_base_pitch
 
     @property
     def usable_contact_ratio(self) -> float:
@@ -126,8 +97,7 @@ class GearPair(PairData):
     @property
     def overlap_ratio(self) -> float:
         """epsilon_beta = b sin |beta|/(pi m_n) on the common face width, that of one half of double helical gears."""
-        sine = math.sin(math.radians(abs(self.pinion.helix_angle)))
-        return self._width_of_one_hand * sine / (math.pi * self.pinion.normal_module)
+        return overlap_ratio_of(self._width_of_one_hand, self.pinion.helix_angle, self.pinion.normal_module)
 
     @property
     def _width_of_one_hand(self) -> float:

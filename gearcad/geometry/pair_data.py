@@ -14,7 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, Generic, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,11 +22,26 @@ from numpy.typing import ArrayLike
 from gearcad.core.errors import GeometryError, as_choice, at_least, at_most
 from gearcad.core.quantities import NOT_GIVEN, OFFSET, Range, Words
 from gearcad.core.records import Floats, PerGear, Role
-from gearcad.core.values import Values, arctan, cos, degrees, radians
+from gearcad.core.values import (
+    Values,
+    arccos,
+    arctan,
+    cos,
+    degrees,
+    hypot,
+    larger,
+    magnitude,
+    radians,
+    sin,
+    smaller,
+    tan,
+    with_sign,
+)
 from gearcad.geometry.fits import Backlash, BacklashLimits, backlash, centre_distance_allowance, settled
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.involute import inverse_involute, involute, root_between, tangent_length
 from gearcad.geometry.profile import base_half_angle
+from gearcad.geometry.toothed import GearSizes
 
 _FULL = PerGear(1.0, 1.0)
 """Addenda of ISO 53."""
@@ -165,14 +180,14 @@ def split_profile_shift(
     return PerGear(first, total - first)
 
 
-class PathOfContact(NamedTuple):
+class PathOfContact(NamedTuple, Generic[Values]):
     """Distances from T1 (mm): A first contact, B and D single-contact limits, C pitch point, E last contact."""
 
-    A: float
-    B: float
-    C: float
-    D: float
-    E: float
+    A: Values
+    B: Values
+    C: Values
+    D: Values
+    E: Values
 
 
 class SpecificSliding(NamedTuple):
@@ -232,47 +247,104 @@ def farthest_centre_distance(base_diameters: PerGear[float], tip_diameters: PerG
 
 
 @dataclass(frozen=True)
-class BaseTangent:
+class BaseTangent(Generic[Values]):
     """The common tangent of both base circles, which is the line of action. Lengths in mm.
 
     `pressure_angle` is the working transverse one (degrees), `pitch` the transverse base pitch.
     """
 
-    base_diameters: PerGear[float]
-    centre_distance: float
-    pressure_angle: float
-    pitch: float
+    base_diameters: PerGear[Values]
+    centre_distance: Values
+    pressure_angle: Values
+    pitch: Values
 
     @property
-    def length(self) -> float:
+    def length(self) -> Values:
         """T1T2 = a sin alpha_wt."""
-        return self.centre_distance * math.sin(math.radians(self.pressure_angle))
+        return self.centre_distance * sin(radians(self.pressure_angle))
 
-    def path(self, tip_diameters: PerGear[float]) -> PathOfContact:
+    def path(self, tip_diameters: PerGear[Values]) -> PathOfContact[Values]:
         """Characteristic points, limited by the tip form circles of both gears."""
         start = self.length - tangent_length(tip_diameters.wheel, self.base_diameters.wheel)
         end = tangent_length(tip_diameters.pinion, self.base_diameters.pinion)
-        middle = self.base_diameters.pinion / 2 * math.tan(math.radians(self.pressure_angle))
+        middle = self.base_diameters.pinion / 2 * tan(radians(self.pressure_angle))
         return PathOfContact(start, end - self.pitch, middle, start + self.pitch, end)
 
-    def usable(self, path: PathOfContact, form_diameters: PerGear[float]) -> tuple[float, float]:
+    def lowest(self, path: PathOfContact[Values]) -> PerGear[Values]:
+        """Lengths of the base tangent out to the lowest points that the mate's tip reaches; beyond the base circle negative."""
+        return PerGear(path.A, self.length - path.E)
+
+    def usable(self, path: PathOfContact[Values], form_diameters: PerGear[Values]) -> tuple[Values, Values]:
         """First and last contact (mm from T1) when the root form circles limit the path as well."""
-        first = max(path.A, tangent_length(form_diameters.pinion, self.base_diameters.pinion))
-        last = min(path.E, self.length - tangent_length(form_diameters.wheel, self.base_diameters.wheel))
+        first = larger(path.A, tangent_length(form_diameters.pinion, self.base_diameters.pinion))
+        last = smaller(path.E, self.length - tangent_length(form_diameters.wheel, self.base_diameters.wheel))
         return first, last
 
-    def active_root_diameters(self, path: PathOfContact) -> PerGear[float]:
+    def active_root_diameters(self, path: PathOfContact[Values]) -> PerGear[Values]:
         """d_Nf: the lowest points that the mate's tip form circle would touch (mm).
 
         Where a tip passes beyond the base tangent point, the base circle is the lowest point an involute has.
         """
-        lowest = PerGear(path.A, self.length - path.E)
+        lowest = self.lowest(path)
 
-        def circle(base: float, along: float) -> float:
-            side = math.copysign(1.0, base)
-            return side * math.hypot(base, 2 * max(side * along, 0.0))
+        def circle(base: Values, along: Values) -> Values:
+            side = with_sign(1.0, base)
+            return side * hypot(base, 2 * larger(side * along, 0.0))
 
         return PerGear.each(lambda role: circle(self.base_diameters.pick(role), lowest.pick(role)))
+
+
+class PairSizes(Generic[Values]):
+    """Sizes of pairs of gears that follow by formula: of one pair, or arrays of many."""
+
+    centre_distance: Values
+
+    @property
+    def gears(self) -> PerGear[GearSizes[Values]]:
+        """Pinion and wheel."""
+        raise NotImplementedError
+
+    @property
+    def gear_ratio(self) -> Values:
+        """Gear ratio u = z_2/z_1."""
+        return self.gears.wheel.teeth / self.gears.pinion.teeth
+
+    @cached_property
+    def working_transverse_pressure_angle(self) -> Values:
+        """cos alpha_wt = (d_b1 + d_b2)/(2 a); 0 where the base circles overlap."""
+        pinion, wheel = self.gears
+        return degrees(arccos(smaller((pinion.base_diameter + wheel.base_diameter) / (2 * self.centre_distance), 1.0)))
+
+    @cached_property
+    def base_tangent(self) -> BaseTangent[Values]:
+        """The common tangent of the base circles, the line of action."""
+        bases, pitch = self.gears.map(lambda gear: gear.base_diameter), self.gears.pinion.transverse_base_pitch
+        return BaseTangent(bases, self.centre_distance, self.working_transverse_pressure_angle, pitch)
+
+    @cached_property
+    def path_of_contact(self) -> PathOfContact[Values]:
+        """A, B, C, D, E on the line of action between the tip (form) circles, as distances from T1 (mm)."""
+        return self.base_tangent.path(self.gears.map(lambda gear: gear.tip_form_diameter))
+
+    def rolling_speeds(self, distances: ArrayLike) -> PerGear[Floats]:
+        """Velocities (n,) of both flanks along their common tangent (mm per radian of the pinion) at distances (mm) from T1."""
+        along = np.atleast_1d(np.asarray(distances, float))
+        return PerGear(along, (self.base_tangent.length - along) * self.gears.pinion.teeth / self.gears.wheel.teeth)
+
+    def specific_sliding_at(self, distances: ArrayLike) -> PerGear[Floats]:
+        """Specific sliding zeta (n,) of pinion and wheel at distances (mm) from T1 along the path of contact (ISO 21771)."""
+        return sliding_along(self.rolling_speeds(distances))
+
+    @cached_property
+    def transverse_contact_ratio(self) -> Values:
+        """epsilon_alpha from the tip circles, less tip chamfers."""
+        path = self.path_of_contact
+        return (path.E - path.A) / self.gears.pinion.transverse_base_pitch
+
+
+def overlap_ratio_of(width: Values, helix_angle: Values, normal_module: Values) -> Values:
+    """epsilon_beta = b sin |beta|/(pi m_n) of a width b (mm) of teeth of one hand."""
+    return width * sin(radians(magnitude(helix_angle))) / (math.pi * normal_module)
 
 
 @dataclass(frozen=True)
@@ -284,7 +356,7 @@ class ContactZone:
     in each.
     """
 
-    path: PathOfContact
+    path: PathOfContact[float]
     pitch: float
     width: float
     base_helix_angle: float
@@ -355,7 +427,7 @@ class CommonWidth(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PairData:
+class PairData(PairSizes[float]):
     """The fields of a `GearPair`, unchecked, and what needs no path of contact. Lengths in mm, angles in degrees.
 
     With a ring as the wheel gear ratio, centre distance and the wheel's pitch diameter are negative (ISO 21771).
@@ -384,11 +456,6 @@ class PairData:
         return all(gear.double_helix.present for gear in self.gears)
 
     # ------------------------------------------------------------------ working data
-
-    @property
-    def gear_ratio(self) -> float:
-        """Gear ratio u = z_2/z_1."""
-        return self.wheel.teeth / self.pinion.teeth
 
     @property
     def reference_centre_distance(self) -> float:
@@ -434,12 +501,6 @@ class PairData:
     def centre_distance_for(self, shift_sum: float) -> float:
         """The one at which these gears would mesh without backlash if x_1 + x_2 were `shift_sum` (no thinning)."""
         return zero_backlash_centre_distance(**self._sizes, shift_sum=shift_sum)
-
-    @cached_property
-    def working_transverse_pressure_angle(self) -> float:
-        """cos alpha_wt = (d_b1 + d_b2)/(2 a)."""
-        cosine = (self.pinion.base_diameter + self.wheel.base_diameter) / (2 * self.centre_distance)
-        return math.degrees(math.acos(cosine))
 
     @property
     def working_pitch_diameters(self) -> PerGear[float]:

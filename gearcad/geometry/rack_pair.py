@@ -35,6 +35,7 @@ from gearcad.geometry.pair_data import (
     ContactZone,
     PathOfContact,
     SpecificSliding,
+    overlap_ratio_of,
     sliding_along,
     sliding_document,
 )
@@ -335,7 +336,7 @@ class RackPair(RackPairData):
         return self.pinion.transverse_pressure_angle
 
     @cached_property
-    def path_of_contact(self) -> PathOfContact:
+    def path_of_contact(self) -> PathOfContact[float]:
         """A, B, C, D, E on the line of action, as distances from T1 (mm).
 
         T1A = T1C - (r - H + h_Fa2)/sin alpha_t, between the rack's tip (form) line and the pinion's tip (form) circle.
@@ -387,8 +388,7 @@ class RackPair(RackPairData):
     @property
     def overlap_ratio(self) -> float:
         """epsilon_beta = b sin |beta|/(pi m_n) on the common face width."""
-        sine = math.sin(math.radians(abs(self.pinion.helix_angle)))
-        return self.common_width * sine / (math.pi * self.pinion.normal_module)
+        return overlap_ratio_of(self.common_width, self.pinion.helix_angle, self.pinion.normal_module)
 
     @property
     def total_contact_ratio(self) -> float:

@@ -311,7 +311,9 @@ def scuffing(
     assumed = [*oil.assumed, *supply, *_assumed(pair, materials)]
     if reason := _not_covered(pair, load):
         return Scuffing(oil=oil, assumed=tuple(assumed), reason=reason)
-    integral, flash = _temperatures(SlidingMesh.of(pair, driver), pair, materials, load, load_factors, options, oil)
+    integral, flash = _temperatures(
+        SlidingMesh.of(pair, pair.total_contact_ratio, driver), pair, materials, load, load_factors, options, oil
+    )
     stage, structure = options.scuffing_stage, options.relative_structure_factor or structure_factor(materials)
     return Scuffing(
         oil=oil,

@@ -12,13 +12,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Floats, PerGear, Role, freeze
+from gearcad.core.values import magnitude
 from gearcad.geometry import GearPair
+from gearcad.geometry.pair_data import PairSizes
 from gearcad.material import Material, MaterialGroup
 from gearcad.rating.options import Lubrication, OilType, RatingOptions
 
@@ -48,21 +50,21 @@ class SlidingMesh:
     driver: Role = Role.PINION
 
     @classmethod
-    def of(cls, pair: GearPair, driver: Role = Role.PINION) -> SlidingMesh:
-        """Return the sizes of a pair, on the path of contact between the tip form circles."""
-        path, pitch, pinion = pair.path_of_contact, pair.pinion.transverse_base_pitch, pair.pinion
+    def of(cls, pair: PairSizes[Any], total_contact_ratio: Size, driver: Role = Role.PINION) -> SlidingMesh:
+        """Return the sizes of a pair, or of many, on the path of contact between the tip form circles."""
+        path, pinion = pair.path_of_contact, pair.gears.pinion
         return cls(
             gear_ratio=pair.gear_ratio,
             centre_distance=pair.centre_distance,
             normal_pressure_angle=pinion.rack.pressure_angle,
-            helix_angle=abs(pinion.helix_angle),
+            helix_angle=magnitude(pinion.helix_angle),
             transverse_pressure_angle=pinion.transverse_pressure_angle,
             working_pressure_angle=pair.working_transverse_pressure_angle,
-            base_helix_angle=abs(pinion.base_helix_angle),
-            wheel_part=(path.C - path.A) / pitch,
-            pinion_part=(path.E - path.C) / pitch,
+            base_helix_angle=magnitude(pinion.base_helix_angle),
+            wheel_part=(path.C - path.A) / pinion.transverse_base_pitch,
+            pinion_part=(path.E - path.C) / pinion.transverse_base_pitch,
             tip_curvature=path.E,
-            total_contact_ratio=pair.total_contact_ratio,
+            total_contact_ratio=total_contact_ratio,
             driver=driver,
         )
 

@@ -26,8 +26,8 @@ from gearcad.core.quantities import is_given
 from gearcad.core.records import Bools, Floats, PerGear, Role, Wholes
 from gearcad.core.values import Numbers
 from gearcad.geometry import BasicRack, Gear, GearPair
-from gearcad.geometry.involute import inverse_involute, involute, tangent_length
-from gearcad.geometry.pair_data import shift_sum_between, transverse_section, working_involute
+from gearcad.geometry.involute import inverse_involute, involute
+from gearcad.geometry.pair_data import BaseTangent, PairSizes, shift_sum_between, transverse_section, working_involute
 from gearcad.geometry.toothed import GearSizes
 
 
@@ -109,11 +109,6 @@ class ManyTeeth(GearSizes[Numbers]):
         depth, sine = self.dedendum - corner - self.profile_shift, np.sin(np.radians(self.transverse_pressure_angle))
         return np.asarray(self.reference_diameter / 2 * sine - self.normal_module * depth / sine)
 
-    @cached_property
-    def tip_reach(self) -> Floats:
-        """Length of the base tangent out to where the flank ends: the tip circle, less a chamfer."""
-        return np.asarray(tangent_length(self.tip_form_diameter, self.base_diameter))
-
     @property
     def tip_thickness(self) -> Floats:
         """s_an, before a tip chamfer: d_a (s_t/d + inv alpha_t - inv alpha_at) cos beta_a; below 0 the flanks meet before."""
@@ -124,7 +119,7 @@ class ManyTeeth(GearSizes[Numbers]):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ManyPairs(Columns):
+class ManyPairs(Columns, PairSizes[Numbers]):
     """Pairs by their given values, arrays of one shape; all derived values have that shape.
 
     `key` is the place of a variant in the whole search, which does not depend on the order in which anything was given.
@@ -191,61 +186,29 @@ class ManyPairs(Columns):
     # ------------------------------------------------------------------ path of contact
 
     @property
-    def ratio(self) -> Floats:
-        """Gear ratio u."""
-        return self.teeth.wheel / self.teeth.pinion
-
-    @cached_property
-    def working_angle(self) -> Floats:
-        """alpha_wt (deg), of a centre distance beyond the base circles."""
-        bases = self.base_diameters.pinion + self.base_diameters.wheel
-        result: Floats = np.degrees(np.arccos(np.minimum(bases / (2 * self.centre_distance), 1.0)))
-        return result
-
-    @cached_property
-    def tangent(self) -> Floats:
-        """T1T2 = a sin alpha_wt."""
-        result: Floats = self.centre_distance * np.sin(np.radians(self.working_angle))
-        return result
-
-    @cached_property
-    def tip_reach(self) -> PerGear[Floats]:
-        """Length of the base tangent out to the tip circle, of either gear; 0 inside the base circle."""
-        return self.gears.map(lambda gear: gear.tip_reach)
-
-    @property
-    def lowest_contact(self) -> PerGear[Floats]:
-        """Length of the base tangent out to the lowest point that the mate's tip reaches; negative beyond the base circle."""
-        return PerGear(self.tangent - self.tip_reach.wheel, self.tangent - self.tip_reach.pinion)
-
-    @property
     def form_reach(self) -> PerGear[Floats]:
         """Length of the base tangent out to the root form circle that a hob leaves; below 0 the tooth is undercut."""
         return self.gears.map(lambda gear: gear.form_reach)
 
     @property
-    def base_pitch(self) -> Floats:
-        """Transverse base pitch p_bt (mm)."""
-        return np.asarray(self.gears.pinion.transverse_base_pitch)
+    def lowest_contact(self) -> PerGear[Floats]:
+        """Length of the base tangent out to the lowest point that the mate's tip reaches; negative beyond the base circle."""
+        return self.base_tangent.lowest(self.path_of_contact).map(np.asarray)
 
-    @cached_property
+    @property
     def contact_ratio(self) -> Floats:
         """eps_alpha, from the tip circles."""
-        return (self.tip_reach.pinion + self.tip_reach.wheel - self.tangent) / self.base_pitch
+        return np.asarray(self.transverse_contact_ratio)
 
     @property
     def sliding(self) -> PerGear[Floats]:
-        """Specific sliding at the lowest point of either flank, where it is greatest in size: 1 - (z/z_mate) rho_mate/rho.
+        """Specific sliding at the lowest point of either flank, where it is greatest in size.
 
         Minus infinity where the mate's tip reaches the base tangent point.
         """
-        own, tips = self.lowest_contact, self.tip_reach
-        made = []
-        for role in Role:
-            ratio, rho = self.teeth.pick(role) / self.teeth.pick(role.mate), own.pick(role)
-            with np.errstate(divide="ignore", invalid="ignore"):
-                made.append(np.where(rho > 0, 1 - ratio * tips.pick(role.mate) / rho, -np.inf))
-        return PerGear(*made)
+        path, lowest = self.path_of_contact, self.lowest_contact
+        first, last = self.specific_sliding_at(path.A).pinion, self.specific_sliding_at(path.E).wheel
+        return PerGear(np.where(lowest.pinion > 0, first, -np.inf), np.where(lowest.wheel > 0, last, -np.inf))
 
     @property
     def meshes(self) -> Bools:
@@ -421,14 +384,14 @@ def _of_mesh(gears: PerGear[ManyTeeth], distance: Floats) -> tuple[Limit, ...]:
     bases = np.asarray(first.base_diameter + second.base_diameter)
     with np.errstate(invalid="ignore"):
         working = np.degrees(np.arccos(np.where(bases < 2 * distance, bases / (2 * distance), np.nan)))
-    tangent = distance * np.sin(np.radians(working))
-    ratio = (first.tip_reach + second.tip_reach - tangent) / first.transverse_base_pitch
-    limits = [Limit(LimitKind.CONTACT_RATIO, None, ratio)]
+    line = BaseTangent(gears.map(lambda gear: gear.base_diameter), distance, working, first.transverse_base_pitch)
+    path = line.path(gears.map(lambda gear: gear.tip_form_diameter))
+    limits = [Limit(LimitKind.CONTACT_RATIO, None, np.asarray((path.E - path.A) / line.pitch))]
     for role, own in gears.items():
-        margin = tangent - gears.pick(role.mate).tip_reach - own.form_reach
+        margin = line.lowest(path).pick(role) - own.form_reach
         limits.append(Limit(LimitKind.INTERFERENCE, role, np.where(own.form_reach < 0, np.nan, margin / m)))
         clearance = distance - (own.tip_diameter + gears.pick(role.mate).root_diameter) / 2
-        limits.append(Limit(LimitKind.CLEARANCE, role, clearance / m))
+        limits.append(Limit(LimitKind.CLEARANCE, role, np.asarray(clearance / m)))
     return (*limits, Limit(LimitKind.BACKLASH, None, _backlash(gears, distance, working) / m))
 
 

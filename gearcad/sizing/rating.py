@@ -160,7 +160,7 @@ class ManyLoadFactors:
         """Dynamic factor K_v."""
         method = self._options.dynamic_factor
         if method == "C":
-            measure = speed_measure(self.speed, self.pairs.teeth.pinion, self.pairs.ratio)
+            measure = speed_measure(self.speed, self.pairs.teeth.pinion, self.pairs.gear_ratio)
             grade, edition = self._options.accuracy_grade, self._options.standard
             return dynamic_factor_c(self.outer_load, measure, self.nominal.overlap_ratio, grade, edition)
         return self._by_resonance if method == "B" else np.full_like(self.outer_load, method)
@@ -451,22 +451,9 @@ def _temperature(task: SizeTask, nominal: NominalStresses, loads: ManyLoadFactor
     pairs, options = nominal.pairs, task.rating
     if task.load.speed == 0:
         return np.full(nominal.width.shape, np.nan)
-    middle = pairs.base_diameters.pinion / 2 * np.tan(np.radians(pairs.working_angle))
     oil = Oil.of(options)
     temperature = IntegralTemperature(
-        mesh=SlidingMesh(
-            gear_ratio=pairs.ratio,
-            centre_distance=pairs.centre_distance,
-            normal_pressure_angle=pairs.rack.pressure_angle,
-            helix_angle=np.abs(pairs.helix_angle),
-            transverse_pressure_angle=pairs.gears.pinion.transverse_pressure_angle,
-            working_pressure_angle=pairs.working_angle,
-            base_helix_angle=np.abs(pairs.gears.pinion.base_helix_angle),
-            wheel_part=(middle - pairs.lowest_contact.pinion) / pairs.base_pitch,
-            pinion_part=(pairs.tip_reach.pinion - middle) / pairs.base_pitch,
-            tip_curvature=pairs.tip_reach.pinion,
-            total_contact_ratio=loads.total_contact_ratio,
-        ),
+        mesh=SlidingMesh.of(pairs, loads.total_contact_ratio),
         specific_load=nominal.tangential_force * loads.flank / nominal.width,
         speed=loads.speed,
         roughness=USUAL_ROUGHNESS / RZ_OVER_RA,

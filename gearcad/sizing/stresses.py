@@ -13,6 +13,7 @@ import numpy as np
 
 from gearcad.core.records import Floats, PerGear, Role
 from gearcad.core.values import Numbers, chosen
+from gearcad.geometry.pair_data import overlap_ratio_of
 from gearcad.material import Material, MaterialGroup
 from gearcad.rating.contact_stress import (
     contact_factor,
@@ -73,7 +74,7 @@ class NominalStresses:
     @cached_property
     def overlap_ratio(self) -> Floats:
         """Overlap ratio eps_beta."""
-        return self.width * np.sin(np.radians(np.abs(self.pairs.helix_angle))) / (np.pi * self.pairs.normal_module)
+        return np.asarray(overlap_ratio_of(self.width, self.pairs.helix_angle, self.pairs.normal_module))
 
     @cached_property
     def stiffness(self) -> MeshStiffness[Numbers]:
@@ -104,10 +105,10 @@ class NominalStresses:
     def nominal_contact_stress(self) -> Numbers:
         """sigma_H0 at the pitch point."""
         pairs, pinion = self.pairs, self.pairs.gears.pinion
-        zone = zone_factor(pinion.base_helix_angle, pinion.transverse_pressure_angle, pairs.working_angle)
+        zone = zone_factor(pinion.base_helix_angle, pinion.transverse_pressure_angle, pairs.working_transverse_pressure_angle)
         factors = zone * elasticity_of(self.materials) * helix_angle_factor(pairs.helix_angle, self.edition)
         return nominal_contact_stress(
-            factors * self.contact_ratio_factor, self.tangential_force, pairs.diameters.pinion, self.width, pairs.ratio
+            factors * self.contact_ratio_factor, self.tangential_force, pairs.diameters.pinion, self.width, pairs.gear_ratio
         )
 
     @cached_property
@@ -121,7 +122,7 @@ class NominalStresses:
         def factor(own: Role) -> Numbers:
             inner, outer = inner_point_rolls(self.pairs.gears, self.pairs.contact_ratio, own)
             below = np.sqrt(np.where((inner > 0) & (outer > 0), inner * outer, np.nan))
-            curvature = np.tan(np.radians(self.pairs.working_angle)) / below
+            curvature = np.tan(np.radians(self.pairs.working_transverse_pressure_angle)) / below
             return raised * chosen(self.overlap_ratio >= 1, 1.0, contact_factor(curvature, self.overlap_ratio))
 
         return PerGear.each(factor)
@@ -177,11 +178,11 @@ class Strengths:
         return Conditions(
             viscosity_40=viscosity_of(options),
             speed=circumferential_speed(pairs.diameters.pinion, self.task.load.speed),
-            reduced_radius=mesh_radius(*pairs.base_diameters, np.tan(np.radians(pairs.working_angle))),
+            reduced_radius=mesh_radius(*pairs.base_diameters, np.tan(np.radians(pairs.working_transverse_pressure_angle))),
             flank_roughness=PerGear(FLANK_ROUGHNESS, FLANK_ROUGHNESS),
             root_roughness=PerGear(ROOT_ROUGHNESS, ROOT_ROUGHNESS),
             normal_module=pairs.normal_module,
-            gear_ratio=pairs.ratio,
+            gear_ratio=pairs.gear_ratio,
         )
 
     @cached_property
@@ -209,7 +210,7 @@ class Strengths:
         return PerGear.each(strength)
 
     def _after_life(self, role: Role, resistance: Resistance[Numbers]) -> Numbers:
-        cycles = load_cycles(self.task, self.pairs.ratio)
+        cycles = load_cycles(self.task, self.pairs.gear_ratio)
         return resistance.stress(None if cycles is None else cycles.pick(role))
 
 
