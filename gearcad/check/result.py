@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, TypedDict
 
 from gearcad.check import pictures
 from gearcad.check.comparison import CheckStrength, Comparison, Subject, verdict
@@ -442,13 +442,30 @@ class PlaneCheck(CheckResult):
         return pictures.depth_profile(self.cycle, self.shown.contact)
 
 
-def load_distribution(cycle: SolidCycle) -> list[list[dict[str, Any]]]:
-    """Position by position, the lines of contact that carry; their lists go cell by cell along the face width."""
+class LineOfContact(TypedDict):
+    """A line of contact in check.json; its lists (n,) go cell by cell along the face width.
+
+    `across` is from the middle of the common face width; lengths in mm, loads in N/mm, pressures in MPa.
+    """
+
+    tooth: int
+    across: list[float]
+    pinion_roll_length: list[float]
+    wheel_roll_length: list[float]
+    length: list[float]
+    line_load: list[float]
+    pressure: list[float]
+    half_width: list[float]
+    on_edge: list[bool]
+    interior: list[bool]
+
+
+def load_distribution(cycle: SolidCycle) -> list[list[LineOfContact]]:
+    """Return the lines of contact that carry, position by position."""
     return [[_line(contact) for contact in position.contacts] for position in cycle.positions]
 
 
-def _line(contact: SolidPairContact) -> dict[str, Any]:
-    """`across` (mm) from the middle of the common face width, lengths in mm, loads in N/mm, pressures in MPa."""
+def _line(contact: SolidPairContact) -> LineOfContact:
     line = contact.line
     return {
         "tooth": contact.tooth,

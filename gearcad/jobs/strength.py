@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, TypedDict, Unpack
 
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult, check_document, reported_document
@@ -158,18 +158,29 @@ def rate_columns(document: Mapping[str, Any]) -> JsonObject:
     }
 
 
-def _of_meshes(every: list[dict[str, Any]]) -> dict[str, Any]:
+class _LeastFigures(TypedDict):
+    """The least safeties of flank and root of a pair, its permissible torque (N·m) and its life (h), None where not known."""
+
+    S_H_min: float | None
+    S_F_min: float | None
+    permissible_torque: float | None
+    life: float | None
+    life_infinite: bool | None
+
+
+def _of_meshes(every: list[_LeastFigures]) -> JsonObject:
     """The least of all meshes, whose torques are on different gears."""
-    finite = [each["life"] for each in every if each["life_infinite"] is False]
+    finite = [each["life"] for each in every if each["life"] is not None]
     known = bool(every) and all(each["life_infinite"] is not None for each in every)
+    flank, root = ([each["S_H_min"] for each in every], [each["S_F_min"] for each in every])
     return {
-        **{key: _least(each[key] for each in every) for key in ("S_H_min", "S_F_min") if every},
+        **({"S_H_min": _least(flank), "S_F_min": _least(root)} if every else {}),
         "life": min(finite) if known and finite else None,
         "life_infinite": not finite if known else None,
     }
 
 
-def _least_of(document: Mapping[str, Any]) -> dict[str, Any]:
+def _least_of(document: Mapping[str, Any]) -> _LeastFigures:
     """The least of both gears, and of flanks and roots."""
     life = document["life"]["least"]
     return {
@@ -181,10 +192,10 @@ def _least_of(document: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _least(values: Any) -> float | None:
-    """None where one is not known."""
-    found = list(values)
-    return None if None in found else min(found)
+def _least(values: Collection[float | None]) -> float | None:
+    """Return the least value, or None where one is not known."""
+    known = [value for value in values if value is not None]
+    return min(known) if len(known) == len(values) else None
 
 
 KEYS = {"torque": "load.torque", "hardness": "material.hardness"}

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial, singledispatch
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypedDict, TypeVar
 
 import numpy as np
 
@@ -177,12 +177,29 @@ _STOPS = 9
 """Colours of the legend."""
 
 
+class SurfaceData(TypedDict):
+    """Arrays of a tooth's surface in base64, which the page draws.
+
+    Points (mm) are 32-bit floats, triangles numbers of `bytes` bytes, stresses numbers of colours; `size` is the greatest
+    distance from the origin (mm), `yaw` and `pitch` the first view (deg).
+    """
+
+    points: str
+    triangles: str
+    bytes: int
+    stress: str
+    colours: str
+    size: float
+    yaw: float
+    pitch: float
+
+
 class ToothView(NamedTuple):
     """One view: title, address of the still picture, numbers for the page, colours and words of the legend, caption."""
 
     title: str
     address: str
-    data: dict[str, Any]
+    data: SurfaceData
     colours: list[str]
     legend: list[str]
     caption: str
@@ -200,8 +217,8 @@ def tooth_view(surface: ToothSurface, role: Role, caption: str) -> ToothView:
     )
 
 
-def _data(surface: ToothSurface) -> dict[str, Any]:
-    """Arrays in base64: points as 32-bit floats, triangles as 16- or 32-bit numbers, stresses as numbers of colours."""
+def _data(surface: ToothSurface) -> SurfaceData:
+    """Return the arrays of a surface, its triangles as 16-bit numbers where these suffice, else as 32-bit numbers."""
     small = len(surface.points) <= np.iinfo("<u2").max
     stress = np.clip(surface.von_mises / surface.most, 0, 1) * (_COLOURS - 1)
     return {
