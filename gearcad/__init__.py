@@ -50,7 +50,7 @@ import lazy_loader
 
 from gearcad.version import __version__ as __version__
 
-TYPE_CHECKING = False  # typing takes longer to import than all of this
+TYPE_CHECKING = False  # typing takes four times as long to import as all of this
 if TYPE_CHECKING:
     from pathlib import Path
 

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
 from types import ModuleType
-
-TYPE_CHECKING = False  # `import gearcad.check` does not need typing, which takes longer than all this
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import Any
+from typing import Any
 
 
 class CallableRoom(ModuleType):

@@ -7,11 +7,9 @@ A module of `gearcad.jobs` has the class and the function of a verb: `Check` is 
 from __future__ import annotations
 
 from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-TYPE_CHECKING = False  # typing takes longer to import than `gearcad` may
 if TYPE_CHECKING:
-    from typing import Any
-
     from gearcad.jobs.job import Job
 
 VERBS = ("data", "build", "draw", "picture", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")
