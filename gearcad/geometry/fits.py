@@ -8,11 +8,12 @@ from __future__ import annotations
 import math
 import re
 from bisect import bisect_left
-from typing import NamedTuple, Protocol
+from typing import Generic, NamedTuple, Protocol
 
 from gearcad.core.errors import GeometryError, ParameterError, require_number
 from gearcad.core.quantities import derive, is_given
 from gearcad.core.records import PerGear
+from gearcad.core.values import Values, arccos, cos, degrees, radians
 from gearcad.geometry.involute import involute
 
 
@@ -365,11 +366,11 @@ def settled(difference: float, size: float) -> float:
     return 0.0 if abs(difference) <= _BACKLASH_ROUNDING * abs(size) else difference
 
 
-class Backlash(NamedTuple):
+class Backlash(NamedTuple, Generic[Values]):
     """j_wt along the working pitch circles, and j_bn along the base normal (mm); negative where teeth would overlap."""
 
-    circumferential: float
-    normal: float
+    circumferential: Values
+    normal: Values
 
 
 class BacklashLimits(NamedTuple):
@@ -388,19 +389,18 @@ class BacklashLimits(NamedTuple):
 
 def backlash(
     *,
-    teeth: PerGear[int],
-    base_half_angles: PerGear[float],
-    base_diameters: PerGear[float],
-    base_helix_angle: float,
-    centre_distance: float,
-) -> Backlash:
+    teeth: PerGear[Values],
+    base_half_angles: PerGear[Values],
+    base_diameters: PerGear[Values],
+    base_helix_angle: Values,
+    centre_distance: Values,
+) -> Backlash[Values]:
     """The working pitch less both tooth thicknesses on the working pitch circles, of gears at a centre distance."""
     ratio = teeth.wheel / teeth.pinion
-    pressure_angle = math.degrees(math.acos((base_diameters.pinion + base_diameters.wheel) / (2 * centre_distance)))
+    pressure_angle = degrees(arccos((base_diameters.pinion + base_diameters.wheel) / (2 * centre_distance)))
     working = involute(pressure_angle)
     gap = 2 * math.pi / teeth.pinion
-    for half_angle, turn in zip(base_half_angles, (1.0, ratio), strict=True):
-        gap -= 2 * turn * (math.radians(half_angle) - working)
+    for half_angle, turn in ((base_half_angles.pinion, 1.0), (base_half_angles.wheel, ratio)):
+        gap = gap - 2 * turn * (radians(half_angle) - working)
     along = gap * (2 * centre_distance / (1 + ratio)) / 2
-    across = math.cos(math.radians(pressure_angle))
-    return Backlash(along, along * across * math.cos(math.radians(base_helix_angle)))
+    return Backlash(along, along * cos(radians(pressure_angle)) * cos(radians(base_helix_angle)))

@@ -32,7 +32,6 @@ from gearcad.geometry.profile import (
     Involute,
     Land,
     ToothProfile,
-    base_half_angle,
 )
 
 
@@ -285,11 +284,6 @@ class Gear(GearData):
     def _side(self) -> int:
         """Sign of the gear's diameters: -1 for a ring, else 1."""
         return -1 if self.internal else 1
-
-    @property
-    def base_half_angle(self) -> float:
-        """Half tooth angle on the base circle in degrees, signed like the diameters: s_n/(m_n z) + inv alpha_t (ISO 21771)."""
-        return base_half_angle(self.teeth, self.normal_tooth_thickness, self.normal_module, self.transverse_pressure_angle)
 
     @property
     def tip_form_diameter(self) -> float:

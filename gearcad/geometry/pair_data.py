@@ -342,6 +342,11 @@ class PairSizes(Generic[Values]):
         return (path.E - path.A) / self.gears.pinion.transverse_base_pitch
 
 
+def clearance_alteration(apart: Values, normal_module: Values, shift_sum: Values) -> Values:
+    """k = (a - a_d)/m_n - (x_1 + x_2) of both gears, that keeps the tip clearance of the rack; `apart` is a - a_d (mm)."""
+    return apart / normal_module - shift_sum
+
+
 def overlap_ratio_of(width: Values, helix_angle: Values, normal_module: Values) -> Values:
     """epsilon_beta = b sin |beta|/(pi m_n) of a width b (mm) of teeth of one hand."""
     return width * sin(radians(magnitude(helix_angle))) / (math.pi * normal_module)
@@ -516,8 +521,9 @@ class PairData(PairSizes[float]):
         """
         if self.internal:
             return 0.0
-        change = (self.centre_distance - self.reference_centre_distance) / self.pinion.normal_module
-        return min(settled(change - self.profile_shift_sum, self._modules), 0.0)
+        apart = self.centre_distance - self.reference_centre_distance
+        change = clearance_alteration(apart, self.pinion.normal_module, self.profile_shift_sum)
+        return min(settled(change, self._modules), 0.0)
 
     @property
     def tip_clearances(self) -> PerGear[float]:
@@ -538,10 +544,10 @@ class PairData(PairSizes[float]):
         return self._nominal_backlash.normal
 
     @cached_property
-    def _nominal_backlash(self) -> Backlash:
+    def _nominal_backlash(self) -> Backlash[float]:
         return Backlash(*(settled(each, self.centre_distance) for each in self._backlash()))
 
-    def _backlash(self, thicker: float = 0.0, farther: float = 0.0) -> Backlash:
+    def _backlash(self, thicker: float = 0.0, farther: float = 0.0) -> Backlash[float]:
         """Return the backlash with teeth `thicker` by a share of half their tolerances, and with axes `farther` apart (mm)."""
 
         def half_angle(gear: Gear) -> float:

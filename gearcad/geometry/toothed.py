@@ -11,6 +11,7 @@ from typing import Generic
 
 from gearcad.core.values import Values, arcsin, arctan, cos, degrees, radians, sin
 from gearcad.geometry.gear_parts import BasicRack, full_root_radius
+from gearcad.geometry.profile import base_half_angle
 
 
 class Toothed(Generic[Values]):
@@ -111,6 +112,11 @@ class GearSizes(Toothed[Values]):
         """s_n = m_n (pi/2 + 2 x tan alpha_n) - thinning, on the reference circle."""
         tangent = math.tan(math.radians(self.rack.pressure_angle))
         return self.normal_module * (math.pi / 2 + 2 * self.profile_shift * tangent) - self.tooth_thinning
+
+    @property
+    def base_half_angle(self) -> Values:
+        """Half tooth angle on the base circle in degrees, signed like the diameters: s_n/(m_n z) + inv alpha_t (ISO 21771)."""
+        return base_half_angle(self.teeth, self.normal_tooth_thickness, self.normal_module, self.transverse_pressure_angle)
 
     @property
     def transverse_base_pitch(self) -> Values:

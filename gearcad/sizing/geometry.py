@@ -13,7 +13,7 @@ circle of its mate - and is not judged on teeth that are undercut.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from enum import Enum
 from functools import cached_property
@@ -26,8 +26,16 @@ from gearcad.core.quantities import is_given
 from gearcad.core.records import Bools, Floats, PerGear, Role, Wholes
 from gearcad.core.values import Numbers
 from gearcad.geometry import BasicRack, Gear, GearPair
+from gearcad.geometry.fits import backlash
 from gearcad.geometry.involute import inverse_involute, involute
-from gearcad.geometry.pair_data import BaseTangent, PairSizes, shift_sum_between, transverse_section, working_involute
+from gearcad.geometry.pair_data import (
+    BaseTangent,
+    PairSizes,
+    clearance_alteration,
+    shift_sum_between,
+    transverse_section,
+    working_involute,
+)
 from gearcad.geometry.toothed import GearSizes
 
 
@@ -114,7 +122,7 @@ class ManyTeeth(GearSizes[Numbers]):
         """s_an, before a tip chamfer: d_a (s_t/d + inv alpha_t - inv alpha_at) cos beta_a; below 0 the flanks meet before."""
         tip, d = self.tip_diameter, self.reference_diameter
         at_tip = np.degrees(np.arccos(np.minimum(self.base_diameter / tip, 1.0)))
-        half = self.transverse_tooth_thickness / d + involute(self.transverse_pressure_angle) - involute(at_tip)
+        half = np.radians(self.base_half_angle) - involute(at_tip)
         return np.asarray(tip * half / np.hypot(1.0, np.tan(np.radians(self.helix_angle)) * tip / d))
 
 
@@ -153,10 +161,8 @@ class ManyPairs(Columns, PairSizes[Numbers]):
     @cached_property
     def tip_alteration(self) -> Floats:
         """k of both gears: (a - a_d)/m_n - (x_1 + x_2), never positive."""
-        references = (self.teeth.pinion + self.teeth.wheel) * self.normal_module / np.cos(np.radians(self.helix_angle)) / 2
-        change = (self.centre_distance - references) / self.normal_module
-        result: Floats = np.minimum(change - (self.shifts.pinion + self.shifts.wheel), 0.0)
-        return result
+        teeth, total = self.teeth.pinion + self.teeth.wheel, self.shifts.pinion + self.shifts.wheel
+        return _tip_alteration(self.normal_module, teeth, self.helix_angle, total, self.centre_distance)
 
     @cached_property
     def diameters(self) -> PerGear[Floats]:
@@ -215,6 +221,12 @@ class ManyPairs(Columns, PairSizes[Numbers]):
         """Mask of the pairs whose base circles are apart."""
         result: Bools = self.base_diameters.pinion + self.base_diameters.wheel < 2 * self.centre_distance
         return result
+
+
+def _tip_alteration(module: Numbers, teeth: Floats, helix_angle: Numbers, shift_sum: Numbers, distance: Floats) -> Floats:
+    """k (normal modules) that keeps the clearance of the rack, never positive, for sums of teeth."""
+    apart = distance - teeth * module / np.cos(np.radians(helix_angle)) / 2
+    return np.minimum(clearance_alteration(apart, module, shift_sum), 0.0)
 
 
 def shift_sum_at(
@@ -336,8 +348,7 @@ def pair_map(pair: GearPair, across: Axis, up: Axis, *, rest: Role | None, dista
         if distance
         else distance_for(np.asarray(first + second), sums, np.full_like(sums, module), np.asarray(helix), angle)
     )
-    change = (at - sums * module / np.cos(np.radians(helix)) / 2) / module
-    auto = np.minimum(change - (first + second), 0.0)
+    auto = _tip_alteration(module, sums, helix, first + second, at)
     gears = PerGear(
         *(
             _teeth(gear, float(gear.teeth), helix, shift, auto if auto_tips else gear.tip_alteration)
@@ -379,28 +390,27 @@ def _of_teeth(gear: ManyTeeth, role: Role | None) -> tuple[Limit, ...]:
 
 def _of_mesh(gears: PerGear[ManyTeeth], distance: Floats) -> tuple[Limit, ...]:
     """Return the limits of a mesh at a centre distance (mm); nan where base circles overlap."""
-    first, second = gears
-    m = first.normal_module
-    bases = np.asarray(first.base_diameter + second.base_diameter)
     with np.errstate(invalid="ignore"):
-        working = np.degrees(np.arccos(np.where(bases < 2 * distance, bases / (2 * distance), np.nan)))
-    line = BaseTangent(gears.map(lambda gear: gear.base_diameter), distance, working, first.transverse_base_pitch)
+        return tuple(_limits_of_mesh(gears, distance))
+
+
+def _limits_of_mesh(gears: PerGear[ManyTeeth], distance: Floats) -> Iterator[Limit]:
+    pinion, m = gears.pinion, gears.pinion.normal_module
+    bases = gears.map(lambda gear: gear.base_diameter)
+    working = np.degrees(np.arccos((bases.pinion + bases.wheel) / (2 * distance)))
+    line = BaseTangent(bases, distance, working, pinion.transverse_base_pitch)
     path = line.path(gears.map(lambda gear: gear.tip_form_diameter))
-    limits = [Limit(LimitKind.CONTACT_RATIO, None, np.asarray((path.E - path.A) / line.pitch))]
+    yield Limit(LimitKind.CONTACT_RATIO, None, np.asarray((path.E - path.A) / line.pitch))
     for role, own in gears.items():
         margin = line.lowest(path).pick(role) - own.form_reach
-        limits.append(Limit(LimitKind.INTERFERENCE, role, np.where(own.form_reach < 0, np.nan, margin / m)))
+        yield Limit(LimitKind.INTERFERENCE, role, np.where(own.form_reach < 0, np.nan, margin / m))
         clearance = distance - (own.tip_diameter + gears.pick(role.mate).root_diameter) / 2
-        limits.append(Limit(LimitKind.CLEARANCE, role, np.asarray(clearance / m)))
-    return (*limits, Limit(LimitKind.BACKLASH, None, _backlash(gears, distance, working) / m))
-
-
-def _backlash(gears: PerGear[ManyTeeth], distance: Floats, working: Floats) -> Floats:
-    """j_wt: the working pitch less both tooth thicknesses on the working pitch circles."""
-    whole = np.asarray(gears.pinion.teeth + gears.wheel.teeth)
-    left = 2 * math.pi / gears.pinion.teeth + np.zeros_like(distance)
-    for gear in gears:
-        half = gear.transverse_tooth_thickness / gear.reference_diameter + involute(gear.transverse_pressure_angle)
-        left = left - 2 * gear.teeth / gears.pinion.teeth * (half - involute(working))
-    result: Floats = left * distance * gears.pinion.teeth / whole
-    return result
+        yield Limit(LimitKind.CLEARANCE, role, np.asarray(clearance / m))
+    gap = backlash(
+        teeth=gears.map(lambda gear: gear.teeth),
+        base_half_angles=gears.map(lambda gear: gear.base_half_angle),
+        base_diameters=bases,
+        base_helix_angle=pinion.base_helix_angle,
+        centre_distance=distance,
+    )
+    yield Limit(LimitKind.BACKLASH, None, np.asarray(gap.circumferential / m))
