@@ -12,8 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
-from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, require_name
-from gearcad.core.quantities import is_given, require_fields
+from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most
+from gearcad.core.quantities import is_given
 from gearcad.core.records import Floats, Notice
 from gearcad.geometry.fillets import ShaperTip
 from gearcad.geometry.fits import derive_thinning, require_allowance
@@ -26,11 +26,12 @@ from gearcad.geometry.gear_data import (
     shaped,
     shaper_tip,
 )
-from gearcad.geometry.gear_parts import LEAST_FEATURE, BasicRack, Body, DoubleHelix, ShaperCutter, derive_module
+from gearcad.geometry.gear_parts import LEAST_FEATURE, Body, DoubleHelix, ShaperCutter, derive_module
 from gearcad.geometry.interference import InternalTips, ToothTips
 from gearcad.geometry.involute import inverse_involute, involute, tangent_length
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.profile import ToothProfile
+from gearcad.geometry.toothed import check_fields, check_root_radius, check_thickness, check_width, most_dedendum
 
 _MOST_CUTTER_TEETH = 2000
 """Most teeth of the cutters that are tried, to name one that would do."""
@@ -225,9 +226,6 @@ def _fewer(gear: GearData, profile: ToothProfile, margin: Callable[[InternalTips
     return ""
 
 
-LEAST_HELIX = 1e-6
-"""Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
-
 MOST_TWIST = 720.0
 """Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
 
@@ -242,14 +240,10 @@ def check_given(gear: GearData) -> None:
 
 def _check_fields(gear: GearData) -> None:
     """Raise ParameterError for a field that is not permitted by itself."""
-    require_name("name", gear.name)
-    require_fields(gear)
-    if 0 < abs(gear.helix_angle) < LEAST_HELIX:
-        raise ParameterError("helix_angle", gear.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
+    check_fields(gear)
     if gear.tooth_allowance is not None:
         require_allowance(gear.tooth_allowance)
     parts: tuple[tuple[str, type], ...] = (
-        ("rack", BasicRack),
         ("cutter", ShaperCutter),
         ("double_helix", DoubleHelix),
         ("body", Body),
@@ -271,9 +265,7 @@ def _check_numbers(gear: GearData) -> None:
             raise ParameterError(name, given, below if gear.internal else "must be a number above 0 mm", "mm")
     if gear.double_helix.present:
         _check_double_helix(gear)
-    if gear.half_width < 0.01 * gear.normal_module:
-        least = at_least(0.01 * gear.normal_module)
-        raise GeometryError("face_width", gear.face_width, f"must be at least {least} mm (0.01 m_n)", "mm")
+    check_width(gear, gear.half_width)
     if gear.twist > MOST_TWIST:
         most = MOST_TWIST / 360 * gear.lead
         if gear.double_helix.present:
@@ -324,13 +316,7 @@ def _check_thickness(gear: GearData) -> None:
         most = at_most(gear.normal_tooth_thickness + gear.tooth_thinning)
         permitted = f"must be less: it takes up to {-allowance.lower / 1000:g} mm off teeth that are {most} mm thick without it"
         raise GeometryError("tooth_allowance", gear.tooth_allowance, permitted)
-    if gear.normal_tooth_thickness <= 0:
-        raise GeometryError(
-            "tooth_thinning",
-            gear.tooth_thinning,
-            f"must be below {at_most(gear.normal_tooth_thickness + gear.tooth_thinning)} mm, the normal tooth thickness",
-            "mm",
-        )
+    check_thickness(gear)
     if gear.dedendum <= 0:
         limit = gear.reference_diameter + 2 * m * gear.profile_shift
         raise GeometryError(
@@ -340,20 +326,12 @@ def _check_thickness(gear: GearData) -> None:
 
 def _check_hob(gear: GearData) -> None:
     """Raise GeometryError unless the tip of a hob or rack is wide enough for its radius."""
-    m, angle = gear.normal_module, gear.rack.pressure_angle
-    thinning = f"thinning {gear.tooth_thinning:g} mm" if gear.tooth_thinning else "no thinning"
-    terms = f"for dedendum {gear.dedendum:.6g}, pressure angle {angle:g} deg, {thinning}"
-    full = gear.rack.full_root_radius(gear.dedendum, gear.tooth_thinning / m)
-    if full < 0:
-        most = (math.pi / 4 + gear.tooth_thinning / m / 2) / math.tan(math.radians(angle))
+    if (most := most_dedendum(gear)) is not None:
         if not is_given(gear.root_diameter):
             permitted = f"must be at most {at_most(most)}, where the tool's flanks meet"
             raise GeometryError("rack.dedendum", gear.rack.dedendum, permitted)
-        least = at_least(gear.reference_diameter - 2 * m * (most - gear.profile_shift))
+        least = at_least(gear.reference_diameter - 2 * gear.normal_module * (most - gear.profile_shift))
         raise GeometryError(
             "root_diameter", gear.root_diameter, f"must be at least {least} mm, where the tool's flanks meet", "mm"
         )
-    if gear.rack.root_radius != "full" and float(gear.rack.root_radius) > full:
-        raise GeometryError(
-            "rack.root_radius", gear.rack.root_radius, f"must be at most {at_most(full, 4)} (full radius) {terms}"
-        )
+    check_root_radius(gear)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from gearcad.core import symbols
 from gearcad.core.errors import GeometryError, InputError, format_number
 from gearcad.core.quantities import derive, symbols_of
-from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Role, concise, texts
+from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Role, concise
 from gearcad.geometry.feasibility import check_given, check_tool, trimming_notices
 from gearcad.geometry.gear_data import GearData, check_body, corner_notices, fillet_tool, shaper_tip, twist
 from gearcad.geometry.gear_parts import DoubleHelix
@@ -33,6 +33,7 @@ from gearcad.geometry.profile import (
     Land,
     ToothProfile,
 )
+from gearcad.geometry.toothed import tip_notices
 
 
 class Pose(NamedTuple):
@@ -214,9 +215,6 @@ def _circle(radius: float, x: float, y: float = 0.0) -> str:
     return f"M{x - radius:.6g},{y:.6g}{arc} {2 * radius:.6g},0{arc} {-2 * radius:.6g},0Z" if radius else ""
 
 
-THIN_TIP = 0.2
-"""Normal tip thickness below which the data sheet warns, in normal modules (0.4 for case-hardened teeth)."""
-
 _DERIVED = (
     "transverse_module transverse_pressure_angle base_helix_angle reference_diameter base_diameter tip_form_diameter "
     "form_diameter undercut normal_tooth_thickness transverse_tooth_thickness tip_thickness transverse_pitch "
@@ -390,17 +388,10 @@ class Gear(GearData):
         of_inspection = self.inspection.notices(self.form_diameter, self.tip_form_diameter, self.half_width)
         return (*self._notices_of_teeth(), *of_inspection)
 
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """The notices in words."""
-        return texts(self.notices)
-
     def _notices_of_teeth(self) -> Iterator[Notice]:
         if self.undercut:
             yield Notice("undercut", f"undercut: the involute begins at diameter {self.form_diameter:.4f} mm")
-        if self.tip_thickness < THIN_TIP * self.normal_module:
-            thickness = f"normal thickness {self.tip_thickness:.4f} mm is below {THIN_TIP} m_n"
-            yield Notice("thin-tip", f"thin tip: {thickness} (0.4 m_n if case-hardened)")
+        yield from tip_notices(self)
         yield from corner_notices(self)
         yield from trimming_notices(self, self.profile)
         if self.body.web_thickness:

@@ -24,9 +24,7 @@ from gearcad.geometry.gear_parts import ISO53_A, BasicRack, Body, DoubleHelix, N
 from gearcad.geometry.involute import inverse_involute, involute, root_between
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.profile import ToothProfile
-from gearcad.geometry.toothed import GearSizes
-
-_COEFFICIENT = Range("", -5, 5)
+from gearcad.geometry.toothed import FaceWidth, GearSizes, HelixAngle, TipAlteration, ToothedPart, ToothThinning
 
 _TEETH = Whole(3, 2000, negative=(-10, "internal gear"))
 
@@ -43,7 +41,7 @@ _GAP_DEPTH = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
-class GearData(GearSizes[float]):
+class GearData(GearSizes[float], ToothedPart):
     """The fields of a `Gear`, unchecked, and sizes that need no outline of a tooth. Lengths in mm, angles in degrees.
 
     Those of an internal gear have the signs of ISO 21771: teeth and diameters are negative.
@@ -53,11 +51,11 @@ class GearData(GearSizes[float]):
     teeth: Annotated[int, _TEETH, Words("number of teeth", "z", "4.1")]
     normal_module: NormalModule = NOT_GIVEN
     normal_diametral_pitch: NormalDiametralPitch = NOT_GIVEN
-    face_width: Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("face width", "b", "4.1")]
-    helix_angle: Annotated[float, Range("deg", -75, 75), Words("helix angle (right hand +)", "β", "4.2")] = 0.0
-    profile_shift: Annotated[float, _COEFFICIENT, Words("profile shift coefficient", "x", "4.2")] = 0.0
-    tip_alteration: Annotated[float, _COEFFICIENT, Words("tip alteration coefficient", "k", "4.5")] = 0.0
-    tooth_thinning: Annotated[float, Range("mm", 0, None), Words("tooth thinning (normal)", "A_sn", "7.3")] = _NO_THINNING
+    face_width: FaceWidth
+    helix_angle: HelixAngle = 0.0
+    profile_shift: Annotated[float, Range("", -5, 5), Words("profile shift coefficient", "x", "4.2")] = 0.0
+    tip_alteration: TipAlteration = 0.0
+    tooth_thinning: ToothThinning = _NO_THINNING
     tooth_allowance: Annotated[str | None, Words("tooth thickness allowance", "", "DIN 3967")] = None
     accuracy_grade: Annotated[int | None, Whole(0, 12), Words("accuracy grade", "", "ISO 1328-1")] = None
     flank_roughness: Annotated[float | None, _ROUGHNESS, Words("roughness of the flanks", "Rz")] = None

@@ -9,7 +9,7 @@ Raises ParameterError or GeometryError, whose limits can be used as they are pri
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass, field, fields
 from enum import Enum
 from functools import cached_property
@@ -19,16 +19,27 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core import symbols
-from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, require_name
-from gearcad.core.quantities import NOT_GIVEN, Range, Whole, Words, derive, derive_count, is_given, require_fields, symbols_of
-from gearcad.core.records import Floats, JsonObject, Notice, concise, texts
-from gearcad.geometry.feasibility import LEAST_HELIX
-from gearcad.geometry.gear import CHORD_ERROR, THIN_TIP, Gear, Pose, RackPose, drawing, gear_shapes, polygon, sheet
+from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most
+from gearcad.core.quantities import NOT_GIVEN, Range, Whole, Words, derive, derive_count, is_given, symbols_of
+from gearcad.core.records import Floats, JsonObject, Notice, concise
+from gearcad.geometry.gear import CHORD_ERROR, Gear, Pose, RackPose, drawing, gear_shapes, polygon, sheet
 from gearcad.geometry.gear_data import LEAST_RIM
 from gearcad.geometry.gear_parts import ISO53_A, LEAST_FEATURE, BasicRack, NormalDiametralPitch, NormalModule, derive_module
 from gearcad.geometry.inspection import RackInspection
 from gearcad.geometry.profile import LEAST_LAND, RADIUS_SLACK, PlaneCurve, parameters_within
-from gearcad.geometry.toothed import Toothed
+from gearcad.geometry.toothed import (
+    FaceWidth,
+    HelixAngle,
+    TipAlteration,
+    ToothedPart,
+    ToothThinning,
+    check_fields,
+    check_root_radius,
+    check_thickness,
+    check_width,
+    most_dedendum,
+    tip_notices,
+)
 
 _LENGTH = Range("mm", 0, None, ends="(]")
 _FEATURE = Range("mm", 0, None)
@@ -38,7 +49,7 @@ WHOLE_PITCH = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
-class RackData(Toothed[float]):
+class RackData(ToothedPart):
     """The fields of a `Rack`, unchecked, and sizes that need no outline of a tooth. Lengths in mm, angles in degrees."""
 
     name: Annotated[str, Words("name")] = "rack"
@@ -46,20 +57,13 @@ class RackData(Toothed[float]):
     length: Annotated[float, _LENGTH, Words("length", "L")] = NOT_GIVEN
     normal_module: NormalModule = NOT_GIVEN
     normal_diametral_pitch: NormalDiametralPitch = NOT_GIVEN
-    helix_angle: Annotated[float, Range("deg", -75, 75), Words("helix angle (right hand +)", "β", "4.2")] = 0.0
-    face_width: Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("face width", "b", "4.1")]
+    helix_angle: HelixAngle = 0.0
+    face_width: FaceWidth
     height: Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("height, back to reference line", "H_0")]
-    tip_alteration: Annotated[float, Range("", -5, 5), Words("tip alteration coefficient", "k", "4.5")] = 0.0
-    tooth_thinning: Annotated[float, Range("mm", 0, None), Words("tooth thinning (normal)", "A_sn", "7.3")] = 0.0
+    tip_alteration: TipAlteration = 0.0
+    tooth_thinning: ToothThinning = 0.0
     tip_chamfer: Annotated[float, _FEATURE, Words("tip chamfer, height", "h_K", "6.1")] = 0.0
     rack: BasicRack = field(default=ISO53_A)
-
-    @property
-    def root_radius(self) -> float:
-        """Radius of the fillets in normal modules, with "full" resolved."""
-        if self.rack.root_radius == "full":
-            return self.rack.full_root_radius(thinning=self.tooth_thinning / self.normal_module)
-        return float(self.rack.root_radius)
 
     @property
     def normal_pitch(self) -> float:
@@ -280,18 +284,8 @@ MOST_PITCHES = 2000
 """Most teeth of a rack."""
 
 
-def check_rack_fields(rack: RackData) -> None:
-    """Raise ParameterError for a field that is not permitted by itself."""
-    require_name("name", rack.name)
-    require_fields(rack)
-
-
 def check_rack_numbers(rack: RackData) -> None:
     """Raise ParameterError or GeometryError for numbers that do not fit the module, and unless teeth or a length are given."""
-    if 0 < abs(rack.helix_angle) < LEAST_HELIX:
-        raise ParameterError("helix_angle", rack.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
-    if not isinstance(rack.rack, BasicRack):
-        raise ParameterError("rack", rack.rack, "must be a BasicRack")
     if 0 < rack.tip_chamfer < LEAST_FEATURE:
         raise ParameterError("tip_chamfer", rack.tip_chamfer, f"must be 0 or at least {LEAST_FEATURE} mm", "mm")
     if not is_given(rack.teeth) and not is_given(rack.length):
@@ -299,9 +293,7 @@ def check_rack_numbers(rack: RackData) -> None:
     if is_given(rack.teeth) and is_given(rack.length):
         long = f"{rack.teeth} teeth are {(rack.teeth or 0) * rack.transverse_pitch:.6f} mm long"
         raise GeometryError("length", rack.length, f"must be left out where teeth are given: {long}", "mm")
-    if rack.face_width < 0.01 * rack.normal_module:
-        least = at_least(0.01 * rack.normal_module)
-        raise GeometryError("face_width", rack.face_width, f"must be at least {least} mm (0.01 m_n)", "mm")
+    check_width(rack, rack.face_width)
 
 
 def check_rack_length(rack: RackData) -> None:
@@ -318,10 +310,11 @@ def check_rack_teeth(rack: RackData) -> None:
     There must be some tooth on the reference line, a fillet that fits the space, some flank, some tip land, and a back below
     the roots.
     """
-    if rack.normal_tooth_thickness <= 0:
-        most = at_most(rack.normal_tooth_thickness + rack.tooth_thinning)
-        raise GeometryError("tooth_thinning", rack.tooth_thinning, f"must be below {most} mm, the normal tooth thickness", "mm")
-    _check_space(rack)
+    check_thickness(rack)
+    if (most := most_dedendum(rack)) is not None:
+        permitted = f"must be at most {at_most(most)}, where the flanks of a space meet"
+        raise GeometryError("rack.dedendum", rack.rack.dedendum, permitted)
+    check_root_radius(rack)
     _check_flank(rack)
     if rack.tip_chamfer:
         _check_chamfer(rack)
@@ -329,20 +322,6 @@ def check_rack_teeth(rack: RackData) -> None:
     if rack.height < least:
         permitted = f"must be at least {at_least(least)} mm ({LEAST_RIM} m_n below the roots, {rack.root_depth:.6g} mm deep)"
         raise GeometryError("height", rack.height, permitted, "mm")
-
-
-def _check_space(rack: RackData) -> None:
-    m, angle = rack.normal_module, rack.rack.pressure_angle
-    full = rack.rack.full_root_radius(thinning=rack.tooth_thinning / m)
-    if full < 0:
-        most = (math.pi / 4 + rack.tooth_thinning / m / 2) / math.tan(math.radians(angle))
-        permitted = f"must be at most {at_most(most)}, where the flanks of a space meet"
-        raise GeometryError("rack.dedendum", rack.rack.dedendum, permitted)
-    if rack.rack.root_radius != "full" and float(rack.rack.root_radius) > full:
-        thinning = f"thinning {rack.tooth_thinning:g} mm" if rack.tooth_thinning else "no thinning"
-        terms = f"for dedendum {rack.rack.dedendum:.6g}, pressure angle {angle:g} deg, {thinning}"
-        permitted = f"must be at most {at_most(full, 4)} (full radius) {terms}"
-        raise GeometryError("rack.root_radius", rack.rack.root_radius, permitted)
 
 
 def _check_flank(rack: RackData) -> None:
@@ -461,7 +440,7 @@ class Rack(RackData):
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        check_rack_fields(self)
+        check_fields(self)
         derive_module(self)
         check_rack_numbers(self)
         derive(self, "length", (self.teeth or 0) * self.transverse_pitch)
@@ -518,17 +497,7 @@ class Rack(RackData):
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
         """Notices about this rack that an engineer should read before making it."""
-        return (*self._notices_of_teeth(), *self.inspection.notices())
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """The notices in words."""
-        return texts(self.notices)
-
-    def _notices_of_teeth(self) -> Iterator[Notice]:
-        if self.tip_thickness < THIN_TIP * self.normal_module:
-            thickness = f"normal thickness {self.tip_thickness:.4f} mm is below {THIN_TIP} m_n"
-            yield Notice("thin-tip", f"thin tip: {thickness} (0.4 m_n if case-hardened)")
+        return (*tip_notices(self), *self.inspection.notices())
 
     def _repr_html_(self) -> str:
         return rack_html(self, self.profile)

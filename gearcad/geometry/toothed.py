@@ -1,30 +1,59 @@
-"""Sizes of teeth by formula (ISO 21771), that gears and racks share: of one part, or arrays of many variants.
+"""What gears and racks share: sizes of teeth by formula (ISO 21771), types of fields, and checks of what is given.
 
-Lengths in mm, angles in degrees; teeth and diameters of an internal gear are negative.
+The formulas take one part, or arrays of many variants. The checks raise ParameterError or GeometryError, whose limits can be
+used as they are printed. Lengths in mm, angles in degrees; teeth and diameters of an internal gear are negative.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import cached_property
-from typing import Generic
+from typing import Annotated, Generic
 
+from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, require_name
+from gearcad.core.quantities import Range, Words, require_fields
+from gearcad.core.records import Notice, texts
 from gearcad.core.values import Values, arcsin, arctan, cos, degrees, radians, sin
 from gearcad.geometry.gear_parts import BasicRack, full_root_radius
 from gearcad.geometry.profile import base_half_angle
 
+FaceWidth = Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("face width", "b", "4.1")]
+HelixAngle = Annotated[float, Range("deg", -75, 75), Words("helix angle (right hand +)", "β", "4.2")]
+TipAlteration = Annotated[float, Range("", -5, 5), Words("tip alteration coefficient", "k", "4.5")]
+ToothThinning = Annotated[float, Range("mm", 0, None), Words("tooth thinning (normal)", "A_sn", "7.3")]
+
+LEAST_HELIX = 1e-6
+"""Smallest helix angle (degrees) of helical teeth; less moves a tooth by less than 2e-8 of the face width."""
+
+THIN_TIP = 0.2
+"""Normal tip thickness below which the data sheet warns, in normal modules (0.4 for case-hardened teeth)."""
+
 
 class Toothed(Generic[Values]):
-    """What gears and racks have in common: sizes that follow from module, helix angle and basic rack."""
+    """What gears and racks have in common: sizes that follow from module, helix angle, thinning and basic rack."""
 
     normal_module: Values
     helix_angle: Values
+    tooth_thinning: float
     rack: BasicRack
 
     @property
     def normal_tooth_thickness(self) -> Values:
         """Normal tooth thickness s_n on the reference circle or line."""
         raise NotImplementedError
+
+    @property
+    def dedendum(self) -> Values:
+        """Dedendum h_fP of the tool in normal modules."""
+        return self.rack.dedendum
+
+    @property
+    def root_radius(self) -> Values:
+        """Radius of the tool's tip, or of a rack's fillets, in normal modules, with "full" resolved."""
+        if self.rack.root_radius == "full":
+            return full_root_radius(self.rack.pressure_angle, self.dedendum, self.tooth_thinning / self.normal_module)
+        return float(self.rack.root_radius)
 
     @cached_property
     def transverse_module(self) -> Values:
@@ -59,7 +88,6 @@ class GearSizes(Toothed[Values]):
     teeth: Values
     profile_shift: Values
     tip_alteration: Values
-    tooth_thinning: float
 
     @property
     def tip_form_diameter(self) -> Values:
@@ -101,13 +129,6 @@ class GearSizes(Toothed[Values]):
         return (self.reference_diameter - given) / (2 * self.normal_module) + self.profile_shift
 
     @property
-    def root_radius(self) -> Values:
-        """Tip radius of a hob in normal modules, with "full" resolved for this gear."""
-        if self.rack.root_radius == "full":
-            return full_root_radius(self.rack.pressure_angle, self.dedendum, self.tooth_thinning / self.normal_module)
-        return float(self.rack.root_radius)
-
-    @property
     def normal_tooth_thickness(self) -> Values:
         """s_n = m_n (pi/2 + 2 x tan alpha_n) - thinning, on the reference circle."""
         tangent = math.tan(math.radians(self.rack.pressure_angle))
@@ -127,3 +148,74 @@ class GearSizes(Toothed[Values]):
     def virtual_teeth(self) -> Values:
         """z_n = z / (cos^2 beta_b cos beta)."""
         return self.teeth / (cos(radians(self.base_helix_angle)) ** 2 * cos(radians(self.helix_angle)))
+
+
+class ToothedPart(Toothed[float]):
+    """A gear or a rack as it is given: what the checks below need, and its notices in words."""
+
+    name: str
+    face_width: float
+
+    @property
+    def tip_thickness(self) -> float:
+        """Normal tooth thickness s_an at the tip, before a tip chamfer."""
+        raise NotImplementedError
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """Notices about this part that an engineer should read before making it."""
+        raise NotImplementedError
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+
+def check_fields(part: ToothedPart) -> None:
+    """Raise ParameterError for a field that is not permitted by itself."""
+    require_name("name", part.name)
+    require_fields(part)
+    if 0 < abs(part.helix_angle) < LEAST_HELIX:
+        raise ParameterError("helix_angle", part.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
+    if not isinstance(part.rack, BasicRack):
+        raise ParameterError("rack", part.rack, "must be a BasicRack")
+
+
+def check_width(part: ToothedPart, width: float) -> None:
+    """Raise GeometryError unless the width (mm) of teeth of one hand fits the module."""
+    if width < 0.01 * part.normal_module:
+        least = at_least(0.01 * part.normal_module)
+        raise GeometryError("face_width", part.face_width, f"must be at least {least} mm (0.01 m_n)", "mm")
+
+
+def check_thickness(part: ToothedPart) -> None:
+    """Raise GeometryError unless the thinning leaves some tooth on the reference circle or line."""
+    if part.normal_tooth_thickness <= 0:
+        most = at_most(part.normal_tooth_thickness + part.tooth_thinning)
+        raise GeometryError("tooth_thinning", part.tooth_thinning, f"must be below {most} mm, the normal tooth thickness", "mm")
+
+
+def most_dedendum(part: ToothedPart) -> float | None:
+    """Dedendum in normal modules at which the flanks of the rack's space meet; None where its own is less."""
+    thinning = part.tooth_thinning / part.normal_module
+    if part.rack.full_root_radius(part.dedendum, thinning) >= 0:
+        return None
+    return (math.pi / 4 + thinning / 2) / math.tan(math.radians(part.rack.pressure_angle))
+
+
+def check_root_radius(part: ToothedPart) -> None:
+    """Raise GeometryError unless the root radius fits between the flanks of the rack's space."""
+    radius, angle = part.rack.root_radius, part.rack.pressure_angle
+    full = part.rack.full_root_radius(part.dedendum, part.tooth_thinning / part.normal_module)
+    if radius != "full" and float(radius) > full:
+        thinning = f"thinning {part.tooth_thinning:g} mm" if part.tooth_thinning else "no thinning"
+        terms = f"for dedendum {part.dedendum:.6g}, pressure angle {angle:g} deg, {thinning}"
+        raise GeometryError("rack.root_radius", radius, f"must be at most {at_most(full, 4)} (full radius) {terms}")
+
+
+def tip_notices(part: ToothedPart) -> Iterator[Notice]:
+    """Yield a notice if the tips are thin."""
+    if part.tip_thickness < THIN_TIP * part.normal_module:
+        thickness = f"normal thickness {part.tip_thickness:.4f} mm is below {THIN_TIP} m_n"
+        yield Notice("thin-tip", f"thin tip: {thickness} (0.4 m_n if case-hardened)")
