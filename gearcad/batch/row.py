@@ -371,7 +371,7 @@ def flat_document(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[
             continue
         if isinstance(value, dict):
             yield from flat_document(value, f"{prefix}{key}.")
-        elif key in ("warnings", "notices", "verify") or not prefix:
+        elif key in ("warnings", "notices", "verify", "unconfirmed") or not prefix:
             continue
         elif prefix == "pair." and key in PER_GEAR:
             yield from ((f"{prefix}{key}.{role.value}", of) for role, of in PerGear(*value).items())

@@ -57,7 +57,7 @@ def _names(_ctx: click.Context, _parameter: click.Parameter, begun: str) -> list
 @click.option("--force", is_flag=True, help="Replace a file that exists.")
 @debug_option
 def new(kind: str | None, output: str | None, force: bool) -> None:
-    """Write a commented starter: a spec of one design, or a table of many.
+    """Write a commented starter: a spec of one design, a table of many, or a workflow for continuous integration (ci).
 
     KIND is the name of a starter or its beginning; without it the starters are listed.
     """
@@ -82,6 +82,8 @@ def _next(name: str, text: str, path: Path) -> str:
     """The command that shows most of what a starter is; a template of drawings is named in specs."""
     if name.startswith("drawing_"):
         return f'keep what you change, and name it in a spec: [drawing] template = "{path}"'
+    if name.startswith("ci-"):
+        return "put it where its first lines say, beside a design table (gearcad new pairs) for gearcad verify"
     if name.endswith(".csv"):
         return f"gearcad batch {path}"
     commands = {"train": "dynamics", "planetary": "planetary", "measured": "identify"}

@@ -85,7 +85,7 @@ def batch(
         if not quiet:
             click.echo(f"{_counts(error.summary)}; the same command makes the rest", err=True)
         raise
-    _report(summary, time.perf_counter() - began, as_json=as_json, quiet=quiet)
+    report_summary(summary, time.perf_counter() - began, as_json=as_json, quiet=quiet)
     if summary.failed or summary.not_run or summary.short or summary.stopped:
         click.get_current_context().exit(1)
 
@@ -99,7 +99,7 @@ def _verbs(text: str) -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def _report(summary: BatchSummary, seconds: float, *, as_json: bool, quiet: bool) -> None:
+def report_summary(summary: BatchSummary, seconds: float, *, as_json: bool, quiet: bool) -> None:
     from gearcad.core.output import json_text
 
     results = [str(path) for path in summary.results]

@@ -201,7 +201,7 @@ def strength_lines(rating: StrengthRating) -> Iterator[str]:
     yield from _wrapped("scuffing", _scuffing(rating))
     for group, factors in rating.factors.items():
         yield from _wrapped(group.value, (_factor(symbol, value, names) for symbol, value in factors.items()))
-    for words, key in (("assumed", "assumed"), ("verify", "verify")):
+    for words, key in (("assumed", "assumed"), ("unconfirmed", "verify")):
         yield from _wrapped(words, document[key], "; ")
     yield from _wrapped("not judged", _not_judged(document["not_judged"]), "; ")
 

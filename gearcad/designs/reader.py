@@ -87,6 +87,7 @@ _ALIASES = {
     "ring": "ring-22-70",
     "planetary": "planetary-24-21-66",
     "uhlir": "uhlir-19-23",
+    "ci": "ci-github",
 }
 """Names for starters that a newcomer would try."""
 
@@ -102,7 +103,7 @@ def _files() -> dict[str, Path]:
     return {
         path.stem: path
         for path in sorted(templates().iterdir(), key=lambda path: path.stem)
-        if path.suffix in (".toml", ".csv") and path.stem not in _NONE
+        if path.suffix in (".toml", ".csv", ".yml") and path.stem not in _NONE
     }
 
 

@@ -356,7 +356,7 @@ def write_pdf(documents: Iterable[Drawing], path: Path) -> None:
 
     sheets = list(documents)
     properties = sheets[0].header.custom_vars
-    canvas = Canvas(str(path), invariant=True, pageCompression=1, lang=properties.get(LANGUAGE), initialFontName=_font())
+    canvas = Canvas(str(path), invariant=True, pageCompression=1, lang=properties.get(LANGUAGE), initialFontName=pdf_font())
     canvas.setTitle(properties.get(TITLE))
     canvas.setCreator(f"gearcad {__version__}")
     canvas.setAuthor("")
@@ -428,7 +428,7 @@ class _PdfPage:
         letters.setTextTransform(cosine, sine, -sine, cosine, *text.start)
         # Joined letters are not as wide as those that the length was found for.
         letters.setHorizScale(100 * text.width / _width(words, size))
-        letters.setFont(_font(), size)
+        letters.setFont(pdf_font(), size)
         letters.textOut(words)
         self._canvas.drawText(letters)
 
@@ -436,7 +436,7 @@ class _PdfPage:
 def _width(words: str, size: float) -> float:
     from reportlab.pdfbase.pdfmetrics import stringWidth
 
-    return float(stringWidth(words, _font(), size))
+    return float(stringWidth(words, pdf_font(), size))
 
 
 def _draw_to(path: PDFPathObject, start: Vertex, end: Vertex) -> None:
@@ -460,7 +460,7 @@ def _draw_to(path: PDFPathObject, start: Vertex, end: Vertex) -> None:
 
 
 @cache
-def _font() -> str:
+def pdf_font() -> str:
     """Return the name of the font of the sheets, registered with the library."""
     from reportlab.pdfbase.pdfmetrics import registerFont
     from reportlab.pdfbase.ttfonts import TTFont

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from gearcad.jobs.job import Job
 
-VERBS = ("data", "build", "draw", "picture", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")
+VERBS = ("data", "build", "draw", "picture", "verify", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")
 WITHOUT_DESIGN = ("identify",)
 """Verbs that begin without a design: functions, and no jobs."""
 
@@ -23,6 +23,7 @@ _MODULES = {
     "rate": "strength",
     "stiffness": "strength",
     "identify": "searches",
+    "verify": "verification",
 }
 
 

@@ -115,7 +115,7 @@ class Rating:
             "p_0": contact.peak_pressure,
             "b_H": contact.half_width,
             **gears,
-            **({"verify": list(self.verify)} if self.verify else {}),
+            **({"verify": list(self.verify), "unconfirmed": list(self.verify)} if self.verify else {}),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],
         }

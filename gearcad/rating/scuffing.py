@@ -134,6 +134,7 @@ class Scuffing:
             **({"reason": self.reason} if self.reason else {}),
             "assumed": list(self.assumed),
             "verify": list(self.verify),
+            "unconfirmed": list(self.verify),
             "notices": [notice.to_dict() for notice in self.notices],
         }
 

@@ -144,7 +144,7 @@ def _given(
         values = [column.get(key) for column in columns]
         if any(value is not None for value in values):
             text = _length if of.unit == "mm" else _text
-            source = f"{of.source} (verify)" if key in doubtful else of.source
+            source = f"{of.source} (unconfirmed)" if key in doubtful else of.source
             rows.append(ReportRow(of.words, of.symbol, tuple(map(text, values)), of.unit, source))
     return rows
 
@@ -157,7 +157,7 @@ def _length(value: float | None) -> str:
 def _row(of: Quantity, names: PerGear[str]) -> ReportRow:
     text = _hours if of.symbol.unit == "h" else _text
     values = tuple(text(of.value[name]) for name in names) if isinstance(of.value, Mapping) else (text(of.value),)
-    source = f"{of.symbol.source} (verify)" if of.verify else of.symbol.source
+    source = f"{of.symbol.source} (unconfirmed)" if of.verify else of.symbol.source
     return ReportRow(of.symbol.words, of.symbol.symbol, values, of.symbol.unit, source)
 
 

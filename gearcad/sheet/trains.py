@@ -209,7 +209,7 @@ def _is_known(row: Row) -> bool:
 def _row(before: str, of: Quantity, names: PerGear[str]) -> Row:
     values = tuple(of.value[name] for name in names) if isinstance(of.value, Mapping) else (of.value,)
     symbol = of.symbol._replace(words=_SHORT.get(of.key, of.symbol.words))
-    symbol = symbol._replace(source=f"{symbol.source} (verify)") if of.verify else symbol
+    symbol = symbol._replace(source=f"{symbol.source} (unconfirmed)") if of.verify else symbol
     text = _hours if of.symbol.unit == "h" else _text
     return Row(f"{before}{of.key}", symbol, values, tuple(map(text, values)))
 

@@ -63,6 +63,17 @@ class Claim:
     reason: str = ""
     seconds: float = 0.0
 
+    @property
+    def text(self) -> str:
+        """The claim in one line: what, where, the deviation beside what is permitted, and the reason."""
+        if self.deviation is not None and self.permitted is not None:
+            said = f": {self.deviation:.4g} of {self.permitted:.4g} {self.unit} permitted".replace("  ", " ")
+        elif self.computed is not None or self.reference is not None:
+            said = f": {self.computed} told, {self.reference} found"
+        else:
+            said = ""
+        return f"{self.subject.value}, {self.where}: {self.quantity}{said}{f' ({self.reason})' if self.reason else ''}"
+
     def to_dict(self) -> dict[str, Any]:
         """Return the claim as an entry of verify.json."""
         return {

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gearcad.core.records import Notice, texts
-from gearcad.verification.claims import Claim, Level, counted, passed
+from gearcad.geometry import Gear, GearPair
+from gearcad.verification.claims import Claim, Level, Subject, counted, passed
 
 Content = Mapping[str, Any]
 """Part of a JSON document."""
@@ -19,7 +20,8 @@ class Verification:
     """Result of a verification of the design `name`: its claims, and the files (bytes by name) that were judged.
 
     `spec` are the inputs of the design, `judges` the versions of the programs that judged, by their names. `strength` is the
-    verdict of the rating: None where it was not asked for or not judged.
+    verdict of the rating: None where it was not asked for or not judged. `heading` has company, project, author and date by
+    their words, `pictured` is the gear or pair that a report shows.
     """
 
     name: str
@@ -29,12 +31,14 @@ class Verification:
     spec: Content
     judges: Mapping[str, str]
     strength: bool | None = None
-    notices: Sequence[Notice] = field(default=())
+    notices: Sequence[Notice] = ()
+    heading: Mapping[str, str] = field(default_factory=dict)
+    pictured: Gear | GearPair | None = None
 
     @property
     def passed(self) -> bool | None:
-        """Verdict: False if a claim failed, True if some were judged and none failed, None if nothing was judged."""
-        return passed(self.claims)
+        """Verdict on all claims but those on strength, which have their own: None if nothing was judged."""
+        return passed(claim for claim in self.claims if claim.subject is not Subject.STRENGTH)
 
     @property
     def failed(self) -> list[Claim]:

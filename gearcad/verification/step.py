@@ -120,9 +120,7 @@ def judge_step(
 
     `meshes` are those of an assembly, whose gears must be in their places.
     """
-    from OCP import __version__ as version
-
-    judge = Judge(Subject.STEP, Level.FILES, path.name, f"Open CASCADE {version}")
+    judge = Judge(Subject.STEP, Level.FILES, path.name, "Open CASCADE")
     try:
         nodes = read_step(path)
     except Exception as error:  # the kernel may raise anything for a broken file

@@ -67,7 +67,7 @@ def test_classes_of_2013():
     assert found["F_alphaT"] == round(math.hypot(5.32, 6.65) * 2) / 2
     assert found["F_betaT"] == 9.5  # 9.6999, of 6.4647 and 7.2315
     assert found["F_rT"] == round(0.9 * (0.24 + 0.55 * 120**0.5 + 2.1 + 12))
-    assert set(found) == {"accuracy", "grade", "not_covered", "verify", "F_rT"} | {
+    assert set(found) == {"accuracy", "grade", "not_covered", "verify", "unconfirmed", "F_rT"} | {
         f"{symbol}T" for symbol in ("f_p", "F_pk", "F_p", "f_Halpha", "f_falpha", "F_alpha", "f_Hbeta", "f_fbeta", "F_beta")
     }
 
@@ -116,7 +116,7 @@ def test_a_ring_has_the_tolerances_of_its_magnitudes():
 
 
 def test_every_tolerance_has_a_symbol():
-    beside = {"accuracy", "grade", "verify", "not_covered"}
+    beside = {"accuracy", "grade", "verify", "unconfirmed", "not_covered"}
     assert {*of().to_dict(2.0), *of(NEW).to_dict()} - beside == set(symbols.TOLERANCES)
 
 

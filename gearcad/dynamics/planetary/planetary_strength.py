@@ -269,6 +269,7 @@ class TrainStrength(Pictured):
             **self.summary(),
             "assumed": list(self.assumed),
             "verify": list(self.verify),
+            "unconfirmed": list(self.verify),
             "notices": [notice.to_dict() for notice in self.notices],
             "warnings": list(texts(self.notices)),
         }
@@ -418,7 +419,7 @@ class MeshRating:
             found[role.value]["Y_M"] = factor
         carried = self.load.to_dict()
         found |= {name: carried[name] for name in ("K_A", "K_gamma", "K_gamma_source")}
-        found |= {"K_v": self.dynamic_factor, "load": carried, "verify": list(self.verify)}
+        found |= {"K_v": self.dynamic_factor, "load": carried, "verify": list(self.verify), "unconfirmed": list(self.verify)}
         return found | ({"K_v_unknown": self.no_dynamic_factor} if self.no_dynamic_factor else {})
 
 

@@ -273,7 +273,7 @@ class FiguresPanel(Panel[Figures]):
             "kept": words["kept"],
             "difference": words["difference"],
             "assumed": words["assumed"],
-            "verify": words["to verify"],
+            "verify": words["unconfirmed"],
             "pin": words["Enter or double click: on top"],
             "unpin": words["Enter or double click: not on top"],
             "waiting": words["being computed"],

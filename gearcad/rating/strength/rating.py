@@ -274,6 +274,7 @@ def strength_document(of: StrengthRating) -> JsonObject:
         "sources": _sources(of, (*factors, *stresses)),
         "assumed": list(of.assumed),
         "verify": list(of.verify),
+        "unconfirmed": list(of.verify),
         "required": {
             "flank": of.options.required_safety_flank,
             "root": of.options.required_safety_root,

@@ -1,0 +1,325 @@
+"""Job `verify`: makes the files of a design, and lets each claim about them be judged by something that did not make it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, Unpack, cast
+
+from gearcad.core.errors import as_choice
+from gearcad.core.records import Notice
+from gearcad.core.runtime import Progress, one_thread
+from gearcad.designs.design import Design
+from gearcad.designs.gear_designs import ToothedDesign
+from gearcad.designs.keys import DesignKind
+from gearcad.geometry import Gear, GearPair, Rack
+from gearcad.jobs.build import AssemblyProduct, Build, PartProduct, products_of
+from gearcad.jobs.job import Data, Job, Subject, Writer, as_design
+from gearcad.jobs.strength import Check, Rate
+from gearcad.report.verification import heading, verification_html, write_verification_pdf
+from gearcad.solids import FileOptions, Format
+from gearcad.verification.assemblies import PlacedMesh
+from gearcad.verification.claims import Claim, Judge, Level, timed
+from gearcad.verification.claims import Subject as About
+from gearcad.verification.drawings import judge_section, judge_sections
+from gearcad.verification.exact_parts import ExactPart
+from gearcad.verification.facets import SUBJECTS, judge_facets
+from gearcad.verification.geometry import judge_gear, judge_pair, judge_rack
+from gearcad.verification.result import Verification
+from gearcad.verification.step import judge_step
+from gearcad.verification.strength import judge_check, judge_rating
+from gearcad.version import __version__
+
+if TYPE_CHECKING:
+    from gearcad.designs import Inputs, PairDesign, PlanetaryDesign, RackPairDesign
+    from gearcad.load import Load
+    from gearcad.planetary import TrainLoad
+
+FORMATS = (Format.STEP, Format.STL, Format.THREE_MF, Format.GLB, Format.DXF)
+"""Formats that are made and judged."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verify(Job[ToothedDesign, Verification]):
+    """Verification of a design at a level. With `folder` the files there are judged, else those that are made now.
+
+    With `keep` the files that were made and judged are written beside the evidence.
+    """
+
+    verb = "verify"
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
+    why = "there are no teeth"
+
+    level: Level = Level.FILES
+    folder: str = ""
+    keep: bool = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "level", as_choice("level", self.level, Level))
+
+    @one_thread()
+    def run(self, design: Design, progress: Progress | None = None) -> Verification:
+        """Return the verification of a design."""
+        design = self.accepted(design, progress)
+        with TemporaryDirectory(prefix="gearcad-verify-") as made:
+            folder = Path(self.folder or made)
+            if not self.folder:
+                build = Build(formats=FORMATS)
+                build.write(build.run(design), folder)
+            claims = list(self._claims(design, folder, progress))
+            names = sorted(path.name for path in folder.iterdir() if path.suffix[1:] in {kind.value for kind in FORMATS})
+            contents = {name: (folder / name).read_bytes() for name in names}
+        return Verification(
+            name=design.name,
+            level=self.level,
+            claims=tuple(claims),
+            contents=contents,
+            spec=Data().document(design),
+            judges=_versions(),
+            strength=_strength(claims),
+            notices=design.notices,
+            heading=heading(design.drawing),
+            pictured=_pictured(design),
+        )
+
+    def _claims(self, design: ToothedDesign, folder: Path, progress: Progress | None) -> Iterator[Claim]:
+        """All claims of the level, each with the time that it took."""
+        for number, claim in enumerate(timed(self._untimed(design, folder))):
+            if progress is not None:
+                progress(f"{claim.subject.value} {claim.where}", number, number + 1)
+            yield claim
+
+    def _untimed(self, design: ToothedDesign, folder: Path) -> Iterator[Claim]:
+        yield from _of_files(design, folder)
+        if self.level.includes(Level.STRENGTH):
+            yield from _of_strength(design)
+
+    def document(self, result: Verification) -> dict[str, Any]:
+        """Return the content of verify.json."""
+        return {"kind": self.verb, "name": result.name, "gearcad": __version__, **result.to_dict()}
+
+    def notices(self, result: Verification) -> Sequence[Notice]:
+        return result.notices
+
+    def conclusion(self, name: str, result: Verification) -> str:
+        judged = len(result.claims) - len(result.not_judged)
+        if result.failed:
+            return f"{name}: {len(result.failed)} of {judged} claims failed"
+        return f"{name}: all {judged} claims passed" if judged else f"{name}: nothing was judged"
+
+    def part_of(self, file: str) -> str:
+        return self.verb if file in _EVIDENCE else ""
+
+    def for_row(self, _design: Design, _parts: Collection[str]) -> Verify:
+        return replace(self, keep=False)
+
+    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+        """Return verdicts, counts, and every deviation and safety for one line of a table."""
+        found: dict[str, Any] = {name: document[name] for name in ("passed", "strength")} | document["counts"]
+        for claim in document["claims"]:
+            value = claim["computed"] if claim["claim"] == About.STRENGTH.value else claim["deviation"]
+            if isinstance(value, float | int):
+                found[f"{claim['claim']}: {claim['where']}: {claim['quantity']}"] = value
+        return {**found, "warnings": document["warnings"]}
+
+    def files(self, result: Verification) -> dict[str, Writer]:
+        """The judged files, unless they were there before, and the evidence: page, PDF and document."""
+        found: dict[str, Writer] = {}
+        if self.keep and not self.folder:
+            found |= {name: partial(_write_bytes, content) for name, content in result.contents.items()}
+        writers = (partial(_write_page, self.document(result), result), partial(_write_pdf, self.document(result), result))
+        return {**found, **dict(zip(_EVIDENCE, (*writers, partial(self.write_document, result)), strict=True))}
+
+
+_EVIDENCE = ("verify.html", "verify.pdf", "verify.json")
+"""Files of a verification beside those that were judged."""
+
+
+def _write_page(document: dict[str, Any], result: Verification, path: Path) -> None:
+    path.write_text(verification_html(document, result.heading, result.pictured), encoding="utf-8")
+
+
+def _write_pdf(document: dict[str, Any], result: Verification, path: Path) -> None:
+    write_verification_pdf(document, result.heading, path)
+
+
+def _pictured(design: ToothedDesign) -> Gear | GearPair | None:
+    """The gear or pair of a design, for a picture."""
+    if design.kind is DesignKind.PAIR:
+        return cast("PairDesign", design).pair
+    return next(iter(design.gears.values())) if design.kind is DesignKind.GEAR else None
+
+
+def _write_bytes(content: bytes, path: Path) -> None:
+    path.write_bytes(content)
+
+
+def _of_files(design: ToothedDesign, folder: Path) -> Iterator[Claim]:
+    """The claims of level files: of every file, and of the geometry."""
+    options = FileOptions()
+    parts, assembly = products_of(design, options)
+    exact = {product.name: ExactPart(_part(product)) for product in parts.values()}
+    for kind in FORMATS:
+        for name, product in parts.items():
+            path = folder / f"{name}.{kind.value}"
+            yield from _of_file(
+                path, kind, lambda path, product=product, kind=kind: _of_part(path, kind, product, exact, options)
+            )
+        if assembly is not None and _assembled(design, kind):
+            path = folder / f"assembly.{kind.value}"
+            yield from _of_file(
+                path, kind, lambda path, kind=kind: _of_assembly(path, kind, design, parts, assembly, exact, options)
+            )
+    for name, product in parts.items():
+        part = _part(product)
+        yield from judge_rack(part, name) if isinstance(part, Rack) else judge_gear(part, name)
+    for mesh in _meshes(design, parts):
+        yield from judge_pair(mesh.pair, f"{mesh.pinion} and {mesh.mate}")
+
+
+def _assembled(design: ToothedDesign, kind: Format) -> bool:
+    """Whether a format has a file of the parts in mesh."""
+    of_kind = kind.entry.write_train if design.kind is DesignKind.PLANETARY else kind.entry.write_pair
+    return of_kind is not None
+
+
+def _of_file(path: Path, kind: Format, claims: Any) -> Iterator[Claim]:
+    """Claims about a file, or the claim that it is there."""
+    if not path.is_file():
+        yield Judge(_subject(kind), Level.FILES, path.name, "file system").holds(
+            "is there", False, place=f"no file {path.name}"
+        )
+        return
+    try:
+        yield from claims(path)
+    except Exception as error:  # what a broken file does to a reader or a measurement is not known beforehand
+        said = f"{type(error).__name__}: {error}"
+        yield Judge(_subject(kind), Level.FILES, path.name, "gearcad").holds("can be judged", False, place=said)
+
+
+def _subject(kind: Format) -> About:
+    return {Format.STEP: About.STEP, Format.DXF: About.DXF}.get(kind) or SUBJECTS[kind.value]
+
+
+def _part(product: PartProduct) -> Gear | Rack:
+    return getattr(product, "gear", None) or product.rack  # type: ignore[union-attr]
+
+
+def _of_part(
+    path: Path, kind: Format, product: PartProduct, exact: Mapping[str, ExactPart], options: FileOptions
+) -> Iterator[Claim]:
+    if kind is Format.STEP:
+        yield from judge_step(path, product.solid(), exact)
+    elif kind is Format.DXF:
+        yield from judge_section(path, exact[product.name])
+    else:
+        named = kind is not Format.STL
+        yield from judge_facets(path, {product.name: exact[product.name]}, options.chord_error, names=named)
+
+
+def _of_assembly(
+    path: Path,
+    kind: Format,
+    design: ToothedDesign,
+    parts: Mapping[str, PartProduct],
+    assembly: AssemblyProduct,
+    exact: Mapping[str, ExactPart],
+    options: FileOptions,
+) -> Iterator[Claim]:
+    meshes = _meshes(design, parts)
+    if kind is Format.STEP:
+        yield from judge_step(path, assembly.solid(), exact, meshes)
+    elif kind is Format.DXF:
+        yield from judge_sections(path, _counts(design, parts))
+    else:
+        yield from judge_facets(path, exact, options.chord_error, meshes)
+
+
+def _counts(design: ToothedDesign, parts: Mapping[str, PartProduct]) -> dict[str, int]:
+    """How often each part of a planetary train, by its key, is in its assembly."""
+    from gearcad.solids.train_plan import TrainLayout
+
+    train = cast("PlanetaryDesign", design).train
+    keys = [standing.body.key for standing in TrainLayout(train, train.pose()).standing]
+    return {key: keys.count(key) for key in parts}
+
+
+def _meshes(design: ToothedDesign, parts: Mapping[str, PartProduct]) -> list[PlacedMesh]:
+    """The meshes of a design, by the names of the parts as products."""
+    if design.kind is DesignKind.PLANETARY:
+        train = cast("PlanetaryDesign", design).train
+        pairs = [mesh.pair for mesh in train.meshes] + [stage.pair for stage in train.stages]
+        return [PlacedMesh(pair, parts[pair.pinion.name].name, parts[pair.wheel.name].name) for pair in pairs]
+    if design.kind is DesignKind.PAIR:
+        return [PlacedMesh(cast("PairDesign", design).pair, parts["pinion"].name, parts["wheel"].name)]
+    if design.kind is DesignKind.RACK_PAIR:
+        return [PlacedMesh(cast("RackPairDesign", design).pair, parts["pinion"].name, parts["rack"].name)]
+    return []
+
+
+def _of_strength(design: ToothedDesign) -> Iterator[Claim]:
+    """The claims of the structural check and of the rating, where the design is a pair or a train with a load."""
+    judge = Judge(About.CONTACT, Level.STRENGTH, design.name, "finite elements")
+    strength = Judge(About.STRENGTH, Level.STRENGTH, design.name, "rating")
+    if design.kind not in Check.accepts:
+        yield judge.not_judged("contact, root stress, stiffness", f"the structural check takes no {design.kind.words}")
+    elif getattr(design, "load", None) is None:
+        yield judge.not_judged("contact, root stress, stiffness", "the design has no load")
+    else:
+        yield from judge_check(Check(report=False).run(design), design.name)
+    if design.kind not in Rate.accepts:
+        yield strength.not_judged("safeties", f"the rating takes no {design.kind.words}")
+    elif getattr(design, "load", None) is None:
+        yield strength.not_judged("safeties", "the design has no load")
+    else:
+        yield from judge_rating(Rate(report=False).run(design), design.name)
+
+
+def _strength(claims: Sequence[Claim]) -> bool | None:
+    """The verdict on strength: of the rating's claims, None where not all were judged and none failed."""
+    verdicts = [claim.passed for claim in claims if claim.subject is About.STRENGTH]
+    if False in verdicts:
+        return False
+    return True if verdicts and None not in verdicts else None
+
+
+_JUDGES = {"Open CASCADE": "cadquery-ocp", "trimesh": "trimesh", "ezdxf": "ezdxf", "meshio": "meshio", "gmsh": "gmsh"}
+"""Programs that judge, and the distributions that they come from."""
+
+
+def _versions() -> dict[str, str]:
+    """Versions of the programs that judge, by their names."""
+    found = {}
+    for name, distribution in _JUDGES.items():
+        try:
+            found[name] = version(distribution)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def verify(
+    subject: Subject,
+    load: Load | TrainLoad | None = None,
+    *,
+    level: Level | str = Level.FILES,
+    progress: Progress | None = None,
+    **inputs: Unpack[Inputs],
+) -> Verification:
+    """Verify a design: every claim about its files and its figures is judged by something that did not make it.
+
+    Level "files" judges STEP, STL, 3MF, GLB and DXF files, and the geometry; "strength" also contact, root stress and strength,
+    "full" also meshes and CalculiX. What nothing judged is named with its reason, and never counts as passed.
+
+    >>> from gearcad import Gear
+    >>> verify(Gear(teeth=20, normal_module=2, face_width=20)).passed
+    True
+
+    Raises ParameterError and GeometryError for wrong input.
+    """
+    chosen = as_choice("level", level, Level) if isinstance(level, str) else level
+    return Verify(level=chosen).run(as_design(subject, load, **inputs), progress)

@@ -1,0 +1,142 @@
+"""Baseline: the figures of a verification beside those of an earlier one, and what has moved."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from gearcad.core.errors import ParameterError
+
+DOCUMENT = "verify.json"
+RESULTS = "results.csv"
+
+_NO_FIGURES = ("seconds", "gearcad", "files", "judges", "counts")
+"""Entries of documents that may differ between two runs of one design; ends of columns of results."""
+
+Figures = Mapping[str, float | str | bool | None]
+"""Figures by their paths in a document, or by the column of a table."""
+
+
+@dataclass(frozen=True)
+class Moved:
+    """A figure of a design that is not what it was: its values, and the relative change (infinite where there is none)."""
+
+    design: str
+    figure: str
+    before: float | str | bool | None
+    now: float | str | bool | None
+
+    @property
+    def change(self) -> float:
+        """Relative change of a number, infinite for all else."""
+        one, two = self.before, self.now
+        if isinstance(one, str | bool) or isinstance(two, str | bool) or one is None or two is None:
+            return math.inf
+        return (two - one) / abs(one) if one else math.inf
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the figure as an entry of a document."""
+        change = self.change if math.isfinite(self.change) else None
+        return {"design": self.design, "figure": self.figure, "before": self.before, "now": self.now, "change": change}
+
+    def __str__(self) -> str:
+        change = f"{100 * self.change:+.3g} %" if math.isfinite(self.change) else "changed"
+        return f"{self.design}: {self.figure}: {_shown(self.before)} -> {_shown(self.now)} ({change})"
+
+
+def _shown(value: float | str | bool | None) -> str:
+    return "nothing" if value is None else f"{value:.9g}" if isinstance(value, float) else str(value)
+
+
+def figures_of(document: Mapping[str, Any]) -> dict[str, float | str | bool | None]:
+    """Return the figures of a verify.json by their paths: inputs, derived values, and what the claims say and measure."""
+    found = dict(_leaves("spec", document.get("spec", {})))
+    found |= {name: document.get(name) for name in ("passed", "strength")}
+    for claim in document.get("claims", ()):
+        path = ": ".join((claim["claim"], claim["where"], claim["quantity"]))
+        found[f"{path}: computed"], found[f"{path}: passed"] = claim["computed"], claim["passed"]
+        if claim["level"] != "files":
+            found[f"{path}: reference"] = claim["reference"]
+    return found
+
+
+def _leaves(path: str, value: Any) -> Iterator[tuple[str, float | str | bool | None]]:
+    """The numbers and texts of a document by their paths."""
+    if isinstance(value, Mapping):
+        for key, inner in value.items():
+            if key not in _NO_FIGURES:
+                yield from _leaves(f"{path}.{key}", inner)
+    elif isinstance(value, list | tuple):
+        for number, inner in enumerate(value):
+            yield from _leaves(f"{path}[{number}]", inner)
+    else:
+        yield path, value
+
+
+def read_figures(source: Path) -> Mapping[str, Figures]:
+    """Return the figures of an earlier run by design: of a folder with verify.json, one for each row, or of a results.csv.
+
+    Raises ParameterError where there is neither.
+    """
+    if source.is_file():
+        return dict(_of_table(source))
+    documents = sorted([*source.glob(DOCUMENT), *source.glob(f"*/{DOCUMENT}")])
+    if not documents:
+        raise ParameterError("baseline", str(source), f"must be a folder with {DOCUMENT} of an earlier run, or its {RESULTS}")
+    found: dict[str, Figures] = {}
+    for path in documents:
+        try:
+            document = json.loads(path.read_text(encoding="utf-8"))
+            found[str(document["name"])] = figures_of(document)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise ParameterError("baseline", str(path), "must be written by gearcad verify: it cannot be read") from error
+    return found
+
+
+def _of_table(path: Path) -> Iterator[tuple[str, Figures]]:
+    """The rows of a table of results by their names, without times and paths of files."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ParameterError("baseline", str(path), "cannot be read") from error
+    dialect = ";" if ";" in text.partition("\n")[0] else ","
+    for row in csv.DictReader(text.splitlines(), delimiter=dialect):
+        if "name" not in row:
+            raise ParameterError("baseline", str(path), "must have a column name, as a table of results has")
+        kept = {key: value for key, value in row.items() if key and key.rpartition(".")[2] not in _NO_FIGURES}
+        cells = {key: _cell(value, dialect) for key, value in kept.items() if not key.startswith("files.")}
+        yield str(row["name"]), cells
+
+
+def _cell(text: str | None, dialect: str) -> float | str | bool | None:
+    if not text:
+        return None
+    if text in ("true", "false", "True", "False"):
+        return text.lower() == "true"
+    try:
+        return float(text.replace(",", ".") if dialect == ";" else text)
+    except ValueError:
+        return text
+
+
+def compare(before: Mapping[str, Figures], now: Mapping[str, Figures], tolerance: float) -> list[Moved]:
+    """Return what has moved by more than a relative `tolerance`, the greatest change first.
+
+    Designs and figures that only one of both has have moved too.
+    """
+    moved = []
+    for design in dict.fromkeys([*before, *now]):
+        if design not in now or design not in before:
+            moved.append(Moved(design, "design", design if design in before else None, design if design in now else None))
+            continue
+        old, new = before[design], now[design]
+        for figure in dict.fromkeys([*old, *new]):
+            each = Moved(design, figure, old.get(figure), new.get(figure))
+            if each.before != each.now and not abs(each.change) <= tolerance:
+                moved.append(each)
+    return sorted(moved, key=lambda each: -abs(each.change))
