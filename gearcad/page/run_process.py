@@ -78,6 +78,12 @@ def _rate() -> Job[Any, Any]:
     return Rate()
 
 
+def _verify() -> Job[Any, Any]:
+    from gearcad.jobs.verification import Verify
+
+    return Verify()
+
+
 def _data() -> Job[Any, Any]:
     from gearcad.jobs.job import Data
 
@@ -123,6 +129,7 @@ ANALYSES = {
     "stiffness": RunKind(job=_stiffness, report="stiffness.html"),
     "dynamics": RunKind(job=_dynamics, report="dynamics.html"),
     "planetary": RunKind(job=_planetary, report="planetary.html"),
+    "verify": RunKind(job=_verify, report="verify.html"),
 }
 """Jobs that solve, in the order in which one asks for them."""
 

@@ -29,6 +29,7 @@ COMMANDS = {
     "stiffness": (PAIR, "stiffness"),
     "dynamics": (PAIR, "dynamics"),
     "planetary": (starter_text("planetary-24-21-66")[1], "planetary"),
+    "verify": (starter_text("fzg-c")[1], "verify"),
     **{each: (RATED, f"build --format {each}") for each in ("step", "stl", "3mf", "glb", "dxf", "csv")},
     **{f"drawing-{each}": (RATED, f"draw --format {each}") for each in ("pdf", "dxf", "svg")},
     "data": (RATED, "data --json"),

@@ -277,6 +277,7 @@ def _names(words: PageWords) -> dict[str, str]:
         "stiffness": words["mesh stiffness"],
         "dynamics": words["dynamics"],
         "planetary": words["planetary train"],
+        "verify": words["verification of the files"],
     }
 
 
