@@ -30,6 +30,7 @@ gearcad.core.errors.ParameterError: load = 60: must be a Load
     data(pair)                     every derived quantity
     build(pair, folder)            STEP, STL, 3MF, GLB, DXF, points
     draw(pair)                     sheets for the workshop, with gear data: DXF, SVG, PDF
+    verify(pair)                   every claim about files and figures, judged by something that did not make it
     check(pair, load)              contact and root stress by finite elements, beside Hertz and ISO 6336
     mesh(gear)                     finite elements with named sides, of a section or a body, of a gear or a pair
     rate(pair, load)               safeties by ISO 6336 or DIN 3990, life, permissible torque
@@ -80,6 +81,7 @@ __getattr__, _, _names = lazy_loader.attach(
         "jobs.mesh": ["mesh"],
         "jobs.modify": ["modify"],
         "jobs.strength": ["rate"],
+        "jobs.verification": ["verify"],
         "load": ["Load"],
         "material": ["Material"],
         "mounting": ["Mounting"],
