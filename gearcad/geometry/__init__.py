@@ -18,17 +18,14 @@ from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.modification import FlankForm, FlankModification, ReliefShape
 from gearcad.geometry.pair import GearPair
 from gearcad.geometry.pair_data import (
-    BaseTangent,
     CommonWidth,
-    ContactLineLengths,
-    ContactZone,
-    PathOfContact,
     ShiftSplit,
     profile_shift_sum,
     specific_sliding,
     split_profile_shift,
     zero_backlash_centre_distance,
 )
+from gearcad.geometry.path_of_contact import BaseTangent, ContactLineLengths, ContactZone, PathOfContact
 from gearcad.geometry.profile import InternalProfile, ToothProfile
 from gearcad.geometry.rack import Rack, RackProfile
 from gearcad.geometry.rack_pair import RackPair

@@ -21,6 +21,7 @@ from gearcad.geometry.interference import FilletCut, InterferenceMargins, Intern
 from gearcad.geometry.involute import involute, tangent_length
 from gearcad.geometry.pair_data import PairData, farthest_centre_distance, shift_sum_limit, zero_backlash_centre_distance
 from gearcad.geometry.profile import ToothProfile
+from gearcad.geometry.toothed import ToothedPart
 
 ROUNDING = 1e-9
 """Cut into a fillet, in normal modules, that counts as rounding."""
@@ -352,21 +353,31 @@ def check_mates(pair: PairData) -> None:
     """Raise GeometryError unless module, pressure angle and helix angle fit together, and the gears face each other."""
     pinion, wheel = pair.gears
     check_ring(pair.gears.map(lambda gear: gear.teeth))
-    for name, unit, one, other in (
-        ("normal_module", "mm", pinion.normal_module, wheel.normal_module),
-        ("rack.pressure_angle", "deg", pinion.rack.pressure_angle, wheel.rack.pressure_angle),
-    ):
-        if abs(one - other) > SAME:
-            raise GeometryError(f"wheel.{name}", other, f"must be {format_number(one)} {unit}, as on the pinion", unit)
+    check_common("wheel", pinion, wheel)
     _check_halves(pair)
     hand, words = (1, "as on the pinion of an internal pair") if wheel.internal else (-1, "opposite to the pinion")
-    if abs(wheel.helix_angle - hand * pinion.helix_angle) > SAME:
-        permitted = f"must be {format_number(hand * pinion.helix_angle)} deg, {words}"
-        raise GeometryError("wheel.helix_angle", wheel.helix_angle, permitted, "deg")
+    check_hand("wheel", wheel, hand * pinion.helix_angle, words)
     if pair.common_width.width <= 0:
         most = at_most((pinion.face_width + wheel.face_width) / 2)
         permitted = f"must be between -{most} and {most} mm, for the gears to face each other"
         raise GeometryError("axial_offset", pair.axial_offset, permitted, "mm")
+
+
+def check_common(mate: str, pinion: ToothedPart, other: ToothedPart) -> None:
+    """Raise GeometryError unless module and pressure angle of a `mate`, wheel or rack, are those of its pinion."""
+    for name, unit, own, given in (
+        ("normal_module", "mm", pinion.normal_module, other.normal_module),
+        ("rack.pressure_angle", "deg", pinion.rack.pressure_angle, other.rack.pressure_angle),
+    ):
+        if abs(own - given) > SAME:
+            raise GeometryError(f"{mate}.{name}", given, f"must be {format_number(own)} {unit}, as on the pinion", unit)
+
+
+def check_hand(mate: str, other: ToothedPart, helix_angle: float, words: str) -> None:
+    """Raise GeometryError unless the helix angle of a `mate`, wheel or rack, is `helix_angle` (degrees), in `words`."""
+    if abs(other.helix_angle - helix_angle) > SAME:
+        permitted = f"must be {format_number(helix_angle)} deg, {words}"
+        raise GeometryError(f"{mate}.helix_angle", other.helix_angle, permitted, "deg")
 
 
 def _check_halves(pair: PairData) -> None:

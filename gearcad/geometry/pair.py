@@ -8,11 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from numpy.typing import ArrayLike
-
 from gearcad.core import symbols
 from gearcad.core.quantities import derive, is_given, symbols_of
-from gearcad.core.records import JsonObject, Notice, PerGear, Role, concise, texts
+from gearcad.core.records import JsonObject, Notice, PerGear, Role, concise
 from gearcad.geometry.gear import Pose, pair_html, wheel_pose
 from gearcad.geometry.gear_data import twist
 from gearcad.geometry.interference import FilletCut, InterferenceMargins, fillet_cut
@@ -27,14 +25,8 @@ from gearcad.geometry.mating import (
     interference_margins,
     interference_notices,
 )
-from gearcad.geometry.pair_data import (
-    ContactLineLengths,
-    ContactZone,
-    PairData,
-    SpecificSliding,
-    overlap_ratio_of,
-    sliding_document,
-)
+from gearcad.geometry.pair_data import PairData
+from gearcad.geometry.path_of_contact import sliding_document
 
 __all__ = ["GearPair"]
 
@@ -84,30 +76,13 @@ class GearPair(PairData):
         return self.base_tangent.usable(self.path_of_contact, self.gears.map(lambda gear: gear.form_diameter))
 
     @property
-    def specific_sliding(self) -> SpecificSliding:
-        """Specific sliding of both flanks at the first and the last contact, and the greatest."""
-        return SpecificSliding.between(self.rolling_speeds(self.usable_path))
-
-    @property
-    def usable_contact_ratio(self) -> float:
-        """epsilon_alpha also limited by the root form circles; 0 where nothing is left."""
-        first, last = self.usable_path
-        return max(last - first, 0.0) / self.pinion.transverse_base_pitch
-
-    @property
-    def overlap_ratio(self) -> float:
-        """epsilon_beta = b sin |beta|/(pi m_n) on the common face width, that of one half of double helical gears."""
-        return overlap_ratio_of(self._width_of_one_hand, self.pinion.helix_angle, self.pinion.normal_module)
-
-    @property
     def _width_of_one_hand(self) -> float:
         width = self.common_width.width
         return width / 2 if self.double_helical else width
 
     @property
-    def total_contact_ratio(self) -> float:
-        """epsilon_gamma = epsilon_alpha + epsilon_beta."""
-        return self.transverse_contact_ratio + self.overlap_ratio
+    def _phases(self) -> tuple[float, ...]:
+        return (0.0, self.pinion.double_helix.offset) if self.double_helical else (0.0,)
 
     @property
     def axial_force_ratio(self) -> float:
@@ -132,25 +107,6 @@ class GearPair(PairData):
         """
         return clear_tip_diameter(self) if self.internal else None
 
-    @cached_property
-    def _zone(self) -> ContactZone:
-        pinion, width = self.pinion, self._width_of_one_hand
-        pitch, helix = pinion.transverse_base_pitch, pinion.base_helix_angle
-        phases = (0.0, pinion.double_helix.offset) if self.double_helical else (0.0,)
-        return ContactZone(self.path_of_contact, pitch, width, helix, pinion.base_diameter, phases)
-
-    def contact_line_length(self, roll_angle: ArrayLike) -> Any:
-        """Total length (mm) of the lines of contact at a roll angle of the pinion (degrees), scalar or array.
-
-        Roll angle 0 puts contact at the pitch point in the middle plane of the common face width.
-        """
-        return self._zone.line_length(roll_angle)
-
-    @cached_property
-    def contact_line_lengths(self) -> ContactLineLengths:
-        """Least, mean and greatest total length of the lines of contact over the cycle (mm)."""
-        return self._zone.line_lengths
-
     # ------------------------------------------------------------------ in mesh
 
     def wheel_pose(self, pinion_rotation: float = 0.0) -> Pose:
@@ -166,11 +122,6 @@ class GearPair(PairData):
         """Notices about this pair that an engineer should read before making it."""
         interference = interference_notices(self) if self.internal else self._fillet_interference()
         return (*interference, *self._notices_of_mesh())
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """The notices in words."""
-        return texts(self.notices)
 
     def _notices_of_mesh(self) -> Iterator[Notice]:
         if self.circumferential_backlash < -ROUNDING * self.pinion.normal_module:

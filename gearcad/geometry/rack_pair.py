@@ -15,30 +15,22 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core import symbols
-from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, format_number, require_name
+from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, require_name
 from gearcad.core.quantities import NOT_GIVEN, Range, Words, derive, require_fields, symbols_of
-from gearcad.core.records import Floats, JsonObject, Notice, PerGear, concise, texts
+from gearcad.core.records import Floats, JsonObject, Notice, PerGear, concise
 from gearcad.geometry.fits import settled
 from gearcad.geometry.gear import Gear, RackPose
 from gearcad.geometry.gear_data import twist
 from gearcad.geometry.involute import tangent_length
-from gearcad.geometry.mating import ROUNDING_OVERLAP, SAME
+from gearcad.geometry.mating import ROUNDING_OVERLAP, check_common, check_hand
 from gearcad.geometry.pair import ROUNDING
-from gearcad.geometry.pair_data import (
-    ContactLineLengths,
-    ContactZone,
-    PathOfContact,
-    SpecificSliding,
-    overlap_ratio_of,
-    sliding_along,
-    sliding_document,
-)
+from gearcad.geometry.path_of_contact import EngagedPair, PathOfContact, sliding_document
 from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.rack import Rack, RackProfile, rack_pair_html
 
@@ -53,7 +45,7 @@ class OfPinionAndRack(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class RackPairData:
+class RackPairData(EngagedPair):
     """The fields of a `RackPair`, unchecked, and what needs no path of contact. Lengths in mm, angles in degrees."""
 
     pinion: Gear
@@ -80,6 +72,14 @@ class RackPairData:
     def common_width(self) -> float:
         """Width over which they face each other, their middles in one plane."""
         return min(self.pinion.face_width, self.rack.face_width)
+
+    @property
+    def _width_of_one_hand(self) -> float:
+        return self.common_width
+
+    @property
+    def _base_pitch(self) -> float:
+        return self.pinion.transverse_base_pitch
 
     @property
     def shifted_distance(self) -> float:
@@ -160,15 +160,8 @@ def check_rack_mates(pair: RackPairData) -> None:
     if pinion.double_helix.present:
         permitted = "must be left out: a rack has one helix"
         raise GeometryError("pinion.double_helix.gap_width", pinion.double_helix.gap_width, permitted, "mm")
-    for name, unit, one, other in (
-        ("normal_module", "mm", pinion.normal_module, rack.normal_module),
-        ("rack.pressure_angle", "deg", pinion.rack.pressure_angle, rack.rack.pressure_angle),
-    ):
-        if abs(one - other) > SAME:
-            raise GeometryError(f"rack.{name}", other, f"must be {format_number(one)} {unit}, as on the pinion", unit)
-    if abs(rack.helix_angle + pinion.helix_angle) > SAME:
-        permitted = f"must be {format_number(-pinion.helix_angle)} deg, opposite to the pinion"
-        raise GeometryError("rack.helix_angle", rack.helix_angle, permitted, "deg")
+    check_common("rack", pinion, rack)
+    check_hand("rack", rack, -pinion.helix_angle, "opposite to the pinion")
 
 
 def check_rack_mesh(pair: RackPairData) -> None:
@@ -364,37 +357,6 @@ class RackPair(RackPairData):
         along = np.atleast_1d(np.asarray(distances, float))
         return PerGear(along, np.full_like(along, self.path_of_contact.C))
 
-    def specific_sliding_at(self, distances: ArrayLike) -> PerGear[Floats]:
-        """Specific sliding zeta (n,) of pinion and rack at distances (mm) from T1 along the path of contact (ISO 21771)."""
-        return sliding_along(self.rolling_speeds(distances))
-
-    @property
-    def specific_sliding(self) -> SpecificSliding:
-        """Specific sliding of both flanks at the first and the last contact, and the greatest; `wheel` is the rack."""
-        return SpecificSliding.between(self.rolling_speeds(self.usable_path))
-
-    @property
-    def transverse_contact_ratio(self) -> float:
-        """epsilon_alpha from the tips, less tip chamfers."""
-        path = self.path_of_contact
-        return (path.E - path.A) / self.pinion.transverse_base_pitch
-
-    @property
-    def usable_contact_ratio(self) -> float:
-        """epsilon_alpha also limited by the ends of the flanks at the roots; 0 where nothing is left."""
-        first, last = self.usable_path
-        return max(last - first, 0.0) / self.pinion.transverse_base_pitch
-
-    @property
-    def overlap_ratio(self) -> float:
-        """epsilon_beta = b sin |beta|/(pi m_n) on the common face width."""
-        return overlap_ratio_of(self.common_width, self.pinion.helix_angle, self.pinion.normal_module)
-
-    @property
-    def total_contact_ratio(self) -> float:
-        """epsilon_gamma = epsilon_alpha + epsilon_beta."""
-        return self.transverse_contact_ratio + self.overlap_ratio
-
     @property
     def active_root_diameter(self) -> float:
         """d_Nf of the pinion, that the rack's tip form line reaches (mm); the base circle where it passes beyond T1."""
@@ -405,21 +367,6 @@ class RackPair(RackPairData):
         """Depth (mm) below the rack's reference line to which the pinion's tip form circle reaches on the rack's flank."""
         path, angle = self.path_of_contact, math.radians(self.working_transverse_pressure_angle)
         return (path.E - path.C) * math.sin(angle) - self.pitch_line_height
-
-    @cached_property
-    def _zone(self) -> ContactZone:
-        pinion = self.pinion
-        pitch, helix = pinion.transverse_base_pitch, pinion.base_helix_angle
-        return ContactZone(self.path_of_contact, pitch, self.common_width, helix, pinion.base_diameter)
-
-    def contact_line_length(self, roll_angle: ArrayLike) -> Any:
-        """Total length (mm) of the lines of contact at a roll angle of the pinion (degrees), as of a GearPair."""
-        return self._zone.line_length(roll_angle)
-
-    @cached_property
-    def contact_line_lengths(self) -> ContactLineLengths:
-        """Least, mean and greatest total length of the lines of contact over the cycle (mm)."""
-        return self._zone.line_lengths
 
     # ------------------------------------------------------------------ in mesh
 
@@ -439,11 +386,6 @@ class RackPair(RackPairData):
     def notices(self) -> tuple[Notice, ...]:
         """Notices about this pair that an engineer should read before making it."""
         return (*self._interference(), *self._notices_of_mesh())
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """The notices in words."""
-        return texts(self.notices)
 
     def _notices_of_mesh(self) -> Iterator[Notice]:
         if self.circumferential_backlash < -ROUNDING * self.pinion.normal_module:

@@ -29,13 +29,13 @@ from gearcad.geometry import BasicRack, Gear, GearPair
 from gearcad.geometry.fits import backlash
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.pair_data import (
-    BaseTangent,
     PairSizes,
     clearance_alteration,
     shift_sum_between,
     transverse_section,
     working_involute,
 )
+from gearcad.geometry.path_of_contact import BaseTangent
 from gearcad.geometry.toothed import GearSizes
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from gearcad.core.records import Floats, PerGear, Role
 from gearcad.core.values import Numbers, chosen
-from gearcad.geometry.pair_data import overlap_ratio_of
+from gearcad.geometry.path_of_contact import overlap_ratio_of
 from gearcad.material import Material, MaterialGroup
 from gearcad.rating.contact_stress import (
     contact_factor,

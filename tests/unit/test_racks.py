@@ -17,7 +17,7 @@ from gearcad import BasicRack, Gear, Rack, RackPair
 from gearcad.core.errors import GeometryError, InputError, ParameterError
 from gearcad.core.records import PerGear
 from gearcad.geometry import BaseTangent
-from gearcad.geometry.pair_data import ContactZone
+from gearcad.geometry.path_of_contact import ContactZone
 from gearcad.geometry.rack_pair import cut_by_pinion, cut_by_rack
 
 EXACT = 1e-12

@@ -19,7 +19,7 @@ from gearcad.designs.pair_designs import PairDesign, RackPairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.geometry import Gear, Rack
 from gearcad.geometry.gear_data import first_touch, section_turn
-from gearcad.geometry.pair_data import PathOfContact
+from gearcad.geometry.path_of_contact import PathOfContact
 from gearcad.geometry.profile import parameters_within
 from gearcad.jobs.build import given_speeds, require_bodies
 from gearcad.jobs.planetary import planetary
