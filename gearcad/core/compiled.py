@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any, TypeVar
 
 import numba
@@ -17,7 +18,19 @@ def compiled(function: Function) -> Function:
         made: Function = numba.njit(cache=True, **options)(function)
     except RuntimeError:  # no folder for it
         made = numba.njit(**options)(function)
+    else:
+        _forget_unreadable(made)
     return made
+
+
+def _forget_unreadable(made: Any) -> None:
+    """Empty the cache of a function if it names what is no more, such as a class of an older version of the package."""
+    cache = made._cache
+    try:
+        cache._cache_file._load_index()
+    except Exception:  # an index is a pickle: it may raise anything
+        with suppress(OSError):
+            cache.flush()
 
 
 def inlined(function: Function) -> Function:
