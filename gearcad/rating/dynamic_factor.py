@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +17,14 @@ from gearcad.core.records import Floats, Notice, PerGear, texts
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
-from gearcad.rating.load_factor_formulas import FlankWear, RunningIn, dynamic_factor_b, resonance_speed, running_in_relief
+from gearcad.rating.load_factor_formulas import (
+    DeviationEffects,
+    FlankWear,
+    RunningIn,
+    dynamic_factor_b,
+    resonance_speed,
+    running_in_relief,
+)
 from gearcad.rating.material_limits import EnduranceLimits, endurance_limits_of
 from gearcad.rating.nominal_rating import rate
 from gearcad.rating.options import RatingOptions, accuracy_grades, base_pitch_deviations, profile_form_deviations
@@ -148,14 +156,11 @@ class DynamicFactor:
         """n_E1 in rpm (6)."""
         return resonance_speed(self.teeth, self.mesh_stiffness, self.reduced_mass)
 
-    def effects(self, speed: ArrayLike) -> tuple[Floats, Floats, float]:
-        """B_p (15), B_f (16), B_k (17): deviations and relief over the deflection c' would have under the load.
-
-        At speeds of the pinion in rpm: how much of the deviations runs in depends on them.
-        """
-        stiffness, (y_p, y_f) = self.single_stiffness / self.specific_load, self.allowances(speed)
+    def effects(self, speed: ArrayLike) -> DeviationEffects[Any]:
+        """B_p, B_f and B_k at speeds of the pinion in rpm: how much of the deviations runs in depends on them."""
+        y_p, y_f = self.allowances(speed)
         left = self.pitch_deviation - y_p, self.profile_deviation - y_f  # (18), (19)
-        return stiffness * left[0], stiffness * left[1], abs(1 - stiffness * self.tip_relief)
+        return DeviationEffects.of(self.single_stiffness, self.specific_load, *left, self.tip_relief)
 
     def allowances(self, speed: ArrayLike) -> tuple[Floats, Floats]:
         """Return y_p and y_f (µm), the running-in allowances of f_pb and f_falpha at speeds of the pinion in rpm."""
@@ -208,9 +213,13 @@ def _running_in(material: Material, flank_limit: float | None) -> RunningIn:
 
 
 def _tip_relief(pair: GearPair, limits: PerGear[EnduranceLimits], grade: int) -> float:
+    designed = min(gear.modification.tip_relief for gear in pair.gears)
+    return effective_relief(limits, grade, designed)
+
+
+def effective_relief(limits: PerGear[EnduranceLimits], grade: int, designed: float = 0.0) -> float:
     """Return C_a (µm): 0 for coarse grades, else the designed relief of both gears, or else that by running-in, if known."""
     if grade > _FINE:
         return 0.0
-    designed = min(gear.modification.tip_relief for gear in pair.gears)
     known = [running_in_relief(each.contact) for each in limits if each.contact is not None]
     return designed or (sum(known) / 2 if len(known) == 2 else 0.0)

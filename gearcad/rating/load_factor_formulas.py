@@ -118,6 +118,22 @@ def running_factors(total_contact_ratio: Values) -> RunningFactors[Values]:
     )
 
 
+class DeviationEffects(NamedTuple, Generic[Values]):
+    """B_p (15), B_f (16), B_k (17): deviations and relief over the deflection that c' would have under the load."""
+
+    pitch: Values
+    profile: Values
+    relief: Values
+
+    @classmethod
+    def of(
+        cls, single_stiffness: Values, specific_load: Values, pitch: Values, profile: Values, tip_relief: float
+    ) -> DeviationEffects[Values]:
+        """Return the effects of deviations (µm) that running-in leaves, (18) and (19), and of the tip relief C_a (µm)."""
+        stiffness = single_stiffness / specific_load
+        return DeviationEffects(stiffness * pitch, stiffness * profile, magnitude(1 - stiffness * tip_relief))
+
+
 def dynamic_factor_b(
     ratio: Values,
     specific_load: Values,

@@ -5,13 +5,14 @@ The formulas of K_v (Method B) and of K_Hbeta (from a misalignment) are in `gear
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Generic, NamedTuple
 
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Notice, PerGear, is_assumed
+from gearcad.core.values import Values, larger, smaller
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material, of_both
@@ -139,12 +140,11 @@ class LoadedMesh:
         return f"{Edition.ISO_2006.dated_part(1)}, {clause} ({method})"
 
 
-def term_of(mesh: LoadedMesh) -> float:
-    """K' l s/d_1^2 (d_1/d_sh)^4: 0 of a pinion in the middle between its bearings.
+def term_of(options: RatingOptions, diameter: Values) -> Values:
+    """K' l s/d_1^2 (d_1/d_sh)^4 by the pinion's reference diameter (mm): 0 in the middle between the bearings.
 
     Raises ParameterError where the pinion is not there but its shaft is not given.
     """
-    options, diameter = mesh.options, mesh.pair.pinion.reference_diameter
     place = options.pinion_place
     if not options.pinion_offset:
         if place is BearingArrangement.OVERHUNG:
@@ -158,6 +158,14 @@ def term_of(mesh: LoadedMesh) -> float:
     assert span is not None and shaft is not None  # seen to just now
     factor = arrangement_factor(place, options.stiffening, diameter / shaft)
     return shaft_term(factor, span, options.pinion_offset, diameter, shaft)
+
+
+def deflection_of(options: RatingOptions, mean_load: Values, width: Values, diameter: Values) -> Values:
+    """Return f_sh (µm): as given, or by (57), under F_m/b (N/mm). Raises ParameterError for a shaft that is half given."""
+    if options.shaft_deflection is not None:
+        return options.shaft_deflection
+    compliance = helix_factors(options.helix_modification, options.standard).compliance
+    return shaft_deflection(mean_load, width, diameter, shaft_term=term_of(options, diameter), compliance=compliance)
 
 
 def assumed_shaft(mesh: LoadedMesh) -> tuple[str, ...]:
@@ -202,38 +210,50 @@ def face_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
     return _with_root(mesh, flank)
 
 
-class Misalignment(NamedTuple):
+class Misalignment(NamedTuple, Generic[Values]):
     """F_beta_x and its parts in µm: f_sh, f_Hbeta of both gears, f_ma, B_1 and B_2, and the least value."""
 
-    deflection: float
-    slopes: PerGear[float]
-    manufacture: float
+    deflection: Values
+    slopes: PerGear[Values]
+    manufacture: Values
     factors: HelixFactors
-    least: float
-    initial: float
+    least: Values
+    initial: Values
 
     @classmethod
-    def of(cls, mesh: LoadedMesh, mean_load: float) -> Misalignment:
+    def of(cls, mesh: LoadedMesh, mean_load: float) -> Misalignment[float]:
+        """Return the misalignment of a mesh under F_m/b (N/mm). Raises ParameterError."""
+        pair, options = mesh.pair, mesh.options
+        deflection = deflection_of(options, mean_load, mesh.width, pair.pinion.reference_diameter)
+        slopes = helix_slope_deviations(pair, options)
+        return Misalignment.from_options(
+            options, deflection, slopes, lambda: helix_slopes_of_grade_five(pair, options), mean_load
+        )
+
+    @classmethod
+    def from_options(
+        cls,
+        options: RatingOptions,
+        deflection: Values,
+        slopes: PerGear[Values],
+        slopes_of_grade_five: Callable[[], PerGear[Values]],
+        mean_load: Values,
+    ) -> Misalignment[Values]:
         """Return the misalignment under F_m/b (N/mm), by (52) or, with a proven contact pattern, (53).
 
-        Raises ParameterError.
+        `deflection` is f_sh, `slopes` are f_Hbeta.
         """
-        options = mesh.options
-        slopes = helix_slope_deviations(mesh.pair, options)
-        deflection = _shaft_deflection(mesh, mean_load)
-        manufacture = options.manufacturing_misalignment
-        if manufacture is None:
-            manufacture = manufacturing_misalignment(*slopes)
-        least = least_misalignment(mean_load, max(slopes))
+        given = options.manufacturing_misalignment
+        manufacture = manufacturing_misalignment(*slopes) if given is None else given
+        least = least_misalignment(mean_load, larger(*slopes))
         factors = helix_factors(options.helix_modification, options.standard)
         if options.contact_pattern is ContactPattern.PROVEN:
             compensation = options.given_compensation
-            if compensation is None:
-                compensation = min(helix_slopes_of_grade_five(mesh.pair, options))
-            initial = proven_misalignment(deflection, compensation, factors, least)
+            opposite = smaller(*slopes_of_grade_five()) if compensation is None else compensation
+            initial = proven_misalignment(deflection, opposite, factors, least)
         else:
             initial = initial_misalignment(deflection, manufacture, factors, least)
-        return cls(deflection, slopes, manufacture, factors, least, initial)
+        return Misalignment(deflection, slopes, manufacture, factors, least, initial)
 
 
 def _method_c(mesh: LoadedMesh, mean_load: float) -> Finding:
@@ -274,15 +294,6 @@ def _recalled(mesh: LoadedMesh) -> bool:
     modified = options.helix_modification is not HelixModification.NONE
     of_din = options.standard is Edition.DIN_1987 and modified
     return of_shaft or of_din or options.contact_pattern is ContactPattern.PROVEN
-
-
-def _shaft_deflection(mesh: LoadedMesh, mean_load: float) -> float:
-    """Return f_sh (µm): as given, or by (57)."""
-    if mesh.options.shaft_deflection is not None:
-        return mesh.options.shaft_deflection
-    compliance = helix_factors(mesh.options.helix_modification, mesh.options.standard).compliance
-    diameter = mesh.pair.pinion.reference_diameter
-    return shaft_deflection(mean_load, mesh.width, diameter, shaft_term=term_of(mesh), compliance=compliance)
 
 
 def _notices(mesh: LoadedMesh, effective: float, mean_load: float) -> Iterator[Notice]:
@@ -328,6 +339,12 @@ def _with_root(mesh: LoadedMesh, flank: Finding) -> Finding:
     )
 
 
+def alpha_deviations(options: RatingOptions, pitch: Values, profile: Values) -> tuple[Values, Values]:
+    """Return the deviation f of K_Halpha, the larger of f_pb and f_falpha (µm), and the deviation that runs in."""
+    deviation = larger(pitch, profile)
+    return deviation, deviation if options.alpha_deviation_rule is AlphaDeviation.LITERAL else pitch
+
+
 def transverse_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
     """K_Halpha and K_Falpha under F_tH/b (N/mm), by the larger of f_pb and f_falpha. Raises ParameterError as tolerances do."""
     given = mesh.options.transverse_load_factor
@@ -336,9 +353,8 @@ def transverse_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
     pair, stiffness = mesh.pair, mesh.stiffness.mesh_alpha
     gamma, alpha = pair.total_contact_ratio, pair.transverse_contact_ratio
     pitch, profile = max(base_pitch_deviations(pair, mesh.options)), max(profile_form_deviations(pair, mesh.options))
-    deviation = max(pitch, profile)
-    literal = mesh.options.alpha_deviation_rule is AlphaDeviation.LITERAL
-    worn = float(mesh.wear.alpha(deviation if literal else pitch, mesh.speed))
+    deviation, running_in = alpha_deviations(mesh.options, pitch, profile)
+    worn = float(mesh.wear.alpha(running_in, mesh.speed))
     factor = transverse_load_factor(gamma, stiffness, deviation, worn, mean_load)
     of_flank = flank_limit(gamma, alpha, contact_ratio_factor(alpha, pair.overlap_ratio))
     of_root = root_limit(gamma, alpha)

@@ -15,35 +15,28 @@ import numpy as np
 
 from gearcad.core.records import Bools, Floats, Indices, PerGear, Role, Wholes
 from gearcad.core.values import Numbers
-from gearcad.rating.dynamic_factor import flank_wear
+from gearcad.rating.dynamic_factor import effective_relief, flank_wear
 from gearcad.rating.editions import Both, both
 from gearcad.rating.load_factor_formulas import (
     UNLOADED_ENDS,
+    DeviationEffects,
     FlankWear,
-    arrangement_factor,
     body_mass,
     circumferential_speed,
     dynamic_factor_b,
     dynamic_factor_c,
     face_load_factor,
     flank_limit,
-    helix_factors,
-    initial_misalignment,
-    least_misalignment,
-    manufacturing_misalignment,
     pair_mass,
-    proven_misalignment,
     resonance_speed,
     root_face_load_factor,
     root_limit,
-    running_in_relief,
-    shaft_deflection,
-    shaft_term,
     speed_measure,
     transverse_load_factor,
     within,
 )
-from gearcad.rating.options import AlphaDeviation, ContactPattern, RatingOptions
+from gearcad.rating.load_factors import Misalignment, alpha_deviations, deflection_of
+from gearcad.rating.options import RatingOptions
 from gearcad.rating.scuffing import RZ_OVER_RA, USUAL_ROUGHNESS
 from gearcad.rating.scuffing_temperatures import (
     LUBRICATION,
@@ -57,9 +50,6 @@ from gearcad.rating.tolerances import GearTolerances
 from gearcad.sizing.geometry import Columns, ManyPairs
 from gearcad.sizing.stresses import NominalStresses, Strengths
 from gearcad.sizing.task import SizeTask
-
-_FINE = 5
-"""The coarsest accuracy grade whose tip relief, from running in, counts."""
 
 _FIFTH = 5
 """The accuracy grade whose f_Hbeta stands for what lies opposite to the deflection of the shafts (7.5, (53))."""
@@ -167,19 +157,21 @@ class ManyLoadFactors:
 
     @property
     def _by_resonance(self) -> Numbers:
-        f_pb, f_fa, stiff = (
-            self.base_pitch_deviation,
-            self.profile_form_deviation,
-            self.nominal.stiffness.single / self.outer_load,
+        f_pb, f_fa, stiffness = self.base_pitch_deviation, self.profile_form_deviation, self.nominal.stiffness
+        pitch, profile, relief = DeviationEffects.of(
+            stiffness.single,
+            self.outer_load,
+            f_pb - self._wear.alpha(f_pb, self.speed),
+            f_fa - self._wear.alpha(f_fa, self.speed),
+            effective_relief(self.task.limits, self._options.accuracy_grade),
         )
-        resonance = resonance_speed(self.pairs.teeth.pinion, self.nominal.stiffness.mesh_alpha, self.mass)
         return dynamic_factor_b(
-            abs(self.task.load.speed) / resonance,
+            abs(self.task.load.speed) / resonance_speed(self.pairs.teeth.pinion, stiffness.mesh_alpha, self.mass),
             self.outer_load,
             self.total_contact_ratio,
-            pitch_effect=stiff * (f_pb - self._wear.alpha(f_pb, self.speed)),
-            profile_effect=stiff * (f_fa - self._wear.alpha(f_fa, self.speed)),
-            relief_effect=np.abs(1 - stiff * self._tip_relief),
+            pitch_effect=pitch,
+            profile_effect=profile,
+            relief_effect=relief,
         )
 
     @cached_property
@@ -194,12 +186,6 @@ class ManyLoadFactors:
         density: Numbers = self.task.materials.pick(role).density
         return body_mass(tip, root, base, solid, density)
 
-    @property
-    def _tip_relief(self) -> float:
-        """C_a (µm) that running in makes, which counts for fine grades alone."""
-        limits = [each.contact or 0.0 for each in self.task.limits]
-        return 0.0 if self._options.accuracy_grade > _FINE else sum(map(running_in_relief, limits)) / 2
-
     # ------------------------------------------------------------------ K_Hbeta, K_Fbeta
 
     @cached_property
@@ -213,38 +199,16 @@ class ManyLoadFactors:
         given = self._options.face_load_factor
         if not isinstance(given, str):
             return np.full_like(self.outer_load, given)
-        initial = self._misalignment
+        options = self._options
+        deflection = deflection_of(options, self._mean_load, self.nominal.width, self.pairs.diameters.pinion)
+        initial = Misalignment.from_options(
+            options, deflection, self.helix_slope_deviations, self._slopes_of_grade_five, self._mean_load
+        ).initial
         left = initial - self._wear.beta(initial, self.speed)
         return face_load_factor(left, self.nominal.stiffness.mesh_beta, self._mean_load)
 
-    @property
-    def _misalignment(self) -> Numbers:
-        """Equivalent misalignment F_beta_x (µm)."""
-        options, slopes = self._options, self.helix_slope_deviations
-        factors = helix_factors(options.helix_modification, options.standard)
-        least = least_misalignment(self._mean_load, _larger(slopes))
-        if options.contact_pattern is ContactPattern.PROVEN:
-            pinion, wheel = (each.helix_slope for each in self._tolerances(_FIFTH))
-            fifth: Numbers = np.minimum(pinion, wheel)
-            compensation = options.given_compensation
-            return proven_misalignment(self._deflection, fifth if compensation is None else compensation, factors, least)
-        given = options.manufacturing_misalignment
-        made = manufacturing_misalignment(*slopes) if given is None else given
-        return initial_misalignment(self._deflection, made, factors, least)
-
-    @property
-    def _deflection(self) -> Numbers:
-        """Deviation f_sh by deflection of the shaft (µm)."""
-        options, d_1 = self._options, self.pairs.diameters.pinion
-        if options.shaft_deflection is not None:
-            return options.shaft_deflection
-        bent: Numbers = 0.0
-        if options.pinion_offset and options.bearing_span is not None and options.shaft_diameter is not None:
-            shaft = options.shaft_diameter
-            place = arrangement_factor(options.pinion_place, options.stiffening, d_1 / shaft)
-            bent = shaft_term(place, options.bearing_span, options.pinion_offset, d_1, shaft)
-        compliance = helix_factors(options.helix_modification, options.standard).compliance
-        return shaft_deflection(self._mean_load, self.nominal.width, d_1, shaft_term=bent, compliance=compliance)
+    def _slopes_of_grade_five(self) -> PerGear[Numbers]:
+        return self._tolerances(_FIFTH).map(lambda each: each.helix_slope)
 
     @property
     def face_root(self) -> Numbers:
@@ -260,9 +224,8 @@ class ManyLoadFactors:
 
     @cached_property
     def _transverse(self) -> Numbers:
-        f_pb, f = self.base_pitch_deviation, np.maximum(self.base_pitch_deviation, self.profile_form_deviation)
-        runs_in = f_pb if self._options.alpha_deviation_rule is AlphaDeviation.KISSSOFT_2017 else f
-        worn, load = self._wear.alpha(runs_in, self.speed), self._mean_load * self.face_flank
+        f, running_in = alpha_deviations(self._options, self.base_pitch_deviation, self.profile_form_deviation)
+        worn, load = self._wear.alpha(running_in, self.speed), self._mean_load * self.face_flank
         return transverse_load_factor(self.total_contact_ratio, self.nominal.stiffness.mesh_alpha, f, worn, load)
 
     @property
