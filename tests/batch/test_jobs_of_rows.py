@@ -72,4 +72,4 @@ def test_parts_are_kept_while_their_options_are(made: Path) -> None:
 def test_every_job_with_a_document_of_its_own_is_a_part() -> None:
     """`build` has parts by their formats, and the document of `data`."""
     own = [verb for verb in VERBS if verb in job_of(verb)().parts]
-    assert own == ["data", "draw", "picture", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify"]
+    assert own == ["data", "draw", "picture", "verify", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify"]
