@@ -42,7 +42,7 @@ _BACKLASH = 5e-5
 """Difference (mm) of backlash between outlines with a normal module of at most 10 mm."""
 
 _CONTACT_RATIO = 1e-4
-"""Share by which contact ratios may differ."""
+"""Difference of contact ratios that is permitted."""
 
 _SWEEP, _ROLLED, _GAUGED = "sweep of the tool", "rolled outlines", "gauges on the outline"
 
@@ -131,16 +131,17 @@ def _made_by_tool(gear: Gear, points: Complexes) -> np.ndarray[tuple[int, ...], 
 
 
 def _off_chamfer(gear: Gear, points: Complexes) -> float:
-    """Return the greatest distance (mm) of a tip chamfer from the line at 45° to the radius through the end of the flank."""
-    side, end, tip = (-1 if gear.internal else 1), _tip_form(gear), abs(gear.tip_diameter) / 2
-    left = points[points.imag >= 0]
-    radii = np.abs(left)
-    start = left[np.abs(radii - end).argmin()]
-    chamfer = left[(side * radii >= side * end - 1e-9 * end) & (side * radii < side * tip - 1e-9 * tip)]
-    corner = left[np.abs(radii - tip) <= 1e-9 * tip]
-    chamfer = np.r_[chamfer, corner[np.angle(corner).argmax()]]
+    """Return the greatest distance (mm) of a tip chamfer from its line at 45° to the radius through the end of the flank."""
+    side, end = (-1 if gear.internal else 1), _tip_form(gear)
+    folded = points.real + 1j * np.abs(points.imag)
+    radii = side * np.abs(folded)
+    start = folded[np.abs(radii - side * end).argmin()]
+    below = radii < radii.max() - 1e-9 * end
+    corner = folded[~below]
+    chamfer = np.r_[folded[below & (radii >= side * end - 1e-9 * end)], corner[np.angle(corner).argmax()]]
     local = (chamfer - start) / (start / abs(start))
-    return float(np.abs(side * local.real + local.imag).max()) / math.sqrt(2)
+    away = abs(float(abs(start)) - end)  # where the flank ends
+    return max(away, float(np.abs(side * local.real + local.imag).max()) / math.sqrt(2))
 
 
 def _heights(gear: Gear, sections: int) -> Floats:
@@ -207,22 +208,21 @@ def _judge_balls(judge: Judge, gear: Gear, gauges: OutlineGauges, permitted: flo
         yield judge.not_judged(f"dimension {word} two balls of {ball:g} mm", off or "none is told")
         return
     circle = 2 * gauges.ball_centre(ball)
+    rests = abs(abs(circle - abs(gear.root_diameter)) - ball) < permitted
+    place = "the ball rests on the root circle, not on the flanks" if rests else ""
     # Two spaces as nearly opposite as there are: their middles are half a pitch off the diameter where z is odd.
     facing = math.cos(math.pi / (2 * gear.tooth_count)) if gear.tooth_count % 2 else 1.0
     size = -ball if gear.internal else ball
-    yield judge.near(f"dimension {word} two balls of {ball:g} mm", told, circle * facing + size, permitted, "mm")
+    between = circle * facing + size
+    yield judge.near(f"dimension {word} two balls of {ball:g} mm", told, between, permitted, "mm", place=place)
     if gear.over_pins is None:
         if gear.between_pins is not None:
-            yield judge.near(
-                f"dimension between two pins of {ball:g} mm", gear.between_pins, circle * facing + size, permitted, "mm"
-            )
-        return
-    if not gear.helix_angle:
-        yield judge.near(f"dimension over two pins of {ball:g} mm", gear.over_pins, circle * facing + size, permitted, "mm")
+            name = f"dimension between two pins of {ball:g} mm"
+            yield judge.near(name, gear.between_pins, between, permitted, "mm", place=place)
         return
     # A pin follows its helical space along the axis until it is opposite to the other.
-    resting = 2 * gauges.pin_centre(ball)
-    yield judge.near(f"dimension over two pins of {ball:g} mm", gear.over_pins, resting + size, permitted, "mm")
+    over = 2 * gauges.pin_centre(ball) + size if gear.helix_angle else between
+    yield judge.near(f"dimension over two pins of {ball:g} mm", gear.over_pins, over, permitted, "mm", place=place)
 
 
 # ---------------------------------------------------------------------- racks
@@ -273,7 +273,7 @@ def judge_pair(pair: GearPair | RackPair, where: str) -> Iterator[Claim]:
     gaps = rolled.flank_gaps
     if gaps is None or pair.usable_contact_ratio <= 0:
         # Both must say so, or one of them is wrong.
-        yield judge.near("usable contact ratio", pair.usable_contact_ratio, 0.0 if gaps is None else 1.0, _CONTACT_RATIO)
+        yield judge.near("usable contact ratio", pair.usable_contact_ratio, rolled.contact_ratios()[1], _CONTACT_RATIO)
         yield judge.not_judged(
             "backlash, contact ratio", "no flank reaches its mate's flank: teeth touch with edges and fillets"
         )
@@ -309,11 +309,11 @@ def _judge_contact_ratios(judge: Judge, pair: GearPair | RackPair, rolled: Rolle
         reason = "a tip ends beyond the other's flank, so that it touches nothing there; the usable contact ratio is judged"
         yield judge.not_judged(name, reason)
     else:
-        yield judge.near(name, pair.transverse_contact_ratio, tips, _CONTACT_RATIO, relative=True)
+        yield judge.near(name, pair.transverse_contact_ratio, tips, _CONTACT_RATIO)
     if math.isnan(usable):
         yield judge.not_judged("usable contact ratio", "contact ends so near a base circle that the outlines do not show where")
         return
-    yield judge.near("usable contact ratio", pair.usable_contact_ratio, usable, _CONTACT_RATIO, relative=True)
+    yield judge.near("usable contact ratio", pair.usable_contact_ratio, usable, _CONTACT_RATIO)
 
 
 def _judge_interference(
