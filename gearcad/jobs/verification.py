@@ -21,6 +21,7 @@ from gearcad.geometry import Gear, GearPair, Rack
 from gearcad.jobs.build import AssemblyProduct, Build, PartProduct, products_of
 from gearcad.jobs.job import Data, Job, Subject, Writer, as_design
 from gearcad.jobs.strength import Check, Rate
+from gearcad.jobs.verification_sheets import judge_sheets, make_sheets
 from gearcad.report.verification import heading, verification_html, write_verification_pdf
 from gearcad.solids import FileOptions, Format
 from gearcad.verification.assemblies import PlacedMesh
@@ -96,7 +97,7 @@ class Verify(Job[ToothedDesign, Verification]):
             yield claim
 
     def _untimed(self, design: ToothedDesign, folder: Path) -> Iterator[Claim]:
-        yield from _of_files(design, folder)
+        yield from _of_files(design, folder, drawn=not self.folder)
         if self.level.includes(Level.STRENGTH):
             yield from _of_strength(design)
 
@@ -160,8 +161,8 @@ def _write_bytes(content: bytes, path: Path) -> None:
     path.write_bytes(content)
 
 
-def _of_files(design: ToothedDesign, folder: Path) -> Iterator[Claim]:
-    """The claims of level files: of every file, and of the geometry."""
+def _of_files(design: ToothedDesign, folder: Path, *, drawn: bool) -> Iterator[Claim]:
+    """The claims of level files: of every file, of the drawings, which are to be `drawn` or are there, and of the geometry."""
     options = FileOptions()
     parts, assembly = products_of(design, options)
     exact = {product.name: ExactPart(_part(product)) for product in parts.values()}
@@ -176,6 +177,9 @@ def _of_files(design: ToothedDesign, folder: Path) -> Iterator[Claim]:
             yield from _of_file(
                 path, kind, lambda path, kind=kind: _of_assembly(path, kind, design, parts, assembly, exact, options)
             )
+    reason = make_sheets(design, folder) if drawn else ""
+    of_parts = {name: exact[product.name] for name, product in parts.items()}
+    yield from judge_sheets(design, folder, of_parts, Data().document(design), reason)
     for name, product in parts.items():
         part = _part(product)
         yield from judge_rack(part, name) if isinstance(part, Rack) else judge_gear(part, name)
