@@ -31,6 +31,9 @@ _FAR = 1e9
 _NEAR = 12
 """Positions beside an end of the contact within which it is looked for."""
 
+_NARROWER = 0.3
+"""Factor on the width of a parabola from one to the next: it is skew beside a base circle."""
+
 _TURNS = 501
 """Positions of the pinion at which an end of a flank is looked at."""
 
@@ -330,4 +333,5 @@ def _lowest(function: Callable[[Floats], Floats], low: float, high: float) -> fl
         if bend <= 0 or after >= _FAR or before >= _FAR:
             return middle
         middle -= float(np.clip((after - before) / (2 * bend), -2.0, 2.0)) * step
+        step *= _NARROWER
     return middle
