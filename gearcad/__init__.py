@@ -58,7 +58,7 @@ if TYPE_CHECKING:
     from gearcad.designs import Design
 
 _CALLABLE_ROOMS = ("check", "dynamics", "identify", "planetary", "stiffness")
-"""Rooms that are verbs too."""
+"""Names of the packages that can also be called as functions."""
 
 _ROOMS = ("batch", "contact", "designs", "jobs", "meshing", "plots", "rating", "sizing", "solids")
 

@@ -34,7 +34,7 @@ MANIFEST = "manifest.json"
 
 _NO_NAME = r'\x00-\x1f\ud800-\udfff/\\<>:"|?*'
 _OUR_FILE = re.compile(rf"[^\s.\-{_NO_NAME}][^{_NO_NAME}]{{0,200}}\.[a-z0-9]{{1,10}}")
-"""Some are called as gears are, which may be anything that a folder can be called."""
+"""Pattern of file names that a row may write. Some are named after gears, so any name that a folder can have is permitted."""
 
 
 @dataclass(frozen=True)
@@ -302,7 +302,7 @@ def _warnings(document: dict[str, Any]) -> Iterator[str]:
 
 
 class _Update(NamedTuple):
-    """Whether anything was made now, and the parts of a stage, all of which are there now."""
+    """Result of one stage: whether it made anything now, and the parts of the row that exist afterwards."""
 
     made: bool
     parts: list[RowPart]

@@ -28,7 +28,7 @@ class Subject(Enum):
     """Subject of a comparison."""
 
     NUMERICS = "numerics"
-    """Whether the numbers are those of the model: equilibrium, Hertz, the error of mesh and positions."""
+    """Numerics of the model: equilibrium, agreement with Hertz, errors of mesh and positions."""
 
     STRENGTH = "strength"
     """Limits of the material."""

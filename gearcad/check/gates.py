@@ -22,7 +22,7 @@ from gearcad.material import Limit, Material, by_gear
 from gearcad.rating.tooth_stiffness import RIM_LIMIT, RING_RIM_LIMIT
 
 _SAME = 1e-9
-"""mm: radii that do not differ."""
+"""Difference of radii (mm) below which they count as equal."""
 
 _SOURCE = "s_R/h_t from 1.2 on, ISO 6336-3:2006 clause 9"
 

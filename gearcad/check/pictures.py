@@ -115,7 +115,7 @@ def depth_profile(cycle: PlaneCycle, contact: PlanePairContact) -> DepthProfile:
 
 
 def _below(contact: PlanePairContact, depth: Floats, poisson_ratio: float) -> Stresses:
-    """Below the centre of the pressures, in the directions of `Stresses`."""
+    """Return the stresses below the centre of the pressures at each depth (mm), in the directions of `Stresses`."""
     cells = contact.pair.cells
     middle = float((cells.place * contact.pressures).sum() / contact.pressures.sum())
     across, down, shear = strip_stresses(np.full_like(depth, middle), depth, cells.place, cells.width, contact.pressures)
@@ -152,7 +152,7 @@ class Cells(NamedTuple):
     on_edge: Bools
 
     def only(self, chosen: Bools) -> Cells:
-        """Some of the cells."""
+        """Return the chosen cells."""
         return Cells(
             self.place[chosen],
             self.across[chosen],

@@ -45,7 +45,7 @@ class ReliefStart:
 
     @property
     def assumed(self) -> bool:
-        """Whether a transition is not given."""
+        """Whether the length of a transition is assumed because none is given."""
         return any(of.transition.source is not TransitionSource.GIVEN for of in self.reliefs)
 
     @property

@@ -211,7 +211,7 @@ class CheckResult(Pictured, ABC):
     @property
     @abstractmethod
     def explanations(self) -> Explanations[Any]:
-        """Why finite elements and the standard differ."""
+        """Reasons why finite elements and the standard differ."""
 
     @cached_property
     def stiffness_methods(self) -> StiffnessMethods:
@@ -274,7 +274,7 @@ class CheckResult(Pictured, ABC):
         )
 
     def _rates(self, part: RatedPart | None) -> bool:
-        """Whether the rating judges this of both gears."""
+        """Whether the rating judges this quantity of both gears."""
         return part is not None and all(each.rated.safety is not None for each in self.safeties.parts[part])
 
     @property

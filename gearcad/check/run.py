@@ -102,7 +102,7 @@ def require_room(task: CheckTask) -> None:
 
 
 _WORTH_A_WORD = 0.01
-"""Factor of a root's width over the mesh's from which a notice is given."""
+"""Excess of the face width at the root over the width in mesh, as a share of the latter, from which a notice is given."""
 
 _BODIES = (0.1, 0.13)
 """Seconds for two bodies: whatever their mesh, and times the square of its refinement."""
@@ -111,7 +111,7 @@ _POSITION, _SOUGHT, _SINGLE, _RATING = 0.003, 20, 25, 0.5
 """Seconds for a position; how many are sought between those of a cycle, and of one pair alone; seconds for the rest."""
 
 PLANE_MEMORY = 0.4e9
-"""Bytes."""
+"""Memory (bytes) that a check of plane sections needs."""
 
 
 def plane_steps(task: CheckTask) -> dict[str, float]:
@@ -164,7 +164,9 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
 
 
 def plane_model(task: CheckTask, factor: float = 1.0) -> PlanePair:
-    """Both sections of a task, their elements `factor` times smaller than it asks for. Raises what `check_pair` does."""
+    """Return the sections of both gears of a task, with elements `factor` times smaller than it asks for. Raises what
+    `check_pair` does.
+    """
     options = task.options
     sizes = MeshSizes().refined(factor * options.refinement)
     error = task.mounting.pitch_error
@@ -254,7 +256,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
 
 
 def solid_model(task: CheckTask, factor: float = 1.0, tell: Share = unheard, *, fields: bool = False) -> SolidPair:
-    """Both bodies of a task, their elements `factor` times smaller than it asks for; left flanks carry.
+    """Return the bodies of both gears of a task, with elements `factor` times smaller than it asks for; left flanks carry.
 
     They keep what `fields` of teeth need if these are asked for. Raises what `check_pair` does.
     """

@@ -67,7 +67,7 @@ SOLID: tuple[ExtremeQuantity[SolidPosition], ...] = (
     *PLANE,
     ExtremeQuantity("line_load_max", lambda position: position.line_load),
 )
-"""All that a summary tells."""
+"""Names of all figures that a summary of solid gears has."""
 
 
 _ABOUT = ("missing", "extremes", "mean_error")
@@ -257,7 +257,7 @@ def summarise_plane(cycle: PlaneCycle, single: float) -> PlaneSummary:
 
 
 def _missing(cycle: PlaneCycle, inside: bool, below: bool) -> dict[str, str]:
-    """Why the figures of the worst contact are not told."""
+    """Return the reason why there are no figures of the worst contact, by the names of the figures."""
     if not inside:
         reason = (
             f"at none of {len(cycle.every)} positions is a contact with a tenth of the load more than {INTERIOR:g} half widths "
@@ -308,8 +308,8 @@ _HARMONICS = 5
 
 @dataclass(frozen=True, kw_only=True)
 class SolidSummary(Summary):
-    """Summary of a cycle of solid gears: also where the greatest are, radii and heights in mm, `across` from the middle of the
-    common face width.
+    """Summary of a cycle of solid gears: greatest values and where they occur. Radii and heights are in mm, `across` is
+    measured from the middle of the common face width.
 
     `transmission_error_harmonics` (µm) at the tooth frequency and its multiples; `contact_length_mean` (mm) of the lines that
     carry, all together; `line_load_max` (N/mm) away from the edges of the flanks; the face load factors are K_H_beta, of the
@@ -380,7 +380,7 @@ _AT_WORST = ("contact_pressure", "contact_pressure_across", "contact_pressure_ra
 
 
 def _nothing_inside(cycle: SolidCycle) -> dict[str, str]:
-    """Why the figures of the worst place are not told."""
+    """Return the reason why there are no figures of the worst place, by the names of the figures."""
     reason = (
         f"at none of {len(cycle.every)} positions do places more than {INTERIOR:g} half widths away from the edges of both "
         "flanks carry a tenth of the load"

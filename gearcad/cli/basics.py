@@ -153,7 +153,7 @@ _WIDE = 96
 """Console width from which the column of sources fits."""
 
 _WIDTH = 12
-"""Least of a column of values."""
+"""Least number of characters in a column of values."""
 
 _TRAIN_WORDS, _TRAIN_UNIT = 50, 9
 """Widths of columns on the sheet of a train; one of values is as wide as its longest."""

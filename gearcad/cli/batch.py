@@ -207,7 +207,7 @@ def _echo_prospects(planned: Study, path: Path) -> None:
 
 
 _LONGEST = 60
-"""Characters of a key in the name of a file."""
+"""Largest number of characters of a key in a file name."""
 
 
 @click.command(short_help="Draw columns of results.csv over each other.")

@@ -84,7 +84,7 @@ def _errors_line(found: ErrorStudy, mesh: str) -> str:
 
 
 def _resonance_line(study: SideBySide, mesh: str, at: int) -> str:
-    """The resonances of a mesh in one study, under those of the others; else its greatest K_v."""
+    """Return a line with the resonances of a mesh in one study, or with its greatest K_v if there are none."""
     shown = [each.shown[at] for each in study.resonances if each.mesh == mesh]
     if not any(shown):
         (found,) = (each for each in study.greatest if each.mesh == mesh and each.label == study.labels[at])

@@ -22,10 +22,10 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 Choice = TypeVar("Choice", bound=Enum)
 
 _LONGEST_USAGE, _LONGEST_LINE = 300, 1000
-"""Most characters of a message on the use of a command, which has what was typed, and of any line of a message."""
+"""Largest number of characters in a message about wrong usage, which repeats what was typed, and in any line of a message."""
 
 _LONGEST_FAULT = 500
-"""Most characters that are shown of an error nobody foresaw."""
+"""Largest number of characters shown of an unexpected error."""
 
 INTERRUPTED = 128 + signal.SIGINT
 """Exit status after Ctrl-C, that of a shell."""

@@ -28,7 +28,7 @@ _USUAL_WIDTH = 80
 
 
 def shows_styles(stream: TextIO) -> bool:
-    """Whether a stream is a terminal, or is to be taken for one."""
+    """Return whether a stream is a terminal, or is to be treated as one."""
     return bool(os.environ.get("FORCE_COLOR")) or stream.isatty()
 
 

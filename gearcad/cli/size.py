@@ -118,7 +118,7 @@ def _size_table_row(each: SizedPair) -> tuple[str, ...]:
 
 
 def nothing_lines(result: Sizing) -> Iterator[str]:
-    """Why nothing was found: which condition took what, the safest of all, and what would help."""
+    """Yield lines that say why no pair was found: what each condition removed, the safest variant, and what would help."""
     took = ", ".join(f"{grouped(number)} by {name}" for name, number in result.removed.items() if number)
     yield f"No pair of {grouped(result.considered)} variants meets all conditions: removed {took}"
     last = _last(result)

@@ -79,7 +79,7 @@ _CALLED = {field: option for table in (_FIELDS, _RANGES, _OF_RATING) for option,
 
 _MOST_VALUES = 1000
 _KILOWATTS = 30_000 / math.pi
-"""N·m at 1 rpm of 1 kW."""
+"""Torque (N·m) of 1 kW at 1 rpm."""
 
 
 def size_options(command: Command) -> Command:

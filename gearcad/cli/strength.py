@@ -55,10 +55,10 @@ _WIDE = 130
 """Console width from which the column of sources fits."""
 
 _LEAST = (7, 42, 9, 9, 9, 9, 8)
-"""Least widths of the columns but the last."""
+"""Least widths (characters) of all columns but the last."""
 
 _TO_THE_RIGHT = (2, 3, 5, 6)
-"""Columns of numbers."""
+"""Columns of numbers, which are aligned to the right."""
 
 _WORDS = (
     "ok, FAILED: gates, which decide. in band, OUTSIDE: information; how far it may be from ISO 6336 is set in [check] "
@@ -118,7 +118,7 @@ def _verdict_row(of: Comparison) -> _Line:
 
 
 def _reasons(result: CheckResult) -> Iterable[tuple[str, list[str]]]:
-    """Why quantities were not evaluated, each reason once."""
+    """Return the reasons why quantities were not evaluated, each once, with the quantities."""
     found: dict[str, list[str]] = {}
     for each in result.comparisons:
         if not each.evaluated:

@@ -137,7 +137,7 @@ def show_claims(name: str, result: Verification) -> None:
 
 
 def _not_judged(result: Verification) -> dict[str, list[str]]:
-    """What was not judged, by its reason, each once."""
+    """Return the quantities that were not judged, by the reason, each once."""
     found: dict[str, list[str]] = {}
     for claim in result.not_judged:
         whats = found.setdefault(claim.reason, [])
@@ -213,7 +213,7 @@ def _figures(documents: Iterable[dict[str, Any]]) -> dict[str, Any]:
 
 
 def _moved(before: Mapping[str, Any] | None, now: Mapping[str, Any], tolerance: float) -> list[Moved]:
-    """What has moved from the baseline, the greatest change first."""
+    """Return the quantities that differ from the baseline, the greatest change first."""
     if before is None:
         return []
     from gearcad.verification.baseline import compare

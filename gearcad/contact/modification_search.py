@@ -27,7 +27,7 @@ _SOBOL = 6
 _SEED = 0
 
 _APART = 0.1
-"""Least distance of two starts of a descent along some axis, as a share of its length."""
+"""Least distance of two starting points of a descent along some axis, as a share of the axis's length."""
 
 _REACH, _FARTHEST = 4, 8
 """Reach of a descent along each axis, in steps: the first, and the greatest."""
@@ -225,7 +225,7 @@ _ROUGH = 2
 
 _STEPS = np.array([1.0, 0.05, 1.0, 0.05, 1.0, 1.0])
 _DECIMALS = 2
-"""To what amounts (µm) and lengths (mm) are rounded, and to how many decimals that is."""
+"""Steps to which amounts (µm) and lengths (mm) are rounded, and the number of decimals of such values."""
 
 _OVER_PRESSURE = 10.0
 _ON_EDGE = (0.1, 10.0)
@@ -471,8 +471,8 @@ class _Sampling(NamedTuple):
 
 _HELICAL = _Sampling(16, 24, 0)
 _SPUR = _Sampling(8, 32, 8)
-"""By which a variant is judged: where a line runs across the flank its cells are at many places of it at once, where it does
-not positions must be.
+"""Sampling by which variants are judged. Lines of helical teeth have cells at many places of the flank at once; spur teeth need
+more positions instead.
 """
 
 _MOST_RELIEF = 1.5
@@ -525,7 +525,7 @@ def _bounds(model: SolidPair, shape: ReliefShape, deflection: float) -> tuple[Fl
 
 
 def _fits(pair: GearPair, amounts: Floats, shape: ReliefShape) -> bool:
-    """Whether flanks can be taken back that far; nothing at all always fits."""
+    """Return whether the flanks can be relieved by that length. A length of 0 always fits."""
     try:
         with_amounts(pair, amounts, shape)
     except GeometryError:

@@ -1,4 +1,4 @@
-"""Many modifications of the same flanks at once: transmission error and pressure of each, on bodies already solved.
+"""Contact of many modifications of the same flanks: transmission error and pressure of each, on bodies already solved.
 
 The ellipse of a cell follows its load by the diagonal alone: other cells hardly see how wide it is.
 
@@ -32,11 +32,13 @@ _LEAST = 1e-3
 """Share of the mean load per length for which the ellipse of a cell is wide enough, however little it carries."""
 
 _OPEN = 1e-9
-"""Overlap (mm) that is rounding."""
+"""Overlap (mm) below which it is rounding."""
 
 _ROUNDS = 25
 _SETTLED = 1e-4
-"""Most rounds of finding the cells that carry, and the relative change of the approach at which their widths have settled."""
+"""Largest number of searches for the cells that carry, and the relative change of the approach at which their widths have
+settled.
+"""
 
 
 def press(given: Responses, matrix: Floats, gap: Floats, radii: Floats, force: float) -> tuple[Floats, Floats]:
@@ -233,7 +235,7 @@ class _Flanks:
         return result + form.depth(lengths, heights) if form.modification.present else result
 
     def taken_back(self, lengths: Floats, heights: Floats) -> Floats:
-        """Return the distance (v, n) in mm by which the flank lies behind these places.
+        """Return the depth (v, n) in mm of the modifications at these places of the modified flank.
 
         The point that stands there comes from further down the flank.
         """

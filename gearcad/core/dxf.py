@@ -24,7 +24,7 @@ Layers = Mapping[str, tuple[int, str]]
 
 CUT = (7, "CONTINUOUS")
 NOT_CUT = (8, "CENTER")
-"""Grey and dash-dotted."""
+"""Colour and line type of parts that are not cut: grey and dash-dotted."""
 
 _global_options = RLock()
 """Held while something is changed that is the same for all threads, so that none restores the value of another."""

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 Choice = TypeVar("Choice", bound=Enum)
 
 _LONGEST_PATH = 300
-"""Most characters of a path that a message has."""
+"""Largest number of characters of a path in a message."""
 
 LONGEST_VALUE = 120
-"""Most characters of a wrong value that a message repeats: it should stay one readable line."""
+"""Largest number of characters of a wrong value that a message repeats, so that it stays one readable line."""
 
 
 def printable(text: str) -> str:

@@ -162,7 +162,7 @@ class DerivedCount(int):
 
 
 NOT_GIVEN = Derived("nan")
-"""The default of such a field."""
+"""The default of a field that is derived unless it is given."""
 
 
 def is_given(value: float | None) -> bool:
@@ -276,33 +276,33 @@ class FieldSchema:
 
     @cached_property
     def whole(self) -> bool:
-        """Whether its numbers are whole: 2 is 2.0 for all others."""
+        """Whether the numbers of the field are whole: 2 equals 2.0 for all other fields."""
         return int in self.members
 
     @cached_property
     def switch(self) -> bool:
-        """Whether it is true or false."""
+        """Whether the field is true or false."""
         return self.members == (bool,)
 
     @cached_property
     def several(self) -> bool:
-        """Whether it can be several numbers."""
+        """Whether the field can hold several numbers."""
         return any(map(_is_list, self.members)) and not (self.nested or self.texts)
 
     @cached_property
     def nested(self) -> bool:
-        """Whether it is a list of lists of numbers, which a cell of a table has as a text."""
+        """Whether the field is a list of lists of numbers. A cell of a table holds it as text."""
         deep = any(_is_list(member) and any(map(_is_list, get_args(member))) for member in self.members)
         return deep and not self.texts
 
     @cached_property
     def texts(self) -> bool:
-        """Whether it is a list of texts, or of lists of them, which a cell of a table has as a text."""
+        """Whether the field is a list of texts, or of lists of texts. A cell of a table holds it as text."""
         return any(_is_list(member) and set(_leaves(member)) == {str} for member in self.members)
 
     @cached_property
     def text(self) -> bool:
-        """Whether it is always a word, or several."""
+        """Whether the field always holds a word, or several words."""
         return self.texts or all(member in (str, type(None)) or _is_enum(member) for member in self.members)
 
     @cached_property
@@ -328,7 +328,7 @@ class FieldSchema:
         return next((mark for mark in self.marks if isinstance(mark, InPlaceOf)), None)
 
     def needed(self, given: Collection[str]) -> bool:
-        """Whether it must be given and is not, where these fields are."""
+        """Return whether the field must be given but is not among the given fields."""
         stands_in = self.stand_in is not None and self.stand_in.other not in given
         return self.name not in given and (self.required or stands_in)
 

@@ -193,7 +193,7 @@ def about_memory(size: float) -> str:
 
 
 PACKAGE = Path(__file__).parents[1]
-"""The folder of the code."""
+"""Folder of the package's code."""
 
 
 def templates() -> Path:

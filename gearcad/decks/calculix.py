@@ -176,8 +176,8 @@ _ROWS = re.compile(r"[-+ 0-9.EeNna]+")
 
 @dataclass(frozen=True)
 class PrintedContact:
-    """What a .dat holds of a loaded pair: how far the pinion turned (rad), and by the names of the pinion's flanks the normal
-    force (N, 0 where nothing touches) and the greatest pressure at a point of integration (MPa).
+    """Results in the .dat file of a loaded pair: rotation of the pinion (rad), and by the names of the pinion's flanks the
+    normal force (N, 0 where nothing touches) and the greatest pressure at a point of integration (MPa).
     """
 
     turn: float
@@ -239,7 +239,8 @@ def displacements(path: Path, nodes: int) -> Floats:
 
 @dataclass(frozen=True)
 class CalculixDeviations:
-    """In % of our own figures; the load share in % of the load, of the pair of teeth where it is farthest off.
+    """Deviations in % of our own figures; that of the load share in % of the load, for the pair of teeth with the largest
+    deviation.
 
     That of the pressure is the greatest of all pairs of teeth away from edges, None if there are none.
     """

@@ -105,8 +105,8 @@ _REACH = 1.6
 """Half widths on each side of a contact over which edges stay short: another solver's may lie a little aside."""
 
 _FEWEST_TEETH = 7
-"""Of a body that stands for a ring. Our own check has every tooth that touches in the middle of as many as there are, a deck
-has tooth 0 there: with 5 teeth that is worth up to 2 % of the approach where others share the load (measured).
+"""Least number of teeth of a body that replaces a ring. Our own check places every tooth that touches in the middle of such a
+body; a deck has tooth 0 there. With 5 teeth that changes the approach by up to 2 % where other teeth share the load (measured).
 """
 
 

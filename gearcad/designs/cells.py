@@ -217,7 +217,7 @@ class Decimal(Enum):
     """The decimal sign of the CSV files: one that a spreadsheet of the reader's country opens by a double click."""
 
     POINT = "point"
-    """Cells between commas."""
+    """Decimal points, and commas between cells."""
 
     COMMA = "comma"
     """Cells between semicolons, and a mark in front by which Excel knows UTF-8."""
@@ -302,7 +302,9 @@ def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
 
 
 def _of_train(key: str) -> bool:
-    """Whether a key is of a train: that of a mesh has a name between its table and itself, which no key of [mesh] has."""
+    """Return whether a key belongs to a train. A key of a train's mesh has a name between its table and itself; no key of
+    [mesh] has one.
+    """
     table, _, rest = key.partition(".")
     return table in ("train", "inertia", "shaft") or (table == "mesh" and "." in rest)
 

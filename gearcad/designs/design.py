@@ -169,7 +169,7 @@ Where = Callable[[str], str]
 """Says where a key stands, such as `pair.toml line 7`, for the beginning of a message."""
 
 _DEEPEST = 50
-"""Levels of tables and lists in each other: no key of ours needs more than a few."""
+"""Largest permitted depth of nested tables and lists; no key needs more than a few levels."""
 
 _MOST_WHOLE = 10**15
 
@@ -262,7 +262,7 @@ def _is_text(key: str) -> bool:
 
 
 LONGEST_NAME = 100
-"""Most characters of a design's name: it becomes a folder, and file systems stop at 255 bytes."""
+"""Largest number of characters in the name of a design. The name becomes a folder, and file systems stop at 255 bytes."""
 
 LONGEST_NAME_IN_BYTES = 200
 """Greatest length of a name in bytes of UTF-8, with room for suffixes of the files beside the folder."""

@@ -159,7 +159,9 @@ class PairSpec(Spec):
         return self._cleared(GearPair(pinion=gears.pinion, wheel=gears.wheel, **given | {"name": name}))
 
     def _gears(self, resolved: PerGear[dict[str, Any]], given: Mapping[str, Any]) -> PerGear[Gear]:
-        """Both gears; a ring whose tip its cutter cannot make is told what the pair asks of it too. Raises InputError."""
+        """Return both gears. The message for a ring whose cutter cannot make its tip also says what the pair requires. Raises
+        InputError.
+        """
         automatic, distance = PerGear.each(self._automatic), given.get("centre_distance")
         try:
             return make_gears(resolved, automatic, distance)
@@ -215,7 +217,7 @@ class PairSpec(Spec):
         return pinion + enough // 2 + 1 + bisect_left(fewer, True, key=makes)
 
     def _check_words(self, inputs: PerGear[dict[str, Any]]) -> None:
-        """Only the tip of a ring is told to be clear."""
+        """Raise SpecError if "clear" is given for a gear other than a ring."""
         for role, gear in inputs.items():
             if gear.get("tip_alteration") != CLEAR:
                 continue

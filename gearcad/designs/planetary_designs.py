@@ -224,7 +224,7 @@ class PlanetarySpec(Spec):
 
 
 def _is_name(key: str) -> bool:
-    """Whether a key names a part of the train, and not what it is made of."""
+    """Return whether a key names a part of the train rather than one of its inputs."""
     return key.endswith(".name") and not key.endswith("material.name")
 
 

@@ -245,7 +245,7 @@ class TableMesh(NamedTuple):
     ring: bool
 
     def roles(self, inputs: Inputs) -> PerGear[str]:
-        """Which table is the pinion's, and which the wheel's, as in SetMesh."""
+        """Return the tables of the pinion and of the wheel, as SetMesh orders them."""
         first = not self.ring and inputs[self.central]["teeth"] <= inputs[self.rim]["teeth"]
         return PerGear(self.central, self.rim) if first else PerGear(self.rim, self.central)
 

@@ -234,7 +234,7 @@ def _require_edited(text: str, edited: str, values: Mapping[str, Cell | None]) -
 
 
 def _filled(table: dict[str, Any]) -> dict[str, Any]:
-    """Without tables in which nothing is: dotted keys make one that goes with the last of them."""
+    """Return the table without empty tables; dotted keys create one that is removed with the last of them."""
     inner = {key: _filled(value) if isinstance(value, dict) else value for key, value in table.items()}
     return {key: value for key, value in inner.items() if value != {}}
 

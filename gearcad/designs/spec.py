@@ -120,7 +120,7 @@ def clear_tip_alteration(gears: PerGear[GearInputs], centre_distance: float | No
 
 
 def make_gears(gears: PerGear[GearInputs], automatic: PerGear[Collection[str]], centre_distance: float | None) -> PerGear[Gear]:
-    """Both gears from their resolved inputs, of which `automatic` names those that stood as "auto".
+    """Return both gears from their resolved inputs; `automatic` names those that were given as "auto".
 
     Raises InputError: of the gear, its parameter led by the gear, or of the centre distance (mm) if that is what made it fail.
     """
@@ -181,7 +181,7 @@ def module_of(gear: GearInputs) -> float:
 
 
 def _mate(gears: PerGear[GearInputs]) -> bool:
-    """Whether both have one module and one pressure angle."""
+    """Return whether both gears have the same module and pressure angle."""
     pinion, wheel = gears.map(lambda gear: (module_of(gear), gear["rack"].pressure_angle))
     return all(abs(one - other) <= _SAME for one, other in zip(pinion, wheel, strict=True))
 

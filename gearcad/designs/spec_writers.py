@@ -147,7 +147,7 @@ def loaded_pair(train: Train, mesh: EngagedMesh) -> PairDesign:
 
 
 def _loaded_pairs_plain(value: float) -> float:
-    """Without the rounding of the equations of a train."""
+    """Return the value rounded to 12 digits, without the rounding errors of a train's equations."""
     return float(f"{value:.12g}")
 
 
@@ -315,7 +315,7 @@ def _given(prefix: str, instance: DataclassInstance, usual: DataclassInstance | 
 
 
 def _material(prefix: str, material: Material) -> dict[str, Any]:
-    """Without group and quality, where the name stands for them."""
+    """Return the keys of a material, without group and quality if its name implies them."""
     found = _given(prefix, material)
     if grade_of(material.name) is not None:
         found = {key: value for key, value in found.items() if key.removeprefix(prefix) not in Grade._fields}

@@ -189,7 +189,7 @@ def _fault(values: Mapping[str, Cell], kind: DesignKind, where: Where) -> SpecEr
 
 
 _LONGEST_SHOWN = 60
-"""Most characters of a name that a message repeats."""
+"""Largest number of characters of a name that a message repeats."""
 
 
 @dataclass(frozen=True)

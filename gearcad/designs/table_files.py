@@ -235,7 +235,7 @@ def _text_file(path: Path, encoding: str) -> Iterator[io.TextIOWrapper]:
 
 
 def _broken_line(path: Path, encoding: str) -> str:
-    """Which line of the file is not in its encoding, for the end of a message."""
+    """Return the end of a message: which line of the file is not in its encoding."""
     if encoding == "utf-8-sig":
         with path.open("rb") as file:
             for number, line in enumerate(file, 1):

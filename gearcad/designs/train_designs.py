@@ -297,7 +297,7 @@ class TrainDesign(Design):
 
     train: Train
     other_models: tuple[TrainModel, ...] = ()
-    """Beside the train's own: all of them are studied side by side."""
+    """Models that are studied beside the train's own."""
     dynamics: DynamicsOptions = field(default=DynamicsOptions())
 
     def __post_init__(self) -> None:

@@ -46,7 +46,7 @@ _CENTRAL = fields_of_mates() | _plain(Central, "meshes")
 _RIM = fields_of_mates() | _plain(Rim)
 
 SET_FIELDS: dict[str, dict[str, FieldSchema]] = {table: _RIM if table.startswith("planet") else _CENTRAL for table in OF_SETS}
-"""The tables of the gears of a set."""
+"""Fields of the tables of the gears of a set."""
 
 PRE_STAGE: dict[str, FieldSchema] = {
     **{key: field for key, field in FIELDS["pair"].items() if key != "mounting_distance"},

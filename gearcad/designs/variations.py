@@ -466,7 +466,8 @@ def without_varied(base: Mapping[str, Value], varied: Collection[str]) -> dict[s
 
 
 def _replaced(key: str, varied: Collection[str]) -> bool:
-    """Whether a module gives way to a diametral pitch of its table that varies, or that to it; so a rack's teeth and length.
+    """Return whether a varied key replaces this one: a module and a diametral pitch replace each other, and so do the teeth and
+    the length of a rack.
 
     What a part of a train has of its own gives way to what varies for all parts.
     """
@@ -483,7 +484,7 @@ def _replaced(key: str, varied: Collection[str]) -> bool:
 
 
 MOST_VARIANTS = 12
-"""Curves that one chart can bear."""
+"""Largest number of curves in one chart."""
 
 _MODEL = "train.model"
 

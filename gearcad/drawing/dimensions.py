@@ -37,7 +37,7 @@ class Side(Enum):
 
     @property
     def is_upright(self) -> bool:
-        """Whether edges with their outside here, and dimension lines here, are vertical."""
+        """Whether edges and dimension lines on this side of a view are vertical."""
         return self in (Side.LEFT, Side.RIGHT)
 
     @property
@@ -59,7 +59,7 @@ class Side(Enum):
 
 
 ARROW = 3.2
-"""Length of an arrow."""
+"""Length (mm) of an arrow."""
 
 _HALF_WIDTH = ARROW * math.tan(math.radians(7.5))
 
@@ -343,7 +343,7 @@ _LANES, _NEAR = 9, 3
 """Number of lanes, and of near ones: a text moves far aside in these before it moves further out."""
 
 _FARTHER = (7.0, 15.0, 25.0)
-"""Additional distances aside."""
+"""Additional distances (mm) of a text from its place, tried in this order."""
 
 _GAP, _BEYOND = 0.8, 1.5
 """Gap before extension lines, and their length past the dimension line."""

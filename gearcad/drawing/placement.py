@@ -23,7 +23,7 @@ from gearcad.drawing.shapes import (
 )
 
 _AIR = 0.6
-"""Least distance of a text from other texts and lines."""
+"""Least distance (mm) of a text from other texts and lines."""
 
 _LANE = 6.0
 """Least distance of dimension lines that run beside each other."""

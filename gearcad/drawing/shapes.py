@@ -101,13 +101,13 @@ class Pen(Enum):
 
     FRAME = "FRAME"
     GRID = "GRID"
-    """Fields beside the frame."""
+    """Fields at the frame."""
 
     TABLE = "TABLE"
     """Lines within tables and title block."""
 
     TEXT = "TEXT"
-    """Values."""
+    """Texts and values."""
 
     FINE_TEXT = "TEXT_S"
     """Captions, and the text of dimensions."""

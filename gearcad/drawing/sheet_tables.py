@@ -237,7 +237,7 @@ def grid_upwards(
 
 
 _LEAST = 1.8
-"""Height of the smallest letters."""
+"""Height (mm) of the smallest letters."""
 
 _LARGEST_LIMITS = 3.5
 _STACKED = 1.58

@@ -28,7 +28,7 @@ _MM = Range("mm", 0.0, 1e3)
 _EDGE = Range("mm", 0.0, 60.0)
 _SOME = Range("mm", 5.0, 1e3)
 _TEXT = Range("mm", 1.0, 20.0)
-"""Heights of letters."""
+"""Permitted heights (mm) of letters."""
 
 LEAST = 2.0
 """Height of the smallest letters that values are written with."""

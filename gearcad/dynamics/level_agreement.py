@@ -128,12 +128,12 @@ class Agreement:
 
     @cached_property
     def under(self) -> tuple[Difference, ...]:
-        """For each curve where the reference is farthest above the level; none where nothing is judged."""
+        """Greatest excess of the reference over the level for each curve; empty where nothing is judged."""
         return self._greatest(self.reference, self.near_level)
 
     @cached_property
     def over(self) -> tuple[Difference, ...]:
-        """For each curve where the level is farthest above the reference; none where nothing is judged."""
+        """Greatest excess of the level over the reference for each curve; empty where nothing is judged."""
         return self._greatest(self.level, self.near_reference)
 
     def _greatest(self, loads: Floats, others: Floats) -> tuple[Difference, ...]:

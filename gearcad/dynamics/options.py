@@ -32,7 +32,7 @@ from gearcad.geometry import GearPair
 from gearcad.rating.options import RatingOptions
 
 _CHART, _CAMPBELL, _DRAWN = 1000, 41, 200
-"""Speeds where none are given."""
+"""Numbers of speeds where none are given: of the chart, of the Campbell diagram and of drawn curves."""
 
 _MOST_CAMPBELL = 101
 """Speeds at which the motion of a mesh is integrated: a chart has more."""
@@ -300,7 +300,7 @@ def undamped_bearings(options: DynamicsOptions) -> tuple[Notice, ...]:
 
 
 _ROUNDING = 1e-9
-"""Relative, of speeds."""
+"""Relative difference of speeds below which they count as equal."""
 
 
 class RangeSource(Enum):

@@ -51,7 +51,8 @@ _QUICK, _CHART_SECONDS, _MEMORY = "potential-energy", 10.0, 3e8
 """Values for the estimate of a study: the method of its pairs, CPU seconds of all but runs in time, and bytes."""
 
 _LOWER, _RUN_UP = 3.0, 60
-"""If flanks part at a speed beyond the chart: that speed over the first of the run up to it, and the number of steps."""
+"""Ratio of the speed at which flanks part, beyond the chart, to the first speed of the run up to it, and the number of steps.
+"""
 
 
 def study_modes(train: Train, options: DynamicsOptions | None = None) -> ModalStudy:

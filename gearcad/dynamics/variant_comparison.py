@@ -27,7 +27,7 @@ _REACH = 0.1
 
 
 _ALIKE = 0.25
-"""Least square of the cosine between the shapes of modes, by kinetic energy, that are taken for the same."""
+"""Least square of the cosine between two mode shapes, by kinetic energy, from which they count as the same mode."""
 
 
 class Peak(NamedTuple):

@@ -34,7 +34,7 @@ from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.toothed import check_fields, check_root_radius, check_thickness, check_width, most_dedendum
 
 _MOST_CUTTER_TEETH = 2000
-"""Most teeth of the cutters that are tried, to name one that would do."""
+"""Largest number of teeth of the cutters that are tried, to suggest one that works."""
 
 
 def check_shaper(gear: GearData) -> None:
@@ -62,7 +62,7 @@ def check_shaper(gear: GearData) -> None:
 
 
 def cutter_fits(gear: GearData) -> bool:
-    """Whether its cutter, or none, can make these teeth."""
+    """Return whether the gear's cutter can make these teeth, or the gear has no cutter."""
     try:
         check_shaper(gear)
     except GeometryError:
@@ -71,7 +71,7 @@ def cutter_fits(gear: GearData) -> bool:
 
 
 def _least_radius(gear: GearData) -> float:
-    """Least radius of the corner in normal modules that leaves something to see of a form root's fillet."""
+    """Return the least radius of the corner, in normal modules, that leaves a visible fillet at a form root."""
     return 0.0 if gear.cutter.teeth else LEAST_FEATURE / gear.normal_module
 
 

@@ -97,7 +97,7 @@ class ToolTip:
 
     @property
     def flank_depth(self) -> float:
-        """h = e - rho (1 - sin a_n): how far below the reference circle the straight flank of the tool reaches (mm)."""
+        """Depth h = e - rho (1 - sin a_n) below the reference circle that the straight flank of the tool reaches (mm)."""
         return -self.v + self.radius * math.sin(self.pressure_angle)
 
     def outline(self, theta: ArrayLike) -> tuple[Any, Any]:
@@ -159,7 +159,9 @@ class ToolTip:
 
 
 _ROUNDING = 1e-12
-"""Share of the corner above the rounding of a step of Newton's rule; what a step of this size leaves is far below it."""
+"""Resolution of theta, as a share of the corner, which is above rounding; the error left after a Newton step of this size is
+far below it.
+"""
 
 
 class _Normal(NamedTuple):
@@ -175,7 +177,8 @@ class _Normal(NamedTuple):
 
 
 class _Contact(NamedTuple):
-    """Where the corner cuts: its normal, of direction gamma in space from the line of centres, at a turn phi of the cutter.
+    """Points at which the corner cuts: its normal, of direction gamma in space from the line of centres, at a turn phi of the
+    cutter.
 
     `reach` l along the normal from the pitch point to the point, and its `rise` since theta = 0 (mm).
     """
@@ -212,17 +215,17 @@ class ShaperTip:
 
     @cached_property
     def tip_radius(self) -> float:
-        """r_a0 (mm) of the cutter, which reaches the root circle."""
+        """Tip radius r_a0 (mm) of the cutter, which reaches the root circle."""
         return abs(self.root_radius - self.centre_distance)
 
     @cached_property
     def _c(self) -> float:
-        """c = cos(beta): the corner is wider by 1/c."""
+        """Cosine of the helix angle, c = cos(beta): the corner is wider by 1/c."""
         return math.cos(self.helix_angle)
 
     @property
     def _middle_radius(self) -> float:
-        """r_M, of the middle of the corner."""
+        """Radius r_M of the middle of the corner."""
         return self.tip_radius - self.radius
 
     def _corner(self, theta: Floats) -> tuple[Floats, Floats]:

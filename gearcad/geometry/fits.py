@@ -48,7 +48,7 @@ _GRADES = {
     13: (140, 180, 220, 270, 330, 390, 460, 540, 630, 720, 810, 890, 970),
     14: (250, 300, 360, 430, 520, 620, 740, 870, 1000, 1150, 1300, 1400, 1550),
 }
-"""IT of each grade."""
+"""Standard tolerance IT of each grade."""
 
 _CLEARANCE = {
     "d": (20, 30, 40, 50, 65, 80, 100, 120, 145, 170, 190, 210, 230),
@@ -112,7 +112,7 @@ _DELTA = {
     7: (0, 4, 6, 7, 8, 9, 11, 13, 15, 17, 20, 21, 23),
     8: (0, 6, 7, 9, 12, 14, 16, 19, 23, 26, 29, 32, 34),
 }
-"""What holes K, M and N to grade 8, and P to U to grade 7, begin higher than the mirrored shaft."""
+"""Additions by which holes K, M and N to grade 8, and P to U to grade 7, begin higher than the mirrored shaft."""
 
 _CLASS = re.compile(r"([A-Za-z]{1,2})(\d{1,2})")
 _LETTERS = ("js", "j", "h", *_CLEARANCE, *_TRANSITION, *_INTERFERENCE)
@@ -259,7 +259,7 @@ _UPPER = {
     "g": (5, 7, 9, 12, 17, 22, 30, 41, 56, 75, 100),
     "h": (0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0),
 }
-"""-A_sne of each letter."""
+"""Upper allowance -A_sne of each letter."""
 
 _TOLERANCES = {
     21: (3, 5, 6, 8, 10, 12, 16, 20, 25, 30, 40),
@@ -273,7 +273,7 @@ _TOLERANCES = {
     29: (130, 200, 250, 300, 400, 500, 600, 800, 1000, 1300, 1600),
     30: (200, 300, 400, 500, 600, 800, 1000, 1300, 1600, 2000, 2400),
 }
-"""T_sn of each series."""
+"""Tooth thickness tolerance T_sn of each series."""
 
 _NAME = re.compile(f"({'|'.join(_UPPER)})?({'|'.join(map(str, _TOLERANCES))})")
 
@@ -358,7 +358,7 @@ def centre_distance_allowance(name: str, centre_distance: float) -> float:
 
 
 _BACKLASH_ROUNDING = 1e-12
-"""Of the numbers of which a difference is: what is left below that is rounding, and is told as 0."""
+"""Relative difference below which backlash is rounding and is reported as 0."""
 
 
 def settled(difference: float, size: float) -> float:

@@ -71,7 +71,7 @@ class RackPose(NamedTuple):
 
 
 _PIXELS = 240
-"""Pixels of the longer side."""
+"""Length (pixels) of the longer side of a picture."""
 
 CHORD_ERROR = 0.2
 """Pixels that a polygon may be off the outline."""

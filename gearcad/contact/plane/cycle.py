@@ -77,12 +77,12 @@ class PlanePairContact(PairContact):
 
     @property
     def hertz_half_width(self) -> float:
-        """a = sqrt(4 F rho/(pi E*))."""
+        """Half width of the contact by Hertz: a = sqrt(4 F rho/(pi E*))."""
         return half_width_by_curvature(self.force, 1 / self.pair.radius + self.bent, self.modulus)
 
     @property
     def hertz_pressure(self) -> float:
-        """p0 = 2 F/(pi a)."""
+        """Greatest pressure by Hertz: p0 = 2 F/(pi a)."""
         return 2 * self.force / (math.pi * self.hertz_half_width)
 
     @property
@@ -168,7 +168,7 @@ def tooth_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[Toot
 
 
 def root_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[list[ToothLoad]]:
-    """For each tooth in contact the loads as that tooth sees them."""
+    """Return, for each tooth in contact, the loads on the gear as seen from that tooth."""
     loads = tooth_loads(contacts, role)
     return [seen_from(own, loads) for own, *_ in loads]
 
@@ -269,7 +269,7 @@ def _start_pressures(model: PlanePair, pair: ContactPair, pressures: Floats, to_
 
 
 def conformal(contact: PlanePairContact) -> bool:
-    """Whether a contact in a hollow flank is too wide for two cylinders."""
+    """Whether a contact in a hollow flank is too wide to be treated as that of two cylinders."""
     return contact.pair.lengths.wheel < 0 and _hollow(contact).conformal
 
 

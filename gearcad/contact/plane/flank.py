@@ -136,7 +136,7 @@ class PlaneCompliance(FlankCompliance):
     hub_forces: Floats | None
 
     edge_taken_off: ClassVar[bool] = True
-    """Whether `response` lacks the straight edge's part, which the contact then adds in closed form."""
+    """Whether `response` lacks the part of the straight edge, which the contact then adds in closed form."""
 
     @property
     def resolution(self) -> float:

@@ -276,7 +276,7 @@ class KnownContacts(dict[tuple[float, float, bool], ContactSolution]):
 
 @dataclass(frozen=True)
 class PlanePair(FlexiblePair[PlaneCompliance]):
-    """Both bodies in the transverse section through the middle of the common face width."""
+    """A pair of sections: both bodies in the transverse section through the middle of the common face width."""
 
     known: KnownContacts = field(default_factory=KnownContacts, repr=False)
 

@@ -198,7 +198,7 @@ def _rigid(sector: Sector, numbers: Wholes, support: Support, count: int) -> Flo
 
 
 class _HubMotions(NamedTuple):
-    """For each sector in full: which of its dofs are held, and how all move when the hub turns by 1 rad."""
+    """Dofs of each sector in full: which of them are held, and how all move when the hub turns by 1 rad."""
 
     held: NDArray[np.bool_]
     turn: Floats

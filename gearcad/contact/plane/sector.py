@@ -223,13 +223,13 @@ class PlaneElasticity:
 
     @property
     def ratio(self) -> float:
-        """nu': nu in plane stress, nu/(1 - nu) in plane strain."""
+        """Poisson's ratio nu' of the plane problem: nu in plane stress, nu/(1 - nu) in plane strain."""
         nu = self.material.poisson_ratio
         return nu / (1 - nu) if self.plane is Plane.STRAIN else nu
 
     @property
     def lame(self) -> tuple[float, float]:
-        """lambda, mu (MPa) of the plane problem."""
+        """Lamé's constants lambda and mu (MPa) of the plane problem."""
         return self.modulus * self.ratio / (1 - self.ratio**2), self.modulus / 2 / (1 + self.ratio)
 
 

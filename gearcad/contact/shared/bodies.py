@@ -131,7 +131,7 @@ def condensed(matrix: Floats, keep: int) -> Floats:
 
 
 _SAME = 1e-9
-"""mm: radii that do not differ."""
+"""Difference of radii (mm) below which they count as equal."""
 
 _THINNEST_SHAFT = 0.98
 """Greatest bore of a shaft, over its diameter."""
@@ -184,7 +184,7 @@ class Support:
         return self.hold not in (Hold.RIGID, Hold.BOLTS)
 
     def holds(self, tooth: int) -> bool:
-        """Whether anything holds the sector of a tooth, counted from the loaded one."""
+        """Return whether anything holds the sector of a tooth, counted from the loaded one."""
         return self.hold is not Hold.BOLTS or tooth % self.teeth in self._bolted
 
     @cached_property
@@ -220,7 +220,9 @@ _WORDS = {
 
 
 def rim_ratio(gear: Gear, held_radius: float) -> float:
-    """s_R/h_t: the rim from the root circle down to a radius (mm), or to the keyway if that is the bore, over tooth depth."""
+    """Return s_R/h_t: the rim thickness from the root circle down to a radius (mm), or to the keyway if that is the bore, over
+    the tooth depth.
+    """
     if gear.internal:
         profile = gear.profile
         return (held_radius - profile.root_diameter / 2) / ((profile.root_diameter - profile.tip_diameter) / 2)

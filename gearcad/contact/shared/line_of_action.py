@@ -24,7 +24,8 @@ def loaded_left(pair: GearPair, torque: float) -> GearPair:
 
 @lru_cache(16)
 def gears_loaded_left(pair: GearPair) -> PerGear[Gear]:
-    """Both gears of a pair whose pinion's left flanks carry: they press on a ring's with y < 0, so it is seen mirrored.
+    """Return both gears of a pair whose pinion's left flanks carry. The pinion presses on flanks of a ring with y < 0, so a
+    ring is mirrored.
 
     Then its teeth, too, follow each other the other way round than the pinion's, and its hand is the opposite one. Known for
     the last pairs: every position asks for it again.
@@ -212,7 +213,9 @@ def facing_pairs(line: LineOfAction, pinion_length: float) -> dict[int, tuple[fl
 
 
 def overlap(line: LineOfAction, pinion_length: float) -> tuple[float, float]:
-    """Between which places along the tangent (mm) two flanks face each other; nothing is left if the first is not below."""
+    """Return the range along the tangent (mm) in which two flanks face each other. The range is empty if its first end is not
+    below the second.
+    """
     _, wheel_length = line.lengths(pinion_length)
     one, other = line.flanks
     if min(pinion_length, math.copysign(1.0, other.base_radius) * wheel_length) <= LEAST_LENGTH * line.module:

@@ -45,12 +45,12 @@ class LoadedFlank:
 
     @property
     def base_radius(self) -> float:
-        """r_b (mm), above 0 of a ring too."""
+        """Base radius r_b (mm); positive for a ring too."""
         return self.gear.profile.base_diameter / 2
 
     @property
     def upward(self) -> int:
-        """Whether its tip lies outwards (1) or, of a ring, inwards (-1)."""
+        """Direction of the tip: 1 where it lies outwards, -1 where it lies inwards, as on a ring."""
         return -1 if self.gear.internal else 1
 
     def roll_lengths(self, radii: Floats) -> Floats:
@@ -119,7 +119,7 @@ class EngagedPair:
 
     @property
     def base_radius(self) -> float:
-        """r_b of the pinion (mm)."""
+        """Base radius r_b of the pinion (mm)."""
         return self.pair.pinion.base_diameter / 2
 
     def force(self, torque: float) -> float:
@@ -214,7 +214,7 @@ _BEYOND = 1.5
 """Factor by which a curve can fall to the higher position more steeply than beyond it."""
 
 _ASIDE = 0.25
-"""Least part of an interval that a new position takes off it."""
+"""Least part of an interval that a new position cuts off."""
 
 _FEWEST = 4
 """Positions below which nothing is known of what stands between them."""
@@ -605,4 +605,4 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
 
 
 Cycle: TypeAlias = LoadedCycle[FlexiblePair[FlankCompliance], LoadedPosition[PairContact], PairContact]
-"""The model."""
+"""A mesh cycle of either model, plane or solid."""

@@ -25,7 +25,7 @@ _COMPLEMENTARITY_ROUNDS = 30
 """Rounds in which all wrong cells change at once: few suffice, or none does."""
 
 _COMPLEMENTARITY_STEPS = 20
-"""Most steps of one cell each thereafter, per cell: each lowers the energy, so none comes back."""
+"""Largest number of steps of one cell each, per cell. Each step lowers the energy, so no set of cells comes back."""
 
 _OPEN = -1e-12
 """Opening (mm) below which cells overlap by more than rounding."""
@@ -105,7 +105,7 @@ class HollowContact(NamedTuple):
 
     @property
     def conformal(self) -> bool:
-        """Whether it is too wide for two cylinders."""
+        """Whether the contact is too wide to be treated as that of two cylinders."""
         return self.half_width > _WIDE * self.radius
 
 

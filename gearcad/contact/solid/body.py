@@ -191,7 +191,7 @@ class SolidSector:
 
     @property
     def hub_parities(self) -> Floats:
-        """Which dofs of the hub move it evenly (1), and which oddly (-1)."""
+        """Parity of each dof of the hub: 1 where it moves the hub evenly, -1 where oddly."""
         return HUB_PARITIES if self.free else HUB_PARITIES[:1]
 
     @property
@@ -233,7 +233,7 @@ def _seen_alike(_teeth: float) -> Floats:
 
 
 class Around(Protocol):
-    """How what stands beside tooth 0 follows that, even and odd."""
+    """Response of the sectors beside tooth 0 to its motions, even and odd."""
 
     def cuts(self, behind: Floats, hub: Floats, parity: int) -> list[Floats]:
         """Displacements (n, m) of the cuts ahead of teeth 0, 1 ... by those of the cut behind tooth 0 and the hub (hub, m)."""
@@ -280,7 +280,8 @@ class _RingAround:
 def sides_around(
     sector: ToothSpan, side: int, neighbours: int, held: Cuts, radii: Floats
 ) -> tuple[Around, tuple[Floats, Floats]]:
-    """So many sectors on each side, of which those of `neighbours` are told; nodes of a cut are at `radii` (mm).
+    """Return the response of `side` sectors on each side of the tooth, of which those of `neighbours` are recorded. Nodes of a
+    cut are at `radii` (mm).
 
     Second the matrices as of `ring_around`.
     """

@@ -93,7 +93,7 @@ class FrontTree:
         return found.reshape(-1, count)
 
     def has(self, nodes: Wholes) -> Bools:
-        """Which of some nodes (n,) a front has, or the top."""
+        """Return which of some nodes (n,) belong to a front or to the top."""
         result: Bools = self._owner[nodes] >= 0
         return result
 
@@ -135,7 +135,7 @@ class FrontTree:
         return found
 
     def _grouped(self, nodes: Wholes) -> dict[int, Wholes]:
-        """Which of some nodes (n,) each front has as its own."""
+        """Return which of some nodes (n,) each front has as its own."""
         owner = self._owner[nodes]
         order = np.argsort(owner, kind="stable")
         numbers, first = np.unique(owner[order], return_index=True)

@@ -306,7 +306,7 @@ def _hollow(contact: SolidPairContact) -> Iterator[HollowContact]:
 
 
 _GAUSS = GAUSS / 2
-"""The same in the unit cube."""
+"""Gauss points in the unit cube."""
 
 _VTK = [0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 12, 13, 14, 15, 16, 17, 18, 19]
 """Our nodes of a hexahedron in VTK's order: corners below, corners above, then the middles below, above and between."""

@@ -63,7 +63,7 @@ class HalfTurn:
 
     @cached_property
     def on_axis(self) -> Bools:
-        """Which nodes (n,) stay where they are."""
+        """Mask of the nodes (n,) that stay where they are."""
         result: Bools = self.nodes == np.arange(len(self.nodes))
         return result
 
@@ -213,21 +213,21 @@ class _Dissection:
 
     @cached_property
     def _free(self) -> Bools:
-        """Which nodes of the section are to go."""
+        """Mask of the nodes of the section that are eliminated."""
         free = np.ones(len(self.mesh.section.points), bool)
         free[self.kept] = free[self.held] = False
         return free
 
     @cached_property
     def _kept(self) -> Bools:
-        """Which nodes of the mesh are not to go."""
+        """Mask of the nodes of the mesh that are not eliminated."""
         kept = np.zeros(self.mesh.nodes, bool)
         kept[self.mesh.over(self.kept)] = True
         return kept
 
     @cached_property
     def _nobodys(self) -> Bools:
-        """Which nodes of the mesh are nobody's."""
+        """Mask of the nodes of the mesh that are held, so that they belong to no front."""
         held = np.zeros(self.mesh.nodes, bool)
         held[self.mesh.over(self.held)] = True
         return held

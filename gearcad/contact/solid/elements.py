@@ -58,7 +58,7 @@ def slopes_at(places: Floats) -> Floats:
 
 
 def lame(material: Material) -> tuple[float, float]:
-    """lambda, mu (MPa)."""
+    """Lamé's constants lambda and mu (MPa)."""
     e, nu = material.youngs_modulus, material.poisson_ratio
     return e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))
 
@@ -201,7 +201,9 @@ def boundary_faces(mesh: SweptMesh, quads: Wholes) -> QuadraticFaces:
 
 
 HUB_PARITIES = np.array([-1.0, 1.0, -1.0, -1.0, 1.0, -1.0])
-"""Of the dofs of a hub those that a half turn about the middle of a tooth leaves as they are, and those it makes opposite."""
+"""Parities of the dofs of a hub: 1 for those that a half turn about the middle of a tooth leaves unchanged, -1 for those that
+it reverses.
+"""
 
 
 def rigid_motions(points: Floats, middle: float) -> Floats:

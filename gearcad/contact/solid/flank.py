@@ -175,7 +175,9 @@ class Images:
     material: Material
 
     factor: ClassVar[float] = 1.39
-    """At nu = 0.3 (R. Guilbault, Journal of Tribology 133, 2011, 031402); elements and splines carry what it misses."""
+    """Factor for nu = 0.3 (R. Guilbault, Journal of Tribology 133, 2011, 031402); elements and splines carry the remaining
+    error.
+    """
 
     def loads(self, at: Floats, inward: Floats) -> tuple[Floats, Floats, Floats]:
         """Points (..., m, 3), inward normals (..., m, 3) and forces (m,) in N of all that stands for 1 N at points (..., 3)."""

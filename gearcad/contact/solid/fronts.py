@@ -32,7 +32,7 @@ _BLOCK = 128
 """Rows of a block on the diagonal of a factor."""
 
 _BYTES = 8
-"""Bytes of a double."""
+"""Size (bytes) of a double."""
 
 
 def factorise(matrix: Floats) -> int:
@@ -72,7 +72,7 @@ def solve_aside(lower: Floats, right: Floats, *, transposed: bool) -> None:
 
 
 def solved_rows(lower: Floats, right: Floats) -> Floats:
-    """(L L.T)^-1 R of R (n, m), row by row."""
+    """Return (L L.T)^-1 R of R (n, m), row by row."""
     result = np.array(right, order="C")
     solve_aside(lower, result.T, transposed=True)  # rows of C are columns of Fortran
     solve_aside(lower, result.T, transposed=False)
@@ -93,7 +93,7 @@ def subtract_square(across: Floats, rest: Floats) -> None:
 
 
 class _Part(NamedTuple):
-    """Some rows and columns of a matrix: where the first number is, and how many numbers it is from column to column."""
+    """A block of a matrix: index of its first number, its rows and columns, and the step from column to column."""
 
     at: int
     rows: int
@@ -155,7 +155,7 @@ def _number(value: float) -> Any:
 
 
 _APART = 0.5
-"""Of all operations, the most in a part that is eliminated beside others."""
+"""Largest share of all operations in a part that is eliminated beside other parts."""
 
 
 def node_dofs(nodes: Wholes) -> Wholes:
@@ -325,7 +325,7 @@ def _apart(part: SolidPart, most: float) -> list[SolidPart]:
 
 @dataclass(frozen=True)
 class Reversal:
-    """What the half turn makes of the dofs of a cut: those of `image` (n,), by `signs` (n,)."""
+    """Effect of the half turn on the dofs of a cut: dof n becomes dof `image` (n,) times `signs` (n,)."""
 
     image: Wholes
     signs: Floats
@@ -365,7 +365,7 @@ class Reversal:
 
 @dataclass(frozen=True)
 class ToothSpan:
-    """So many `teeth` in a row: symmetric matrices (n + hub, n + hub), even and odd, on the cut behind and the hub.
+    """A row of `teeth` sectors: symmetric matrices (n + hub, n + hub), even and odd, on the cut behind and the hub.
 
     The hub's dofs are seen from the middle of the row; those of the other parity are left out, with zeros in their place.
     `seen` turns them to what one sees who is so many teeth ahead.
@@ -434,7 +434,7 @@ class ToothSpan:
         return self.reversal.rows(even[:n] @ given - odd[:n] @ given)
 
     def repeated(self, times: int) -> ToothSpan:
-        """So many of this row."""
+        """Return so many copies of this row, joined."""
         if times == 1:
             return self
         half = self.repeated(times // 2)
@@ -443,7 +443,7 @@ class ToothSpan:
 
 @dataclass(frozen=True)
 class Inside:
-    """How the first cut inside a row that begins with `side` follows its ends; `aside` teeth is the row's middle.
+    """Response of the first cut inside a row that begins with `side` to the row's ends; `aside` teeth is the row's middle.
 
     `lower` are L (see `dense`) with L L.T the matrices of that cut, even and odd, `hub` (n, hub) what else is between it and
     the hub; None where the row has only `side` twice, and `lower` are of the even and the odd part of the cut.

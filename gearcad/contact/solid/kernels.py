@@ -15,7 +15,7 @@ _AT_LOAD = 1e-9
 """Distance (mm) below which a point is the load's own, where the field has no value."""
 
 _OUTSIDE = 1e-6
-"""Least 1 + c: it only vanishes straight outside the half-space."""
+"""Least value of 1 + c, which vanishes only straight outside the half-space."""
 
 
 @inlined

@@ -33,7 +33,7 @@ BEND = 0.05
 """Distance (mm per mm of normal module) over which slope and curvature of a modification are taken."""
 
 _PLACES = 2001
-"""On the line of action, at which flanks are looked at."""
+"""Number of places on the line of action at which flanks are evaluated."""
 
 _LEAST_BEND = 0.05
 """Share of the exact flanks' curvature that a hollow modification leaves at the least."""
@@ -159,7 +159,7 @@ def _facing(line: LineOfAction, nominal: Floats) -> tuple[Bools, tuple[Floats, F
 
 
 def _bent(line: LineOfAction) -> PerGear[tuple[float, float]]:
-    """Between which roll lengths (mm) flanks that touch have curvatures to speak of.
+    """Return the range of roll lengths (mm) in which flanks in contact have a usable curvature.
 
     Between T1 and T2 where these lie apart; beyond T1 where that of a ring lies behind it.
     """
@@ -261,7 +261,9 @@ def _along_tangent(gear: Gear, lengths: Floats, towards_tip: Floats) -> Floats:
 
 
 def _sides(line: ContactLine, pair: GearPair, mounting: Mounting) -> PerGear[tuple[Gear, Places, int, Floats]]:
-    """Both gears with their places, the sense of the tangent towards their tips, and how far (n,) in mm they slid along it."""
+    """Return both gears with their places, the sense of the tangent towards their tips, and their displacement (n,) in mm along
+    it.
+    """
     slid = mounting.misalignment_across / 1000 / pair.common_width.width * line.across
     pinion, wheel = line.places
     return PerGear((pair.pinion, pinion, 1, np.zeros_like(slid)), (pair.wheel, wheel, -1, slid))
@@ -307,7 +309,7 @@ def _taken_back(pair: GearPair, places: PerGear[Places]) -> Floats:
 
 
 OWN_DISTANCE = math.exp(-0.5) / 2
-"""c/a: 0.30327."""
+"""Ratio c/a = 0.30327."""
 
 _LEAST = 1e-3
 """Share of the mean load per length for which the ellipse of a cell is wide enough, however little it carries."""
@@ -329,7 +331,7 @@ _PARTS = (0.5, 0.3, 0.8)
 """Shares of the fixed point's step, in turn, that are taken where Newton's does not help: one alone could repeat a cycle."""
 
 _LONGEST = 1.5
-"""Greatest change of a half width's logarithm in one step."""
+"""Largest change of the logarithm of a half width in one step."""
 
 
 @dataclass(frozen=True)

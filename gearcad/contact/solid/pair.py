@@ -33,14 +33,15 @@ from gearcad.mounting import Mounting
 from gearcad.rating.contact_stress import reduced_modulus
 
 POSITION_SECONDS = 0.025
-"""For one position of a mesh cycle."""
+"""Time (s) for one position of a mesh cycle."""
 
 _ROWS = 8
 """Unit loads in each layer, at the most."""
 
 _OPERATIONS, _FACTORS = 4.0e3, 370.0
-"""Of the condensation, per squared quadrangles and layers^1.93, and numbers that are kept of it, per quadrangles^1.4 and
-layers^1.3: within a fifth for 126 to 324 quadrangles and 5 to 63 layers."""
+"""Operations of the condensation, per squared quadrangles and layers^1.93, and numbers that are kept of it, per quadrangles^1.4
+and layers^1.3: within a fifth for 126 to 324 quadrangles and 5 to 63 layers.
+"""
 
 _ELIMINATING, _ASSEMBLING = 3.5e-11, 4.5e-4
 _FIELDS = 3.5e-6
@@ -118,7 +119,9 @@ _TICK = 0.2
 """Seconds between looks at how far they are."""
 
 _SECTION = MeshSizes(flank=0.34, corner=0.045, fillet=0.11, outline=0.45, cut=0.3, rim=6.0, growth=0.45)
-"""Where halving any one of them moves stiffness of the FZG pair by less than 0.1 %, and its root stress by less than 0.5 %."""
+"""Sizes of which halving any one changes the stiffness of the FZG pair by less than 0.1 %, and its root stress by less than 0.5
+%.
+"""
 
 _BEND, _SHORTEST = 0.3, 0.02
 """Edges of a ring's fillets over their least radius of curvature, about as of a hob's, and the least in normal modules: root
@@ -174,7 +177,7 @@ class KnownSolutions(dict[tuple[float, float, bool], LineSolution]):
 
 @dataclass(frozen=True)
 class SolidPair(FlexiblePair[SolidCompliance]):
-    """Both bodies over their face widths, in contact along lines of `cells` over the common one.
+    """A pair of bodies over their face widths, in contact along lines of `cells` over the common one.
 
     Modifications and mounting may be changed by `remade`: the bodies are those of the exact gears. Left flanks carry.
     """
@@ -367,7 +370,7 @@ def _meshes(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> list[SweptMes
 
 
 class _Heard:
-    """How many of the seconds that a body is expected to take are over, told by the thread that solves it."""
+    """Progress of a body: the expected seconds that are over, reported by the thread that solves it."""
 
     def __init__(self, cost: BodyCost) -> None:
         self.cost, self.seconds = cost, 0.0
@@ -383,7 +386,9 @@ class _Heard:
 
 
 def _one_by_one(jobs: Sequence[tuple[_Heard, Callable[[], SolidCompliance]]], tell: Share) -> list[SolidCompliance]:
-    """Both gears, in a thread of their own, while this one tells: one needs the memory that the other has left."""
+    """Solve both gears one after the other in a thread, while this thread reports progress. Each needs the memory that the
+    other has left.
+    """
     whole = sum(heard.cost.seconds for heard, _ in jobs)
     tell(0.0)
     with ThreadPoolExecutor(1) as thread:

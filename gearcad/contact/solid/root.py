@@ -44,7 +44,7 @@ class SolidFillet:
 
     @property
     def heights(self) -> Floats:
-        """z (n,) of the rows of points (mm)."""
+        """Heights z (n,) of the rows of points (mm)."""
         return self._geometry[0]
 
     @property
@@ -59,12 +59,12 @@ class SolidFillet:
 
     @property
     def internal(self) -> bool:
-        """Whether it is a ring's, and so lies outside the flank."""
+        """Whether the fillet is that of a ring, and so lies outside the flank."""
         return self.body.flank.gear.internal
 
     @property
     def is_root(self) -> NDArray[np.bool_]:
-        """Which points (m,) along the profile are the root."""
+        """Mask of the points (m,) along the profile that are the root."""
         return self.tangent_angles >= LEAST_TANGENT_ANGLE
 
     @cached_property

@@ -20,7 +20,7 @@ from gearcad.geometry.gear_data import section_turn
 from gearcad.solids.body_plan import EndCone, keyway_half_angle
 
 Corner = tuple[float, float]
-"""Height z and radius."""
+"""Height z (mm) and radius (mm) of a corner of the section."""
 
 
 def overall(gear: Gear) -> tuple[float, float]:

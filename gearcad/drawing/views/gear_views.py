@@ -174,7 +174,7 @@ _ALONG_FACE = (0.75, 0.9, 0.25, 0.5)
 """Positions of a leader's end along an edge, over its length."""
 
 _STANDING = 18.0
-"""Least length of the left face for a symbol on it (mm of paper); else the right face is tried first."""
+"""Least length (mm of paper) of the left face for a symbol on it; below, the right face is tried first."""
 
 _EXTENSIONS = (3.0, 12.0, 20.0, 28.0)
 """Distances of a symbol on the reference line from the outline (mm of paper)."""

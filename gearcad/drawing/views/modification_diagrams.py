@@ -115,7 +115,7 @@ _WIDTH, _HEIGHT = 60.0, 15.0
 """Width and height of the curves (mm of paper)."""
 
 _SMALL, _TITLE = 2.5, 3.5
-"""Heights of texts."""
+"""Heights (mm) of small texts and of titles."""
 
 _ROW = 4.2
 _CELL_AIR = 1.6

@@ -25,7 +25,7 @@ _PITCHES = 7
 """Least number of pitches that are shown."""
 
 _WORTH = 1.6
-"""Least ratio of a broken rack's length to the length that is shown."""
+"""Least ratio of a rack's length to its shown length at which the rack is drawn broken."""
 
 _GAP = 3.0
 """Distance between the two shown parts (mm of paper)."""

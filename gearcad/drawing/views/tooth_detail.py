@@ -226,7 +226,7 @@ class OnCircles(Placing):
 
 
 class OnLines(Placing):
-    """A tooth of a rack."""
+    """Sizes of a rack's tooth, whose reference is a line."""
 
     def __init__(self, rack: Rack, scale: float) -> None:
         super().__init__(scale)
@@ -317,7 +317,7 @@ def _name(level: Level, draughting: Draughting) -> Written:
 
 _SIZE_TEXT = 2.5
 _SIZE_AIR = 1.2
-"""Distance between text and lines."""
+"""Distance (mm) between texts and lines."""
 
 _BELOW, _ABOVE = 6.0, 3.0
 """Distances of the dimension line from the reference circle, towards the root: the text stands above the line."""

@@ -24,7 +24,7 @@ from gearcad.planetary.power import PowerFlow
 from gearcad.planetary.train_data import shafts_of
 
 _MICRO = 1e6
-"""N/m in a N/µm."""
+"""Factor from N/µm to N/m."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -40,16 +40,16 @@ class ModeKind(Enum):
     """Motion of carrier and centrals in a mode."""
 
     ROTATIONAL = "rotational"
-    """They only turn: the planets all move alike."""
+    """Rotational modes: the central members only turn, and all planets move alike."""
 
     TRANSLATIONAL = "translational"
-    """They only travel: two modes at each frequency where there are three planets or more."""
+    """Translational modes: the central members only travel. With three planets or more there are two at each frequency."""
 
     PLANET = "planet"
-    """They rest."""
+    """Planet modes: the central members are at rest."""
 
     MIXED = "mixed"
-    """They turn and travel."""
+    """Mixed modes: the central members turn and travel."""
 
 
 def mass_diagonal(springs: TrainSprings, masses: TrainMasses) -> Floats:

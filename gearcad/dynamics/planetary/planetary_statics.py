@@ -123,7 +123,7 @@ class Equilibrium:
         return forces, opening
 
     def two_sided(self, compliance: Floats, gap: Floats, load: Floats) -> Floats:
-        """Return the forces (s, m) as if all springs could pull, too."""
+        """Return the forces (s, m) that would act if all springs could also pull."""
         inverse, redundant, _ = self._balance
         cases = max(map(len, (compliance, gap, load)))
         balanced = np.broadcast_to(load @ inverse, (cases, len(redundant)))
@@ -170,7 +170,7 @@ class Equilibrium:
 
 
 _MICRO = 1e6
-"""µm in a m."""
+"""Factor from m to µm."""
 
 _FREE = 1e-9
 """Part of a motion without springs below which a member stands still in it."""

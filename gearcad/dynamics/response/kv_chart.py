@@ -294,9 +294,9 @@ class ForceDefinition(Enum):
     """Force between the teeth that K_v compares with the static one."""
 
     SPRING = "spring"
-    """k(t) (y - e): (2.3) of J. Osinski's paper."""
+    """Force of the spring alone, k(t) (y - e): (2.3) of J. Osinski's paper."""
     WITH_DAMPING = "with damping"
-    """k(t) (y - e) + c (y' - e')."""
+    """Force of spring and damper: k(t) (y - e) + c (y' - e')."""
 
 
 class FactorPeak(NamedTuple):

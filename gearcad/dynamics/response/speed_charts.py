@@ -120,7 +120,8 @@ _LEAST_HARMONICS = 12
 """Least number of harmonics of motions that are followed."""
 
 _MOST_UNKNOWNS = 80
-"""Most harmonics, of all meshes together, of motions that are followed: the errors of 18 teeth would take minutes."""
+"""Largest number of harmonics, of all meshes together, of motions that are followed: the errors of 18 teeth would take minutes.
+"""
 
 _MARGIN = 0.9
 """A branch begins at so much of the lowest frequency at which flanks part, where they do not yet."""

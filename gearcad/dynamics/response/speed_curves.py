@@ -21,7 +21,8 @@ from gearcad.dynamics.trains.shaft_lines import System
 from gearcad.dynamics.trains.steady_response import Driven, PeriodicResponse, StaticState, told_by
 
 LEAST_RATIO = 5e-4
-"""Least damping ratio of the search: modes with less are taken to have this; narrower resonances are not looked for."""
+"""Least damping ratio of the search. Modes with less are treated as having this ratio, so narrower resonances are not searched.
+"""
 
 FELT = 0.002
 """Part of the load at rest below which vibrations are not looked for."""

@@ -24,7 +24,7 @@ class EngagedPairs(Enum):
     """Pairs of teeth that carry."""
 
     RIGID_TIPS = "rigid tips"
-    """Those between the points at which the tip circles cross the line of action."""
+    """Pairs between the points at which the tip circles cross the line of action."""
     PENETRATING_TIPS = "penetrating tips"
     """The same, but each gear's place is measured on its own flank: the zone shrinks by the approach."""
     ONE_PAIR = "one pair"
@@ -138,7 +138,7 @@ class ContactModel:
 
     @property
     def reduced_mass(self) -> float:
-        """m_1 m_2/(m_1 + m_2) (kg)."""
+        """Reduced mass m_1 m_2/(m_1 + m_2) (kg)."""
         one, other = self.masses
         return one * other / (one + other)
 
@@ -167,7 +167,7 @@ class ContactModel:
 
     @property
     def damping_ratio(self) -> float:
-        """b/(2 sqrt(k m)) with one pair in contact."""
+        """Damping ratio b/(2 sqrt(k m)) with one pair in contact."""
         return self.damping / (2 * math.sqrt(1e6 * self.pair_stiffness * self.reduced_mass))
 
     def natural_frequency(self, pairs: float = 1.0) -> float:

@@ -24,7 +24,7 @@ class ToothLaw(Enum):
     """Law of load sharing between pairs of teeth."""
 
     SMOOTH = "smooth"
-    """As one spring, whose error goes over gradually from one pair to the next: the law of the other charts."""
+    """Teeth as one spring, whose error changes gradually from one pair to the next: the law of the other charts."""
 
     SINGLE = "single teeth"
     """Each pair as a spring of its own, which begins to carry where the bent teeth reach each other: too early, or too late."""

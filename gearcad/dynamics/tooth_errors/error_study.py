@@ -48,10 +48,12 @@ _MOST_SETTLING, _MOST_TEETH = 2000, 1500
 """Teeth of the first mesh that pass before, and that are looked at, at the most."""
 
 _SAME = 0.01
-"""Of the greatest force in one period and the next, in a motion that has settled."""
+"""Largest relative difference of the greatest forces in two periods that follow each other, in a motion that has settled."""
 
 _FELT, _TOUCHED = 0.02, 1e-3
-"""Of a mode's potential energy in the meshes: from which on a vibration is one of the teeth, and from which on they feel it."""
+"""Shares of a mode's potential energy in the meshes: above the first a vibration is one of the teeth, above the second it
+affects the teeth.
+"""
 
 _WIDEST, _CHUNK = 128, 2_000_000
 """Samples side by side, and their steps between two looks at whether anybody wants to stop."""
@@ -297,7 +299,9 @@ def _failed(tasks: Sequence[Future[StudyRun]]) -> bool:
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorPlan:
-    """How errors are drawn: `samples` of a `distribution` by a `seed`, for an accuracy `grade`; None where teeth have none."""
+    """Plan for random tooth errors: `samples` of a `distribution` by a `seed`, for an accuracy `grade`; None for teeth without
+    errors.
+    """
 
     law: ToothLaw
     samples: int

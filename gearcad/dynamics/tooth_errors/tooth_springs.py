@@ -225,7 +225,7 @@ PRESSURE_ANGLE = 20.0
 """Pressure angle (deg) of teeth for which a train has only base radii and numbers of teeth."""
 
 _STEPS = 256
-"""Places per base pitch."""
+"""Number of places per base pitch."""
 
 _FARTHEST = 0.6
 """Base pitches before and behind the path of contact at which a gap is looked for: teeth that bend so far have been lost."""

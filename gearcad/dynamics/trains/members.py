@@ -195,7 +195,7 @@ class Shaft(NamedPart):
 
     @property
     def held(self) -> bool:
-        """Whether one end does not turn."""
+        """Whether one end of the shaft is held."""
         return GROUND in (self.start, self.end)
 
     @property
@@ -372,7 +372,9 @@ _BALANCED = 1e-3
 """Part of the greatest torque that may be left unbalanced: torques of four digits balance as well as that."""
 
 _WRONG_SIGN = 0.05
-"""How near the torque that balances is to the given one with the other sign, relative to it, to be called its sign."""
+"""Relative difference between the balancing torque and the given one with opposite sign, up to which the message suggests a
+wrong sign.
+"""
 
 
 def turning_pieces(names: Sequence[str], shafts: Iterable[Shaft], meshes: Iterable[ToothMesh]) -> list[dict[str, float]]:

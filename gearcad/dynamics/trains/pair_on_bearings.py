@@ -23,10 +23,10 @@ _MOST = 0.5
 """Share of turning in the kinetic energy, or of the mesh in the potential one, from which on gears turn against each other."""
 
 _BOTH = 0.5
-"""Of the greater: travel of the other gear, by its kinetic energy, from which on both gears are said to travel."""
+"""Ratio of the kinetic energies of both gears' travel, less to greater, from which both are said to travel."""
 
 _STRAIGHT = 0.8
-"""Of the kinetic energy of a gear's travel: what is one way or the other, and not oblique."""
+"""Share of the kinetic energy of a gear's travel in one direction from which the travel is not called oblique."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +54,7 @@ class BearingModes:
 
     @property
     def shaken(self) -> Bools:
-        """Whether teeth can shake a mode (6,): the mesh gives way in it."""
+        """Mask of the modes (6,) that the teeth can excite, because the mesh deflects in them."""
         return np.asarray(self.potential[:, 0] > _SHAKEN, bool)
 
     @property

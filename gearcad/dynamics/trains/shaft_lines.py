@@ -48,9 +48,9 @@ class System:
     stiffness: Floats
     mesh_damping: Floats
     names: tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]
-    """Of meshes, inertias and shafts."""
+    """Names of meshes, inertias and shafts."""
     bearings: Bearings | None = None
-    """Of axes that travel, where some do."""
+    """Bearings of the axes that travel; None if no axis does."""
 
     @property
     def size(self) -> int:

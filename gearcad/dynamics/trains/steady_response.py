@@ -38,7 +38,7 @@ def frequency_ranges(frequencies: Floats, marked: Bools) -> str:
 
 
 class Unstable(Enum):
-    """How a motion that does not last was found; the values are the words of the notice."""
+    """Kind of evidence that a motion is unstable; the values are the texts of the notice."""
 
     LINEAR = "parametric instability: vibrations grow without bound {where}; the periodic motion that is given does not last"
     PARTING = (
@@ -68,7 +68,7 @@ def parting(frequencies: Floats, apart: Bools) -> Notice:
 
 
 _LOSS = 1e-9
-"""Least loss factor of a line's mode: keeps the sum finite just at the frequency of an undamped one."""
+"""Least loss factor of a line's mode. It keeps the sum finite at the frequency of an undamped mode."""
 
 _MOST_AMPLIFIED = 1e9
 """Deflection over the static one beyond which rounding decides: resonance without damping."""

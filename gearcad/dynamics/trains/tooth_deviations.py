@@ -90,10 +90,10 @@ _SIGMAS = 3.0
 
 
 class ErrorDistribution(Enum):
-    """How deviations lie within their tolerance."""
+    """Distribution of deviations within their tolerance."""
 
     UNIFORM = "uniform"
-    """All alike."""
+    """All deviations within the tolerance are equally probable."""
     NORMAL = "normal"
     """The tolerance is three standard deviations, beyond which nothing lies."""
 

@@ -24,7 +24,7 @@ class TrainModel(Enum):
     ISOLATED = "isolated"
     """No shafts: the meshes and the inertias in them, loaded by the mesh forces of the whole train."""
     MASSLESS = "massless"
-    """Shafts are springs."""
+    """Shafts are springs without mass."""
     MODES = "modes"
     """Shafts have mass; each line of shafts and inertias keeps its first modes (the paper's quasi-normal coordinates)."""
     ELEMENTS = "elements"
@@ -144,7 +144,7 @@ def require_known(mesh: ToothMesh) -> None:
 
 
 _NO_FORCE = 1e-9
-"""Of the greatest mesh force: rounding, which must not turn flanks round."""
+"""Share of the greatest mesh force below which a force is rounding and does not decide which flanks carry."""
 
 
 @dataclass(frozen=True, eq=False)

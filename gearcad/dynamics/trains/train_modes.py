@@ -183,7 +183,7 @@ _SAME = 1e-10
 
 _DOUBLINGS = 200
 _HALVINGS = 200
-"""More than any start needs to reach, or to tell, neighbouring floats."""
+"""Largest number of halvings; enough to separate neighbouring floats from any start."""
 
 
 @dataclass(frozen=True, eq=False)
