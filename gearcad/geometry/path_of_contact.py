@@ -44,7 +44,7 @@ class BaseTangent(Generic[Values]):
     pressure_angle: Values
     pitch: Values
 
-    @property
+    @cached_property
     def length(self) -> Values:
         """T1T2 = a sin alpha_wt."""
         return self.centre_distance * sin(radians(self.pressure_angle))

@@ -56,15 +56,20 @@ class Toothed(Generic[Values]):
         return float(self.rack.root_radius)
 
     @cached_property
+    def helix_cosine(self) -> Values:
+        """Cosine of the helix angle beta."""
+        return cos(radians(self.helix_angle))
+
+    @cached_property
     def transverse_module(self) -> Values:
         """m_t = m_n / cos beta."""
-        return self.normal_module / cos(radians(self.helix_angle))
+        return self.normal_module / self.helix_cosine
 
     @cached_property
     def transverse_pressure_angle(self) -> Values:
         """tan alpha_t = tan alpha_n / cos beta."""
         tangent = math.tan(math.radians(self.rack.pressure_angle))
-        return degrees(arctan(tangent / cos(radians(self.helix_angle))))
+        return degrees(arctan(tangent / self.helix_cosine))
 
     @cached_property
     def base_helix_angle(self) -> Values:
@@ -79,7 +84,7 @@ class Toothed(Generic[Values]):
     @property
     def transverse_tooth_thickness(self) -> Values:
         """s_t = s_n / cos beta, on the reference circle or line."""
-        return self.normal_tooth_thickness / cos(radians(self.helix_angle))
+        return self.normal_tooth_thickness / self.helix_cosine
 
 
 class GearSizes(Toothed[Values]):
@@ -147,7 +152,7 @@ class GearSizes(Toothed[Values]):
     @property
     def virtual_teeth(self) -> Values:
         """z_n = z / (cos^2 beta_b cos beta)."""
-        return self.teeth / (cos(radians(self.base_helix_angle)) ** 2 * cos(radians(self.helix_angle)))
+        return self.teeth / (cos(radians(self.base_helix_angle)) ** 2 * self.helix_cosine)
 
 
 class ToothedPart(Toothed[float]):

@@ -1,13 +1,11 @@
-"""Geometry of many external pairs at once: the formulas of Gear and GearPair (ISO 21771) as arrays; shift diagrams.
+"""Geometry of many external pairs at once: the formulas of Gear and GearPair (ISO 21771) on arrays; shift diagrams.
 
-Lengths in mm, angles in radians, but for the helix angle, which is in degrees as in a Gear. Teeth are hobbed.
+Lengths in mm, angles in degrees. Teeth are hobbed. Variants of a search have no backlash and no thinning. Their tips are
+altered as by `tip_alteration = "auto"`, which keeps the clearance of the rack.
 
-Lengths in mm, angles in radians, but for the helix angle, which is in degrees as in a Gear. Flanks have no backlash and gears
-no thinning; tips are altered as `tip_alteration = "auto"` has it, to keep the clearance of the rack.
-
-Each limit is a field over the grid, whose lines of equal values one draws: undercut, thickness of tips, contact ratio,
-interference, backlash. External gears from hobs. Interference is that of circles - a tip that reaches below the root form
-circle of its mate - and is not judged on teeth that are undercut.
+Each limit of a shift diagram is a field over the grid, whose lines of equal values are drawn: undercut, thickness of tips,
+contact ratio, interference, backlash. Interference is that of circles: a tip reaches below the root form circle of its mate.
+It is not judged on teeth that are undercut.
 """
 
 from __future__ import annotations
@@ -36,7 +34,7 @@ from gearcad.geometry.pair_data import (
     working_involute,
 )
 from gearcad.geometry.path_of_contact import BaseTangent
-from gearcad.geometry.toothed import GearSizes
+from gearcad.geometry.toothed import GearSizes, Toothed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,7 +125,34 @@ class ManyTeeth(GearSizes[Numbers]):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ManyPairs(Columns, PairSizes[Numbers]):
+class PairedTeeth(ManyTeeth):
+    """Teeth of one gear of many pairs. Both gears have the section of the `pairs`, whose angles are found once."""
+
+    pairs: Toothed[Numbers]
+
+    @property
+    def helix_cosine(self) -> Numbers:
+        """Cosine of the helix angle beta."""
+        return self.pairs.helix_cosine
+
+    @property
+    def transverse_module(self) -> Numbers:
+        """Transverse module m_t (mm)."""
+        return self.pairs.transverse_module
+
+    @property
+    def transverse_pressure_angle(self) -> Numbers:
+        """Transverse pressure angle alpha_t."""
+        return self.pairs.transverse_pressure_angle
+
+    @property
+    def base_helix_angle(self) -> Numbers:
+        """Base helix angle beta_b."""
+        return self.pairs.base_helix_angle
+
+
+@dataclass(frozen=True, kw_only=True)
+class ManyPairs(Columns, PairSizes[Numbers], Toothed[Numbers]):
     """Pairs by their given values, arrays of one shape; all derived values have that shape.
 
     `key` is the place of a variant in the whole search, which does not depend on the order in which anything was given.
@@ -144,12 +169,13 @@ class ManyPairs(Columns, PairSizes[Numbers]):
     # ------------------------------------------------------------------ teeth
 
     @cached_property
-    def gears(self) -> PerGear[ManyTeeth]:
+    def gears(self) -> PerGear[PairedTeeth]:
         """Teeth of both gears."""
         return PerGear.each(self._gear)
 
-    def _gear(self, role: Role) -> ManyTeeth:
-        return ManyTeeth(
+    def _gear(self, role: Role) -> PairedTeeth:
+        return PairedTeeth(
+            pairs=self,
             teeth=self.teeth.pick(role),
             normal_module=self.normal_module,
             helix_angle=self.helix_angle,
@@ -161,8 +187,8 @@ class ManyPairs(Columns, PairSizes[Numbers]):
     @cached_property
     def tip_alteration(self) -> Floats:
         """k of both gears: (a - a_d)/m_n - (x_1 + x_2), never positive."""
-        teeth, total = self.teeth.pinion + self.teeth.wheel, self.shifts.pinion + self.shifts.wheel
-        return _tip_alteration(self.normal_module, teeth, self.helix_angle, total, self.centre_distance)
+        references = (self.teeth.pinion + self.teeth.wheel) * self.transverse_module / 2
+        return _tip_alteration(self.centre_distance - references, self.normal_module, self.shifts.pinion + self.shifts.wheel)
 
     @cached_property
     def diameters(self) -> PerGear[Floats]:
@@ -223,9 +249,8 @@ class ManyPairs(Columns, PairSizes[Numbers]):
         return result
 
 
-def _tip_alteration(module: Numbers, teeth: Floats, helix_angle: Numbers, shift_sum: Numbers, distance: Floats) -> Floats:
-    """k (normal modules) that keeps the clearance of the rack, never positive, for sums of teeth."""
-    apart = distance - teeth * module / np.cos(np.radians(helix_angle)) / 2
+def _tip_alteration(apart: Numbers, module: Numbers, shift_sum: Numbers) -> Floats:
+    """k (normal modules) that keeps the clearance of the rack, never positive; `apart` is a - a_d (mm)."""
     return np.minimum(clearance_alteration(apart, module, shift_sum), 0.0)
 
 
@@ -348,7 +373,7 @@ def pair_map(pair: GearPair, across: Axis, up: Axis, *, rest: Role | None, dista
         if distance
         else distance_for(np.asarray(first + second), sums, np.full_like(sums, module), np.asarray(helix), angle)
     )
-    auto = _tip_alteration(module, sums, helix, first + second, at)
+    auto = _tip_alteration(at - sums * module / np.cos(np.radians(helix)) / 2, module, first + second)
     gears = PerGear(
         *(
             _teeth(gear, float(gear.teeth), helix, shift, auto if auto_tips else gear.tip_alteration)
