@@ -1,4 +1,4 @@
-"""Material: what a gear is made of."""
+"""Material of a gear: elastic constants, density, group and quality, and limits of strength."""
 
 from __future__ import annotations
 

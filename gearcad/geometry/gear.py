@@ -285,7 +285,7 @@ class Gear(GearData):
 
     @property
     def tip_form_diameter(self) -> float:
-        """d_Fa: the tip circle less the tip chamfers."""
+        """Tip form diameter d_Fa: the tip circle less the tip chamfers."""
         return self._side * self.profile.tip_form_diameter
 
     @property
@@ -305,7 +305,7 @@ class Gear(GearData):
 
     @property
     def cutter_tip_diameter(self) -> float | None:
-        """d_a0 of the shaper cutter (mm), set to reach the root circle; None without one."""
+        """Tip diameter d_a0 of the shaper cutter (mm), set to reach the root circle; None without one."""
         return None if self.cutter.teeth is None else 2 * shaper_tip(self, 0.0).tip_radius
 
     @property

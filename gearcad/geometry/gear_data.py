@@ -70,7 +70,7 @@ class GearData(GearSizes[float], ToothedPart):
 
     @property
     def internal(self) -> bool:
-        """Whether it is an internal gear (a ring): z < 0."""
+        """Whether the gear is internal (a ring): z < 0."""
         return self.teeth < 0
 
     @property
@@ -152,7 +152,7 @@ _ROUNDING = 1e-14
 
 
 def shaped(gear: GearData) -> bool:
-    """Whether its fillets are those of a cutter's corner, not of a rack: on rings, and where a shaper cutter is named."""
+    """Whether the fillets are those of a cutter's corner, not of a rack: on rings, and where a shaper cutter is named."""
     return gear.internal or gear.cutter.teeth is not None
 
 
@@ -296,7 +296,7 @@ def _check_gap(gear: GearData) -> None:
 
 
 def least_rim_diameter(gear: GearData) -> float:
-    """Least rim diameter (mm) of a ring: some wall outside its root circle."""
+    """Least rim diameter (mm) of a ring, with some wall outside its root circle."""
     return abs(gear.root_diameter) + 2 * LEAST_RIM * gear.normal_module
 
 

@@ -39,7 +39,9 @@ _MOST_STEPS = 400
 """Rings of more teeth that are looked at, to say which would do."""
 
 _MOST_TRIALS = 4
-"""Those with room enough that are made: they may not be permitted for other reasons, such as their rim."""
+"""Largest number of rings with enough room that are made as trials; some are not permitted for other reasons, such as their
+rim.
+"""
 
 
 def internal_tips(pair: PairData, ring: ToothProfile | None = None) -> InternalTips:
@@ -144,7 +146,7 @@ def _more_teeth(pair: PairData, margin: Callable[[InternalTips], float]) -> int 
 
 
 def _has_room(pair: PairData, margin: Callable[[InternalTips], float], clear: bool, teeth: int) -> bool:
-    """Whether a margin would not be negative with so many teeth of the ring."""
+    """Return whether a margin is not negative with so many teeth of the ring."""
     try:
         return margin(_sharp_tips(pair, teeth, _tip_alteration(pair, teeth, clear))) >= 0
     except (InputError, ValueError):  # no such pair, or a tip inside its base circle
@@ -195,7 +197,7 @@ def _tip_alteration(pair: PairData, teeth: int, clear: bool) -> float:
 
 
 def _permitted(pair: PairData, ring: Callable[[], Gear]) -> bool:
-    """Whether the pair may be had with another ring."""
+    """Return whether the pair is permitted with another ring."""
     try:
         replace(pair, wheel=ring())
     except InputError:

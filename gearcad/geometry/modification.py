@@ -48,7 +48,7 @@ _LEAST_LENGTH = 1e-3
 """Least length (mm) of a relief."""
 
 LEAST_TRANSITION = 1e-3
-"""Least transition (mm of roll) that can be given, but for 0."""
+"""Least transition (mm of roll) that can be given, apart from 0."""
 
 ASSUMED_TRANSITION = 0.1
 """Transition (normal modules of roll) from flank to linear relief where none is given: an assumption, not measured."""

@@ -42,7 +42,7 @@ _DERIVED = (
 """Properties in a document beside the inputs."""
 
 _SKETCHED = "centre_distance gear_ratio transverse_contact_ratio overlap_ratio circumferential_backlash".split()
-"""The figures beside its picture."""
+"""Keys of the figures beside the picture of a pair."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -34,7 +34,7 @@ from gearcad.geometry.profile import base_half_angle
 from gearcad.geometry.toothed import GearSizes
 
 _FULL = PerGear(1.0, 1.0)
-"""Addenda of ISO 53."""
+"""Addenda of both gears by ISO 53, in normal modules."""
 
 
 class ShiftSplit(Enum):
@@ -269,12 +269,12 @@ class PairData(PairSizes[float], EngagedPair):
 
     @property
     def reference_centre_distance(self) -> float:
-        """a_d = (d_1 + d_2)/2."""
+        """Reference centre distance a_d = (d_1 + d_2)/2."""
         return (self.pinion.reference_diameter + self.wheel.reference_diameter) / 2
 
     @property
     def profile_shift_sum(self) -> float:
-        """x_1 + x_2 of the gears."""
+        """Sum of profile shift coefficients x_1 + x_2."""
         return self.pinion.profile_shift + self.wheel.profile_shift
 
     @property
@@ -314,7 +314,7 @@ class PairData(PairSizes[float], EngagedPair):
 
     @property
     def working_pitch_diameters(self) -> PerGear[float]:
-        """d_w1 = 2 a/(1 + u), d_w2 = u d_w1."""
+        """Working pitch diameters d_w1 = 2 a/(1 + u) and d_w2 = u d_w1."""
         pinion = 2 * self.centre_distance / (1 + self.gear_ratio)
         return PerGear(pinion, self.gear_ratio * pinion)
 
@@ -340,12 +340,12 @@ class PairData(PairSizes[float], EngagedPair):
 
     @property
     def circumferential_backlash(self) -> float:
-        """j_wt: working pitch less both tooth thicknesses on the working pitch circles (transverse)."""
+        """Circumferential backlash j_wt: working pitch less both tooth thicknesses on the working pitch circles (transverse)."""
         return self._nominal_backlash.circumferential
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn along the base normal: j_wt cos alpha_wt cos beta_b."""
+        """Normal backlash j_bn along the base normal: j_wt cos alpha_wt cos beta_b."""
         return self._nominal_backlash.normal
 
     @cached_property

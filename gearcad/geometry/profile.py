@@ -27,7 +27,7 @@ AIM = 0.98
 
 
 class CurveKind(Enum):
-    """Kind of a piece of the outline."""
+    """Kind of a curve in the outline of a tooth."""
 
     ROOT = "root"
     FILLET = "trochoid"
@@ -199,7 +199,7 @@ class ToothProfile:
     tip_chamfer: float = 0.0
 
     internal: ClassVar[bool] = False
-    """Whether the tip is inside the root."""
+    """Whether the tip is inside the root, as on a ring."""
 
     @property
     def _side(self) -> int:

@@ -67,22 +67,22 @@ class RackData(ToothedPart):
 
     @property
     def normal_pitch(self) -> float:
-        """p_n = pi m_n, square to the teeth."""
+        """Normal pitch p_n = pi m_n, perpendicular to the teeth."""
         return math.pi * self.normal_module
 
     @property
     def transverse_base_pitch(self) -> float:
-        """p_bt = p_t cos alpha_t."""
+        """Transverse base pitch p_bt = p_t cos alpha_t."""
         return self.transverse_pitch * math.cos(math.radians(self.transverse_pressure_angle))
 
     @property
     def normal_tooth_thickness(self) -> float:
-        """s_n = pi m_n/2 - thinning, on the reference line."""
+        """Normal tooth thickness s_n = pi m_n/2 - thinning, on the reference line."""
         return self.normal_module * math.pi / 2 - self.tooth_thinning
 
     @property
     def tip_height(self) -> float:
-        """h_a = m_n (h_aP + k), above the reference line."""
+        """Addendum h_a = m_n (h_aP + k), above the reference line."""
         return self.normal_module * (self.rack.addendum + self.tip_alteration)
 
     @property
@@ -92,7 +92,7 @@ class RackData(ToothedPart):
 
     @property
     def root_depth(self) -> float:
-        """h_f = m_n h_fP, below the reference line."""
+        """Dedendum h_f = m_n h_fP, below the reference line."""
         return self.normal_module * self.rack.dedendum
 
     @property
@@ -209,7 +209,7 @@ class RackProfile:
 
     @property
     def slope(self) -> float:
-        """tan alpha_t: how fast a flank leans in."""
+        """Slope tan alpha_t of a flank against the height."""
         return math.tan(math.radians(self.pressure_angle)) * self.stretch
 
     @property
@@ -281,7 +281,7 @@ class RackProfile:
 
 
 MOST_PITCHES = 2000
-"""Most teeth of a rack."""
+"""Largest number of teeth of a rack."""
 
 
 def check_rack_numbers(rack: RackData) -> None:

@@ -38,7 +38,7 @@ _DISTANCE = Range("mm", 0, None, ends="(]")
 
 
 class OfPinionAndRack(NamedTuple):
-    """A length that both have (mm)."""
+    """Length (mm) that a pinion and a rack each have."""
 
     pinion: float
     rack: float
@@ -55,7 +55,7 @@ class RackPairData(EngagedPair):
 
     @property
     def pitch_radius(self) -> float:
-        """r of the pinion, on which the rack's pitch line rolls."""
+        """Reference radius r of the pinion, on which the rack's pitch line rolls."""
         return self.pinion.reference_diameter / 2
 
     @property
@@ -107,13 +107,13 @@ class RackPairData(EngagedPair):
 
     @property
     def circumferential_backlash(self) -> float:
-        """j_wt along the pitch line: 2 tan alpha_t (H - r - x m_n) and both thinnings (transverse)."""
+        """Circumferential backlash j_wt along the pitch line: 2 tan alpha_t (H - r - x m_n) and both thinnings (transverse)."""
         tangent = math.tan(math.radians(self.pinion.transverse_pressure_angle))
         return settled(2 * tangent * (self.mounting_distance - self.zero_backlash_distance), self.mounting_distance)
 
     @property
     def normal_backlash(self) -> float:
-        """j_bn along the base normal: j_wt cos alpha_t cos beta_b."""
+        """Normal backlash j_bn along the base normal: j_wt cos alpha_t cos beta_b."""
         across = math.cos(math.radians(self.pinion.transverse_pressure_angle))
         return self.circumferential_backlash * across * math.cos(math.radians(self.pinion.base_helix_angle))
 
@@ -121,7 +121,7 @@ class RackPairData(EngagedPair):
 
     @property
     def travel_per_revolution(self) -> float:
-        """pi d: how far the rack moves in a turn of the pinion."""
+        """Travel of the rack in one revolution of the pinion: pi d."""
         return math.pi * self.pinion.reference_diameter
 
     @property
@@ -301,7 +301,7 @@ _DERIVED = (
 """Properties in a document beside the inputs."""
 
 _SKETCHED = "mounting_distance travel_per_revolution transverse_contact_ratio overlap_ratio circumferential_backlash".split()
-"""The figures beside its picture."""
+"""Keys of the figures beside the picture of a pinion and a rack."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,7 +19,7 @@ _WIDTH = 10
 
 _RADIUS_STEP = 0.01
 _SLACK = 0.05
-"""How far beside the involute a gauge is let pass, in modules: root radii and tip chamfers are not known."""
+"""Distance beside the involute, in modules, at which a gauge still passes: root radii and tip chamfers are not known."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +46,7 @@ class Candidate:
 
     @property
     def transverse(self) -> bool:
-        """Whether its size is that of the transverse section, so that its normal module is of no series."""
+        """Whether the size is that of the transverse section, so that the normal module is of no series."""
         return self.fit.hypothesis.transverse
 
     @property

@@ -24,7 +24,7 @@ from gearcad.identify.measurements import Gauge, Measured, Reading
 from gearcad.identify.standards import UNKNOWNS, Hypothesis, Unknown, Ways, ways
 
 _STEPS = np.array([1e-5, 1e-4, 1e-3, 1e-4, 1e-4, 1e-4, 1e-3, 1e-4])
-"""Of differences, small beside how far each unknown bends a reading, large beside rounding."""
+"""Steps of finite differences for each unknown: small beside its influence on a reading, large beside rounding."""
 
 
 _FELT_BY: dict[int, tuple[Gauge, ...]] = {
@@ -32,7 +32,7 @@ _FELT_BY: dict[int, tuple[Gauge, ...]] = {
     Unknown.DEDENDUM: (Gauge.ROOT_DIAMETER,),
     Unknown.MATE_SHIFT: (Gauge.CENTRE_DISTANCE, Gauge.MATE_TIP_DIAMETER),
 }
-"""Which gauges feel an unknown, of those that not all do."""
+"""Gauges that depend on an unknown, for those unknowns on which not all gauges depend."""
 
 
 @lru_cache(maxsize=256)
@@ -159,10 +159,10 @@ _SETTLED = 4
 """Steps after which the way to have made the gear stays: two that are as probable would take turns for ever."""
 
 _UNUSUAL = 2.0
-"""Spreads from what is usual."""
+"""Number of spreads from the usual value beyond which a value is called unusual."""
 
 _CLOSE = 1e-3
-"""Of a spread: the step that ends the search."""
+"""Step that ends the search, as a share of a spread."""
 
 _LEAST_HELIX, _MOST_HELIX = 1.0, 55.0
 _MOST_RETREATS, _THICKER = 5, 0.25

@@ -15,7 +15,7 @@ from gearcad.core.quantities import Range, Whole, Words
 from gearcad.core.records import JsonObject, Notice
 
 LENGTH, ANGLE = Range("mm", 0, 1e6, ends="(]"), Range("deg", -60, 60, ends="()")
-"""Kinds of readings."""
+"""Permitted readings of lengths (mm) and angles (deg)."""
 
 UNCERTAINTY, ANGLE_UNCERTAINTY = Range("mm", 1e-5, 100), Range("deg", 1e-5, 45)
 """Uncertainty, from that of gauge blocks to a guess."""
@@ -29,7 +29,7 @@ class Gauge(StrEnum):
     TIP_DIAMETER = "tip_diameter"
     ROOT_DIAMETER = "root_diameter"
     SPAN = "span"
-    """Over a number of teeth, of spaces on a ring."""
+    """Span over a number of teeth, or over spaces on a ring."""
 
     OVER_PINS = "over_pins"
     OVER_BALLS = "over_balls"
@@ -55,7 +55,7 @@ class Gauge(StrEnum):
 
     @property
     def sized(self) -> bool:
-        """Whether its readings need a size."""
+        """Whether a reading of this gauge needs a size."""
         return self in _SIZED
 
     @property
@@ -155,7 +155,7 @@ class Measured:
 
     @cached_property
     def spur(self) -> bool | None:
-        """Whether its helix angle is known to be 0, or not to be; None where nothing is said of it."""
+        """Whether the helix angle is known to be 0, or known not to be 0; None where nothing is known of it."""
         said = [each for each in self.readings if each.gauge in _OF_HELICES]
         return None if not said else any(each.gauge in ANGLES and each.value == 0 for each in said)
 

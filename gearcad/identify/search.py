@@ -29,11 +29,13 @@ _REACH = {
     Gauge.BETWEEN_PINS: 6.0,
     Gauge.BETWEEN_BALLS: 6.0,
 }
-"""How far, in normal modules, shift and height of the teeth and their thinning may bring a reading from the usual."""
+"""Largest difference, in normal modules, between a reading and that of usual teeth, due to shift, height of the teeth and
+thinning.
+"""
 
 _SIGMAS = 6.0
 _SOUGHT = 1
-"""How often a size of no series is sought again about where it was found."""
+"""Number of times that a size of no series is searched again about the size that was found."""
 
 _ANGLES = ((Gauge.HELIX_ANGLE, 1.0), (Gauge.TIP_HELIX_ANGLE, 0.95))
 """Gauges that tell a helix angle, and what part of the reading that is about."""
@@ -42,7 +44,9 @@ _HELICES = (8.0, 18.0, 30.0, 42.0)
 """Helix angles (degrees) about which sizes of the transverse section are sought where none was measured."""
 
 _TURNED, _SETTLED_HELIX = 6, 0.2
-"""How often a size of the transverse section is sought about the helix angle that was found, and how near (degrees) it ends."""
+"""Number of times that a size of the transverse section is searched about the helix angle that was found, and the change
+(degrees) that ends the search.
+"""
 
 _FIRST_HELIX, _LEAST, _MOST = 15.0, 5.0, 42.0
 _LEAST_HELIX, _MOST_HELIX = 1.0, 55.0
@@ -180,16 +184,16 @@ _RIVALS = 4
 """Number of candidates that are told apart."""
 
 _FURTHER_REACH = 6
-"""How many teeth more or fewer than the suggested span."""
+"""Number of teeth more or fewer than the suggested span that are tried."""
 
 _PINS = (1.4, 1.5, 1.68, 1.8, 2.0, 2.2)
 """Diameters of pins or balls in modules."""
 
 _TELLING = 0.3
-"""How much less than the most telling one another may tell and be named."""
+"""Share of the power of the most telling gauge that another one needs to be named."""
 
 _FAR = 4.0
-"""What is that many uncertainties apart is told apart."""
+"""Number of uncertainties from which two readings are told apart."""
 
 _OFF_FLANKS = (Gauge.TIP_DIAMETER, Gauge.ROOT_DIAMETER)
 _ANGLE = 0.5

@@ -104,7 +104,7 @@ ANGLES = {20.0: 1.0, 14.5: 0.12, 25.0: 0.06, 22.5: 0.04, 15.0: 0.04, 17.5: 0.04,
 """Normal pressure angles (degrees), and how usual they are beside 20."""
 
 FREE_ANGLE = 0.002
-"""How usual any other pressure angle is, with a size of no series."""
+"""Share of gears with any other pressure angle, with a size of no series."""
 
 RACKS = (
     StandardRack("ISO 53 A, B, C; JIS; AGMA", 1.0, 1.25, 0.38, {None: 0.6, 14.5: 0.12}),
@@ -121,7 +121,7 @@ RACKS = (
 
 
 _HELICAL = 0.35
-"""The share of gears with a helix."""
+"""Share of gears with a helix."""
 
 _TRANSVERSE, _USUAL = 0.05, 0.4
 """The share of helical gears of a standard transverse size, and the least weight of sizes that are tried so."""
@@ -131,7 +131,7 @@ _FREE = 0.05
 
 _HELIX, _HELIX_SPREAD = 18.0, 9.0
 _MODULE_SPREAD = 0.05
-"""Of a size of no series, beside the module from which it is sought, relative to it."""
+"""Spread of a size of no series about the module from which the search starts, relative to it."""
 
 _ANGLE_SPREAD = 4.0
 _SHIFTED, _SHIFT, _SHIFT_SPREAD = 0.6, 0.05, 0.4

@@ -109,7 +109,7 @@ _WHERE = {
 """The effect of options that only a few formats show, for messages."""
 
 _OF_TRAINS = ("carrier", "exploded", "turning")
-"""Options of planetary trains only."""
+"""Options that only planetary trains have."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -133,7 +133,7 @@ Drawn = TypeVar("Drawn", DrawingOptions, PartDrawing)
 ASSEMBLY = "assembly"
 
 _STEM = "drawing"
-"""First part of the names of files."""
+"""First part of the file names of drawings."""
 
 
 class SheetFormat(Enum):
@@ -324,7 +324,7 @@ STILL_SIZE, TURNING_SIZE = (1600, 1200), (800, 600)
 """Width and height in pixels where none are given."""
 
 _LEAST, _MOST = 16, 8000
-"""Pixels of width and height."""
+"""Least and largest width and height (pixels) of a picture."""
 
 _MOST_PIXELS, _MOST_IN_ALL = 16_000_000, 250_000_000
 """Greatest number of pixels of a picture (some 60 bytes each), and of all frames, which are held until the file is written."""

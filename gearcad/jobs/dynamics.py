@@ -162,7 +162,7 @@ _TABLES = (
     *("chart", *_OVER_SPEED, *(f"{name} down" for name in _OVER_SPEED), "modes", "component modes", "course", "course lines"),
     *("mesh stiffness", "campbell", "history", "spectrum", _ERRORS, "transient"),
 )
-"""Tables of any result."""
+"""Names of the tables that every result has."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -265,7 +265,7 @@ def _of_train(design: TrainDesign, progress: Progress | None) -> TrainStudy | Mo
 
 
 _ALONE = "has its natural frequencies without damping and, with [dynamics.transient], a run in time"
-"""What becomes of an undamped train that is laid over no other."""
+"""End of the message for an undamped train that is not overlaid with another: what it does have."""
 
 
 def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | ContactStudy:

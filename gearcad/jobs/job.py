@@ -44,10 +44,10 @@ class Job(ABC, Generic[Accepted, Result]):
     """The kinds of designs that it takes."""
 
     why: ClassVar[str]
-    """Why it takes no other: the end of a message."""
+    """End of the message that says why the job takes no other kind of design."""
 
     writes_long: ClassVar[bool] = False
-    """Whether its files are so large that one wants to see which of them is being written."""
+    """Whether the files are so large that a user wants to see which of them is being written."""
 
     sometimes: ClassVar[tuple[str, ...]] = ()
     """Files that not every result has: one that is there of a former result goes, for it would belong to another."""

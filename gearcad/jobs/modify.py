@@ -173,18 +173,18 @@ _MORE_PRESSURE = 1.05
 
 _ROUNDS = 5
 _SEEN = 0.02
-"""Most rounds of a search, each at the positions that a check of the last proposal adds, and the share of the transmission
-error that the search may miss in the end: its lines have fewer cells.
+"""Largest number of rounds of a search, each at the positions that a check of the last proposal adds, and the share of the
+transmission error by which the search may differ at the end: its lines have fewer cells.
 """
 
 _BELOW = 0.999
 """Share of the bound that a search aims at: less than its lattice and its pressures are exact."""
 
 _NEARBY = 6
-"""Most neighbours of a proposal that are checked, those that the search takes for the best."""
+"""Largest number of neighbours of a proposal that are checked: those that the search ranks best."""
 
 _TURNS = 8
-"""Most positions that a check adds to a search."""
+"""Largest number of positions that a check adds to a search."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -258,7 +258,7 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
 
 
 def load_words(rating: StrengthRating) -> str:
-    """At what a pair is rated: torque and speed."""
+    """Return in words the load of a rating: torque and speed."""
     load = rating.load
     torque = f"{load.torque:.6g} N·m" if rating.own_names is None else f"{load.torque:.6g} N·m on {rating.own_names.pinion}"
     return f"{torque}, {load.speed:.6g} rpm" if load.speed else torque

@@ -35,7 +35,7 @@ _CHUNK = 1 << 14
 """Rows at a time: text that fits into the cache is written fastest."""
 
 _MOST_DIGITS = 6
-"""Before the point."""
+"""Largest number of digits before the decimal point."""
 
 _WITH_ZEROS, _WITH_BLANKS = (np.array([form % k for k in range(10000)], "S4").view(np.uint32) for form in (b"%04d", b"%4d"))
 _BLANKS = np.frombuffer(b"    ", np.uint32)[0]
@@ -220,7 +220,7 @@ def _ends_with(path: Path, end: bytes) -> bool:
 
 @contextmanager
 def _model(gmsh: Any) -> Iterator[None]:
-    """A model of our own, also beside those of a caller who uses gmsh."""
+    """Yield a gmsh model for our own use that leaves the models of a caller who uses gmsh unchanged."""
     ours = not gmsh.is_initialized()
     if ours:
         gmsh.initialize(interruptible=False)  # the other way works in the main thread only
@@ -266,7 +266,7 @@ def _add_elements(model: Any, tag: int, kind: str, cells: Cells, before: int) ->
 
 
 _ENTRIES = 16
-"""Most numbers of a line."""
+"""Largest number of entries in a line."""
 
 _SOLIDS = {Element.HEX8: "C3D8", Element.HEX20: "C3D20", Element.TET10: "C3D10"}
 

@@ -127,7 +127,7 @@ class What(Enum):
     """One tooth with its share of the body."""
 
     TEETH = "teeth"
-    """Some teeth next to each other."""
+    """Neighbouring teeth with the rim below them."""
 
     RING = "ring"
     """All teeth, down to the bore."""

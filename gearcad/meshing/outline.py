@@ -337,7 +337,7 @@ _CUBIC = 72 * math.sqrt(3)
 """A parabola through both ends and the middle of an arc is off by k' L^3 over this, k' the slope of the curvature."""
 
 _QUARTIC = 1536
-"""Where the curvature k is constant, by k^3 L^4 over this."""
+"""Denominator of the deviation k^3 L^4/1536 where the curvature k is constant."""
 
 _LEAST = 1e-3
 """Normal modules: no bend asks for shorter edges. Sharp tools leave corners that fillets come out of with no radius."""
@@ -474,7 +474,7 @@ _RIM = 4.0
 """Depth of the body below the root circle, in normal modules, where no bore is given."""
 
 _HELD_LEAST = 0.3
-"""Least radius of the held circle over that of the root circle."""
+"""Least radius of the held circle as a share of that of the root circle."""
 
 
 def held_radius(gear: Gear) -> float:

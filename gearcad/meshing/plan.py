@@ -30,7 +30,7 @@ _OF_VOLUME = 1e9
 
 @dataclass(frozen=True, kw_only=True)
 class GearPlan(ABC):
-    """A gear and how it is meshed."""
+    """Plan for the mesh of one gear."""
 
     gear: Gear
 
@@ -359,7 +359,7 @@ _SECONDS = {Element.TRI6: 1e-5, Element.QUAD8: 8e-6, Element.HEX8: 6e-6, Element
 """Time (s) to mesh, judge and write an element in the usual formats."""
 
 _BEFORE = 0.5
-"""Seconds that it takes at least."""
+"""Least time (s) that the estimate allows."""
 
 _COPIES, _IMPORTS = 2.2, 1e8
 """Memory at the most over that of nodes and elements, and what there is before."""
@@ -384,7 +384,7 @@ _MOST_NODES = int(np.iinfo(np.int32).max)
 """Elements number their nodes so, and files do."""
 
 _MARGIN = 1.25
-"""By how much larger than what would just do a size is that is told: amounts follow sizes roughly."""
+"""Factor on the size that just suffices, for the size that a message suggests: amounts follow sizes only roughly."""
 
 
 def require_room(plan: MeshPlan) -> None:

@@ -84,7 +84,7 @@ def triangle_slopes(local: Floats) -> Floats:
 _CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
 
 LEAST_SCALED_JACOBIAN = 0.1
-"""Below it a quadrangle is too distorted to be used: its sharpest corner has 6 degrees."""
+"""Least scaled Jacobian of usable quadrangles; below, the sharpest corner has less than 6 degrees."""
 
 
 @dataclass(frozen=True)
@@ -194,11 +194,12 @@ _DEEPEST_DIP = 0.25
 """Share of the body's depth by which the line across the tooth may dip."""
 
 _LEVELLED = 3.0
-"""In how many times the depth of the root circle below the split the rows of the cut become level with those of the core."""
+"""Height over which the rows of the cut become level with those of the core, over the depth of the root circle below the split.
+"""
 
 
 class Counts(NamedTuple):
-    """Edges on the sides of the blocks."""
+    """Numbers of edges on the sides of the blocks."""
 
     across: int
     up: int

@@ -236,7 +236,7 @@ def _summary(result: MeshResult) -> dict[str, Any]:
 _MESHING, _JUDGING = "meshing", "judging"
 
 _FOLDED = 1e-6
-"""Least scaled Jacobian below which a mesh is none: such an element has no inside."""
+"""Least scaled Jacobian of a valid mesh: an element below it has no inside."""
 
 _ON = 1e-9
 """Largest distance (mm) of nodes from the exact sides, and from the nodes they are matched with: rounding."""

@@ -144,7 +144,7 @@ def _quadratic(points: Floats, triangles: Wholes, outline: list[Stretch]) -> Sec
 
 
 _HOLLOW = 0.03
-"""Inner over outer diameter of what stands for a solid shaft: a wedge cannot end in a point."""
+"""Ratio of inner to outer diameter of the hollow shaft that replaces a solid one: a wedge cannot end in a point."""
 
 _LONGEST = 0.25
 """Longest edge along a radius, over the radius."""
@@ -194,7 +194,7 @@ def _triangles(numbers: Wholes) -> Wholes:
 
 
 _CROWDING = 0.5
-"""How much thinner than the mean the layers at the ends are, and thicker those in the middle."""
+"""Share by which the layers at the ends are thinner than the mean, and those in the middle thicker."""
 
 
 def layer_planes(width: float, layers: int) -> Floats:
@@ -206,8 +206,8 @@ def layer_planes(width: float, layers: int) -> Floats:
 
 @dataclass(frozen=True)
 class Stack:
-    """How nodes of a swept section, its vertices first, are numbered: `nodes` of each plane in turn, then the vertices, `half`
-    of them, half-way up each layer; elements of first order have none there.
+    """Numbering of the nodes of a swept section, whose vertices come first: `nodes` of each plane in turn, then the vertices,
+    `half` of them, half-way up each layer; elements of first order have none there.
     """
 
     nodes: int

@@ -238,7 +238,7 @@ _SIZE = 49
 """Values of an axis: between them lines are straight."""
 
 _SHIFTS, _HELIX, _TEETH = (-0.8, 1.4), (0.0, 30.0), (5, 60)
-"""Least ranges that the axes show: profile shift, helix angle (degrees), number of teeth."""
+"""Least ranges of the axes: profile shift, helix angle (degrees), number of teeth."""
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,7 @@ class RunKind:
     takes: Callable[[Design], bool] = lambda design: True
 
     def accepts(self, design: Design) -> bool:
-        """Whether a design is of a kind that it is for."""
+        """Return whether this job takes designs of a kind."""
         return design.kind in self.job().accepts and self.takes(design)
 
 
@@ -161,7 +161,7 @@ _LONGEST = 120.0
 """Seconds after which it is given up."""
 
 _NICENESS = 5
-"""The page itself goes before."""
+"""Niceness of a run's process, so that the page itself comes first."""
 
 _ASIDE = ThreadPoolExecutor(1, thread_name_prefix="gearcad-aside", initializer=own_worker)
 

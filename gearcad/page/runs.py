@@ -149,7 +149,7 @@ def _follow(run: Run, process: subprocess.Popen[bytes], lines: queue.SimpleQueue
 
 
 def _excess(process: subprocess.Popen[bytes], end: float, limits: RunLimits) -> str:
-    """Which limit it exceeds, in words; "" for none."""
+    """Return in words which limit a process exceeds; "" if none."""
     if time.monotonic() > end:
         return time_limit_words(limits.seconds)
     if _memory_of(process.pid) > limits.memory:

@@ -196,14 +196,14 @@ def _with_headers(given: Any, nonce: str) -> list[tuple[bytes, bytes]]:
 
 
 def _is_page(headers: list[tuple[bytes, bytes]]) -> bool:
-    """Whether NiceGUI has made it: what users typed stands escaped there, so that each script in it is its own."""
+    """Return whether NiceGUI made the response. It escapes what users typed, so each script in it is its own."""
     return (b"x-nicegui-content", b"page") in headers
 
 
 _MOST = 20
 _WITHIN = 60.0
 _LONGEST = 500
-"""Signs of a line."""
+"""Largest number of characters in a line of the log."""
 
 _MORE = " (what else goes wrong within a minute is not told)"
 
@@ -220,7 +220,7 @@ class LogLimiter(logging.Filter):
         self._begin, self._count = clock(), 0
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Whether there is room for it; as one line from here on."""
+        """Return whether the log has room for a record, which is then shortened to one line."""
         if (now := self._clock()) - self._begin >= self._within:
             self._begin, self._count = now, 0
         self._count += 1
@@ -338,7 +338,7 @@ PORT = 8765
 """Port of the page; if it is taken, the next free one is used."""
 
 _TRIED = 100
-"""Ports that are tried."""
+"""Number of ports that are tried."""
 
 _EVERYWHERE = ("0.0.0.0", "::", "")
 
@@ -346,7 +346,7 @@ _RECONNECT = 30.0
 """Seconds that a tab may be away, as where a laptop sleeps, and find its page as it was."""
 
 _MOST_SESSIONS = 32
-"""Tabs at a time."""
+"""Largest number of tabs at a time."""
 
 _LARGEST_MESSAGE = 1 << 20
 """Bytes that a browser may send at once over its connection: four times the largest spec."""
@@ -355,7 +355,7 @@ _WAITING = 128
 """Connections that nobody has accepted yet."""
 
 _RANDOM = 32
-"""Random bytes of a token."""
+"""Number of random bytes in a token."""
 
 _TURN = 5e-4
 """Seconds that a thread may compute while another waits: what is found is sent at once, whatever else is being found."""

@@ -184,7 +184,7 @@ class Following:
         return self._seen[panel]()
 
     async def _show(self, panel: Panel[Any], design: Design, change: int) -> bool:
-        """Whether the design was still the last one when this was found."""
+        """Return whether the design was still the last one when this result was found."""
         found = await self._found(panel, design)
         if change == self._change and found is not None:
             panel.show(found[0])

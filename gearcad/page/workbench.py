@@ -161,7 +161,7 @@ LONGEST = 8000
 """Characters of a link: what browsers, servers and mails let through."""
 
 LARGEST_TEXT = 1 << 18
-"""Bytes that a link may unfold to."""
+"""Largest size (bytes) of the text that a link unfolds to."""
 
 _NO_LINK = "is no link of this page, or not all of it"
 _BETWEEN = "\0"

@@ -32,7 +32,7 @@ from gearcad.material import Material, Materials
 
 _EFFICIENCY = Range("", 0.0, 1.0, ends="(]")
 _SHARING = Range("", 1.0, 24.0)
-"""From equal shares to all of it on one planet of as many as there can be."""
+"""Permitted load sharing factor: from equal shares to all load on one of the largest number of planets."""
 
 TORQUES = ("output_torque", "input_torque", "torque")
 """Keys of which one gives the torque of a train; `torque` is the old name of one of the others."""
@@ -87,7 +87,7 @@ class TrainLoad:
 
     @property
     def on_input(self) -> bool:
-        """Whether the torque that is given is that of the input."""
+        """Whether the given torque is that of the input."""
         return self.input_torque is not None
 
     def times(self, factor: float) -> TrainLoad:
@@ -235,16 +235,16 @@ class SetType(Enum):
     """Sets with one carrier, told apart by which centrals are rings and whether the planets are stepped."""
 
     A = "A"
-    """Sun, planet, ring."""
+    """Type A: sun, planet, ring."""
 
     B = "B"
-    """Sun, stepped planet, ring."""
+    """Type B: sun, stepped planet, ring."""
 
     C = "C"
-    """Sun, stepped planet, sun."""
+    """Type C: sun, stepped planet, sun."""
 
     D = "D"
-    """Ring, stepped planet, ring."""
+    """Type D: ring, stepped planet, ring."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -262,7 +262,7 @@ class SetMesh:
 
     @property
     def external(self) -> bool:
-        """Whether the central is a sun."""
+        """Whether the central gear is a sun."""
         return not self.central.gear.internal
 
     @property
@@ -277,7 +277,7 @@ class SetMesh:
 
     @property
     def working_pressure_angle(self) -> float:
-        """alpha_wt in radians."""
+        """Working pressure angle alpha_wt in radians."""
         return math.radians(self.pair.working_transverse_pressure_angle)
 
     @property
@@ -321,7 +321,7 @@ def base_radius(gear: Gear) -> float:
 
 
 TrainMaterial = Material | Mapping[str, Material]
-"""That of all gears of a train, or of each by its name; steel where that is not there."""
+"""Material of all gears of a train, or of each gear by its name; steel for gears without one."""
 
 
 def material_of(material: TrainMaterial | None, gear: str) -> Material:

@@ -311,7 +311,7 @@ def _fraction(pitches: float) -> float:
 HARMONICS = 6
 
 _HARMONICS_ROUNDING = 1e-9
-"""Of what all planets in phase would do."""
+"""Share of the sum of all planets in phase below which a harmonic is rounding."""
 
 
 class Excited(NamedTuple):

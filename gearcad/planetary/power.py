@@ -127,7 +127,7 @@ def locking_efficiency(train: TrainData) -> float:
 
 
 _WATT = math.pi / 30
-"""N·m times rpm."""
+"""Factor from N·m times rpm to W."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,7 +162,7 @@ class PowerFlow:
 
     @property
     def circulates(self) -> bool:
-        """Whether more power rolls through the meshes than goes into the set."""
+        """Whether more power flows through the meshes than goes into the set."""
         return self.rolling_ratio is not None and self.rolling_ratio > 1
 
     @property
@@ -419,10 +419,10 @@ def _centrifugal(train: TrainData, flow: PowerFlow) -> float | None:
 
 
 _ROUNDING = 1e-9
-"""By how much a K_gamma that is computed may be off."""
+"""Largest rounding error of a computed K_gamma."""
 
 _SLOWEST = 1e-6
-"""Least speed of a load (rpm): what differences of speeds leave below it is rounding."""
+"""Least speed of a load (rpm), below which differences of speeds are rounding."""
 
 
 class FactorSource(Enum):
@@ -430,7 +430,7 @@ class FactorSource(Enum):
 
     GIVEN = "given"
     COMPUTED = "computed"
-    """Of the errors, stiffnesses and supports of the train."""
+    """Computed from the errors, stiffnesses and supports of the train."""
 
     EQUAL = "equal shares"
     """None was given and none computed: 1."""
@@ -481,7 +481,7 @@ class MeshLoad:
 
     @property
     def normal_force(self) -> float:
-        """F_bt of one planet's share, without any factor (N)."""
+        """Normal force F_bt (N) of one planet's share, without any factor."""
         return abs(self.load.torque) * 2000 / self.mesh.pair.pinion.base_diameter
 
     @property

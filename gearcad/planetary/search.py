@@ -131,7 +131,7 @@ BATCH = 100_000
 """Sets near the ratio that are looked at together, without the number of their planets: memory stays small."""
 
 WIDER = 4.0
-"""By how much the tolerance is widened to say what is nearest, where nothing is found."""
+"""Factor on the tolerance with which the nearest sets are searched if none is found."""
 
 WIDEST = 300.0
 """Percent of deviation up to which it is."""
@@ -259,7 +259,7 @@ def _with_planets(task: SearchTask, kind: SetType, near: list[TeethGrid], number
 
 
 ROUNDING = 1e-12
-"""Of a ratio, relative to it."""
+"""Relative difference of ratios below which they count as equal."""
 
 
 def _ranked(kept: list[ManySets]) -> Iterator[PlanetarySet]:

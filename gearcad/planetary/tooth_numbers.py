@@ -22,7 +22,9 @@ from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.planetary.members import SetType
 
 MOST_SHIFT_SUM = 1.2
-"""What profile shifts of a mesh add up to at the most, to make a set coaxial: 0 to this at a sun, 0 to minus this in a ring."""
+"""Largest sum of profile shift coefficients of a mesh that makes a set coaxial: 0 to this value at a sun, 0 to its negative in
+a ring.
+"""
 
 MEMBERS = {
     SetType.A: ("sun", "ring", "carrier"),
@@ -37,7 +39,7 @@ _LEAST_RATIO = 1e-4
 _TOLERANCE = Range("%", 0.0, 1000.0)
 _TEETH = Whole(5, 500)
 _MODULE = Range("mm", 0.01, 200.0)
-"""As of a Gear."""
+"""Permitted normal module, as of a Gear."""
 
 _LENGTH = Range("mm", 0.0, None, ends="(]")
 
@@ -230,10 +232,10 @@ SHIFT = 0.25
 """Profile shift that planets in rings get, and suns and planets where the centre distance lets them."""
 
 ROUNDING = 1e-9
-"""Of lengths, in modules."""
+"""Difference of lengths, in modules, below which they count as equal."""
 
 SHIFT_DIGITS = 4
-"""Of the profile shifts of planets."""
+"""Number of decimals of the profile shifts of planets."""
 
 RACK = BasicRack()
 
@@ -297,7 +299,9 @@ class MeshedTeeth:
 
     @property
     def limits(self) -> tuple[Floats, Floats]:
-        """Least and greatest |a| that profile shift takes up: a sun's mesh takes a positive sum, a ring's a negative one."""
+        """Return the least and the greatest |a| that profile shift permits: a sun's mesh takes a positive sum, a ring's a
+        negative one.
+        """
         most = np.where(self.ring, -MOST_SHIFT_SUM, MOST_SHIFT_SUM)
         return self.reference_distance, self.distance_for(most)
 

@@ -105,13 +105,13 @@ def _wanted(train: TrainData, rim: Rim) -> float:
 
 
 class Span(NamedTuple):
-    """From `low` to `high` (mm)."""
+    """Range of heights from `low` to `high` (mm)."""
 
     low: float
     high: float
 
     def meets(self, other: Span) -> bool:
-        """Whether more than rounding is in both."""
+        """Return whether two ranges have more than rounding in common."""
         return min(self.high, other.high) - max(self.low, other.low) > _APART
 
 
@@ -157,7 +157,7 @@ def _fouled(train: TrainData) -> Iterator[str]:
 
 
 def _centrals_overlap(a: Central, b: Central) -> bool:
-    """Whether centrals at the same height are in each other's way: two suns, two rings, or a sun as large as the ring."""
+    """Return whether centrals at the same height would overlap: two suns, two rings, or a sun as large as the ring."""
     if a.gear.internal is b.gear.internal:
         return True
     return a.gear.tip_diameter + b.gear.tip_diameter >= 0
@@ -178,7 +178,7 @@ def _clear_positions(train: TrainData) -> tuple[float, float]:
 
 
 def stage_notices(train: TrainData) -> Iterator[Notice]:
-    """Yield a notice for each gear of a stage that is in the way of planets or centrals.
+    """Yield a notice for each gear of a stage that would collide with planets or central gears.
 
     Tip circles are checked, not shafts and bodies.
     """
@@ -210,10 +210,10 @@ MISFIT = 1e-7
 """Pitches by which teeth may miss their spaces from rounding."""
 
 _NEAR = 4
-"""By how many teeth a gear is changed in search of a set that can be put together."""
+"""Largest change of a gear's number of teeth in the search for a set that can be assembled."""
 
 _OFFERED = 4
-"""How many of such sets are told."""
+"""Largest number of such sets that a message names."""
 
 
 def check_errors(train: TrainData) -> None:
@@ -318,7 +318,7 @@ _WIDE = 0.1
 """Backlash in normal modules that no gear is made with on purpose."""
 
 _BALANCED = 1e-9
-"""Unbalance that is rounding."""
+"""Unbalance below which it is rounding."""
 
 
 def train_notices(train: TrainData) -> Iterator[Notice]:

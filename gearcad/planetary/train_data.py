@@ -107,7 +107,7 @@ def permitted_steps(positions: int, planets: int) -> tuple[int, ...]:
 
 
 EQUAL: Literal["equal"] = "equal"
-"""Planets at equal angles."""
+"""Word for planets at equal angles."""
 
 PERMITTED: Literal["permitted"] = "permitted"
 """Planets where the teeth let them stand, as near to equal angles as can be."""

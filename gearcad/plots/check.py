@@ -361,7 +361,7 @@ YAW, PITCH = 50.0, 25.0
 """Angles of view of a tooth (degrees): turned about its height to show the loaded flank, and tilted towards the viewer."""
 
 _AXES = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-"""To the right, up and towards us, of a tooth seen along its axis: it stands upright."""
+"""Directions to the right, upwards and towards the viewer, for a tooth that is seen along its axis and stands upright."""
 
 
 def viewed(points: Floats) -> Floats:

@@ -154,10 +154,10 @@ def _line_of_action(pair: GearPair) -> Floats:
 
 
 _SQUARE = (4.6, 4.6)
-"""Inches of a picture of one gear."""
+"""Size (inches) of a picture of one gear."""
 
 _ROUND = 721
-"""Places on a circle."""
+"""Number of points on a circle."""
 
 _ALONG, _UP = 61, 81
 """Places along the face and the profile at which a modification is drawn."""
@@ -268,7 +268,7 @@ def pointed_shift(gear: Gear, teeth: int, land: float) -> float:
 
 
 _FILLS = {"pinion": GEARS.pinion[1], "wheel": GEARS.wheel[1], "gear": GEARS.pinion[1]}
-"""Colours of the parts."""
+"""Fill colours of the parts."""
 
 _PALE = 0.22
 """Share of its colour that a part's elements have, so that lines on them can be seen."""

@@ -40,7 +40,8 @@ HARMONICS = 7
 """Tooth frequencies drawn in, as in the thesis."""
 
 _CELLS = 280
-"""Most rows of colours, so that a sharp peak can be seen: a row shows the greatest amplitude of its frequencies."""
+"""Largest number of rows of colours, so that a sharp peak can be seen: a row shows the greatest amplitude of its frequencies.
+"""
 
 PINION_SPEED = "amplitude of pinion speed in rad/s"
 
@@ -258,7 +259,8 @@ def transient_inches(run: Transient) -> tuple[float, float]:
 
 
 def plot_transient(run: Transient, figure: Figure | None = None) -> Figure:
-    """Over time: speed and torques; approach of the flanks and force between them over the static one; torques of the shafts.
+    """Plot a run over time: speed and torques; approach of the flanks and the force between them over the static one; torques
+    of the shafts.
 
     Each mesh and each shaft has panels of its own.
     """
@@ -329,7 +331,7 @@ _NEAR = 0.05
 """Part of the axis below which names of natural frequencies would lie on each other."""
 
 _PAPER: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.7}
-"""Below those names."""
+"""Style of the box below names in a picture."""
 
 _PANEL = 3.4
 _TOP_AXIS = 36.0

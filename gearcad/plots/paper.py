@@ -50,7 +50,7 @@ GEARS = PerGear(("pinion", "#0072b2", "o"), ("wheel", "#d55e00", "s"))
 SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#333333")
 DARK = "#333333"
 PALE = "#eaa873"
-"""A broad line under another one."""
+"""Colour of a broad line under another one."""
 
 MARKED = "#999999"
 """Colour of lines that only mark a place."""

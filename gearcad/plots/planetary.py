@@ -64,7 +64,7 @@ def role_words(train: PlanetaryTrain, name: str, ways: Mapping[str, str]) -> str
 
 
 def rim_words(train: PlanetaryTrain, rim: Rim) -> str:
-    """Such as "3 × planet"."""
+    """Return a text such as "3 × planet"."""
     return f"{train.planets} × {rim.name}" if train.planets > 1 else rim.name
 
 
@@ -95,7 +95,7 @@ LINE = 0.145
 """Height of a line of text (inches)."""
 
 _CHARACTERS, _LINES = 21, 3
-"""Most characters in a line, and lines of a name."""
+"""Largest number of characters in a line, and of lines in a name."""
 
 
 def lines_of(*texts: str) -> list[str]:
@@ -320,7 +320,7 @@ _PLACES = 721
 """Places of a base pitch at which stiffnesses are added up."""
 
 _NAMED = 12
-"""Most planets whose numbers have room beside their rows."""
+"""Largest number of planets whose numbers have room beside their rows."""
 
 
 def phases_inches(train: PlanetaryTrain, stiffness: Mapping[str, PlanetMeshStiffness] | None) -> tuple[float, float]:

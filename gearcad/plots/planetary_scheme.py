@@ -49,7 +49,7 @@ _APART = 0.1
 """Least distance between radii that differ."""
 
 _WIDEST, _NARROWEST = 0.6, 0.24
-"""Drawn widths of teeth."""
+"""Largest and least drawn width of teeth."""
 
 _BETWEEN = (0.3, 0.6)
 """Least and greatest distance of the rims of a stepped planet."""
@@ -179,10 +179,10 @@ def _smaller_radius(pair: GearPair) -> float:
 Point = tuple[float, float]
 
 _LEVEL = 0.15
-"""Between shafts that turn in each other."""
+"""Radial distance between shafts that turn in each other."""
 
 _GAP = 0.03
-"""Between teeth and the pitch circle that they roll on, so that both gears are seen."""
+"""Distance between teeth and the pitch circle that they roll on, so that both gears are seen."""
 
 _PLATE, _SHAFT, _STAGE, _STUB, _ARROW = 0.2, 0.3, 0.42, 0.35, 0.3
 """Along the axis: between plates, of shafts beyond them, before a stage, of its shaft, of arrows."""
@@ -240,7 +240,7 @@ class Plan:
 
     @property
     def box(self) -> tuple[float, float, float, float]:
-        """Least x and y, greatest x and y."""
+        """Return the least x and y and the greatest x and y."""
         points = np.array([point for stroke in self.strokes for point in stroke.points])
         (left, low), (right, high) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
         return left, low, right, high

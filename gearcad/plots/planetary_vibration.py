@@ -64,7 +64,7 @@ def modes_inches(modes: PlanetaryModes) -> tuple[float, float]:
 
 
 def mode_title(family: ModeFamily) -> str:
-    """Such as "3: 1892 Hz, T, twice"."""
+    """Return a title such as "3: 1892 Hz, T, twice"."""
     many = {1: "", 2: ", twice"}.get(family.multiplicity, f", {family.multiplicity} times")
     return f"{family.first + 1}: {short(family.frequency)} Hz\n{family.kind.value}{many}"
 
@@ -144,7 +144,7 @@ KIND_COLOURS = {
     ModeKind.PLANET: SERIES[2],
     ModeKind.MIXED: "#56b4e9",
 }
-"""None of them is that of a mesh."""
+"""Colours of the kinds of modes; none of them is that of a mesh."""
 
 _LETTERS = {ModeKind.ROTATIONAL: "R", ModeKind.TRANSLATIONAL: "T", ModeKind.PLANET: "P", ModeKind.MIXED: "M"}
 
@@ -340,7 +340,7 @@ def plot_response(response: PlanetaryResponse, ax: Axes | None = None) -> Axes:
 RUNNING_INCHES = (FIGURE_INCHES[0], 4.8)
 
 _BANDS = 300
-"""Most pieces of a long run, of each of which the least and the greatest are drawn: nobody sees more."""
+"""Largest number of pieces of a long run, each drawn from its least to its greatest value."""
 
 _PITCHES = 6.0
 """Base pitches that are drawn close by, or fewer where the run is shorter."""
@@ -360,7 +360,7 @@ def shown_pitches(running: Running) -> float:
 
 
 def plot_running(running: Running, figure: Figure | None = None) -> Figure:
-    """Above shares of the planets, below the twist; on the left the whole run, on the right its first base pitches."""
+    """Plot the shares of the planets above and the twist below: on the left the whole run, on the right its first base pitches."""
     of = new_figure(RUNNING_INCHES) if figure is None else figure
     panels = of.subplots(2, 2, sharey="row", sharex="col", width_ratios=(1.2, 1))
     near = running.rolled <= shown_pitches(running) + 1e-9

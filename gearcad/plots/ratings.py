@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 _FEWEST, _MOST = 1e2, 1e11
-"""Load cycles that are shown."""
+"""Least and largest number of load cycles on the axis."""
 
 _ABOVE, _BELOW = 1.12, 0.88
 _BAR = 0.36

@@ -30,10 +30,10 @@ _NEAR = 0.035
 """Part of the axis below which the names of two natural frequencies would lie on each other."""
 
 _PAPER: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
-"""Below those names, where a line passes through."""
+"""Style of the box below names where a line passes through."""
 
 _ROOM = 1.16
-"""Above the curves, for those names."""
+"""Factor on the height of the curves that leaves room for names above."""
 
 _APART = 0.02
 """Share of the height of the curves: K_v with the dampers' force is drawn only if it differs by more."""
@@ -233,7 +233,7 @@ def plot_course(study: TrainStudy, figure: Figure | None = None) -> Figure:
 
 
 def _repeated(turn: Floats, values: Floats) -> tuple[Floats, Floats]:
-    """Some tooth periods of what comes again after `turn`, closed."""
+    """Return some tooth periods of the course that repeats after `turn`, closed."""
     step = float(turn[1] - turn[0])
     times = math.ceil(_LEAST_TEETH / (step * len(turn)))
     count = min(times * len(turn), round(_MOST_TEETH / step)) + 1
@@ -328,7 +328,7 @@ def _draw(axes: Axes, study: TrainStudy, names: Sequence[str], words: str, curve
 
 
 def _finish(panels: Sequence[Axes], study: TrainStudy) -> None:
-    """Speeds below, tooth frequency above, lines where natural frequencies are met."""
+    """Label the speed axis below and the tooth frequency axis above, and draw lines where natural frequencies are met."""
     for panel in panels:
         panel.set_xlim(float(study.speeds[0]), float(study.speeds[-1]))
         mark_modes(panel, study)

@@ -56,7 +56,7 @@ _SHADES = ("foundation", "", "bending", "shear", "axial")
 """Parts of the compliance by shade, the darkest first; "" for a method that does not divide the gear's part."""
 
 _HEADROOM = 1.12
-"""For the names of A to E over what is drawn."""
+"""Factor on the height of the curves that leaves room for the names of A to E."""
 
 _MARGIN = 0.015
 """Part of the path of contact drawn beyond A and E, where the curve goes on."""

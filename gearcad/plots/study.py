@@ -37,7 +37,7 @@ _LIGHT = 0.7
 """Part of the map of colours that is light enough for points and numbers on it."""
 
 _MOST_BINS = 8
-"""Between the ticks of an axis: more, and large numbers would meet."""
+"""Largest number of intervals between the ticks of an axis: with more, large numbers would overlap."""
 
 _MOST_LEVELS = 10
 _FLAT = 0.01

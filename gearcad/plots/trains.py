@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 MOST_SHAPES = 12
-"""Modes that are drawn, the lowest."""
+"""Largest number of modes that are drawn, the lowest first."""
 
 _SHADES = {
     "inertia": ("#0072b2", "#56b4e9", "#00334f", "#9fd0ec", "#3d5a80", "#b8c9d9"),
@@ -402,7 +402,7 @@ def _legend_columns(of: SideBySide) -> int:
 
 
 def _mark_range(axes: Axes, over: OperatingRange) -> None:
-    """Both ends of the operating range, where the chart goes on."""
+    """Mark both ends of the operating range if the chart continues beyond them."""
     for end in (over.first, over.last):
         if axes.get_xlim()[0] < end < axes.get_xlim()[1]:
             axes.axvline(end, color=MARKED, linewidth=1.0, linestyle="--")

@@ -65,14 +65,14 @@ _CLAUSES = {
         **dict.fromkeys(("Y_ST", "sigma_F0", "sigma_F", "sigma_FG", "sigma_FP"), "5"),
     },
 }
-"""Of ISO 6336:2006, by part."""
+"""Clauses of ISO 6336:2006 that define each quantity, by part."""
 
 _OWN = {
     Edition.ISO_2006: (),
     Edition.ISO_2019: ("Z_B", "Z_D", "Y_F", "Y_beta", "Y_DT"),
     Edition.DIN_1987: ("Z_beta", "Z_X", "Y_B", "Y_DT"),
 }
-"""What an edition has otherwise than that of 2006."""
+"""Quantities that an edition defines differently from that of 2006."""
 
 _TRANSITION = "between static strength and endurance limit, and the static value, by one public transcription of DIN 3990-11"
 _FLANK_2019 = "f_ZCa is as remembered of ISO 6336-2:2019"
@@ -134,7 +134,9 @@ _FLANK: dict[Family, Points] = per_family(
     }
 )
 _FLANK_WITH_PITTING: Points = ((6e5, 1.6), (1e7, 1.3), (1e9, 1.0))
-"""Of steel; the standard has no such line of others."""
+"""Points of the life factor of the flank where some pitting is permitted, for steel; the standard has no such line for other
+materials.
+"""
 
 _ROOT: dict[Family, Points] = per_family(
     {
@@ -308,12 +310,12 @@ _STATIC_LINES = per_family(
         (Family.GREY_IRON, Family.FERRITIC_NODULAR_IRON): (0.0, 1.0),
     }
 )
-"""a and b of a Y_S + b."""
+"""Coefficients a and b of the line a Y_S + b."""
 
 _CAST_STEEL = (0.07, 0.86)
 
 _STATIC_SUPPORT = {Family.STRUCTURAL: (0.93, 200.0), Family.THROUGH_HARDENED: (0.82, 300.0)}
-"""How much a notch is relieved, by the fourth root of a reference over the strength."""
+"""Static notch support of a family: factor, and reference strength (MPa) of which the fourth root is taken."""
 
 
 def strength_range(group: MaterialGroup) -> tuple[float, float] | None:

@@ -181,7 +181,7 @@ class RunningIn(Enum):
 
     @property
     def needs_flank_limit(self) -> bool:
-        """Whether the allowance depends on sigma_H_lim."""
+        """Whether the running-in allowance depends on sigma_H_lim."""
         return self is RunningIn.THROUGH_HARDENED
 
 
@@ -379,7 +379,7 @@ _HELIX = {
     HelixModification.CORRECTION_AND_CROWNING: HelixFactors(0.1, 0.5),
     HelixModification.END_RELIEF: HelixFactors(0.7, 0.7),
 }
-"""Table 8."""
+"""Values of table 8."""
 
 _HELIX_DIN = {
     HelixModification.CROWNING: HelixFactors(1.0, 0.5, 0.012),

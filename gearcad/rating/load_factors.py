@@ -91,7 +91,7 @@ class Finding:
 
 @dataclass(frozen=True, kw_only=True)
 class LoadedMesh:
-    """A mesh to be rated, and quantities that follow from it. Loads in N and N/mm, lengths in mm, speed in m/s."""
+    """Inputs of a rating that follow from pair and load. Loads in N and N/mm, lengths in mm, speed in m/s."""
 
     pair: GearPair
     materials: PerGear[Material]

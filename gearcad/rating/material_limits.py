@@ -23,7 +23,7 @@ class Family(Enum):
 
     STRUCTURAL = "St"
     THROUGH_HARDENED = "V"
-    """With perlitic and bainitic nodular iron and malleable iron."""
+    """Through hardened steels, with perlitic and bainitic nodular iron and malleable iron."""
 
     GREY_IRON = "GG"
     FERRITIC_NODULAR_IRON = "GGG (ferr.)"
@@ -96,7 +96,7 @@ class _Line(NamedTuple):
 
 
 _Lines = Mapping[MaterialQuality, tuple[_Line, _Line]]
-"""Of each quality: of the contact, and of the root."""
+"""Lines of each quality: for the contact, and for the root."""
 
 _Ranges = Mapping[MaterialQuality, tuple[float, float]]
 _Coefficients = Sequence[tuple[float, ...]]

@@ -78,7 +78,7 @@ class Rating:
     verify: tuple[str, ...] = ()
     """Symbols of what rests on a text of the standard that was not at hand."""
     names: ClassVar[PerGear[str]] = PerGear("pinion", "wheel")
-    """What both are called in documents."""
+    """Names of both gears in documents."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -217,7 +217,9 @@ def fillet_notices(pair: GearPair | RackPair, felt: float = 1e-9) -> Iterator[No
 
 
 _FELT = 1e-4
-"""Of the contact ratio: the root radii of ISO 53 are rounded, so standard racks take some 1e-6 of it."""
+"""Relative change of the contact ratio from which a notice is given: the rounded root radii of ISO 53 change that of standard
+racks by some 1e-6.
+"""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -124,20 +124,20 @@ class HelixModification(StrEnum):
 
     NONE = "none"
     CROWNING = "crowning"
-    """Compensation by half of f_ma."""
+    """Crowning that compensates half of f_ma."""
 
     FULL_CROWNING = "full crowning"
     """Compensation by half of f_ma + f_sh."""
 
     HELIX_CORRECTION = "helix correction"
-    """To what the load makes of the shafts."""
+    """Helix modification that matches the deflection of the shafts under load."""
 
     CORRECTION_AND_CROWNING = "helix correction and crowning"
     END_RELIEF = "end relief"
 
 
 class ContactPattern(StrEnum):
-    """Whether the contact pattern shows that misalignments of manufacture and of shafts lie opposite."""
+    """Position of the contact pattern: whether it shows that misalignments of manufacture and of shafts are opposite."""
 
     UNPROVEN = "unproven"
     PROVEN = "proven"
@@ -147,14 +147,14 @@ class BearingArrangement(StrEnum):
     """Place of the pinion on its shaft: figure 13 of ISO 6336-1."""
 
     BETWEEN_NEAR = "a"
-    """Between bearings, torque from the side of the nearer one."""
+    """Gear between bearings, torque from the side of the nearer one."""
 
     BETWEEN_FAR = "b"
-    """Between bearings, torque from the side of the farther one."""
+    """Gear between bearings, torque from the side of the farther one."""
 
     OVERHUNG = "c"
     SECOND_MESH_NEAR = "d"
-    """On a shaft with another gear."""
+    """Gear on a shaft with another gear."""
 
     SECOND_MESH_FAR = "e"
 
@@ -163,10 +163,10 @@ class AlphaDeviation(StrEnum):
     """The deviation from which y_alpha is taken, if K_Halpha depends on f_falpha because it is larger than f_pb."""
 
     LITERAL = "literal"
-    """From the same one."""
+    """Running-in allowance y_alpha taken from the same deviation, f_falpha."""
 
     KISSSOFT_2017 = "KISSsoft 2017"
-    """From f_pb: what that program does."""
+    """Running-in allowance y_alpha taken from f_pb, as that program does."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -224,7 +224,7 @@ class OilType(StrEnum):
     MINERAL = "mineral"
     POLYALPHAOLEFIN = "PAO"
     POLYGLYCOL = "PG"
-    """Not soluble in water."""
+    """Polyglycol, not soluble in water."""
 
     SOLUBLE_POLYGLYCOL = "PG (water-soluble)"
     ESTER = "ester"
@@ -235,7 +235,7 @@ class OilType(StrEnum):
 
 
 class Lubrication(StrEnum):
-    """Way of the oil to the teeth."""
+    """Method of lubrication."""
 
     DIP = "dip"
     SPRAY = "spray"

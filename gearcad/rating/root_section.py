@@ -69,7 +69,9 @@ class VirtualGear(Generic[Values]):
 
     @classmethod
     def of(cls, gear: GearSizes[Values]) -> VirtualGear[Values]:
-        """z_n (21), d_n (24), d_bn (26), d_an = d_n + d_a - d (27), with the tip form circle for d_a."""
+        """Return the virtual spur gear: z_n (21), d_n (24), d_bn (26), d_an = d_n + d_a - d (27), with the tip form circle for
+        d_a.
+        """
         m_n, z_n, alpha_n = gear.normal_module, gear.virtual_teeth, gear.rack.pressure_angle
         d_n = m_n * z_n
         return VirtualGear(
@@ -128,7 +130,9 @@ def load_point(virtual: VirtualGear[Values], virtual_contact_ratio: Values) -> L
 
 
 def lever_of(load: LoadPoint[Values]) -> Values:
-    """(cos gamma_e - sin gamma_e tan alpha_Fen) d_en (mm), of (18): twice the height at which the load meets the middle."""
+    """Return twice the height at which the load meets the centre line: (cos gamma_e - sin gamma_e tan alpha_Fen) d_en (mm), of
+    (18).
+    """
     gamma_e, alpha_fen = radians(load.half_angle), radians(load.load_angle)
     return (cos(gamma_e) - sin(gamma_e) * tan(alpha_fen)) * load.diameter
 
@@ -195,7 +199,7 @@ _LEAN, _RING_LEAN = 30.0, 60.0
 """Angle (deg) between the middle of the tooth and the tangents at the section, of external teeth and of rings."""
 
 _STEP, _OFFSETS, _SLOPE = 1e-3, np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0])
-"""Of theta (rad), for slopes along the fillet; places in steps, and their weights."""
+"""Step of theta (rad) for slopes along the fillet; places in steps, and their weights."""
 
 _SHARP = 1e-4
 """Radius of the fillet, in normal modules, below which its section is a sharp corner."""
@@ -218,7 +222,7 @@ class RootSection(Generic[Values]):
 
     @property
     def notch_parameter(self) -> Values:
-        """q_s = s_Fn/(2 rho_F) (38)."""
+        """Notch parameter q_s = s_Fn/(2 rho_F) (38)."""
         return self.chord / (2 * self.fillet_radius)
 
 
@@ -356,7 +360,7 @@ class _GeneratedFillet:
     internal: bool
 
     def points(self, theta: Floats) -> tuple[Floats, Floats]:
-        """x and y (mm)."""
+        """Return x and y (mm) of the points."""
         radius, angle = self.tool.cut(theta)
         return radius * np.cos(self.half_pitch - angle), radius * np.sin(self.half_pitch - angle)
 

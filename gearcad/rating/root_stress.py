@@ -34,7 +34,7 @@ from gearcad.rating.tooth_stiffness import rim_of
 
 @dataclass(frozen=True, kw_only=True)
 class FormulaRoot:
-    """What the formulas for rings give in place of the generated fillet: rho_fPv (mm), section, Y_F, Y_S, sigma_F0 (MPa)."""
+    """Results of the formulas for rings, in place of the generated fillet: rho_fPv (mm), section, Y_F, Y_S, sigma_F0 (MPa)."""
 
     tool_radius: float
     section: RootSection[float]
@@ -167,7 +167,7 @@ def virtual_contact_ratio(transverse_contact_ratio: Values, base_helix_angle: Va
 
 @dataclass(frozen=True, kw_only=True)
 class RootMesh(Generic[Values]):
-    """What loads the roots of a mesh: F_t at the reference circle (N), eps_alphan, eps_beta, helix angle (deg); the rules."""
+    """Load on the roots of a mesh: F_t at the reference circle (N), eps_alphan, eps_beta, helix angle (deg); and the rules."""
 
     tangential_force: Values
     virtual_contact_ratio: Values
@@ -191,7 +191,7 @@ class RootMesh(Generic[Values]):
 
     @cached_property
     def load_distribution(self) -> Values:
-        """f_eps: 1 but in the edition of 2019."""
+        """Load distribution factor f_eps: 1 except in the edition of 2019."""
         if self.edition is not Edition.ISO_2019:
             return 1.0
         return load_distribution_factor(self.virtual_contact_ratio, self.overlap_ratio)

@@ -73,7 +73,7 @@ class Scuffing:
 
     @property
     def judged(self) -> bool:
-        """Whether there is a safety."""
+        """Whether the rating has a safety."""
         return self.integral_safety is not None
 
     @property
@@ -380,7 +380,8 @@ def _temperatures(
 
 
 def _reliefs(pair: GearPair, mesh: SlidingMesh, specific_load: float, stiffness: MeshStiffness[float]) -> _Reliefs:
-    """Over C_eff of the load F_t K_A K_gamma/b (N/mm): by c' (spur) or c_gamma_alpha (part 2, 33 to 38; part 1, B.1).
+    """Return the ratio of C_eff to the load F_t K_A K_gamma/b (N/mm): by c' (spur) or c_gamma_alpha (part 2, 33 to 38; part 1,
+    B.1).
 
     The driving gear's relief counts where its recess is long, epsilon_a > 1.5 epsilon_f; else that of the driven one.
     """

@@ -102,10 +102,10 @@ class SlidingMesh:
 
 
 CONDUCTIVITY = 50.0
-"""lambda_M (N/(s·K)) of steel (13989-2, 5.3)."""
+"""Thermal conductivity lambda_M (N/(s·K)) of steel (13989-2, 5.3)."""
 
 HEAT_CAPACITY = 3.8
-"""c_v (N/(mm²·K)) of steel, per volume (13989-2, 5.3)."""
+"""Heat capacity c_v (N/(mm²·K)) of steel, per volume (13989-2, 5.3)."""
 
 _NITRIDED = (MaterialGroup.NITRIDING_STEEL, MaterialGroup.NITRIDED, MaterialGroup.NITROCARBURISED)
 
@@ -115,7 +115,7 @@ IRON = (
     MaterialGroup.MALLEABLE_IRON,
     MaterialGroup.GREY_IRON,
 )
-"""Groups that conduct heat otherwise than steel does."""
+"""Material groups of cast iron, whose thermal conductivity differs from that of steel."""
 
 
 def helical_load_factor(total_contact_ratio: Size) -> Size:
@@ -155,12 +155,12 @@ LUBRICANT = {
 """X_L without the viscosity (ISO/TR 13989-1, 27; 13989-2, 5.1)."""
 
 LUBRICATION = {Lubrication.DIP: 1.0, Lubrication.SPRAY: 1.2, Lubrication.SUBMERGED: 0.2}
-"""X_S (ISO/TR 13989-1, 22)."""
+"""Lubrication factor X_S (ISO/TR 13989-1, 22)."""
 
 Given = TypeVar("Given")
 
 USUAL_VISCOSITY, USUAL_TEMPERATURE = 220.0, 70.0
-"""What is assumed of an oil of which nothing is said: mm²/s at 40 °C, and °C."""
+"""Values assumed of an unspecified oil: viscosity in mm²/s at 40 °C, and temperature in °C."""
 
 _USUAL_100 = (
     *((10, 2.637), (15, 3.381), (22, 4.254), (32, 5.290), (46, 6.644), (68, 8.530), (100, 11.067)),
@@ -240,7 +240,7 @@ class Oil:
 
     @property
     def kinematic_viscosity(self) -> float:
-        """nu (mm²/s) at the oil's temperature."""
+        """Kinematic viscosity nu (mm²/s) at the oil's temperature."""
         return kinematic_viscosity(self.viscosity_40, self.viscosity_100, self.temperature)
 
     @property
@@ -258,7 +258,7 @@ GREATEST_SPEED = 50.0
 """Circumferential speed (m/s) beyond which friction falls no further."""
 
 FLASH_BULK = 0.47
-"""How much of the mean flash temperature the bulk takes (22)."""
+"""Share of the mean flash temperature that is added to the bulk temperature (22)."""
 
 _STEPS = 40
 """Intervals of each of the stretches AB, BD and DE."""
@@ -405,7 +405,7 @@ class FlashTemperature:
 
 
 LEAST_LOAD = 150.0
-"""w_Bt (N/mm) below which friction falls no further (5.1)."""
+"""Load w_Bt (N/mm) below which friction falls no further (5.1)."""
 
 
 INTEGRAL_BULK, MEAN = 0.7, 1.5
@@ -482,7 +482,7 @@ class IntegralTemperature:
 
     @property
     def curvature(self) -> Size:
-        """rho_redC (mm) (3): at the pitch point, in the normal section."""
+        """Reduced radius of curvature rho_redC (mm) (3): at the pitch point, in the normal section."""
         return self.mesh.pitch_radius / np.cos(np.radians(self.mesh.base_helix_angle))
 
     @property
@@ -539,12 +539,12 @@ class IntegralTemperature:
 
     @property
     def bulk(self) -> Size:
-        """theta_M (°C) (20): bulk temperature of the teeth."""
+        """Bulk temperature theta_M (°C) (20) of the teeth."""
         return self.oil_temperature + INTEGRAL_BULK * self.lubrication * self.mating * self.mean_flash
 
     @property
     def value(self) -> Size:
-        """theta_int (°C) (17)."""
+        """Integral temperature theta_int (°C) (17)."""
         return self.bulk + MEAN * self.mean_flash
 
 

@@ -35,7 +35,7 @@ class Accuracy(StrEnum):
 
 
 class Equations(Protocol):
-    """What both editions have equations for."""
+    """Equations of tolerances that both editions have."""
 
     def single_pitch(self, d: Values, m_n: Values, /) -> Values: ...
     def sector_pitch(self, d: Values, m_n: Values, k: Values, teeth: Values, /) -> Values: ...
@@ -104,7 +104,7 @@ _SYMBOLS = {
 """The standard's symbols in ASCII, and the properties that they stand for: F_i2 and f_i2 are F_i'' and f_i''."""
 
 _RECALLED = {Accuracy.ISO_1995: ("F_i2", "f_i2"), Accuracy.ISO_2013: ("F_pkT",)}
-"""Whose text was not at hand: the ranges of sizes of radial composite deviations, and the equation of F_pkT."""
+"""Tolerances whose standard was not at hand: the ranges of sizes of radial composite deviations, and the equation of F_pkT."""
 
 _RADIAL_DIAMETER = Range("mm", 5, 10_000)
 _RADIAL_MODULE = Range("mm", 0.2, 70)
@@ -137,7 +137,7 @@ class GearTolerances(Generic[Values]):
 
     @property
     def single_pitch(self) -> Values:
-        """f_pt; f_pT."""
+        """Single pitch deviation f_pt (ISO 1328-1:1995) or f_pT (2013)."""
         return self._graded(equations(self.accuracy).single_pitch(self._diameter, self._module))
 
     @property
@@ -166,12 +166,12 @@ class GearTolerances(Generic[Values]):
 
     @property
     def profile_slope(self) -> Values:
-        """f_Halpha; f_HalphaT."""
+        """Profile slope deviation f_Halpha (1995) or f_HalphaT (2013)."""
         return self._graded(equations(self.accuracy).profile_slope(self._diameter, self._module))
 
     @property
     def profile_form(self) -> Values:
-        """f_falpha; f_falphaT."""
+        """Profile form deviation f_falpha (1995) or f_falphaT (2013)."""
         return self._graded(equations(self.accuracy).profile_form(self._diameter, self._module))
 
     @property
@@ -181,12 +181,12 @@ class GearTolerances(Generic[Values]):
 
     @property
     def helix_slope(self) -> Values:
-        """f_Hbeta; f_HbetaT."""
+        """Helix slope deviation f_Hbeta (1995) or f_HbetaT (2013)."""
         return self._graded(equations(self.accuracy).helix_slope(self._diameter, self._width))
 
     @property
     def helix_form(self) -> Values:
-        """f_fbeta; f_fbetaT."""
+        """Helix form deviation f_fbeta (1995) or f_fbetaT (2013)."""
         return self._graded(equations(self.accuracy).helix_form(self._diameter, self._width))
 
     @property
@@ -330,7 +330,7 @@ class FlankTolerances(NamedTuple):
 
 
 _ANY_TEETH, _ANY_WIDTH = 20, 10.0
-"""Which none of these tolerances minds."""
+"""Number of teeth and face width that stand in where the tolerances do not depend on them."""
 
 
 def flank_tolerances(

@@ -23,16 +23,16 @@ from gearcad.material import Material
 from gearcad.rating.editions import Edition
 
 RIM_LIMIT = 1.2
-"""s_R/h_t (external gears) from which on a rim is as good as a solid body."""
+"""Ratio s_R/h_t (external gears) from which on a rim is as stiff as a solid body."""
 
 RING_RIM_LIMIT = 3.5
-"""s_R/m_n (rings) from which on it is."""
+"""Ratio s_R/m_n (rings) from which on a rim is as stiff as a solid body."""
 
 THINNEST = 0.5
-"""s_R/h_t that the standard asks to stay above."""
+"""Ratio s_R/h_t above which the standard asks rims to stay."""
 
 THINNEST_RING = 1.75
-"""s_R/m_n that it asks of rings to stay above."""
+"""Ratio s_R/m_n above which the standard asks rims of rings to stay."""
 
 
 def rim_thickness_ratio(gear: Gear) -> float:
@@ -148,10 +148,10 @@ LOW_LOAD = 100.0
 """Specific load F_t K_A/b (N/mm) below which the stiffness falls with the load."""
 
 THIN_WEB, THICK_WEB = 0.2, 1.2
-"""b_s/b that C_R stops at."""
+"""Least and largest ratio b_s/b that C_R takes into account."""
 
 THIN_RIM = 1.0
-"""s_R/m_n that C_R stops at."""
+"""Least ratio s_R/m_n that C_R takes into account."""
 
 HIGH_LOAD = 1600.0
 """Greatest specific load (N/mm) that Method B was confirmed for."""
@@ -384,7 +384,7 @@ def blank_factor(gear: Gear) -> float:
 
 
 def _blank(gear: Gear) -> tuple[float, float]:
-    """b_s/b and s_R/m_n; 1 and 1, for which C_R is 1, of a solid disc."""
+    """Return b_s/b and s_R/m_n of the blank; 1 and 1, for which C_R is 1, of a solid disc."""
     body = gear.body
     return (body.web_thickness / gear.face_width, body.rim_thickness / gear.normal_module) if body.web_thickness else (1.0, 1.0)
 

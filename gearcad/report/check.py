@@ -174,7 +174,7 @@ def _caption(comparison: StiffnessComparison, figure: str) -> str:
 
 _COLOURS = 256
 _STOPS = 9
-"""Colours of the legend."""
+"""Number of colours in the legend."""
 
 
 class SurfaceData(TypedDict):
@@ -311,11 +311,11 @@ class CheckSections(ABC, Generic[Checked]):
     @property
     @abstractmethod
     def root_reasons(self) -> list[str]:
-        """Why the root stresses differ from the standard's."""
+        """Return the reasons why the root stresses differ from those of the standard."""
 
     @property
     def stiffness_reasons(self) -> list[str]:
-        """Why the stiffness differs from the standard's."""
+        """Return the reasons why the stiffness differs from that of the standard."""
         of, part, ring = self.result.explanations.stiffness, self.result.rating.edition.part(1), self.result.pair.internal
         return [sentences("reasons_check.txt", macro, of, part, ring) for macro in ("compared", "bodies", "load", "sharing")]
 
@@ -490,7 +490,7 @@ class SolidSections(CheckSections[SolidCheck]):
 
     @property
     def line_reasons(self) -> list[str]:
-        """Why loads along the lines of contact differ from the standard's."""
+        """Return the reasons why loads along the lines of contact differ from those of the standard."""
         of = self.result.explanations.lines_of_contact
         return [sentences("reasons_solid.txt", macro, of) for macro in ("pressure", "lines", "along_face")]
 

@@ -202,7 +202,7 @@ _PAIR = (
 )
 
 _ROUNDING = 1e-9
-"""Below this a length or number is rounding."""
+"""Value below which a length or number is rounding."""
 
 
 class ReportRow(NamedTuple):

@@ -104,7 +104,9 @@ def displacement_table(study: TrainStudy) -> WordTable:
 
 
 def displacement_figures(study: TrainStudy) -> list[ReportFigure]:
-    """Over speed; the dynamic transmission error at one speed and over all, where it has lines."""
+    """Return figures of displacements over speed, and of the dynamic transmission error at one speed and over all, if it has
+    lines.
+    """
     drawn = figure_address(partial(plot_displacements, study), "svg", displacement_inches(study))
     found = [ReportFigure("Displacements over speed", drawn, _said("displacements", study))]
     if len(study.course.order):
@@ -433,7 +435,7 @@ def _contact_html(study: ContactStudy, name: str) -> str:
 
 
 def _speed_figures(study: TrainStudy) -> list[ReportFigure]:
-    """Over speed and at one speed; none that would show nothing."""
+    """Return figures over speed and at one speed, without those that would show nothing."""
     chart = picture_address(partial(plot_factors, study), "svg", _WIDE)
     found = [ReportFigure("Dynamic factor over speed", chart, _said("factors", study))]
     if study.up.referred_shafts:

@@ -18,7 +18,7 @@ from gearcad.report.document import ReportRow
 from gearcad.report.dynamics_tables import WordTable
 
 _LISTED = 6
-"""Most angles that have room in a line."""
+"""Largest number of angles that have room in a line."""
 
 
 def gear_table(train: PlanetaryTrain) -> WordTable:
@@ -130,7 +130,7 @@ def _balance(train: PlanetaryTrain) -> str:
 
 
 def _rounded(value: float) -> float:
-    """Without what only rounding leaves."""
+    """Return the value, or 0 if it is only rounding."""
     return value if abs(value) > 1e-9 else 0.0
 
 
@@ -162,7 +162,7 @@ def speed_table(train: PlanetaryTrain, speeds: Speeds, flow: PowerFlow | None, u
 
 
 def power_rows(train: PlanetaryTrain, flow: PowerFlow) -> list[ReportRow]:
-    """Efficiencies, losses, and how much rolls through the meshes."""
+    """Return rows of efficiencies, losses, and the power that flows through the meshes."""
     assumed = is_assumed(flow.load.mesh_efficiency)
     source, losses = ("assumed", ": mesh_efficiency is not given, no losses are counted") if assumed else ("given", "")
     rows = [

@@ -120,13 +120,13 @@ def tolerance_rows(document: Mapping[str, Any], names: PerGear[str]) -> list[Rep
 
 
 def uncovered_tolerances(rating: StrengthRating, document: Mapping[str, Any]) -> list[str]:
-    """Why the standard has not all of them."""
+    """Return the reasons why the standard does not cover all tolerances, by gear."""
     found = ((own, document["tolerances"][name] or {}) for name, own in zip(rating.names, rating.gear_names, strict=True))
     return [f"{own}: {why}" for own, values in found for why in values.get("not_covered", ())]
 
 
 def backlash_rows(document: Mapping[str, Any]) -> list[ReportRow]:
-    """Between what the backlash is, where tolerances say."""
+    """Return rows of the least and the greatest backlash, if tolerances define them."""
     return _given(_below("backlash_limits", symbols.PAIR), [document["tolerances"].get("backlash_limits", {})])
 
 
@@ -150,7 +150,7 @@ def _given(
 
 
 def _length(value: float | None) -> str:
-    """To 0.1 µm: limits differ in digits that short numbers do not have."""
+    """Return a length to 0.1 µm: limits differ in digits that short numbers do not have."""
     return _NONE if value is None else f"{value:.4f}"
 
 

@@ -79,7 +79,7 @@ def _picture(subject: Gear | GearPair) -> ReportFigure:
 
 
 def _subjects(document: Document) -> list[dict[str, Any]]:
-    """What was judged: each subject with its judges, its counts and the time."""
+    """Return each subject that was judged, with its judges, its counts and the time."""
     found: dict[str, dict[str, Any]] = {}
     for claim in document["claims"]:
         of = found.setdefault(claim["claim"], {"name": claim["claim"], "judges": {}, "counts": [0, 0, 0], "seconds": 0.0})
@@ -90,7 +90,7 @@ def _subjects(document: Document) -> list[dict[str, Any]]:
 
 
 def _reasons(document: Document) -> dict[str, str]:
-    """What was not judged, by the reason."""
+    """Return what was not judged, by the reason."""
     found: dict[str, dict[str, None]] = {}
     for claim in document["claims"]:
         if claim["passed"] is None:

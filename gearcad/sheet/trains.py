@@ -121,7 +121,7 @@ _SHORT = {
 """Words of rows that stand apart from the safety that they are of."""
 
 _WHOLE = 1e7
-"""Below this a number has no exponent."""
+"""Value below which a number has no exponent."""
 
 
 class Quantity(NamedTuple):

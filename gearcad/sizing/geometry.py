@@ -292,7 +292,7 @@ class Free(Enum):
 
 
 class LimitKind(Enum):
-    """What limits: its name, the value at or below which nothing is made, and the value below which a notice is given."""
+    """Kind of a limit: its name, the value at or below which nothing is made, and the value below which a notice is given."""
 
     UNDERCUT = ("undercut", -math.inf, 0.0)
     THICKNESS = ("thickness", 0.0, 0.0)
@@ -333,7 +333,7 @@ class Limit(NamedTuple):
 
 @dataclass(frozen=True)
 class ShiftMap:
-    """What limits gears over two of their inputs, all others as they are."""
+    """Map of the limits of gears over two of their inputs, all others fixed."""
 
     across: Axis
     up: Axis

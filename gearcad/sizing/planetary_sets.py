@@ -151,7 +151,7 @@ class SizedSet:
 
     @property
     def holds(self) -> bool:
-        """Whether all was judged and has the safety that is required."""
+        """Whether all parts were judged and have the required safety."""
         return self.strength.strength is Verdict.PASSED
 
     def to_dict(self) -> JsonObject:
@@ -203,7 +203,7 @@ class SizedSets:
 
 
 REFINED, MORE = 2, 10
-"""Of these, as many times the sets that are asked for, and some more, are given a module and a width."""
+"""Numbers of sets that are given a module and a width: so many times the requested number, plus some more."""
 
 MARGIN = 0.7
 """The finest module that is tried, over the one that should do with the most width."""

@@ -173,7 +173,7 @@ class SizedPair:
 
 
 FRONT_SAMPLE = 50
-"""Most pairs of a front that go into a design table."""
+"""Largest number of pairs of a front that go into a design table."""
 
 _FIGURES = (
     "normal_module helix_angle face_width least_width centre_distance pinion_shift mass margin transverse_contact_ratio "
@@ -214,7 +214,7 @@ class Sizing(Pictured):
 
     @property
     def front_sample(self) -> tuple[SizedPair, ...]:
-        """At most FRONT_SAMPLE of the front, evenly by their places on it, the lightest and the safest among them."""
+        """Return at most FRONT_SAMPLE pairs of the front, evenly spaced on it, the lightest and the safest among them."""
         number = len(self.front)
         places = dict.fromkeys(np.linspace(0, number - 1, min(number, FRONT_SAMPLE)).round().astype(int).tolist())
         return tuple(self.front[place] for place in places)
@@ -268,7 +268,7 @@ def unjudged_scuffing(options: RatingOptions) -> str | None:
 
 
 _OF_RATED = ("least_width", "strength", "notices", "transmission_error")
-"""What only those have that were refined and rated in full."""
+"""Fields that only proposals have that were refined and rated in full."""
 
 _OF_TASKS = (
     "ratio ratio_tolerance teeth modules helix_angles width_ratios shifts shift_sums centre_distance max_diameter max_mass "
@@ -277,14 +277,14 @@ _OF_TASKS = (
 
 
 REACH = 1.5
-"""How many times as heavy as the lightest a pair may be, for which something else than mass comes first."""
+"""Largest mass, over that of the lightest pair, that a pair may have if another criterion than mass comes first."""
 
 _REFINED, _LEAST_REFINED = 2, 40
-"""How many times the wanted number is kept, since not all of them may pass the full rating; and at the least how many are."""
+"""Factor on the requested number of pairs that are kept, since not all may pass the full rating; and the least number kept."""
 
 _VARIANTS_A_SECOND, _REFINEMENT_SECONDS, _ERROR_SECONDS = 4e5, 0.03, 2.0
 _MEMORY = 4e8
-"""Bytes, numpy and scipy included."""
+"""Memory (bytes) of a sizing, numpy and scipy included."""
 
 _REFINE, _ERROR = "refinement", "transmission error"
 
@@ -370,7 +370,7 @@ def _rated(sized: SizedPair) -> SizedPair:
 
 
 def _on_front(rated: Rated, place: int) -> bool:
-    """Whether none of them is both lighter and safer, and none as good in one and better in the other."""
+    """Return whether a pair is on the front: no other is both lighter and safer, or as good in one and better in the other."""
     mass, margin = rated.mass, rated.margin
     better = (mass <= mass[place]) & (margin >= margin[place])
     return not bool(np.any(better & ((mass < mass[place]) | (margin > margin[place]))))

@@ -349,7 +349,7 @@ RATED = "range of the rating"
 
 
 def nominal_of(task: SizeTask, pairs: ManyPairs, width: Floats) -> NominalStresses:
-    """Stresses without load factors, of pairs whose shape is that of the widths or goes with it."""
+    """Return the stresses without load factors of pairs that share their shape or scale with their widths."""
     return NominalStresses(
         pairs=pairs,
         width=width,

@@ -28,7 +28,7 @@ CHUNK = 1 << 14
 """Pairs at a time: few enough for the cache of a core, enough for numpy's overhead not to count."""
 
 _STEPS = np.array([factor * 10.0**power for power in range(-4, 3) for factor in (1, 2, 5)])
-"""Of centre distances that are not given (mm)."""
+"""Steps (mm) to which centre distances that are not given are rounded."""
 
 _COARSENESS = 0.25
 """The most of a module that such a step is."""
@@ -87,7 +87,9 @@ class VariantGrid:
 
 
 def rounded_distance(distance: Floats, module: Floats) -> Floats:
-    """To steps of 1, 2 or 5, tenths and so on, as coarse as the module lets the shifts take up: 0.5 mm from 2 to 3.99 mm."""
+    """Return the distance rounded to steps of 1, 2 or 5, tenths and so on, as coarse as the module lets the shifts compensate:
+    0.5 mm from 2 to 3.99 mm.
+    """
     step = _distance_step(module)
     result: Floats = np.round(np.round(distance / step) * step, 6)
     return result
@@ -120,13 +122,13 @@ def rounded_width(width: Floats) -> Floats:
 
 
 ROUNDING = 1e-9
-"""Of lengths, in normal modules, and of ratios."""
+"""Difference of lengths, in normal modules, and of ratios below which they count as equal."""
 
 SHIFT_SUMS = (-0.5, 2.0)
 """x_1 + x_2 that takes up a centre distance that is given: what q' of ISO 6336-1 is stated for."""
 
 _NEAR = 0.15
-"""How far x_1 + x_2 may be beyond those wanted, for round centre distances."""
+"""Distance of x_1 + x_2 from the wanted range that is permitted for round centre distances."""
 
 
 def shift_sums_within(task: SizeTask) -> tuple[float, float]:
@@ -190,8 +192,9 @@ def width_within(width: Floats, pairs: ManyPairs, task: SizeTask) -> Bools:
 
 
 NEARLY, _BAND = 1.005, 0.002
-"""How many times as heavy as the lightest is as good as that, where x_1 < x_2 is avoided; by what part of the lightest masses
-count as equal, where sliding is less."""
+"""Ratio to the lightest mass that counts as equally good, where x_1 < x_2 is avoided; and the share of the lightest mass within
+which masses count as equal, where sliding is less.
+"""
 
 _DIGITS = 9
 """Significant figures by which variants are told apart: what is beyond is rounding, and ties are decided by place."""

@@ -27,7 +27,7 @@ _TIP_THICKNESS, _HARD_TIP_THICKNESS = 0.2, 0.4
 _MOST_VALUES = 10_000
 
 MOST_VARIANTS = 500_000_000
-"""A quarter of an hour or so."""
+"""Largest number of variants: about a quarter of an hour."""
 
 _TEETH = Whole(5, 500)
 _RANGES = {
@@ -47,7 +47,7 @@ class Criterion(StrEnum):
     """The lesser of S_H/S_Hmin and S_F/S_Fmin."""
 
     QUIET = "quiet"
-    """How little the length of the lines of contact changes over the mesh."""
+    """Variation of the length of the lines of contact over the mesh cycle."""
 
     SLIDING = "sliding"
     """The greatest specific sliding."""
@@ -123,7 +123,9 @@ class SizeTask:
         object.__setattr__(self, "teeth", given)
 
     def _check_limits(self) -> None:
-        """Both materials must have a group and endurance limits, else no safety is known; and what is not sized by."""
+        """Raise ParameterError unless both materials have a group and endurance limits, and for options that sizing does not
+        use.
+        """
         options = self.rating
         if options.spectrum is not None:
             raise ParameterError("spectrum", "given", "must be left out: give the torque that is equivalent to it")
@@ -178,7 +180,7 @@ class SizeTask:
 
     @property
     def tip_thicknesses(self) -> PerGear[float]:
-        """Least s_an/m_n of both gears."""
+        """Return the least normal tip thickness s_an/m_n of both gears."""
         return self.materials.map(self._tip_thickness)
 
     def _tip_thickness(self, material: Material) -> float:

@@ -25,7 +25,7 @@ from gearcad.geometry.rack import FilletArc, Rack, RackCurveKind
 Colour = tuple[float, float, float]
 
 STEEL: Colour = (0.62, 0.66, 0.72)
-"""Colour of a part by itself."""
+"""Colour of a single part."""
 
 BRIGHT_STEEL: Colour = (0.809468152636, 0.832283570587, 0.865042042985)
 """Colour of a part by itself in STEP: the shares of STEEL as shares of light."""
@@ -183,7 +183,7 @@ class OutlinePiece:
 
     @property
     def centre(self) -> float:
-        """c of the middle of the fillet's arc."""
+        """Parameter c of the middle of the fillet's arc."""
         assert self.fillet is not None
         offset = self.fillet.x * self.fillet.stretch
         return self.middle - offset if self.mirrored else self.middle + offset
@@ -236,7 +236,7 @@ class Edge:
 
 @dataclass(frozen=True)
 class Strip:
-    """What of the strip between two neighbouring lines is inside the rectangle: its edges on both ways along the rim.
+    """Edges of the part of a strip between two neighbouring lines that is inside the rectangle, on both ways along the rim.
 
     `piece` counts the stretches between lines; the first and the last strip begin or end in a corner.
     """

@@ -181,7 +181,7 @@ class SweptSpace:
 
 
 def require_bodies(layout: TrainLayout) -> None:
-    """Raise GeometryError, led by its name, for a ring without a rim: its teeth alone are no body."""
+    """Raise GeometryError, which begins with its name, for a ring without a rim: its teeth alone are no body."""
     for body in layout.bodies.values():
         if body.gear.internal:
             try:
@@ -238,7 +238,7 @@ def sweeps(standing: Standing) -> Iterator[SweptSpace]:
 
 
 def _side_by_side(one: SweptSpace, other: SweptSpace) -> bool:
-    """Whether two would be in each other at one height."""
+    """Return whether two bodies would intersect at one height."""
     if _off_axis(one) and _off_axis(other):
         axles = one.standing.axle, other.standing.axle
         apart = math.hypot(axles[0].x - axles[1].x, axles[0].y - axles[1].y)
@@ -248,7 +248,7 @@ def _side_by_side(one: SweptSpace, other: SweptSpace) -> bool:
 
 
 def _off_axis(sweep: SweptSpace) -> bool:
-    """Whether it turns about an axis of its own that stands still."""
+    """Return whether a body turns about an axis of its own that does not move."""
     return sweep.distance > _TOUCHING and sweep.standing.axle.on is None
 
 
@@ -322,7 +322,7 @@ def _free(sides: tuple[_Extent, ...], radii: _Extent, gaps: tuple[_Extent, ...],
 
 
 _EXPLODED_GAP = 0.3
-"""Between what was moved apart, as a share of the widest part: an oblique view then looks between them."""
+"""Distance between parts that were moved apart, as a share of the widest part, so that an oblique view looks between them."""
 
 
 def moved_apart(layout: TrainLayout, carrier: CarrierPlan | None = None) -> TrainLayout:

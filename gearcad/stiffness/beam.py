@@ -34,13 +34,13 @@ from gearcad.stiffness.method import SinglePair, SliceMethod
 
 _GAUSS = np.polynomial.legendre.leggauss(24)
 _DEGREE = 48
-"""Of the polynomial for the fillet's x: its slope is right to 1e-11."""
+"""Degree of the polynomial for the fillet's x: its slope is right to 1e-11."""
 
 _TABLE, _NEWTON = 128, 5
 """Steps of a curve's table, and of Newton's rule in one of them."""
 
 Slope = Callable[[Floats], Floats]
-"""dx/ds at s."""
+"""Function for the slope dx/ds at s."""
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ class BeamTooth:
 
     @cached_property
     def _fillet_slope(self) -> Slope:
-        """dx/ds of the fillet."""
+        """Return the slope dx/ds of the fillet."""
         fit: Slope = Chebyshev.interpolate(lambda s: self.fillet.points(s)[..., 0], _DEGREE, domain=[0, 1]).deriv()
         return fit
 
@@ -141,7 +141,7 @@ class BeamTooth:
 
 
 def _piece(curve: Curve, slope: Slope, ends: Floats, crossing: Floats) -> tuple[Floats, Floats]:
-    """Both integrals along a curve from s = 0 to `ends`."""
+    """Return both integrals along a curve from s = 0 to `ends`."""
     node, weight = (_GAUSS[0] + 1) / 2, _GAUSS[1] / 2
     # Two panels, points dense towards the end: there the tooth is thinnest.
     v = np.r_[node / 2, node / 2 + 0.5]
@@ -193,7 +193,7 @@ _SAINSOT = np.array(
 """A ... F of L*, M*, P*, Q* (Sainsot, Velex and Duverger 2004, table 1)."""
 
 _ANGLES, _RIMS = (0.01, 0.12), (1.4, 7.0)
-"""theta_f (rad) and h_f that the series was fitted to."""
+"""Ranges of theta_f (rad) and h_f to which the series was fitted."""
 
 
 def sainsot_foundation(tooth: BeamTooth, load: BeamLoad, material: Material, rim: float) -> Floats:

@@ -31,10 +31,10 @@ from gearcad.mesh_cycle import MeshCycle
 from gearcad.stiffness.method import SinglePair, SliceMethod, StiffnessMethod, left_out
 
 _POINTS = 7
-"""Of Gauss's rule for an ellipse, across the width of contact."""
+"""Number of points of Gauss's rule for an ellipse, across the width of contact."""
 
 WeightedBody = tuple[float, PlaneCompliance]
-"""How much of a gear's section a body stands for, and the body."""
+"""Share of a gear's section that a body represents, and the body."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -172,7 +172,7 @@ _STEP = 0.02
 
 
 _SOLUTIONS = 2
-"""What all loads at a position take, for slopes and load dependence, over what the first takes."""
+"""Time for all loads at a position, for slopes and load dependence, over that for the first."""
 
 
 class _Position(NamedTuple):

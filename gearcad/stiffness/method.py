@@ -188,7 +188,7 @@ class StiffnessMethod(ABC):
     default_positions: ClassVar[int] = 200
     load_dependent: ClassVar[bool] = True
     no_internal_form: ClassVar[str] = ""
-    """Why the method has none, so that it refuses rings."""
+    """Reason why the method has no form for rings, which it refuses."""
     mean_only: ClassVar[bool] = False
     """True of a method that knows no course over the mesh."""
     load_positions: ClassVar[int] = 48

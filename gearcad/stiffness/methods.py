@@ -73,7 +73,7 @@ _PROGRAM = 0.4e9
 """Bytes of Python, its libraries, and plane bodies."""
 
 _PARTS = (0.1, 0.3, 0.55, 0.77)
-"""Of the load, at which the stiffness is wanted beside that at the load."""
+"""Shares of the load at which the stiffness is computed, beside that at the full load."""
 
 
 def compare_methods(

@@ -89,7 +89,7 @@ def judge_places(
 
 
 def _in_mesh(pair: GearPair, one: PlacedPart, two: PlacedPart) -> bool:
-    """Whether the axes of two gears are as far apart as those of the pair, and their teeth at the same height."""
+    """Return whether the axes of two gears are as far apart as those of the pair, and their teeth at the same height."""
     apart = math.dist(one.offset[:2], two.offset[:2])
     low = max(float(one.offset[2]), float(two.offset[2]))
     high = min(float(one.offset[2]) + pair.pinion.face_width, float(two.offset[2]) + pair.wheel.face_width)

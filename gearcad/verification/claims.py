@@ -11,7 +11,7 @@ from typing import Any
 
 
 class Level(Enum):
-    """How much is verified: each level includes those before it."""
+    """Extent of a verification: each level includes those before it."""
 
     FILES = "files"
     STRENGTH = "strength"
@@ -24,7 +24,7 @@ class Level(Enum):
 
 
 class Subject(Enum):
-    """What a claim is about; the value is its name in verify.json."""
+    """Subject of a claim; the value is its name in verify.json."""
 
     STEP = "STEP"
     STL = "STL"

@@ -142,7 +142,7 @@ class OutlineGauges:
 
     @cached_property
     def _space(self) -> Complexes:
-        """Both sides of a space, centred on the real axis."""
+        """Return both sides of a space, centred on the real axis."""
         side = self.outline * np.exp(-1j * self._pitch / 2)
         return np.concatenate([side, side.conjugate()])
 

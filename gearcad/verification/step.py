@@ -178,13 +178,13 @@ def _found_tree(node: StepNode, inner: bool = False) -> str:
 
 
 def _matrix(frame: Frame) -> Floats:
-    """Place (3, 4) of a frame."""
+    """Return the homogeneous matrix (3, 4) of a frame."""
     axis, x = np.array(frame.axis), np.array(frame.along)
     return np.column_stack([x, np.cross(axis, x), axis, np.array(frame.origin)])
 
 
 def _place_text(place: Floats) -> str:
-    """Where a part is, as text: shift (mm), rotation about z (degrees); nothing where it is not moved."""
+    """Return the place of a part as text: shift (mm), rotation about z (degrees); empty if it is not moved."""
     if np.abs(place - np.eye(3, 4)).max() < 1e-9:
         return ""
     shift = ", ".join(f"{value + 0.0:.6f}" for value in np.round(place[:, 3], 6))

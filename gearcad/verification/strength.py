@@ -32,7 +32,7 @@ def judge_check(result: CheckResult, where: str) -> Iterator[Claim]:
 
 
 def _subject(each: Comparison) -> Subject:
-    """What a comparison of the check is about."""
+    """Return the subject of a comparison of the check."""
     if "stiffness" in each.quantity:
         return Subject.STIFFNESS
     return Subject.ROOT if "root" in each.quantity else Subject.CONTACT

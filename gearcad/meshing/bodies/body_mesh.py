@@ -39,7 +39,7 @@ _OFF_HELIX = 0.25e-3
 """Largest distance (mm) of an edge of second order from its helix between its nodes; as much is left to the section's edges."""
 
 _FEWEST = 2
-"""Layers of the narrowest gear."""
+"""Number of layers of the narrowest gear."""
 
 
 def body_planes(gear: Gear, sizes: MeshSizes, layers: int | None = None) -> Floats:
@@ -249,7 +249,8 @@ class _Swept:
 def posed(
     pair: GearPair, meshes: PerGear[ElementMesh], roll_angle: float, approach: float = 0.0, *, left: bool = True
 ) -> ElementMesh:
-    """Both gears in one mesh: pinion about the z axis, wheel about x = a, unmodified flanks of tooth 0 in contact.
+    """Return both gears in one mesh: the pinion about the z axis, the wheel about x = a, unmodified flanks of tooth 0 in
+    contact.
 
     At `roll_angle` (deg, of the pinion, 0 at the pitch point) they touch in the middle of the common face width. Meshes are
     both of sections or both of solids, in coordinates of their gears; the pinion is turned further by what makes flanks
@@ -335,7 +336,7 @@ _NEAR = 0.1
 _TRIES = 16
 
 _CLOSEST = 1e-3
-"""Factors closer than this are one."""
+"""Difference below which two factors count as one."""
 
 
 class Amount(NamedTuple):

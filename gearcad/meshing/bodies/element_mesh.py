@@ -90,7 +90,7 @@ GAP = "gap"
 """The ground between the halves of a double helical gear; its ends are "gap_back" and "gap_front"."""
 
 RIM = "rim"
-"""The outside of a ring."""
+"""Name of the outside of a ring."""
 
 
 def body_side(gear: Gear) -> str:
@@ -129,7 +129,7 @@ class Faces:
 
 @dataclass(frozen=True)
 class ElementMesh:
-    """Elements of one kind.
+    """Mesh of elements of one kind: nodes, elements and named surfaces.
 
     `points` (n, 3) in mm, z = 0 in sections; `cells` (m, nodes of an element), from 0. `parts` are the bodies, each a slice of
     the elements: {"gear": ...}, or {"pinion": ..., "wheel": ...}. `sides` are the named parts of the surface; no side of an

@@ -91,7 +91,9 @@ _CHUNK = 20_000
 """Faces that are looked at together."""
 
 _CUBIC = 1 / math.sqrt(3)
-"""Where a parabola through the ends and the middle of a cubic is farthest off, from -1 to 1; a straight line is at 0."""
+"""Place, from -1 to 1, where a parabola through the ends and the middle of a cubic deviates most; a straight line deviates most
+at 0.
+"""
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ _TRIANGLE, _TETRAHEDRON = 2, 4
 """gmsh's numbers of dimensions and of kinds of elements."""
 
 _LONGEST = 1e22
-"""gmsh's own greatest length."""
+"""Largest edge length that gmsh itself sets."""
 
 _FRONTAL, _HXT = 6, 10
 """gmsh's numbers of its algorithms for faces and for volumes."""
@@ -97,8 +97,8 @@ class RadialLengths:
 
 @dataclass(frozen=True)
 class EdgeLengths:
-    """How long edges shall be (mm) at most: on each face, there and on its edges by the radius too, unless that is None, and
-    inside; inwards they grow by `growth` times the distance.
+    """Largest edge lengths (mm): on each face, there and on its edges by the radius too, unless that is None, and inside;
+    inwards they grow by `growth` times the distance.
     """
 
     faces: Sequence[float]
@@ -188,7 +188,9 @@ def _face(gmsh: Any, tag: int) -> BrepFace:
 
 
 def _set_sizes(gmsh: Any, faces: Sequence[int], wanted: EdgeLengths) -> None:
-    """Set gmsh's edge lengths: on faces the least that they and their neighbours want; they grow into faces and inwards."""
+    """Set gmsh's edge lengths. Faces get the least length that they and their neighbours need; lengths grow into faces and
+    inwards.
+    """
     for name, value in _OPTIONS.items():
         gmsh.option.set_number(f"Mesh.{name}", value)
     fields = [_constant(gmsh, length, tags) for length, tags in _grouped(faces, wanted.faces).items()]
@@ -418,7 +420,7 @@ h (h/r_b)^(1/2), measured; there edges may be off this many times as far as they
 """
 
 _ROUND = 24
-"""Least edges round a bore or a hub."""
+"""Least number of edges round a bore or a hub."""
 
 _NARROW = 2.0
 """Edges are at most so many times as long as a face is wide: flatter tetrahedra would be poor ones."""
@@ -427,7 +429,7 @@ _ABOVE, _GROWN = 0.9, 0.6
 """Tetrahedra above a triangle of the surface: this many, and so many over the growth; measured on many gears."""
 
 _THIN = 1.5
-"""Least edges through a rim, or over the face width."""
+"""Least number of edges through a rim, or over the face width."""
 
 
 @dataclass(frozen=True, kw_only=True)

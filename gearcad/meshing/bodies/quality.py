@@ -22,10 +22,13 @@ LEAST_SCALED_JACOBIAN = {
     Element.HEX20: 0.05,
     Element.TET10: 0.02,
 }
-"""Below it an element is too distorted to be used. Sections swept at 45 degrees lose half at the tips of few teeth."""
+"""Least scaled Jacobian of usable elements; below, an element is too distorted. Sections swept at 45 degrees lose half at the
+tips of few teeth.
+"""
 
 LARGEST_ASPECT = 1e4
-"""Above it an element is as good as flat: it is over a land of some nanometres, or a sliver."""
+"""Largest aspect ratio of usable elements; above, an element is practically flat: a sliver, or over a land of some nanometres.
+"""
 
 _CHUNK = 1024
 """Elements that are looked at together: what that takes is small beside any mesh that fills memory."""
@@ -34,7 +37,7 @@ _NOTHING = 1e-300
 """Instead of a length or a volume of zero, so that an element without one can be measured."""
 
 _SHOWN = 5
-"""Worst elements that are told."""
+"""Number of worst elements that a message names."""
 
 _FACE_VERTICES = {"line3": 2, "tri6": 3, "quad4": 4, "quad8": 4}
 
@@ -136,7 +139,7 @@ def require_good(measured: Quality, least: float | None = None) -> None:
 
 
 def _chunks(mesh: ElementMesh) -> Iterator[tuple[slice, Floats]]:
-    """Some elements at a time, and places (m, nodes, dimension) of their nodes."""
+    """Yield the elements chunk by chunk, with the coordinates (m, nodes, dimension) of their nodes."""
     dimension = mesh.element.shape.dimension
     for start in range(0, len(mesh.cells), _CHUNK):
         chosen = slice(start, start + _CHUNK)
@@ -165,7 +168,7 @@ def scaled_jacobians(element: Element, nodes: Floats) -> Floats:
 
 @cache
 def _slopes(element: Element) -> Floats:
-    """Slopes (nodes, places * dimension) of the shape functions at the nodes and in the centre."""
+    """Return the derivatives (nodes, places * dimension) of the shape functions at the nodes and at the centre."""
     places = local_places(element.value)
     centre = places[: element.shape.vertices].mean(axis=0)
     slopes = shape_slopes(element.value, np.concatenate([places, centre[None]]))

@@ -41,7 +41,8 @@ class Turns:
 
 
 def modification_turns(section: ElementMesh, gear: Gear, heights: Floats) -> Turns:
-    """The turns at heights z (n,) in mm of the nodes of a section of the unmodified gear, its teeth where they are at z = 0.
+    """Return the rotations at heights z (n,) in mm that move the nodes of a section of the unmodified gear onto the modified
+    one.
 
     Flanks, fillets and chamfers turn by their depth, lands in proportion between their ends, the circle where the body ends
     not at all, both cuts alike. Inside, the turn is harmonic, so that it takes as little as can be from any element; nodes

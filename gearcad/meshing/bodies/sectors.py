@@ -81,10 +81,10 @@ _COARSER = 2.0
 """Ratio of wanted to present edge length from which three edges become one."""
 
 _LONGEST = 0.25
-"""Longest edge over the radius."""
+"""Largest ratio of an edge to the radius."""
 
 _FEWEST = 12
-"""Least edges of a circle that is left after three of them became one."""
+"""Least number of edges of a circle after three of them became one."""
 
 _EVENED = 0.4
 """Share of the differences of distances along a circle that is taken off from one ring to the next."""

@@ -282,7 +282,7 @@ _TRIES = 4
 """Times that poor elements are parted: those beside them may be the next."""
 
 _ROUND = ((0, 1), (1, 2), (2, 0))
-"""Edges of a triangle."""
+"""Edges of a triangle, by the numbers of their corners."""
 
 
 def quadratic(gear: Gear, faces: Sequence[GearFace], filled: TetrahedronMesh) -> tuple[Floats, Cells]:
@@ -379,7 +379,7 @@ class _Surface:
                 yield _Meshed(face, np.unique(cells), edges)
 
     def _marked(self, surface: SurfaceKind) -> tuple[Bools, Bools]:
-        """Which nodes, and which edges, are on a kind of surface."""
+        """Return masks of the nodes and of the edges on a kind of surface."""
         nodes, edges = np.zeros(len(self.filled.points), bool), np.zeros(len(self.edges), bool)
         for meshed in self._on(surface):
             nodes[meshed.nodes] = edges[meshed.edges] = True
@@ -422,7 +422,7 @@ class _Surface:
 
     @property
     def inner_middles(self) -> Bools:
-        """Which of all nodes, vertices before middles, are in the middle of an edge inside."""
+        """Mask of all nodes, vertices before middles, that are in the middle of an edge inside the body."""
         free = np.ones(len(self.filled.points) + len(self.edges), bool)
         free[: len(self.filled.points)] = False
         free[len(self.filled.points) + np.concatenate(self._edge_numbers)] = False
@@ -483,7 +483,7 @@ def _at_radius(points: Floats, radius: Floats, axis: tuple[float, float] = (0.0,
 
 
 _MOST = 10_000_000
-"""Most tetrahedra that gmsh is asked for: they take some 10 GB, and minutes."""
+"""Largest number of tetrahedra that gmsh is asked for: they take some 10 GB, and minutes."""
 
 _NEAR = 0.1
 """Share of the elements asked for by which there may be more or less without another try."""

@@ -62,7 +62,7 @@ CHORD = 2e-4
 """Error of outlines, in normal modules: seen only where a flank fills the window."""
 
 _DIGITS = 5
-"""Decimals of a coordinate in mm."""
+"""Number of decimals of a coordinate in mm."""
 
 
 def turns(gear: Gear, rotation: float, z: float) -> list[list[float]]:

@@ -90,7 +90,7 @@ class LimitsPanel(Panel[KnownMap]):
         self._view.show(state)
 
     def _moved(self, values: Mapping[int, float]) -> None:
-        """Some of the variables have other values."""
+        """Apply new values of some of the variables."""
         if self._map is not None:
             variables = self._map.variables
             moved = [variables[at].typed(value) for at, value in values.items() if at < len(variables)]
@@ -121,7 +121,7 @@ class LimitsPanel(Panel[KnownMap]):
 
 
 def _matters(limit: Limit) -> bool:
-    """Whether it has a line in the map, or somewhere no value at all; one that is the same everywhere has none."""
+    """Return whether a limit has a line in the map, or has no value somewhere. A limit that is the same everywhere has no line."""
     values = limit.values
     if np.isnan(values).any():
         return not np.isnan(values).all()

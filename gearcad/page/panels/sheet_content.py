@@ -360,7 +360,7 @@ class StrengthPanel(FiguresPanel):
 
 
 def warm_up(design: Design) -> None:
-    """Import what ratings need, and rate a design once if that is quick: nobody shall wait for it later."""
+    """Import what ratings need, and rate a design once if that is quick, so that no user waits for it later."""
     import gearcad.jobs.strength  # noqa: F401
 
     if not _takes_long(design):

@@ -131,7 +131,7 @@ def _explains(design: Design, cells: Mapping[str, str]) -> bool:
 
 
 def _is_same(figure: Any, cell: str) -> bool:
-    """Whether a cell of the table is a figure; several numbers, and words, are what they are."""
+    """Return whether a cell of the table equals a figure; several numbers, and words, are compared as they are."""
     number = plain_number(cell)
     if number is None or isinstance(figure, bool) or not isinstance(figure, int | float):
         return figure is not None
@@ -163,7 +163,7 @@ _WANTED = (
 
 _AXES = ("x", "y", "colour")
 _INK = "#7a8794"
-"""Legible on light and on dark."""
+"""Colour that is legible on light and on dark backgrounds."""
 
 
 class TablePanel:

@@ -193,7 +193,7 @@ _FOLDED = ("Basic rack", "Shaper cutter", "Transverse section", "Line of action,
 
 
 class SheetPanel(FiguresPanel):
-    """Every derived quantity in blocks."""
+    """Panel with the data sheet: every derived quantity in blocks."""
 
     def __init__(self, words: PageWords) -> None:
         super().__init__(words["data sheet"], "gearcad-sheet", words)

@@ -50,7 +50,7 @@ class Resistance(Generic[Values]):
         return {self.life_symbol: interpolated_in_logs(count, self.points), **others}
 
     def stress(self, cycles: Values | None) -> Values:
-        """sigma_HG or sigma_FG (MPa) after so many load cycles."""
+        """Return the strength sigma_HG or sigma_FG (MPa) after so many load cycles."""
         return self.reference * math.prod(self.factors(cycles).values())
 
     @cached_property
@@ -60,7 +60,7 @@ class Resistance(Generic[Values]):
 
 
 INFINITE = "infinite"
-"""What documents say of a life without end."""
+"""Word in documents for an unlimited life."""
 
 
 class RatedPart(Enum):
@@ -77,7 +77,7 @@ class RatedPart(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class PartStrength:
-    """Of one gear: stresses in MPa, torque in N·m on the pinion, life in hours; None is what is not known.
+    """Strength of one gear: stresses in MPa, torque in N·m on the pinion, life in hours; None for what is not known.
 
     `stress` is sigma_H or sigma_F under all load factors, `strength` sigma_HG or sigma_FG after the load `cycles` (None: the
     endurance limit), whose `factors` stand under their symbols. `damage` and `life` are those at the `required` safety; a life
@@ -112,12 +112,12 @@ class PartStrength:
 
     @property
     def strength(self) -> float | None:
-        """sigma_HG or sigma_FG."""
+        """Strength sigma_HG or sigma_FG (MPa)."""
         return None if self.resistance is None else self.resistance.reference * math.prod(self.factors.values())
 
     @property
     def permissible_stress(self) -> float | None:
-        """sigma_HP or sigma_FP: the strength over the required safety."""
+        """Permissible stress sigma_HP or sigma_FP (MPa): the strength over the required safety."""
         return None if self.strength is None else self.strength / self.required
 
     @property
@@ -258,16 +258,16 @@ ROOT_POWER = 1.0
 """Torque goes with this power of the stress."""
 
 _ROUNDING = 1e-12
-"""Over the static strength by no more than that, relative, is not over it."""
+"""Relative excess over the static strength that still counts as rounding."""
 
 _MOST_LOGARITHM = 700.0
-"""Of load cycles: that of 10^304, in place of numbers beyond any float."""
+"""Largest logarithm of a number of load cycles: that of 10^304, which a float can still hold."""
 
 _HALVINGS = 60
 """Steps of a search in logarithms: from a factor of 2 to less than rounding."""
 
 _DOUBLINGS = 40
-"""How far from where it begins a torque is looked for: by a factor of 10^12."""
+"""Number of times that the range in which a torque is searched may double: up to a factor of 10^12."""
 
 
 def permissible_cycles(stress: Values, curve: Points, *, endurance: bool = False) -> Values:
@@ -428,7 +428,7 @@ def _safety(part: RatedPart, role: Role, duty: Duty, resistance: Resistance[floa
 
 
 def _beyond_knee(cycles: Floats, stresses: Floats, resistance: Resistance[float]) -> float:
-    """Share of the damage by stresses (MPa) below the last corner."""
+    """Return the share of the damage that is due to stresses (MPa) below the last corner of the life curve."""
     whole, above = (damage_sum(cycles, stresses, resistance.curve, endurance=end) for end in (False, True))
     return 1 - above / whole if 0 < whole < math.inf else 0.0
 

@@ -40,7 +40,7 @@ from gearcad.rating.root_stress import RootRating
 from gearcad.rating.strength.duty import Resistance
 
 VISCOSITY = 220.0
-"""Of an oil ISO VG 220 at 40 °C (mm²/s), which is assumed where none is given."""
+"""Viscosity of an oil ISO VG 220 at 40 °C (mm²/s), which is assumed where none is given."""
 
 FLANK_ROUGHNESS = 4.8
 ROOT_ROUGHNESS = 20.0
@@ -94,7 +94,7 @@ def _or(values: PerGear[float | None], assumed: float) -> PerGear[float]:
 
 
 def _reduced_radius(pair: GearPair | RackPair) -> float:
-    """rho_red (mm): of a pinion and a rack that of the pinion's flank."""
+    """Return the reduced radius of curvature rho_red (mm); of a pinion and a rack that of the pinion's flank."""
     tangent = math.tan(math.radians(pair.working_transverse_pressure_angle))
     if isinstance(pair, RackPair):
         return pair.pinion.base_diameter / 2 * tangent

@@ -170,7 +170,7 @@ class StrengthRating(Pictured):
 
     @property
     def asked(self) -> bool:
-        """Whether a limit or a quality of a material, or a required safety, asks for a verdict on strength."""
+        """Whether a limit or a quality of a material, or a required safety, requires a verdict on strength."""
         return self.options.asks_strength or any(each.asks_strength for each in self.materials)
 
     @property

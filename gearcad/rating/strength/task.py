@@ -341,7 +341,7 @@ def _constant(material: Material, key: str) -> str:
 
 
 def _counts(task: StrengthTask, key: str) -> bool:
-    """Whether an option plays a part: the grade where a gear has none of its own, cycles where any are counted."""
+    """Return whether an option has an effect: the grade if a gear has none of its own, cycles if any are counted."""
     if key == "accuracy_grade":
         return any(gear.accuracy_grade is None for gear in task.pair_gears)
     if key in ("contacts_per_turn", "long_life_factor"):
@@ -368,7 +368,7 @@ def verify_of(task: StrengthTask) -> Iterator[str]:
 
 
 def _limited(task: StrengthTask, part: RatedPart) -> bool:
-    """Whether a gear has fewer load cycles than its endurance limit asks for."""
+    """Return whether a gear has fewer load cycles than its endurance limit refers to."""
     found = ((task.resistance(part, role), task.duty.cycles.pick(role)) for role in Role)
     return any(each is not None and cycles is not None and cycles < endurance_cycles(each.points) for each, cycles in found)
 

@@ -138,7 +138,7 @@ class BezierCurve:
 
 @dataclass(frozen=True, eq=False)
 class PlaneSurface:
-    """The xy plane of its frame."""
+    """Plane surface: the xy plane of its frame."""
 
     frame: Frame
 

@@ -121,7 +121,7 @@ class FilletSurface:
         return self._sine(self._stretch * (x - self._axis[0]) / self.drift, self._radius / self.drift, first, last)
 
     def _sine(self, middle: float, amplitude: float, first: float, last: float) -> OnSurface:
-        """u = t + pi/2, v = middle + amplitude sin u for t from `first` to `last`."""
+        """Return the curve u = t + pi/2, v = middle + amplitude sin u for t from `first` to `last`."""
 
         def curve(share: Floats) -> Floats:
             t = first + share * (last - first)

@@ -359,7 +359,7 @@ class _RingCapper(ToothEnd):
 
 
 _WALL_SHARE = 0.25
-"""Most of a wall that the chords of the two circles may take up."""
+"""Largest share of a wall that the chords of the two circles may take up."""
 
 _ONE = 0.02
 """Vertices of a hole closer than this share of its step are one."""

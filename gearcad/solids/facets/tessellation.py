@@ -34,7 +34,7 @@ from gearcad.solids.facets.sampling import ToothGrid, arc_step, least_distance, 
 
 
 class DiscBuilder(Builder):
-    """Builds an external gear."""
+    """Builder of the triangles of an external gear."""
 
     def __init__(self, gear: Gear, grid: ToothGrid, chord_error: float) -> None:
         super().__init__(gear, grid, chord_error)
@@ -428,7 +428,7 @@ class _Builder:
         return found
 
     def _back(self, bottom: Sequence[int], top: Sequence[int]) -> Triangles:
-        """Between the lower edges of both end faces, by turns along x."""
+        """Return the triangles between the lower edges of both end faces, in the order of x."""
         low, high = ([self.below[number] for number in chain if number in self.below] for chain in (bottom, top))
         x, found, i, j = self.vertices[:, 0], list[tuple[int, int, int]](), 0, 0
         while i < len(low) - 1 or j < len(high) - 1:

@@ -74,7 +74,7 @@ _DIGITS = 9
 
 
 class Cutaway(Enum):
-    """Part of a body that is taken off."""
+    """Part of a body that is removed to show its inside."""
 
     QUARTER = "quarter"
     HALF = "half"
@@ -91,7 +91,7 @@ class CutPlanes:
     normals: tuple[Floats, ...]
 
     def left(self, points: Floats) -> Bools:
-        """Which points (n, 3) it leaves."""
+        """Return which points (n, 3) remain after the cut."""
         beyond: Bools = np.all([(points - self.point) @ normal > 0 for normal in self.normals], axis=0)
         return ~beyond
 
@@ -199,8 +199,8 @@ _MARGIN = 1.06
 
 
 class SceneView(Enum):
-    """From where a scene is seen: above one corner, along the axes, from the right, from above (as a sheet's views are), and
-    close by, along the axes, where teeth mesh.
+    """Direction from which a scene is seen: above one corner, along the axes, from the right, from above (as a sheet's views
+    are), and close by, along the axes, where teeth mesh.
     """
 
     CORNER = "corner"

@@ -83,11 +83,11 @@ class PairProduct:
         return {role.value: product for role, product in self.gears.items()}
 
     def solid(self) -> AssembledProduct:
-        """Both exact solids posed in mesh: see `pair_product`."""
+        """Return both exact solids posed in mesh: see `pair_product`."""
         return pair_product(self.pair, bracket=self.options.bracket)
 
     def scene(self, pinion_rotation: float = 0.0) -> list[ScenePart]:
-        """Both gears posed in mesh, the pinion turned by so much (degrees)."""
+        """Return both gears posed in mesh, the pinion turned by an angle (degrees)."""
         pose = self.pair.wheel_pose(pinion_rotation)
         (pinion,), (wheel,) = self.gears.pinion.scene(pinion_rotation), self.gears.wheel.scene()
         return [pinion, replace(wheel, rotation=pose.rotation, offset=(pose.x, 0.0, pose.z))]
@@ -148,15 +148,15 @@ class RackPairProduct:
 
     @property
     def parts(self) -> dict[str, GearProduct | RackProduct]:
-        """Both by the names of their files."""
+        """Return pinion and rack by the names of their files."""
         return {"pinion": self.pinion, "rack": self.rack}
 
     def solid(self) -> AssembledProduct:
-        """Both exact solids posed in mesh: see `rack_product`."""
+        """Return both exact solids posed in mesh: see `rack_product`."""
         return rack_product(self.pair)
 
     def scene(self, pinion_rotation: float = 0.0) -> list[ScenePart]:
-        """Both posed in mesh, the pinion turned by so much (degrees)."""
+        """Return pinion and rack posed in mesh, the pinion turned by an angle (degrees)."""
         pose = self.pair.rack_pose(pinion_rotation)
         (pinion,), (rack,) = self.pinion.scene(pinion_rotation), self.rack.scene()
         return [pinion, replace(rack, rotation=pose.rotation, offset=(pose.x, pose.y, pose.z))]

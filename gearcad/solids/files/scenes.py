@@ -152,7 +152,7 @@ _ROOT = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 
 
 _METALLIC, _ROUGHNESS = 0.6, 0.45
 _TRIANGLES = 4
-"""A mode of glTF."""
+"""Number of the mode "triangles" of glTF."""
 
 _SHADES = 255
 """Steps of a colour of a material, as of one on a screen."""
@@ -255,7 +255,7 @@ def _material(part: ScenePart) -> dict[str, Any]:
 
 
 def _linear(value: float) -> float:
-    """sRGB to the linear light of glTF (IEC 61966-2-1)."""
+    """Return sRGB values as the linear light of glTF (IEC 61966-2-1)."""
     return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
 
 

@@ -26,7 +26,7 @@ from gearcad.solids.train_plan import Standing, TrainLayout
 
 
 def looks_alike_after(gear: Gear) -> int:
-    """Return the number of equal parts in a turn of the gear: its teeth, fewer with bolt holes, one with a keyway."""
+    """Return whether every body then stands where one of its kind stood at first, its teeth where teeth were."""
     body = gear.body
     return 1 if body.keyway_width else math.gcd(gear.tooth_count, body.bolt_holes)
 
@@ -61,7 +61,7 @@ QUICK, _QUICKEST = 4.0, 2.5
 """Frames a pitch of the gear whose teeth pass fastest, and the least: with 2 nobody sees which way it turns."""
 
 MOST_FRAMES = 480
-"""Frames of the longest loop."""
+"""Largest number of frames of a loop."""
 
 _SWING = 2.0
 """Pitches that a rack goes either way at the most; the pinion stays on the rack."""
@@ -142,7 +142,7 @@ _LARGEST = 10**6
 """Denominator of the fractions that turns, which are floats, are taken for."""
 
 _EXACT = 1e-9
-"""By how much they may miss them, and whole pitches, relatively."""
+"""Relative error within which gears must return to their places, and turn by whole pitches."""
 
 _SAME = 1e-6
 """Distance (mm), and share of a pitch, that counts as none."""
@@ -286,7 +286,9 @@ _OF_TRAIN_APART = ViewDirection((0.55, -0.9, 0.6), _UP)
 """Direction from above the corner from which most of the teeth is seen."""
 
 _GAP, _GAP_OF_RING = 0.3, 0.8
-"""Between what was moved apart, as a share of the pinion's diameter: a ring is seen from high above."""
+"""Distance between parts that were moved apart, as a share of the pinion's diameter; a ring needs more, as it is seen from high
+above.
+"""
 
 
 def direction_of(product: Product, view: SceneView) -> ViewDirection:

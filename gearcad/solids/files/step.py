@@ -42,7 +42,9 @@ if TYPE_CHECKING:
 
 
 _RUNS = re.compile(r"[\x20-\x7e]+|[^\x20-\x7e\U00010000-\U0010ffff]+|[\U00010000-\U0010ffff]+")
-"""What a string holds as it is; what takes four hexadecimal digits; what takes eight."""
+"""Pattern of the runs of characters in a string: those written as they are, those with four hexadecimal digits, and those with
+eight.
+"""
 
 _TO_A_LINE = 12
 """References that stand on one line of a file."""

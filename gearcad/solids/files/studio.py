@@ -213,7 +213,7 @@ _FINE, _LESS_FINE, _FINE_UP_TO = 3, 2, 5_000_000
 """Into how many finer pixels each way one is divided, and in pictures of more pixels than so many."""
 
 _EDGE = (0.10, 0.11, 0.13)
-"""Colour of lines."""
+"""Colour of edge lines."""
 
 _LINE = 1.3 / 900
 """Width of lines, in heights of the picture."""

@@ -170,7 +170,7 @@ _SECONDS = 10.0
 """Least duration (s) of an animation."""
 
 _MOST_TURNS = 60.0
-"""Most turns of any part; then an animation ends even if the carrier has not come round."""
+"""Largest number of turns of any part; then an animation ends even if the carrier has not completed a turn."""
 
 _FASTEST = 1.5
 """Turns a second of anything: what is faster cannot be followed."""
