@@ -22,9 +22,11 @@ from gearcad.jobs.build import AssemblyProduct, Build, PartProduct, products_of
 from gearcad.jobs.job import Data, Job, Subject, Writer, as_design
 from gearcad.jobs.strength import Check, Rate
 from gearcad.jobs.verification_sheets import judge_sheets, make_sheets
+from gearcad.jobs.verification_solvers import MESH_FORMATS, judge_by_calculix, judge_meshes
 from gearcad.report.verification import heading, verification_html, write_verification_pdf
 from gearcad.solids import FileOptions, Format
 from gearcad.verification.assemblies import PlacedMesh
+from gearcad.verification.calculix import calculix_version
 from gearcad.verification.claims import Claim, Judge, Level, timed
 from gearcad.verification.claims import Subject as About
 from gearcad.verification.drawings import judge_section, judge_sections
@@ -73,7 +75,8 @@ class Verify(Job[ToothedDesign, Verification]):
                 build = Build(formats=FORMATS)
                 build.write(build.run(design), folder)
             claims = list(self._claims(design, folder, progress))
-            names = sorted(path.name for path in folder.iterdir() if path.suffix[1:] in {kind.value for kind in FORMATS})
+            kinds = {kind.value for kind in FORMATS} | (set() if self.folder else set(MESH_FORMATS))
+            names = sorted(path.name for path in folder.iterdir() if path.suffix[1:] in kinds)
             contents = {name: (folder / name).read_bytes() for name in names}
         return Verification(
             name=design.name,
@@ -81,7 +84,7 @@ class Verify(Job[ToothedDesign, Verification]):
             claims=tuple(claims),
             contents=contents,
             spec=Data().document(design),
-            judges=_versions(),
+            judges=_versions(claims),
             strength=_strength(claims),
             notices=design.notices,
             heading=heading(design.drawing),
@@ -100,6 +103,11 @@ class Verify(Job[ToothedDesign, Verification]):
         yield from _of_files(design, folder, drawn=not self.folder)
         if self.level.includes(Level.STRENGTH):
             yield from _of_strength(design)
+        if self.level.includes(Level.FULL):
+            parts, _ = products_of(design, FileOptions())
+            exact = {product.name: ExactPart(_part(product)) for product in parts.values()}
+            yield from judge_meshes(design, folder, exact, made=not self.folder)
+            yield from judge_by_calculix(design)
 
     def document(self, result: Verification) -> dict[str, Any]:
         """Return the content of verify.json."""
@@ -246,7 +254,7 @@ def _of_assembly(
 
 
 def _counts(design: ToothedDesign, parts: Mapping[str, PartProduct]) -> dict[str, int]:
-    """How often each part of a planetary train, by its key, is in its assembly."""
+    """Return how often the assembly of a planetary train contains each part, by the part's key."""
     from gearcad.solids.train_plan import TrainLayout
 
     train = cast("PlanetaryDesign", design).train
@@ -297,14 +305,16 @@ _JUDGES = {"Open CASCADE": "cadquery-ocp", "trimesh": "trimesh", "ezdxf": "ezdxf
 """Programs that judge, and the distributions that they come from."""
 
 
-def _versions() -> dict[str, str]:
-    """Versions of the programs that judge, by their names."""
+def _versions(claims: Sequence[Claim]) -> dict[str, str]:
+    """Versions of the programs that judge, by their names; of CalculiX if it has judged one of the claims."""
     found = {}
     for name, distribution in _JUDGES.items():
         try:
             found[name] = version(distribution)
         except PackageNotFoundError:
             continue
+    if any(claim.subject is About.CALCULIX and claim.passed is not None for claim in claims):
+        found["CalculiX"] = calculix_version()
     return found
 
 

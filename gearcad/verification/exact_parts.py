@@ -232,6 +232,25 @@ def _piece_area(gear: Gear, piece: FlankCurve, z: Floats, weights: Floats, *, le
     return float(share @ np.linalg.norm(np.cross(along, up), axis=-1) @ weights)
 
 
+def toothed_size(gear: Gear, teeth: int, end_radius: float, *, solid: bool) -> float:
+    """Return the volume (mm³) of so many teeth with their share of the body, up to `end_radius` (mm), which has no ends.
+
+    If not `solid`, it is the area (mm²) of the section in the middle of a half's face width.
+    """
+
+    def share(z: float) -> float:
+        area = _section(gear, z) - math.pi * end_radius**2
+        return (-area if gear.internal else area) * teeth / gear.tooth_count
+
+    if not solid:
+        return share(gear.half_width / 2)
+    volume = 0.0
+    for low, high in _stretches(gear):
+        places, weights = (low + high) / 2 + (high - low) / 2 * _PLACES, (high - low) / 2 * _WEIGHTS
+        volume += sum(weight * share(z) for z, weight in zip(places.tolist(), weights.tolist(), strict=True))
+    return volume * (2 if gear.double_helix.present else 1)
+
+
 def _section(gear: Gear, z: float) -> float:
     """Area (mm²) of the section at a height (mm), down to the axis, by the integral of r² dphi/2 around it."""
     area, pieces = 0.0, flank_curves(gear)

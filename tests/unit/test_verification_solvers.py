@@ -1,0 +1,164 @@
+"""Meshes in other readers and CalculiX: figures of our own pass, and files or figures that were changed do not."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from support.calculix import needs_ccx
+
+import gearcad
+from gearcad import Body, Gear
+from gearcad.designs import GearDesign, PairDesign, read_spec
+from gearcad.jobs.verification_solvers import MESH_FORMATS, judge_by_calculix, judge_meshes
+from gearcad.meshing.bodies.quality import LEAST_SCALED_JACOBIAN
+from gearcad.meshing.options import MeshOptions
+from gearcad.verification import calculix
+from gearcad.verification.calculix import PLANE_PERMITTED, compare
+from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.exact_parts import ExactPart
+from gearcad.verification.mesh_files import StatedMesh, judge_mesh
+
+TEMPLATES = Path(gearcad.__file__).parents[1] / "templates"
+
+GEAR = Gear(teeth=17, normal_module=2, face_width=6, helix_angle=12, profile_shift=0.2, body=Body(bore=14))
+
+
+def template(name: str) -> PairDesign:
+    design = read_spec(TEMPLATES / f"{name}.toml")
+    assert isinstance(design, PairDesign)
+    return design
+
+
+def wrong(claims: list[Claim]) -> list[str]:
+    return [claim.text for claim in claims if claim.passed is not True]
+
+
+@pytest.fixture(scope="module", params=["hex20", "tri6"])
+def meshed(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, StatedMesh]:
+    """A folder with the mesh of a gear, of three teeth or of a section, and what is said of it."""
+    folder = tmp_path_factory.mktemp(request.param)
+    what = {"hex20": "teeth:3", "tri6": "ring"}[request.param]
+    options = MeshOptions(what=what, element=request.param, format=",".join(MESH_FORMATS), size=0.6)
+    result = gearcad.mesh(GearDesign(name="gear", gear=GEAR, mesh=options))
+    for kind in result.plan.options.formats:
+        kind.entry.write(result.mesh, folder / f"gear.{kind.value}")
+    (judged,), (plan,) = result.judged.values(), result.plan.gears.values()
+    document = {**judged.to_dict(), "end_radius": plan.end_radius}
+    least = LEAST_SCALED_JACOBIAN[result.plan.element]
+    return folder, StatedMesh(ExactPart(GEAR), document, result.plan.solid, least)
+
+
+def test_a_mesh_as_it_is_written_passes(meshed: tuple[Path, StatedMesh]) -> None:
+    claims = list(judge_mesh(meshed[0], "gear", meshed[1]))
+    assert wrong(claims) == []
+    assert len(claims) == 13
+    assert {claim.judge for claim in claims} == {"meshio", "gmsh"}
+
+
+def changed(meshed: tuple[Path, StatedMesh], name: str, change: Callable[[str], str]) -> set[str]:
+    """Return the quantities that fail after a change to the text of a file, which is then restored."""
+    path = meshed[0] / name
+    before = path.read_bytes()
+    path.write_bytes(change(before.decode("latin-1")).encode("latin-1"))
+    try:
+        claims = list(judge_mesh(meshed[0], "gear", meshed[1]))
+    finally:
+        path.write_bytes(before)
+    failed = [claim for claim in claims if claim.passed is False]
+    assert {claim.where for claim in failed} == {name}
+    return {claim.quantity for claim in failed}
+
+
+def moved(text: str) -> str:
+    """Move the first node of the first flank in a .inp by 5 µm along x."""
+    nodes = re.search(r"\*NSET, NSET=left_flank_0\n\s*(\d+)", text)
+    assert nodes is not None
+    row = re.search(rf"\n\s*{nodes[1]}\s*,\s*(-?[\d.]+),", text)
+    assert row is not None
+    return text.replace(row[0], row[0].replace(row[1], f"{float(row[1]) + 0.005:.12f}"), 1)
+
+
+def test_a_node_moved_off_the_flank_is_noticed(meshed: tuple[Path, StatedMesh]) -> None:
+    assert changed(meshed, "gear.inp", moved) == {"distance of nodes of flanks and fillets from the exact surface"}
+
+
+def test_a_side_that_was_renamed_is_noticed(meshed: tuple[Path, StatedMesh]) -> None:
+    assert "sides" in changed(meshed, "gear.inp", lambda text: text.replace("left_flank_1", "left_flunk_1"))
+    assert "sides with all their faces" in changed(
+        meshed, "gear.msh", lambda text: text.replace("left_flank_1", "left_flunk_1")
+    )
+
+
+@pytest.mark.parametrize("ending", MESH_FORMATS)
+def test_half_a_file_is_noticed(meshed: tuple[Path, StatedMesh], ending: str) -> None:
+    assert changed(meshed, f"gear.{ending}", lambda text: text[: len(text) // 2])
+
+
+def test_figures_that_are_too_good_are_noticed(meshed: tuple[Path, StatedMesh]) -> None:
+    folder, stated = meshed
+    document = {**stated.document, "nodes": stated.document["nodes"] + 1, "end_radius": stated.document["end_radius"] + 0.01}
+    claims = list(judge_mesh(folder, "gear", StatedMesh(stated.part, document, stated.solid, 1.0)))
+    failed = {claim.quantity for claim in claims if claim.passed is False}
+    assert failed == {"nodes", "least scaled Jacobian is at least 1", "volume" if stated.solid else "area"}
+
+
+# ---------------------------------------------------------------------- CalculiX
+
+JUDGE = Judge(Subject.CALCULIX, Level.FULL, "pair", "CalculiX")
+
+
+def figures(**changes: float) -> dict[str, object]:
+    """Figures of a position as a deck has them."""
+    share = changes.get("load_share", 0.6)
+    pairs = [
+        {"pinion": "a", "wheel": "c", "load_share": share, "contact_pressure": changes.get("pressure", 900.0)},
+        {"pinion": "b", "wheel": "d", "load_share": 1 - share, "contact_pressure": None},
+    ]
+    root = {"pinion": changes.get("root", 200.0), "wheel": 210.0}
+    return {"transmission_error": changes.get("error", 12.0), "pairs": pairs, "root_stress": root}
+
+
+@pytest.mark.parametrize(
+    ("changes", "quantity"),
+    [
+        ({"error": 12.03}, "transmission error (µm)"),
+        ({"root": 201.1}, "root stress of the pinion (MPa)"),
+        ({"load_share": 0.603}, "load share"),
+        ({"pressure": 921.0}, "contact pressure (MPa)"),
+    ],
+)
+def test_a_figure_that_is_off_fails(changes: dict[str, float], quantity: str) -> None:
+    assert wrong(list(compare(figures(), figures(), JUDGE, PLANE_PERMITTED, "at 0°"))) == []
+    claims = compare(figures(**changes), figures(), JUDGE, PLANE_PERMITTED, "at 0°")
+    assert [claim.quantity for claim in claims if claim.passed is False] == [f"{quantity}, at 0°"]
+
+
+def test_without_calculix_and_for_other_kinds_nothing_is_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+    (gear,) = judge_by_calculix(GearDesign(name="gear", gear=GEAR))
+    assert gear.passed is None
+    assert gear.reason == "decks are of pairs, this is a gear"
+    monkeypatch.setattr(calculix, "_PROGRAM", "no-such-program")
+    (pair,) = judge_by_calculix(template("fzg-c"))
+    assert pair.passed is None
+    assert "not installed" in pair.reason
+
+
+@needs_ccx
+def test_calculix_that_takes_too_long_does_not_judge(tmp_path: Path) -> None:
+    (tmp_path / "pair.inp").write_text("*HEADING\n", encoding="ascii")
+    assert "did not come to an end" in calculix._run(tmp_path / "pair", 1e-6)
+
+
+@needs_ccx
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["fzg-c", "ring-22-70"])
+def test_meshes_and_calculix_judge_a_spur_and_a_ring_pair(name: str, tmp_path: Path) -> None:
+    design = template(name)
+    exact = {gear.name: ExactPart(gear) for gear in design.pair.gears}
+    assert wrong(list(judge_meshes(design, tmp_path, exact, made=True))) == []
+    claims = list(judge_by_calculix(design))
+    assert wrong([claim for claim in claims if "pressure" not in claim.quantity or claim.passed is not None]) == []
+    assert len(claims) == 10
