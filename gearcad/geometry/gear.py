@@ -385,7 +385,7 @@ class Gear(GearData):
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
         """Notices about this gear that an engineer should read before making it."""
-        of_inspection = self.inspection.notices(self.form_diameter, self.tip_form_diameter, self.half_width)
+        of_inspection = self.inspection.notices(self.form_diameter, self.tip_form_diameter, self.half_width, self.root_diameter)
         return (*self._notices_of_teeth(), *of_inspection)
 
     def _notices_of_teeth(self) -> Iterator[Notice]:

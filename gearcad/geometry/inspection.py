@@ -179,7 +179,7 @@ class Inspection:
 
     @property
     def pin_axial_shift(self) -> float:
-        """Return the distance (mm) along the axis between two measuring pins: half an axial pitch if z is odd, else 0."""
+        """Distance (mm) along the axis between two measuring pins: half an axial pitch if z is odd, else 0."""
         if not self.helix_angle or self.teeth % 2 == 0:
             return 0.0
         return self.lead / self.teeth / 2
@@ -200,13 +200,24 @@ class Inspection:
 
     # ------------------------------------------------------------------ what to know before measuring
 
-    def notices(self, lowest: float, highest: float, face_width: float) -> Iterator[Notice]:
-        """Gauges that touch off the involute, which reaches from diameter `lowest` to `highest`, or beside the face (mm)."""
+    def _touches_root(self, ball: float, root: float) -> bool:
+        """Whether a ball that touches both flanks would reach beyond the root circle of diameter `root` (mm)."""
+        inwards = 1 if self.teeth > 0 else -1
+        return inwards * (abs(self._ball_circle(ball)) - inwards * ball - abs(root)) < 0
+
+    def notices(self, lowest: float, highest: float, face_width: float, root: float) -> Iterator[Notice]:
+        """Yield notices on gauges that touch off the involute, which reaches from diameter `lowest` to `highest` (mm).
+
+        They may also touch beside the face, or on the root circle of diameter `root` (mm).
+        """
         if self.spanned and not lowest <= (touching := self.span_contact_diameter(self.spanned)) <= highest:
             yield Notice("span-off-involute", f"span: the anvils would touch at diameter {touching:.4f} mm, off the involute")
         ball = self.ball_diameter
         if not lowest <= (touching := self.ball_contact_diameter(ball)) <= highest:
             text = f"balls: a ball of {ball:g} mm would touch at diameter {touching:.4f} mm, off the involute"
+            yield Notice("balls-off-involute", text)
+        elif self._touches_root(ball, root):
+            text = f"balls: a ball of {ball:g} mm would touch the root circle, diameter {abs(root):.4f} mm, off the involute"
             yield Notice("balls-off-involute", text)
         if face_width < (width := self.pin_axial_shift):
             text = f"pins: the dimension over two pins needs a face width of {width:.4f} mm; use balls, or one pin"

@@ -49,7 +49,7 @@ def check(inputs: dict[str, Any], kind: str) -> None:
     for claim in claims:
         event(f"{claim.quantity}: {claim.passed}")
     # Root circles that are given far out can hold a ball off the flanks: the judge is right, and says so.
-    assert not [claim for claim in claims if claim.passed is False and "rests on the root circle" not in claim.reason]
+    assert not [claim for claim in claims if claim.passed is False]
 
 
 @settings(max_examples=12)
