@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["run"]
 
 _MINDS_ITSELF = ("batch", "open")
-"""Commands whose work is in processes of their own: at Ctrl-C they tell what they have, or end those."""
+"""Commands that work in processes of their own; at Ctrl-C they report what they have, or end those processes."""
 
 
 def run() -> None:

@@ -38,7 +38,7 @@ __all__ = [
 ]
 
 STEEL_MODULUS = 206000.0
-"""Young's modulus (MPa) of steel: of what nothing else is said about."""
+"""Young's modulus (MPa) of steel, used if no other value is given."""
 
 
 class MaterialGroup(StrEnum):
@@ -174,7 +174,7 @@ class Material:
 
     @property
     def asks_strength(self) -> bool:
-        """Return whether an endurance limit, a local limit or a quality is given, which asks for a verdict on strength."""
+        """Whether an endurance limit, a local limit or a quality is given, which asks for a verdict on strength."""
         limits = (self.contact_limit, self.root_limit, self.contact_endurance_limit, self.root_endurance_limit)
         return self.quality is not None or any(each is not None for each in limits)
 

@@ -17,7 +17,7 @@ from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
 __all__ = ["FourierSeries", "MeshCycle"]
 
 _TELLING = 1e-3
-"""Part of the compliance below which a part of it says nothing."""
+"""Share of the compliance below which a part of it is not significant."""
 
 
 class FourierSeries(NamedTuple):
@@ -172,7 +172,7 @@ class MeshCycle(Pictured):
 
     @property
     def backwards(self) -> MeshCycle:
-        """Return the cycle for a driving wheel: contact moves from tip to root of the pinion."""
+        """Cycle for a driving wheel: contact moves from tip to root of the pinion."""
         curves = {name: getattr(self, name)[::-1] for name in ("mesh_stiffness", "tangent_stiffness", "transmission_error")}
         parts = {name: part[::-1] for name, part in self.compliance_parts.items()}
         shares = self.load_share[::-1]

@@ -78,7 +78,7 @@ class WorkerLostError(GearcadError, RuntimeError):
 
 
 def isolated(function: Callable[[Argument], Result], argument: Argument, time_limit: float) -> Result:
-    """`function(argument)` in the child process of this thread, which lives on and keeps what it imported.
+    """Return `function(argument)` as computed in the child process of this thread, which lives on and keeps its imports.
 
     Raises WorkerLostError if the child dies or needs more than `time_limit` (s) - the next call has a new one - and whatever
     `function` raises.
@@ -160,7 +160,7 @@ def _send(pipe: IO[bytes], message: bytes) -> None:
 
 
 def _receive(pipe: IO[bytes]) -> bytes:
-    """A whole message, also one that nobody can make sense of: the next begins where it ends. Raises EOFError, OSError."""
+    """Return a whole message, even an unreadable one: the next begins where it ends. Raises EOFError, OSError."""
     length = int.from_bytes(_read(pipe, _LENGTH_BYTES), "little")
     return _read(pipe, length)
 
@@ -178,7 +178,7 @@ def _end(process: subprocess.Popen[bytes], expired: threading.Event) -> None:
 
 
 def serve() -> None:
-    """The child: answer calls from stdin until it closes, which also ends work in progress: nobody waits for it any more."""
+    """Answer calls from stdin in the child process until it closes, which also ends work in progress."""
     answers = os.fdopen(become_child(), "wb")
     calls: queue.SimpleQueue[bytes] = queue.SimpleQueue()
     end_with_input(partial(_listen, calls), 0)
@@ -199,7 +199,7 @@ def _listen(calls: queue.SimpleQueue[bytes]) -> None:
 
 
 def _sendable(error: Exception) -> Exception:
-    """The error, or its text if it does not survive the way to the parent."""
+    """Return the error, or its text if it cannot be pickled for the parent."""
     try:
         pickle.loads(pickle.dumps(error))
     except Exception:
@@ -230,7 +230,7 @@ class Outcome(Generic[Argument, Result]):
 
 @dataclass(frozen=True)
 class Pool:
-    """An executor, how many calls it does at a time, what ends all that is waiting or running, and whether it is there yet.
+    """Pool of workers: an executor, the number of calls at a time, a function that ends all calls, and whether it has started.
 
     `look` raises KeyboardInterrupt where one was lost.
     """
@@ -244,7 +244,7 @@ class Pool:
     def run(
         self, function: Callable[[Argument], Result], arguments: Iterable[Argument], time_limit: float
     ) -> Iterator[Outcome[Argument, Result]]:
-        """Call `function`, which must be importable, with each argument in a worker process; outcomes as they come.
+        """Call `function`, which must be importable, with each argument in a worker process; yield outcomes as they arrive.
 
         Raises ClusterLostError if nobody is left who could do it.
         """
@@ -342,7 +342,7 @@ def _client(address: str, jobs: int) -> Iterator[Any]:
 
 @contextmanager
 def _local_cluster(jobs: int) -> Iterator[Any]:
-    """A cluster on this machine that nobody can look into: no dashboard, and no pages behind the ports that Dask opens."""
+    """Yield a cluster on this machine without a dashboard or other pages behind the ports that Dask opens."""
     import dask
     from distributed import LocalCluster
 
@@ -357,7 +357,7 @@ def _local_cluster(jobs: int) -> Iterator[Any]:
 
 @contextmanager
 def _quiet_log() -> Iterator[None]:
-    """Dask logs to stderr, with tracebacks; what a user can do something about becomes an error of ours."""
+    """Keep Dask from logging to stderr with tracebacks; faults that a user can mend become errors of ours."""
     loggers = [logging.getLogger(name) for name in ("distributed", "distributed.client", "tornado.application", "asyncio")]
     levels = [logger.level for logger in loggers]
     for logger in loggers:

@@ -101,7 +101,9 @@ def read_manifest(folder: Path) -> Manifest | None:
 
 
 def _plain(file: Any) -> str:
-    """A manifest may have been edited: what it names is removed one day, so it must be such a name as we give."""
+    """Return a file name of a manifest. Raise ValueError unless it is one that we give: a manifest may have been edited, and
+    its files are removed later.
+    """
     if not isinstance(file, str) or not _OUR_FILE.fullmatch(file):
         raise ValueError(f"{file!r} is no file of ours")
     return file
@@ -239,7 +241,7 @@ def _checked(row: DesignRow) -> Checked:
 
 
 def make_row(task: Task) -> Record:
-    """Make what is missing or changed of one row; runs in a worker. What goes wrong is in the record."""
+    """Make what is missing or changed of one row, in a worker. Faults are in the record."""
     began = time.perf_counter()
     number = task.row.number
     try:
@@ -294,7 +296,7 @@ def _read(folder: Path, verb: str) -> dict[str, Any]:
 
 
 def _warnings(document: dict[str, Any]) -> Iterator[str]:
-    """Each led by what it is about."""
+    """Yield the warnings, each beginning with its subject."""
     for part, of in document.items():
         texts = of.get("warnings") if isinstance(of, dict) else None
         # A part of a train may be called so, too.

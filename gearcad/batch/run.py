@@ -198,7 +198,7 @@ class Journal:
         return []
 
     def keep(self, number: int, checked: Checked) -> None:
-        """Note what the check of a row has found."""
+        """Record the result of the check of a row."""
         self._execute("UPDATE rows SET checked = ? WHERE number = ?", (pickle.dumps(checked), number))
 
     def finish(self, record: Record) -> None:
@@ -233,7 +233,7 @@ def _writable() -> Iterator[None]:
 
 
 WORKSPACE = ".gearcad-batch"
-"""Folder inside the output folder where rows grow; it is there during a run, and after one that was killed."""
+"""Folder inside the output folder where rows are made; it exists during a run, and after one that was killed."""
 
 _LOCK = "lock"
 
@@ -404,7 +404,7 @@ def _record(outcome: Outcome[Task, Record]) -> Record:
 
 @contextmanager
 def _workspace(folder: Path) -> Iterator[Path]:
-    """A folder on the file system of `folder` where files grow until they are finished, for one run at a time.
+    """Yield a folder on the file system of `folder` where files are written until they are finished, for one run at a time.
 
     Raises OutputError if `folder` cannot be written, or if another run is at it.
     """

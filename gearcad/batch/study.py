@@ -71,7 +71,7 @@ class Sample:
 
 @dataclass(frozen=True, kw_only=True)
 class Study:
-    """A base of values under their keys, and what varies; `sample` None stands for every combination."""
+    """Study: values under their keys, and the keys that vary; `sample` None means every combination."""
 
     source: str
     kind: DesignKind
@@ -82,7 +82,7 @@ class Study:
 
     @property
     def rows(self) -> int:
-        """Return the number of designs."""
+        """Number of designs."""
         if self.sample is not None:
             return self.sample.rows
         return math.prod(len(variation.values) for variation in self.variations if isinstance(variation, Choices))

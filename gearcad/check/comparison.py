@@ -312,7 +312,9 @@ class CheckStrength:
         return {RatedPart.FLANK: self.flank, RatedPart.ROOT: self.root}
 
     def _found(self, part: RatedPart, role: Role, stress: float | None, missing: str = "") -> FoundStrength:
-        """Pressure goes with the square root of the load, tension with the load; pressure has its part of Z_eps, too."""
+        """Return the strength of a part by finite elements: pressure rises with the square root of the load, tension with the
+        load. Pressure contains its part of Z_eps, too.
+        """
         raised = rated_stress = None
         factors = self.rating.load_factors
         if stress is not None and factors is not None and not factors.unknown:

@@ -121,7 +121,7 @@ def _order(values: tuple[float, ...], refinement: float) -> float | None:
 
 
 def _of_plane(quantity: str, values: tuple[float, ...], *, singular: bool = False) -> Convergence:
-    """Richardson's estimate by the order that shows; LEAST_ORDER where it is less, or where a `singular` tip edge leads.
+    """Return Richardson's estimate by the observed order, or by LEAST_ORDER if that is higher or a `singular` tip edge governs.
 
     An edge shares the load by how finely it is meshed: the mesh error of such a figure falls slowly. Changes that go back and
     forth show no order.

@@ -92,9 +92,7 @@ def bending_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
 
 
 def bending_notes(task: CheckTask, summary: Summary) -> PerGear[str]:
-    """Return for each gear what the comparison of its root tension with the standard's has to add; empty if its rim does not
-    bend.
-    """
+    """Return for each gear the note on its root tension against the standard's; empty if its rim does not bend."""
 
     def note(rim: _Rim) -> str:
         factor, compression = task.rating.roots.pick(rim.role).rim_thickness_factor, summary.root_compression.pick(rim.role)
@@ -188,7 +186,7 @@ def compare_common(
 
 
 def farness(computed: float, expected: float) -> float:
-    """Return the relative distance of two values; infinite for what is no number, which is the worst of all."""
+    """Return the relative distance of two values; infinite if one is not a number."""
     found = abs(computed / expected - 1)
     return found if math.isfinite(found) else math.inf
 

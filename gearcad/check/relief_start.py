@@ -18,7 +18,7 @@ from gearcad.geometry.modification import ReliefTransition, TransitionSource, lo
 __all__ = ["ReliefStart", "relief_starts", "start_comparisons", "start_notice", "start_notices"]
 
 _HALF, _TWICE = 0.5, 2.0
-"""Factors on the transitions with which the pressure is told too, as it depends on them."""
+"""Factors on the transitions for which the pressure is reported too, because it depends on them."""
 
 
 class StartedRelief(NamedTuple):

@@ -220,7 +220,7 @@ class CheckResult(Pictured, ABC):
 
     @abstractmethod
     def _as_method(self, mounting: Mounting) -> StiffnessMethod:
-        """The bodies of the check as a method of mesh stiffness, for the pair as it is mounted."""
+        """Return the bodies of the check as a method of mesh stiffness, for the pair as it is mounted."""
 
     # ------------------------------------------------------------------ files and documents
 

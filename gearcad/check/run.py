@@ -214,7 +214,7 @@ def _left_out(task: CheckTask) -> Iterator[Notice]:
 
 
 _EDGE_RATIO = 1.5
-"""Pressure beside an edge, over the greatest away from edges, from which on it is worth a warning."""
+"""Ratio of the pressure at an edge to the greatest away from edges from which a warning is given."""
 
 
 def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:

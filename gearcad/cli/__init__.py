@@ -21,7 +21,7 @@ Three commands from nothing to a pair of gears:
 """
 
 _CHATTY = ("matplotlib", "ezdxf")
-"""Libraries that warn of a home folder in which they cannot keep their caches; they do without."""
+"""Libraries that warn of a home folder in which they cannot keep their caches, which they do not need."""
 
 
 @click.group(cls=Commands, epilog=_EXAMPLE, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

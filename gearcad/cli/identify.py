@@ -25,7 +25,7 @@ _REST = 0.01
 """The least probability of all others that is told."""
 
 _FAR = 100.0
-"""Uncertainties beyond which nobody asks how far."""
+"""Number of uncertainties above which the difference is not shown."""
 
 _CLEAR = 2.0
 """Distance between candidates at which a measurement decides, in uncertainties."""

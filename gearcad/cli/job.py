@@ -45,10 +45,10 @@ def window_width() -> int:
 _SECONDS_BETWEEN_LINES = 5.0
 
 _LONG = 10.0
-"""Seconds from which on it is worth telling beforehand what a job takes."""
+"""Time (s) from which the expected time of a job is shown beforehand."""
 
 _LARGE = 1e9
-"""Bytes of memory from which on it is."""
+"""Memory (bytes) from which the expected memory of a job is shown beforehand."""
 
 
 @contextmanager

@@ -100,7 +100,7 @@ def verdict_line(name: str, result: CheckResult) -> str:
 
 
 def _verdict_row(of: Comparison) -> _Line:
-    """A comparison; a limit is told by how much of it is used up."""
+    """Return the row of a comparison; for a limit it shows how much of it is used."""
     gate = of.role is ComparisonRole.GATE
     good, bad = ("ok", "FAILED") if gate else ("reached", "BELOW") if of.least else ("in band", "OUTSIDE")
     if not gate and of.tolerance is None and not of.least:
@@ -127,7 +127,7 @@ def _reasons(result: CheckResult) -> Iterable[tuple[str, list[str]]]:
 
 
 def _aligned(rows: list[_Line]) -> list[tuple[str, str]]:
-    """Lines and styles, columns as wide as what stands in them."""
+    """Return lines with their styles, columns as wide as their contents."""
     widths = [max(map(len, column)) for column in zip(*(row.cells for row in rows), strict=True)]
     widths[: len(_LEAST)] = map(max, widths, _LEAST)
     found = []
@@ -207,7 +207,7 @@ def strength_lines(rating: StrengthRating) -> Iterator[str]:
 
 
 def _not_judged(reasons: Mapping[str, str]) -> Iterator[str]:
-    """Each reason once, with all that it is of."""
+    """Yield each reason once, with all quantities that it applies to."""
     for why in dict.fromkeys(reasons.values()):
         yield f"{', '.join(what for what, of in reasons.items() if of == why)}: {why}"
 
@@ -294,7 +294,7 @@ def rate(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
 
 @contextmanager
 def _blaming(spec: Path) -> Iterator[None]:
-    """All that a rating goes by is in the spec: an InputError becomes a SpecError that names it, and the key."""
+    """Turn an InputError into a SpecError that names the spec and the key: all inputs of a rating are in the spec."""
     from gearcad.jobs.strength import KEYS
 
     try:

@@ -169,7 +169,7 @@ class Lattice:
         return self.clipped(descent.place + np.concatenate([steps, -steps]))
 
     def _promising(self, goal: Goal, descent: _Descent, beside: Wholes) -> Wholes:
-        """Places in reach that are the best if the figures are linear, as they are `beside` it."""
+        """Return the places in reach that are best if the figures are linear, as they are `beside` it."""
         ahead, behind = np.split(beside, 2)
         apart = (ahead - behind)[np.arange(len(ahead)), self._free]
         reached = self._in_reach(descent.place, descent.reach)
@@ -239,7 +239,7 @@ _WITHIN = 1e-3
 """Share by which a bound may be passed over: less than the pressures are exact."""
 
 _OUT_OF_REACH = 1.1
-"""Share of a bound above which the pressures of all a survey saw leave no hope: it goes where they are low."""
+"""Ratio of the least pressure of a survey to a bound above which the search goes on to the next bound."""
 
 _NEAR = 0.01
 _NEAR_MOST = 48
@@ -250,7 +250,7 @@ _NEVER = 1e9
 
 _GENERATIONS = 15
 _STARTS = 8
-"""Generations of a survey, and from how many of its best places the search goes on."""
+"""Number of generations of a survey, and number of its best places from which the search goes on."""
 
 _MISALIGNMENT = 10.0
 _PITCH_ERROR = 10.0
@@ -359,7 +359,7 @@ class Search:
         ]
 
     def _worth_its_price(self, found: FoundModification, places: Wholes) -> FoundModification:
-        """The proposal that leaves the edges of tips free, if it is worth that; else the one with contact there."""
+        """Return the proposal that keeps the tip edges free if it costs little; otherwise the one with contact there."""
         if found.edges_free or not found.bounded:
             return found
         strict = self._settled(found.bound, places, edges=False, first=found)

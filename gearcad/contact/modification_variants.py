@@ -169,7 +169,7 @@ class Outcomes:
 
     @property
     def pressures(self) -> Floats:
-        """Return the greatest interior pressure of all positions (v,) in MPa; infinite where no position has one.
+        """Greatest interior pressure of all positions (v,) in MPa; infinite where no position has one.
 
         Where all contact is beside edges and kinks no pressure is known: such a variant keeps to no bound.
         """
@@ -225,7 +225,7 @@ class _Flanks:
     helix: Floats
 
     def depth(self, lengths: Floats, heights: Floats) -> Floats:
-        """Return the depth (v, n) in mm by which the loaded, left flank is taken back, as `FlankForm.depth`."""
+        """Return the depth (v, n) in mm of the relief of the loaded, left flank, as `FlankForm.depth`."""
         form = self.form
         along = np.clip(heights, 0.0, form.width) / form.width
         left = form.last - np.clip(lengths, form.first, form.last)
@@ -243,7 +243,7 @@ class _Flanks:
 
     @property
     def transition(self) -> Floats:
-        """Return the transitions (v, 1) in mm of roll of the linear reliefs, as `FlankForm.transitions`; 0 of others."""
+        """Transitions (v, 1) in mm of roll of the linear reliefs, as `FlankForm.transitions`; 0 of others."""
         form = self.form
         wanted = form.modification.tip_relief_transition
         longest = longest_transition(self.length, form.last - form.first)

@@ -1,4 +1,4 @@
-"""A process that minds the one that works: however the work ends, nothing half made stays, and Ctrl-C ends it at once.
+"""Guard process beside the one that works: however the work ends, no partial files remain, and Ctrl-C ends it at once.
 
 A geometry kernel or a solver does not look at signals, and one that arrives while it is being imported is lost, or breaks it.
 So the command line works in a fork of itself that ignores Ctrl-C; the process that the user has started waits, kills the fork
@@ -25,10 +25,10 @@ if TYPE_CHECKING:
 CAN_GUARD = hasattr(os, "fork")
 
 _STAGING, _FOLDER, _BEGIN, _END = b"S", b"F", b"(", b")"
-"""Messages of the worker: a folder that goes with it, one that goes if it is empty, renames that belong together."""
+"""Messages of the worker: a folder to remove with it, one to remove if it is empty, renames that belong together."""
 
 _PATIENCE = 2.0
-"""Seconds that such renames may take before they are torn after all."""
+"""Time (s) that such renames may take before they are interrupted after all."""
 
 _STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 _MUCH = 1 << 16
@@ -154,7 +154,7 @@ def _is_divided(notes: bytes) -> bool:
 
 
 def _bury(notes: bytes) -> None:
-    """Remove what the worker has left; what is not there any more, or has been filled, is no concern."""
+    """Remove the files that the worker has left, except those that are gone or have been filled."""
     import shutil
     from pathlib import Path
 

@@ -97,7 +97,7 @@ class Choice(NamedTuple):
 
 
 class Member(NamedTuple):
-    """The members of an enum that a value, or a text that stands for it, can name."""
+    """Names by which a value, or a text, can denote a member of an enum."""
 
     choices: type[Enum]
 
@@ -117,7 +117,7 @@ POISSON_RATIO = Range("", 0.0, 0.499)
 """Poisson's ratio; an incompressible material locks finite elements."""
 
 DENSITY = Range("kg/m³", 1e-3, 1e5)
-"""Density, from next to nothing to some times osmium."""
+"""Permitted density, from nearly 0 to several times that of osmium."""
 
 STRENGTH = Range("MPa", 1e-3, 1e6)
 BAND = Range("%", 0.01, 1e4)

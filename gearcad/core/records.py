@@ -114,7 +114,7 @@ def naming(role: Role) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Notice:
-    """One thing to know: `code` names its kind for programs, `text` says it, `where` is what it is about ("" for all of it).
+    """One notice: `code` names its kind for programs, `text` states it, `where` names its subject ("" for the whole result).
 
     >>> notice = Notice("thin-rim", "the rim bends", where="wheel")
     >>> print(notice)
@@ -167,12 +167,12 @@ class Verdict(Enum):
 
     @property
     def falls_short(self) -> bool:
-        """Return whether a command ends with exit status 1: failed, or not judged although it was asked for."""
+        """Whether a command ends with exit status 1: failed, or not judged although it was asked for."""
         return self in (Verdict.FAILED, Verdict.NOT_JUDGED)
 
 
 def together(verdicts: Iterable[Verdict]) -> Verdict:
-    """Return failed if one verdict is, passed if all are, else not judged.
+    """Return failed if one verdict is failed, passed if all are, otherwise not judged.
 
     >>> together([Verdict.PASSED, Verdict.NOT_JUDGED]).value
     'not judged'
@@ -199,7 +199,7 @@ def strength_verdict(asked: bool, required: Iterable[Verdict], limits: Iterable[
 
 
 NOT_ASKED_WORDS = "not asked for: no endurance limit, local limit, quality or required safety is given"
-"""Words of a verdict on strength that nobody asked for."""
+"""Words of a verdict on strength that was not requested."""
 
 
 class Pictured:

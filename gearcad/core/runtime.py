@@ -147,7 +147,7 @@ class Agenda:
         self._all = sum(steps.values()) or 1.0  # steps that take nothing are still told
 
     def __call__(self, step: str, share: float = 0.0, detail: str = "") -> None:
-        """Tell that a share of a step is done; `detail` says more of what is being done."""
+        """Report that a share of a step is done; `detail` names the current work more closely."""
         if self._progress is None:
             return
         names = list(self._steps)

@@ -171,7 +171,7 @@ _COLUMN = 12
 _SETS = re.compile(r"statistics for slave set (\S+), master set")
 
 _ROWS = re.compile(r"[-+ 0-9.EeNna]+")
-"""Numbers only, NaN among them: where nothing touches."""
+"""Pattern of rows of numbers, including NaN where nothing touches."""
 
 
 @dataclass(frozen=True)

@@ -235,7 +235,7 @@ class PairDeck:
 
     @property
     def expected(self) -> dict[str, Any]:
-        """Return the figures of our own check to compare with.
+        """Figures of our own check to compare with.
 
         These are the transmission error in µm, the turn in rad, stresses in MPa and forces in N. There is no contact pressure
         near the edges of flanks.
@@ -329,9 +329,7 @@ class ToothDeck(ABC):
 
     @property
     def expected(self) -> dict[str, Any]:
-        """Return the figures of our own check to compare with: the greatest tension along the fillets (MPa), and forces (N) on
-        flanks.
-        """
+        """Figures of our own check to compare with: the greatest tension along the fillets (MPa), and forces (N) on flanks."""
         width = self.decks.width or 1.0
         return {
             "gear": self.role.value,

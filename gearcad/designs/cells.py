@@ -73,7 +73,7 @@ def plain_text(cell: RawCell) -> str:
 
 
 def plain_number(text: str) -> float | None:
-    """The number that a text is; None for words, and for what is not finite."""
+    """Return the number that a text stands for; None for words, and for numbers that are not finite."""
     try:
         value = float(text)
     except ValueError:
@@ -178,7 +178,7 @@ class CellReader:
         return _checked(key, text, float(plain))
 
     def _with_point(self, key: str, text: str, plain: str) -> str:
-        """A number with its decimal comma, where one is permitted, turned into a point; what is no number stays as it is."""
+        """Return a number with its decimal comma, if permitted, turned into a point; other texts unchanged."""
         if "." in plain and _GROUPED.fullmatch(plain):
             raise ParameterError(key, text, "has a comma and a point; write it without a thousands separator")
         pointed = plain.replace(",", ".")
@@ -224,12 +224,12 @@ class Decimal(Enum):
 
     @property
     def separator(self) -> str:
-        """Return the character that separates the cells of a line: `;` with a decimal comma, `,` with a point."""
+        """Character that separates the cells of a line: `;` with a decimal comma, `,` with a point."""
         return ";" if self is Decimal.COMMA else ","
 
     @property
     def encoding(self) -> str:
-        """Return the name of the file's encoding, as Python spells it."""
+        """Name of the file's encoding, as Python spells it."""
         return "utf-8-sig" if self is Decimal.COMMA else "utf-8"
 
     def number(self, text: str) -> str:
@@ -339,7 +339,7 @@ def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
 
 
 def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
-    """The full key of a heading, and what is wrong with it."""
+    """Return the full key of a heading, and a message if it is wrong."""
     if heading == "name":
         return heading, ""
     if heading in ("pair.name", "gear.name", "rack.name", "train.name", "planetary.name"):

@@ -148,7 +148,9 @@ def find_named_files(tables: Mapping[str, Any], folder: Path) -> None:
 
 
 def _found(key: str, name: Any, folder: Path) -> Any:
-    """A name that no file can have is left as it is written: whoever reads the file refuses it."""
+    """Return the path of a file as seen from here. A name that no file can have stays as it is: whoever reads the file refuses
+    it.
+    """
     if not isinstance(name, str) or not name.strip() or "\0" in name:
         return name
     fence, found = _fence.get(), folder / name
@@ -310,12 +312,12 @@ class Design(ABC):
 
     @property
     def described(self) -> Mapping[str, Described]:
-        """Return the objects with derived properties and notices, under their names in `data.json`."""
+        """Objects with derived properties and notices, under their names in `data.json`."""
         return self.gears
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Return the notices of all described objects: facts that an engineer should know before manufacture."""
+        """Notices of all described objects: facts that an engineer should know before manufacture."""
         return tuple(notice.within(name) for name, each in self.described.items() for notice in each.notices)
 
     @property

@@ -44,12 +44,12 @@ class ToothedDesign(Design):
 
     @property
     def made_of(self) -> tuple[str, ...]:
-        """The gears that may have materials of their own."""
+        """Gears that may have materials of their own."""
         return ()
 
     @property
     def assembly(self) -> GearPair | RackPair | None:
-        """Return the pair in mesh, or None for a single gear or rack."""
+        """Pair in mesh, or None for a single gear or rack."""
         return None
 
     def to_dict(self) -> JsonObject:
@@ -77,7 +77,7 @@ def _plain(options: DataclassInstance) -> dict[str, Any]:
 
 
 def require_known_tables(tables: Mapping[str, Any], where: Where) -> None:
-    """Raise SpecError for what no design with teeth has, and for what is no table."""
+    """Raise SpecError for keys that no design with teeth has, and for values that should be tables."""
     for table, content in tables.items():
         if table not in KEYS:
             raise SpecError(f"{where(table)}: {shown(table)}: {explain_unknown_table(table)}")
@@ -134,7 +134,7 @@ class GearedDesign(ToothedDesign):
 
     @property
     def assembly(self) -> GearPair | None:
-        """Return the pair in mesh, or None for a single gear."""
+        """Pair in mesh, or None for a single gear."""
         return None
 
 

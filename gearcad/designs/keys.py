@@ -32,7 +32,7 @@ class DesignKind(Enum):
 
     @property
     def words(self) -> str:
-        """Return the name of the kind for readers, such as "rack and pinion" or "planetary train"."""
+        """Name of the kind for readers, such as "rack and pinion" or "planetary train"."""
         return {"rack_pair": "rack and pinion", "planetary": "planetary train"}.get(self.value, self.value)
 
 
@@ -67,7 +67,7 @@ OF_RACK_PAIRS = ("mounting_distance",)
 """Keys of [pair] that only two gears have, and those that only a pinion and a rack have."""
 
 OF_SETS = ("sun", "planet", "ring", "planet_2", "sun_2", "ring_2")
-"""The tables of the gears of a set of planets; `_2` is the second of its kind."""
+"""Tables of the gears of a planetary set; `_2` marks the second of its kind."""
 
 SPEEDS = "speeds"
 """The part of [planetary] whose keys are members."""
@@ -118,7 +118,7 @@ class LazyTable(Mapping[str, Value]):
 
 
 BESIDE = LazyTable(_HOMES, _kind_beside)
-"""The tables that stand beside those of the gears, and what they make: imported for the specs that have them."""
+"""Tables beside those of the gears, and the types that they make, imported only for specs that have them."""
 
 PARTS_BESIDE = LazyTable(_HOMES, lambda table: parts_of(BESIDE[table]))
 """Fields of these that have fields of their own, and their types."""

@@ -75,7 +75,7 @@ class PairDesign(GearedDesign):
 
     @property
     def materials(self) -> PerGear[Material]:
-        """Return the materials of both gears; steel if none is given."""
+        """Materials of both gears; steel if none is given."""
         return of_both(self.material or Material())
 
     @property
@@ -294,11 +294,11 @@ class PairSpec(Spec):
         return gears
 
     def _note(self, key: str, value: float, note: str) -> None:
-        """Keep what stands for a word among the values."""
+        """Record what the words "auto" and "clear" stand for among the values."""
         self.values[key] = Given(value, self.values.get(key, Given(AUTO, key)).key, note)
 
     def _cleared(self, pair: GearPair) -> GearPair:
-        """The pair, whose ring's tip is drawn in further if it is to be clear and its edge still cuts the pinion's fillet."""
+        """Return the pair. If the ring's tip is to be clear and still cuts the pinion's fillet, the tip is drawn in further."""
         given, tip = self.values.get("wheel.tip_alteration"), pair.wheel.tip_diameter
         if given is None or given.note != CLEAR or (clear := pair.clear_tip_diameter) is None:
             return pair
@@ -354,7 +354,7 @@ class RackPairDesign(ToothedDesign):
 
     @property
     def materials(self) -> PerGear[Material]:
-        """Return the materials of pinion and rack; steel if none is given."""
+        """Materials of pinion and rack; steel if none is given."""
         return of_both(self.material or Material())
 
     @property

@@ -84,7 +84,7 @@ class PlanetarySpec(Spec):
 
     @property
     def tables(self) -> tuple[str, ...]:
-        """Return the tables of the gears of the set, each once."""
+        """Tables of the gears of the set, each once."""
         return tuple(dict.fromkeys((*self.meshes, *self.meshes.values())))
 
     def name_of(self, table: str) -> str:
@@ -290,7 +290,7 @@ class PlanetaryDesign(ToothedDesign):
 
     @property
     def gears(self) -> dict[str, Gear]:
-        """Return the gears of the train by name."""
+        """Gears of the train by name."""
         return self.train.gears
 
     @property
@@ -300,7 +300,7 @@ class PlanetaryDesign(ToothedDesign):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Return the notices of the gears, the train and the load."""
+        """Notices of the gears, the train and the load."""
         return (*super().notices, *(self.load.notices if self.load is not None else ()))
 
     def pair_name(self, name: str) -> str:

@@ -96,7 +96,7 @@ NO_DESIGNS = ("drawing_title", "measured")
 
 
 _NONE = ("drawing_words", "page_words")
-"""Templates that nobody begins with."""
+"""Templates without a starter."""
 
 
 def _files() -> dict[str, Path]:
@@ -214,7 +214,7 @@ def _has_header(key: Any, item: Any) -> bool:
 
 
 def _require_edited(text: str, edited: str, values: Mapping[str, Cell | None]) -> None:
-    """Raise SpecError unless the edited text holds the new values, and else what the old one did."""
+    """Raise SpecError unless the edited text holds the new values, and otherwise the same values as the old one."""
     expected = tomllib.loads(text)
     for key, value in values.items():
         inner: dict[str, Any] = expected

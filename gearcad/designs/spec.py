@@ -141,7 +141,7 @@ def make_gears(gears: PerGear[GearInputs], automatic: PerGear[Collection[str]], 
 def _led_back(
     fault: InputError, gears: PerGear[GearInputs], automatic: PerGear[Collection[str]], centre_distance: float
 ) -> InputError:
-    """The fault of a gear as one of the centre distance (mm), if it is one: tips that are not shortened tell."""
+    """Return the fault of a gear as one of the centre distance (mm), if that caused it: tips without shortening show this."""
     made = []
     for role, inputs in gears.items():
         unshortened = {"tip_alteration": 0.0} if "tip_alteration" in automatic.pick(role) else {}

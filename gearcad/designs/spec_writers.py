@@ -212,12 +212,12 @@ class MeshPairs:
 
     @cached_property
     def loads(self) -> dict[str, MeshLoad]:
-        """Return the loads of the set's meshes by name; empty without a load."""
+        """Loads of the set's meshes by name; empty without a load."""
         return {} if self.flow is None else mesh_loads(self.design.train, self.flow, self.computed_factor)
 
     @cached_property
     def stage_loads(self) -> dict[str, Load]:
-        """Return the loads of the stages by name; empty without a load."""
+        """Loads of the stages by name; empty without a load."""
         return {} if self.flow is None else stage_loads(self.design.train, self.flow)
 
     @cached_property

@@ -223,7 +223,7 @@ class DesignRow:
 
     @property
     def inputs(self) -> dict[str, Any]:
-        """All that decides what it makes: its name and values, and what stands in the files that they name."""
+        """Everything that decides what the row makes: its name and values, and the contents of the files that they name."""
         files = {key: each for key, each in self.values.items() if names_file(key)}
         found = with_files_found(files, Path(self.table).parent)
         return {"name": self.name, **self.values, **{f"{key}: text": _text_of(Path(str(file))) for key, file in found.items()}}

@@ -45,7 +45,7 @@ def open_workbook(path: Path) -> Workbook:
 
 
 def _require_modest(path: Path, archive: zipfile.ZipFile, part: zipfile.ZipInfo) -> None:
-    """Raise SpecError for a part that is too large, or has a text that is; no more of it is unpacked than it declares."""
+    """Raise SpecError for a part that is too large, or has a text that is; no part is unpacked beyond its declared size."""
     most = _MOST_OF_A_SHEET if part.filename.startswith(_SHEETS) else _MOST_OF_A_PART
     if part.file_size > most * 10**6:
         size = f"{part.file_size / 1e6:.0f} MB unpacked, of which at most {most} MB are read"

@@ -314,7 +314,7 @@ class TrainDesign(Design):
 
     @property
     def models(self) -> tuple[TrainModel, ...]:
-        """Return the models to study, with that of `train` first."""
+        """Models to study, with that of `train` first."""
         return (self.train.model, *self.other_models)
 
     @classmethod

@@ -159,17 +159,19 @@ class TrainKey(NamedTuple):
 
     @property
     def schema(self) -> FieldSchema:
-        """Return the schema of the field."""
+        """Schema of the field."""
         return _TORQUE if self.field == TORQUES else TRAIN[self.table][self.field]
 
     @property
     def general(self) -> str:
-        """Return the key that stands for all parts of its kind."""
+        """Key that stands for all parts of its kind."""
         return str(self._replace(name=ALL)) if self.name else str(self)
 
 
 def general_key(key: str) -> str:
-    """`shaft.*.length` for the key of any shaft's length; a key that is of no part as it is."""
+    """Return the general key, such as `shaft.*.length` for the key of any shaft's length; a key that belongs to no part is
+    unchanged.
+    """
     table = key.partition(".")[0]
     found = TrainKey.of(key) if table in TRAIN_PARTS or table == MAIN else None
     return key if found is None else found.general

@@ -544,7 +544,7 @@ def _design(base: SpecValues, point: Mapping[str, VariantValue]) -> Design:
 
 
 def _where(base: SpecValues, point: Mapping[str, VariantValue]) -> Callable[[str], str]:
-    """Says of a key that varies what its value is, and of another where it stands in the spec."""
+    """Return a function that says in words the value of a key that varies, or where another key stands in the spec."""
 
     def where(key: str) -> str:
         for each in (key, general_key(key)):

@@ -85,7 +85,7 @@ _IRON = _BRINELL[2:]
 """Groups of cast iron: an unnamed material has their name."""
 
 _STEEL = Material().name
-"""The name of a material that nobody named."""
+"""Material of gears without a named one."""
 
 
 def material_text(drawn: DrawnGear, options: DrawingOptions, words: SheetWords) -> str:

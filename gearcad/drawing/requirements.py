@@ -113,7 +113,7 @@ def cylindricity(diameter: float, fit: str) -> float | None:
 
 
 _PROPOSED = ("tip_runout", "face_runout", "bore_roughness", "keyway_symmetry", "bolt_position", "back_parallelism")
-"""Options whose values are ours where they are not given."""
+"""Options whose values are proposed by the program if they are not given."""
 
 
 @dataclass(frozen=True, kw_only=True)

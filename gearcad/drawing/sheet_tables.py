@@ -168,7 +168,7 @@ class Framed:
 
     @property
     def empty(self) -> bool:
-        """Return whether the figure has no shapes."""
+        """Whether the figure has no shapes."""
         return not self.figure.shapes
 
     @property

@@ -134,7 +134,7 @@ def _named(shares: list[Share]) -> tuple[Share, ...]:
 
 
 class _Shaken(NamedTuple):
-    """A mode of natural frequency `omega` (1/s) and the `load` by which it loads a curve.
+    """A vibrating mode: its natural frequency `omega` (1/s) and the `load` that it adds to a curve.
 
     `order` is the order of the common period at which that load is greatest, `teeth` the mesh that excites the mode most.
     """
@@ -321,7 +321,7 @@ class LevelVerdict:
 
     @property
     def headline(self) -> str:
-        """First clause of the sentence, with the first failure only."""
+        """First clause of the verdict's sentence; it names only the first failure."""
         first = next(self._clauses())
         if self.status is LevelStatus.NOT_ENOUGH:
             first = f"is not enough: {next(self._failures())}"

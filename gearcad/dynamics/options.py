@@ -195,7 +195,7 @@ class DynamicsOptions:
 
     @property
     def spectra(self) -> bool:
-        """Return whether the motion of a mesh is integrated over speed."""
+        """Whether the motion of a mesh is integrated over speed."""
         return _SWITCH[self.campbell]
 
     @property
@@ -209,19 +209,17 @@ class DynamicsOptions:
 
     @property
     def errors(self) -> bool:
-        """Return whether teeth have deviations."""
+        """Whether teeth have deviations."""
         return _SWITCH[self.tooth_errors]
 
     @property
     def premature(self) -> bool:
-        """Return whether each pair of teeth is a spring by itself, and may meet before its path of contact begins."""
+        """Whether each pair of teeth is a spring by itself, and may meet before its path of contact begins."""
         return _SWITCH[self.premature_engagement]
 
     @property
     def drawn(self) -> bool:
-        """Return whether errors of teeth have a study of their own, in time; else they are part of the excitation of the
-        charts.
-        """
+        """Whether errors of teeth have a study of their own, in time; else they are part of the excitation of the charts."""
         return self.premature or self.error_samples > 1
 
     @property

@@ -313,7 +313,7 @@ class TrainStudy(Pictured):
 
     @property
     def course_lasts(self) -> bool:
-        """Return whether the motion at the speed of the chart next to that of the course is stable."""
+        """Whether the motion at the speed of the chart next to that of the course is stable."""
         return bool(self.up.stable[int(np.abs(self.speeds - self.course.speed).argmin())])
 
     # ------------------------------------------------------------------ documents

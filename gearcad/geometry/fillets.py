@@ -346,7 +346,7 @@ class ShaperTip:
         return self._contact(theta).turn if self.rolls else np.zeros_like(theta)
 
     def seen(self, along: ArrayLike, across: ArrayLike, turn: ArrayLike) -> tuple[Any, Any]:
-        """Points of the cutter (mm) where it has turned by `turn` (rad), seen from the gear that turned with it.
+        """Return points of the cutter (mm) after a rotation by `turn` (rad), in the frame of the gear that turned with it.
 
         Radius (mm) and angle from the middle of the tooth space (rad). `along` and `across` are from the cutter's axis, its
         tooth centred on the first.

@@ -149,7 +149,7 @@ def derive_module(instance: _Sized) -> None:
 _GAP = Range("mm", 0, 10000)
 
 HALF_PITCH = 0.5
-"""The largest offset of halves, in pitches, alike in both directions."""
+"""Largest offset of the halves, in pitches, in either direction."""
 
 _OFFSET = Range("", -HALF_PITCH, HALF_PITCH)
 

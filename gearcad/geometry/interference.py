@@ -265,8 +265,7 @@ class InternalTips:
 
     @property
     def trochoid_margin(self) -> float:
-        """Return the least distance (mm) of the tips where their circles cross, with flanks touching; negative where they
-        interfere.
+        """Least distance (mm) of the tips where their circles cross, with flanks touching; negative where they interfere.
 
         A point of the pinion's tip on r_1 and half angle theta_1 crosses the circle r_2 of a point of the ring's at d_1 from
         the line of centres about the pinion's axis, at d_2 about the ring's:
@@ -283,8 +282,8 @@ class InternalTips:
 
     @property
     def radial_margin(self) -> float:
-        """Return the least distance (mm) of the tips, across the line of centres, while the pinion moves in along it; negative
-        where they interfere.
+        """Least distance (mm) of the tips, across the line of centres, while the pinion moves in along it; negative where they
+        interfere.
 
         min over u of r_2 sin(u z_1/z_2 + eta_2) - r_1 sin(u + psi_1), with half tooth angle psi_1 of the pinion and half space
         angle eta_2 of the ring at their tips; u is the angle of a tooth from the line of centres.

@@ -281,7 +281,7 @@ class FlankForm:
 
     @property
     def in_use(self) -> dict[str, Any]:
-        """Return the fields that do something, as of the modification, with the transitions that are used and their sources.
+        """Fields that do something, as of the modification, with the transitions that are used and their sources.
 
         The rounding w at the start of a relief is in µm.
         """
@@ -294,12 +294,12 @@ class FlankForm:
 
     @property
     def relief_starts(self) -> tuple[float, ...]:
-        """Return the roll lengths (mm) inside the flank where reliefs start: the middle of a transition, where there is one."""
+        """Roll lengths (mm) inside the flank where reliefs start: the middle of a transition, where there is one."""
         return _inside(list(self._starts.values()), self.first, self.last)
 
     @property
     def _starts(self) -> dict[str, float]:
-        """Return the roll length (mm) where each relief that takes something off starts, inside the flank or not."""
+        """Roll length (mm) where each relief that takes something off starts, inside the flank or not."""
         of = self.modification
         starts = {"tip_relief": self.last - of.tip_relief_length, "root_relief": self.first + of.root_relief_length}
         return {name: start for name, start in starts.items() if getattr(of, name)}

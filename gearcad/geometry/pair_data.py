@@ -340,7 +340,7 @@ class PairData(PairSizes[float], EngagedPair):
 
     @property
     def circumferential_backlash(self) -> float:
-        """Circumferential backlash j_wt: working pitch less both tooth thicknesses on the working pitch circles (transverse)."""
+        """Circumferential backlash j_wt: working pitch less both tooth thicknesses on the working pitch circles."""
         return self._nominal_backlash.circumferential
 
     @property

@@ -275,7 +275,7 @@ class Identification(Pictured):
 
     @property
     def _misfit(self) -> str:
-        """Text that names the misfit of the best: the worst reading, or else a property that hardly any gear has."""
+        """Text that names the misfit of the best candidate: the worst reading, or else a property that hardly any gear has."""
         worst = max(range(len(self.measured.readings)), key=lambda each: abs(self.best.residuals[each]))
         if abs(off := self.best.residuals[worst]) >= _OFF:
             return f"the {self.measured.label(self.measured.readings[worst])} is {off:+.1f} uncertainties off"

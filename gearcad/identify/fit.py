@@ -199,7 +199,7 @@ class FittedHypothesis:
 
     @property
     def unusual(self) -> tuple[Unknown, ...]:
-        """The unknowns that are two spreads of the best way or more from what is usual there, or the farthest of them."""
+        """Unknowns that differ from the usual value by two spreads or more, or the one that differs most."""
         spreads = np.sqrt(np.einsum("ij,ij->i", self.ways.roots[self.best], self.ways.roots[self.best]))
         off = np.abs(self.unknowns - self.ways.means[self.best])
         far = np.divide(off, spreads, out=np.zeros_like(off), where=spreads > 0)

@@ -308,7 +308,7 @@ class Measurements:
         return Reading(gauge=gauge, value=value, uncertainty=self._usual(gauge, value), size=size)
 
     def _usual(self, gauge: Gauge, value: Any) -> float:
-        """The uncertainty of a reading that has none of its own."""
+        """Return the uncertainty of a reading without one of its own."""
         if gauge in ANGLES:
             return self.angle_uncertainty
         return _OF_LEAD * value if gauge is Gauge.LEAD and is_finite_number(value) and value > 0 else self.uncertainty

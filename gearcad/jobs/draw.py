@@ -241,7 +241,7 @@ class Draw(Job[ToothedDesign, Drawing]):
 
 
 def overridden(options: Drawn, given: Mapping[str, Any]) -> Drawn:
-    """Options with what is given in their place. Raises ParameterError for what no drawing has."""
+    """Return the options with the given values in place. Raises ParameterError for keys that no drawing has."""
     if unknown := set(given) - {each.name for each in fields(DrawingOptions)}:
         raise ParameterError(min(unknown), given[min(unknown)], "is nothing that drawings have")
     known = {each.name for each in fields(options)}

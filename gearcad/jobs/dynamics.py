@@ -123,7 +123,7 @@ def _dynamics_columns_of_train(document: Mapping[str, Any]) -> JsonObject:
 
 
 def _highest(document: Mapping[str, Any], of: str, column: str) -> Iterator[tuple[str, float]]:
-    """The highest of each mesh or shaft, running up or down, and its speed; nothing of shafts that carry nothing at rest."""
+    """Yield the highest value of each mesh or shaft, running up or down, and its speed; none of shafts without load at rest."""
     charts = [chart for chart in (document["chart"], document["chart_down"]) if chart is not None]
     for name in charts[0][of]:
         over_speed = [

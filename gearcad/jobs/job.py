@@ -109,7 +109,7 @@ class Job(ABC, Generic[Accepted, Result]):
 
     @property
     def parts(self) -> dict[str, dict[str, Any]]:
-        """Return the parts that a row keeps, each with the options on which it depends, as JSON values.
+        """Parts that a row keeps, each with the options on which it depends, as JSON values.
 
         Each part is made again on its own.
         """
@@ -144,7 +144,7 @@ Subject: TypeAlias = "Design | GearPair | Gear | RackPair | Rack | PlanetaryTrai
 
 
 def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: Unpack[Inputs]) -> Design:
-    """A design as it is, or that of what else may be given, with `inputs` in place of its own. Raises ParameterError.
+    """Return the design of any permitted argument, with `inputs` in place of its own. Raises ParameterError.
 
     All kinds of designs are imported here: a command reads its own from a spec.
     """

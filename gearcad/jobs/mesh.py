@@ -167,7 +167,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
 
     @property
     def parts(self) -> dict[str, dict[str, Any]]:
-        """All files together: they are of one mesh."""
+        """All files together, because they belong to one mesh."""
         return {self.verb: dict(self.given)}
 
     def part_of(self, file: str) -> str:

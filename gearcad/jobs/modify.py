@@ -106,7 +106,7 @@ class Proposal(Pictured):
 
     @property
     def name(self) -> str:
-        """Return the name of the modified design."""
+        """Name of the modified design."""
         return self.design.name + SUFFIX
 
     @cached_property
@@ -128,7 +128,7 @@ class Proposal(Pictured):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Return the notices that an engineer should know before manufacture."""
+        """Notices that an engineer should know before manufacture."""
         after, bound, found = self.after, self.bound, []
         if after.contact_pressure > bound:
             text = f"the contact pressure is {after.contact_pressure:.0f} MPa, above the bound of {bound:.0f} MPa"
@@ -258,7 +258,7 @@ class Modify(Job[PairDesign, Proposal]):
         return design.pair, torque
 
     def _limits(self, material: Materials) -> list[float]:
-        """The pressure (MPa) that is given, else what the materials bear for certain, if that is known of both."""
+        """Return the given pressure (MPa), else the pressure that both materials certainly bear, if known."""
         if self.pressure is not None:
             return [self.pressure]
         limits = [each.contact_limit for each in of_both(material)]
@@ -327,7 +327,7 @@ class _Tried(NamedTuple):
 
     @property
     def shape(self) -> ReliefShape:
-        """Return the shape of the tip relief."""
+        """Shape of the tip relief."""
         return self.search.variants.shape
 
     @property
@@ -434,7 +434,9 @@ def _swing(model: SolidPair, condition: Condition, count: int) -> float:
 
 
 def unmirrored(amounts: Floats, pair: GearPair, torque: float) -> Floats:
-    """Amounts (6,) for the pair as it is, from those for the one that `loaded_left` makes of it: a spur gear's helix turns."""
+    """Return the amounts (6,) for the pair as it is, from those for the pair that `loaded_left` makes of it: a spur gear's
+    helix modification changes its sign.
+    """
     turned = torque < 0 and not pair.pinion.helix_angle
     helix = np.array([name.endswith("helix_angle_modification") for name in AMOUNTS])
     return np.where(helix & turned, 0.0 - amounts, amounts)

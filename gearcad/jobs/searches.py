@@ -21,7 +21,7 @@ _TABLE, _BEST, _FRONT, _PICTURE, _DOCUMENT = _EVERY = ["pairs.csv", "best.toml",
 
 
 def write_sizing(result: Sizing, folder: Path) -> list[Path]:
-    """Write them, complete or not at all; where nothing was found the document alone. Raises OutputError."""
+    """Write the results, complete or not at all; only the document if nothing was found. Raises OutputError."""
     names = _EVERY if result.found else [_DOCUMENT]
     with staged_files(folder, sometimes=_EVERY) as staging:
         if (best := result.best) is not None:
@@ -52,7 +52,7 @@ _SET_SIZES_TABLE, _SET_SIZES_BEST, _SET_SIZES_DOCUMENT = "sets.csv", "best.toml"
 
 
 def write_set_sizes(result: SizedSets, folder: Path) -> list[Path]:
-    """Write them, complete or not at all. Raises OutputError."""
+    """Write the results, complete or not at all. Raises OutputError."""
     with staged_files(folder) as staging:
         best = result.found[0]
         write_sized_sets(result, staging / _SET_SIZES_TABLE)

@@ -83,7 +83,7 @@ def decimals(numbers: Floats, width: int) -> Letters:
 
 @cache
 def _before_point(digits: int) -> Letters:
-    """Text (2, n, digits + 2) of the numbers up to so many digits with their point, without and with a minus."""
+    """Return the text (2, n, digits + 2) of whole numbers with their point, without and with a minus sign."""
     texts = [f"{sign}{k}.".rjust(digits + 2) for sign in ("", "-") for k in range(10**digits)]
     return np.frombuffer("".join(texts).encode(), np.uint8).reshape(2, 10**digits, digits + 2)
 
@@ -196,7 +196,8 @@ _END_OF_UNV = b"    -1\n"
 
 
 def write_with_gmsh(mesh: ElementMesh, path: Path) -> None:
-    """Write what the suffix of `path` says. Parts are groups of elements, sides groups of their own elements after those.
+    """Write the format that the suffix of `path` names. Parts are groups of elements, sides groups of their own elements after
+    those.
 
     Groups count from 1, the parts first. Raises SolverError where gmsh cannot write the file.
     """

@@ -41,7 +41,7 @@ class Grading:
         return np.interp(np.linspace(0.0, self.edges, count + 1), self.passed, self.s)
 
     def with_middles(self, count: int) -> Floats:
-        """Parameters (2 count + 1,) of the ends of so many edges, and half-way along each of them."""
+        """Return the parameters (2 count + 1,) of the ends and middles of `count` edges."""
         ends = self.ends(count)
         length = np.interp(ends, self.s, self.run)
         middles = np.interp((length[1:] + length[:-1]) / 2, self.run, self.s)
@@ -180,7 +180,7 @@ class MeshSizes:
         return replace(self.scaled(factor), growth=self.growth)
 
     def scaled(self, factor: float) -> MeshSizes:
-        """Every edge shorter by `factor`, wherever it is."""
+        """Return the grading with every edge shorter by `factor`."""
         shorter = {name: value / factor for name, value in self._given.items()}
         if self.deviation is not None:
             shorter["deviation"] = self.deviation / factor**3  # as long edges are off by the cube of their length

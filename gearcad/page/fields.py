@@ -40,7 +40,7 @@ _TITLES = {
 """Titles of parts that are not their names."""
 
 _LATER = ("mounting", "mesh", "dynamics", "drawing", "check", "rating")
-"""Tables of what one asks for later: the page has them folded where the spec says nothing there."""
+"""Tables that users need later, which the page shows folded if the spec does not have them."""
 
 _GRADES = tuple(f"{group} {quality}" for group in MaterialGroup for quality in MaterialQuality)
 _OFFERED = {"rack": tuple(NAMED_RACKS), "material": _GRADES, "profile_shift": (AUTO,), "tip_alteration": (AUTO, CLEAR)}
@@ -157,7 +157,7 @@ def _offered(key: str) -> tuple[str, ...]:
 
 
 def _choices(field: FieldSchema) -> list[str]:
-    """The words that it can be; none of what can be anything else."""
+    """Return the words that a field can hold; empty if it can hold anything else."""
     if field.switch:
         return ["true", "false"]
     if isinstance(field.permitted, Choice):
@@ -253,7 +253,7 @@ class Variable:
 
     @property
     def step(self) -> float:
-        """Return the change of the value in one step: 1 tooth, 0.1 degrees, or 0.01 for other inputs."""
+        """Change of the value in one step: 1 tooth, 0.1 degrees, or 0.01 for other inputs."""
         return {Free.TEETH: 1.0, Free.HELIX: 0.1}.get(self.free, 0.01)
 
     def typed(self, value: float) -> dict[str, str]:

@@ -131,7 +131,7 @@ ANALYSES = {
     "planetary": RunKind(job=_planetary, report="planetary.html"),
     "verify": RunKind(job=_verify, report="verify.html"),
 }
-"""Jobs that solve, in the order in which one asks for them."""
+"""Jobs that solve, in the order in which users need them."""
 
 DOWNLOADS = {
     "step": RunKind(job=_build("step"), taken="*.step"),
@@ -158,7 +158,7 @@ def design_of(text: str, name: str, folder: Path) -> Design:
 
 
 _LONGEST = 120.0
-"""Seconds after which it is given up."""
+"""Time (s) after which a run is stopped."""
 
 _NICENESS = 5
 """Niceness of a run's process, so that the page itself comes first."""

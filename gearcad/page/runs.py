@@ -38,7 +38,7 @@ _MOST_MEMORY = 16e9
 
 
 def _most_memory() -> float:
-    """Half of what the machine has; endless where the system does not tell what a process takes."""
+    """Return half of the machine's memory (bytes); infinite if the system does not report the memory of a process."""
     told = Path("/proc/self/statm").exists()
     return min(_SHARE_OF_MEMORY * machine_memory(), _MOST_MEMORY) if told else math.inf
 
@@ -97,7 +97,7 @@ class Run:
 
     @property
     def folder(self) -> Path:
-        """Return the folder that holds the files of the run."""
+        """Folder that holds the files of the run."""
         return Path(self.asked.into)
 
     def file(self, name: str) -> Path | None:
@@ -185,7 +185,7 @@ def _flat(figures: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, A
 
 
 def _hear(pipe: Any, lines: queue.SimpleQueue[bytes]) -> None:
-    """Lines as they come, b"" at the end."""
+    """Put the lines of a pipe into a queue as they arrive, and b"" at the end."""
     with suppress(OSError, ValueError):
         for line in pipe:
             lines.put(line)
@@ -193,7 +193,7 @@ def _hear(pipe: Any, lines: queue.SimpleQueue[bytes]) -> None:
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:
-    """End a process and all that it has started."""
+    """End a process and all processes that it started."""
     if hasattr(os, "killpg"):
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(process.pid, signal.SIGKILL)
@@ -201,7 +201,7 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
 
 
 def _memory_of(pid: int) -> float:
-    """Bytes that a process has; nothing where the system does not tell."""
+    """Return the memory (bytes) of a process; 0 if the system does not report it."""
     try:
         return float(Path(f"/proc/{pid}/statm").read_bytes().split()[1]) * _PAGE_SIZE
     except (OSError, IndexError, ValueError):
@@ -298,7 +298,7 @@ class Runs:
         return run
 
     def cancel(self, run: Run) -> None:
-        """End a run at once, whatever it does."""
+        """End a run at once."""
         run.stop.set()
 
     @property
@@ -306,7 +306,7 @@ class Runs:
         return any(not run.state.ended for run in self.all)
 
     def close(self) -> None:
-        """End all, and remove what they have made."""
+        """End all runs, and remove their files."""
         self._closed = True
         _OPEN.pop(self.key, None)
         for run in self.all:
@@ -316,7 +316,7 @@ class Runs:
             self._folder.cleanup()
 
     def join(self, seconds: float) -> None:
-        """Wait until what was closed is gone."""
+        """Wait until the closed runs have ended."""
         if self._thread is not None:
             self._thread.join(seconds)
 
@@ -338,7 +338,7 @@ _POLICY = (
     "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
     "font-src data:; form-action 'none'; base-uri 'none'"
 )
-"""A report minds itself: it may run what stands in it, and reach nothing else, this page neither."""
+"""Content security policy of a report: it may run its own scripts, and reach nothing else, not even this page."""
 
 _HEADERS = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer", "Cache-Control": "no-store"}
 

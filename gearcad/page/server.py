@@ -76,7 +76,9 @@ class Access:
             await self._app(scope, receive, send)
 
     def _is_ours(self, headers: dict[str, str]) -> bool:
-        """Return whether it is for this server, from a page of it, or from whoever opens the page by a link or by hand."""
+        """Return whether a request is for this server, and comes from one of its pages or from a user who opens the page by a
+        link or by hand.
+        """
         origin, host = headers.get("origin"), headers.get("host", "")
         if host not in self._hosts or (origin is not None and origin not in self._origins):
             return False
@@ -106,7 +108,7 @@ class Access:
 
 
 def _equal(text: str, token: str) -> bool:
-    """Compare in a time that tells nothing of the token."""
+    """Compare two tokens in a time that does not depend on them."""
     return hmac.compare_digest(text.encode(), token.encode())
 
 
@@ -209,7 +211,7 @@ _MORE = " (what else goes wrong within a minute is not told)"
 
 
 class LogLimiter(logging.Filter):
-    """Lets so many records through within so many seconds, each as one printable line: a browser sends what it likes.
+    """Filter of log records: so many within so many seconds, each as one printable line, because a browser can send anything.
 
     The last of them says that others are not told.
     """
@@ -251,7 +253,7 @@ _PREFIX = "gearcad-open-"
 """Prefix of the names of the servers' folders."""
 
 _YOUNG = 60.0
-"""Seconds in which who has made a folder has come to hold it."""
+"""Time (s) within which the owner of a new folder locks it."""
 
 
 @contextmanager
@@ -294,7 +296,7 @@ def _hang_up(_number: int, _frame: object) -> None:
 
 
 def _hold(folder: str) -> int | None:
-    """Lock a folder until this process ends, however it ends: what nobody has locked is a dead one's.
+    """Lock a folder until this process ends. A folder without a lock belongs to a process that has ended.
 
     The lock, or None where somebody has it, the folder is not ours, or the system has no such locks.
     """
@@ -440,7 +442,7 @@ def serve(
 
 
 def _held(host: str, port: int | None) -> socket.socket:
-    """Listening at the port that is asked for, or the first from PORT on that is free: nobody else gets it from here on.
+    """Return a socket that listens at the requested port, or at the first free one from PORT on.
 
     Raises ParameterError.
     """

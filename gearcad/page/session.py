@@ -42,7 +42,7 @@ _HANDED: dict[str, Handed] = {}
 
 
 def hand_over(handed: Handed) -> str:
-    """Leave it under a key, which nobody else knows; who does not come in time finds nothing."""
+    """Store the workbench under a secret key for a limited time."""
     key = secrets.token_urlsafe(12)
     _HANDED[key] = handed
     waiting = threading.Timer(_SECONDS, _drop, (key,))
@@ -140,7 +140,7 @@ class Following:
         background_tasks.create(self._show(panel, self._design(), self._change))
 
     async def compare(self, kept: Callable[[], Design | None]) -> None:
-        """Let panels that compare have what they show of the kept design."""
+        """Let panels show their figures of the kept design beside the others."""
         design = kept()
         for panel in self._order:
             if panel.compares:
@@ -265,7 +265,9 @@ class Session:
 
     @classmethod
     def of(cls, text: str, name: str, folder: Path) -> Session:
-        """The page that the browser asks for, with the workbench that it had in the other language, if it comes from there."""
+        """Return the page for the browser's request, with the workbench of the page in the other language that it replaces, if
+        any.
+        """
         query, headers = ui.context.client.request.query_params, ui.context.client.request.headers
         words = PageWords.of(language_of(query.get("lang"), headers.get("accept-language", "")))
         if (found := take_over(query.get("from", ""))) is not None:
@@ -344,7 +346,7 @@ class Session:
         self._following.follow()
 
     def leave(self) -> None:
-        """The tab was closed: what it has made goes, and what it runs ends."""
+        """Remove the files and end the runs of a tab that was closed."""
         self.open.discard(self)
         self._following.end()
         self._files.close()

@@ -34,7 +34,7 @@ class PageLanguage(StrEnum):
 
     @property
     def endonym(self) -> str:
-        """Return the name of the language in that language."""
+        """Name of the language in that language."""
         return {"en": "English", "de": "Deutsch"}[self.value]
 
 

@@ -23,7 +23,7 @@ _MOST_STEPS = 1000
 """Steps back that are kept: the eldest go first."""
 
 _PAUSE = 1.0
-"""Seconds after which what is typed into the same field is another step."""
+"""Time (s) after which further typing into the same field is another step."""
 
 _AT = re.compile(r"\.toml line (\d+)")
 

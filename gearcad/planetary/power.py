@@ -74,7 +74,7 @@ def _asked(stages: dict[str, PerGear[float]], link: Link, torque: float, speeds:
 
 
 def _kept(power: float, eta: float) -> float:
-    """Power behind a mesh over that before it, seen in the direction in which `power` is positive."""
+    """Return the ratio of the power behind a mesh to that before it, seen in the direction in which `power` is positive."""
     return eta ** ((power > 0) - (power < 0))
 
 

@@ -134,7 +134,7 @@ WIDER = 4.0
 """Factor on the tolerance with which the nearest sets are searched if none is found."""
 
 WIDEST = 300.0
-"""Percent of deviation up to which it is."""
+"""Largest deviation (%) up to which the tolerance is widened."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -299,9 +299,7 @@ class MeshedTeeth:
 
     @property
     def limits(self) -> tuple[Floats, Floats]:
-        """Return the least and the greatest |a| that profile shift permits: a sun's mesh takes a positive sum, a ring's a
-        negative one.
-        """
+        """Least and the greatest |a| that profile shift permits: a sun's mesh takes a positive sum, a ring's a negative one."""
         most = np.where(self.ring, -MOST_SHIFT_SUM, MOST_SHIFT_SUM)
         return self.reference_distance, self.distance_for(most)
 

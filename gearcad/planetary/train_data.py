@@ -364,7 +364,7 @@ def _known(train: TrainData, shafts: Mapping[str, TrainShaft], given: Mapping[st
 def _told(
     train: TrainData, shafts: Mapping[str, TrainShaft], given: Mapping[str, float]
 ) -> tuple[dict[str, float], dict[str, str]]:
-    """The speeds of members that were given, at the most two, and by the name of which shaft each. Raises ParameterError."""
+    """Return the given speeds of members, at most two, and the shaft that each belongs to. Raises ParameterError."""
     told = {train.fixed: 0.0} if train.fixed else {}
     known: dict[str, float] = {}
     by: dict[str, str] = {}
@@ -429,7 +429,7 @@ def _settle_stages(train: TrainData, low: float, high: float, room: float) -> No
 
 
 def _way(train: TrainData, shaft: str, gone: tuple[PairStage, ...] = ()) -> tuple[PairStage, ...] | None:
-    """Return the stages between a shaft and the set; None if they do not lead to it."""
+    """Return the stages between a shaft and the set; None if they do not connect them."""
     if shaft in train.members:
         return gone
     for stage in train.stages:

@@ -365,7 +365,7 @@ _AXES = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 
 
 def viewed(points: Floats) -> Floats:
-    """Points (n, 3) as they are seen: to the right, up, and towards us."""
+    """Return points (n, 3) in the directions of the view: to the right, up, and towards the viewer."""
     yaw, pitch = math.radians(YAW), math.radians(PITCH)
     turn = np.array([[math.cos(yaw), 0, math.sin(yaw)], [0, 1, 0], [-math.sin(yaw), 0, math.cos(yaw)]])
     tilt = np.array([[1, 0, 0], [0, math.cos(pitch), -math.sin(pitch)], [0, math.sin(pitch), math.cos(pitch)]])

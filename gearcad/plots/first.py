@@ -1,4 +1,4 @@
-"""The picture that one looks at first, of whatever it is: what `plot` draws, and notebooks show of a result."""
+"""First picture of any result: drawn by `plot`, and shown in notebooks."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 _CHORD = 2e-3
-"""Error of the outlines, in normal modules: nobody sees it."""
+"""Error of the drawn outlines, in normal modules, too small to be visible."""
 
 _WIDTH, _LEAST, _MOST = 6.6, 2.2, 5.0
 """Inches: width of the picture, and between what its height lies."""

@@ -122,7 +122,9 @@ def draw_limit(axes: Axes, limit: float | tuple[float, float] | None) -> None:
 
 
 def short(value: float) -> str:
-    """A number with four digits that count, or as many as it has; thousands apart, no exponent where it can do without."""
+    """Return a number with four significant digits, or as many as it has, with thousands separated, without an exponent if
+    possible.
+    """
     if not 1e-4 <= abs(value) < 1e9:
         return f"{value:.4g}"
     places = 3 - math.floor(math.log10(abs(value)))

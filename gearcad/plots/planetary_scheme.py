@@ -107,7 +107,7 @@ class Places:
 
     @cached_property
     def rims(self) -> dict[str, tuple[float, float]]:
-        """Return the start and end of each rim along the axis, by name, from left to right."""
+        """Start and end of each rim along the axis, by name, from left to right."""
         rims = sorted(self.train.rims, key=lambda rim: rim.axial_position + rim.gear.face_width / 2)
         first, start, found = rims[0], 0.0, {}
         for rim in rims:
@@ -119,7 +119,7 @@ class Places:
 
     @cached_property
     def centrals(self) -> dict[str, tuple[float, float]]:
-        """Return the start and end of each central along the axis, by name.
+        """Start and end of each central along the axis, by name.
 
         A central is middle by middle with its rim, or takes half of it where both would be in one place.
         """
@@ -151,7 +151,7 @@ class Places:
 
     @cached_property
     def sides(self) -> dict[str, int]:
-        """Return the side on which each member comes out (-1: left, 1: right).
+        """Side on which each member comes out (-1: left, 1: right).
 
         Inputs are on the left if possible; centrals in two planes are each on their own side.
         """
@@ -240,7 +240,7 @@ class Plan:
 
     @property
     def box(self) -> tuple[float, float, float, float]:
-        """Return the least x and y and the greatest x and y."""
+        """Least x and y and the greatest x and y."""
         points = np.array([point for stroke in self.strokes for point in stroke.points])
         (left, low), (right, high) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
         return left, low, right, high

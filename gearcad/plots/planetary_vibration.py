@@ -360,7 +360,7 @@ def shown_pitches(running: Running) -> float:
 
 
 def plot_running(running: Running, figure: Figure | None = None) -> Figure:
-    """Plot the shares of the planets above and the twist below: on the left the whole run, on the right its first base pitches."""
+    """Plot the shares of the planets above, the twist below: on the left the whole run, on the right its first base pitches."""
     of = new_figure(RUNNING_INCHES) if figure is None else figure
     panels = of.subplots(2, 2, sharey="row", sharex="col", width_ratios=(1.2, 1))
     near = running.rolled <= shown_pitches(running) + 1e-9

@@ -101,7 +101,7 @@ class LineContact:
 
     @property
     def half_width(self) -> float:
-        """Return the half width a of the contact (mm)."""
+        """Half width a of the contact (mm)."""
         return float(half_width(self.load_per_width, self.radius, self.modulus))
 
     @property
@@ -280,7 +280,7 @@ def elasticity_of(materials: PerGear[Material]) -> float:
 
 
 def elasticity_notices(materials: PerGear[Material]) -> Iterator[Notice]:
-    """Irons whose Young's modulus is that of steel, which nobody may have meant."""
+    """Yield notices of irons whose Young's modulus is that of steel, which is probably a mistake."""
     for material in dict.fromkeys(materials):
         usual = _USUAL_MODULI.get(material.group) if material.group is not None else None
         if usual is not None and material.youngs_modulus >= _LEAST_OF_STEEL:

@@ -13,7 +13,7 @@ _MODULES = (0.5, 2, 3.5, 6, 10, 16, 25, 40, 70)
 _WIDTHS = (4, 10, 20, 40, 80, 160, 250, 400, 650, 1000)
 _RADIAL_DIAMETERS = (5, 20, 50, 125, 280, 560, 1000)
 _RADIAL_MODULES = (0.2, 0.5, 0.8, 1, 1.5, 2.5, 4, 6, 10)
-"""Ranges of radial composite deviations; larger gears go by their own sizes."""
+"""Ranges of modules of radial composite deviations; larger gears use their own sizes."""
 
 
 def single_pitch(d: Values, m_n: Values) -> Values:

@@ -96,7 +96,7 @@ def _spectrum(given: Any) -> tuple[tuple[float, ...], ...]:
 
 
 def _numbers(item: str) -> tuple[float, ...]:
-    """The numbers of 0.1:1.25; none if that is not what it is. A comma is a decimal sign here, whatever the table has."""
+    """Return the numbers of a text such as 0.1:1.25; empty if it is no such text. A comma is a decimal sign here."""
     parts = re.split(":", item.replace(",", "."))
     try:
         return tuple(map(float, parts))
@@ -314,7 +314,7 @@ class RatingOptions(LubricantOptions, LoadFactorOptions, DutyOptions, _Standards
 
     @property
     def asks_strength(self) -> bool:
-        """Return whether a required safety is given, which asks for a verdict on strength."""
+        """Whether a required safety is given, which asks for a verdict on strength."""
         safeties = (self.required_safety_flank, self.required_safety_root, self.required_safety_scuffing)
         return any(each is not None and not is_assumed(each) for each in safeties)
 

@@ -267,7 +267,7 @@ def uncertain(pair: GearPair, options: RatingOptions, integral: IntegralTemperat
 
 
 USUAL_ROUGHNESS = 4.8
-"""Rz (µm) of flanks of which nothing is said."""
+"""Roughness Rz (µm) assumed of flanks for which none is given."""
 
 RZ_OVER_RA = 6.0
 

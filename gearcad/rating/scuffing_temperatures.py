@@ -477,7 +477,7 @@ class IntegralTemperature:
 
     @cached_property
     def helical_load(self) -> Size:
-        """Return the helical load factor K_Bgamma."""
+        """Helical load factor K_Bgamma."""
         return helical_load_factor(self.mesh.total_contact_ratio)
 
     @property
@@ -511,17 +511,17 @@ class IntegralTemperature:
 
     @cached_property
     def contact_ratio_factor(self) -> Size:
-        """Return the contact ratio factor X_eps."""
+        """Contact ratio factor X_eps."""
         return contact_ratio_factor(self.mesh.pinion_part, self.mesh.wheel_part)
 
     @cached_property
     def approach_factor(self) -> Size:
-        """Return the approach factor X_Q."""
+        """Approach factor X_Q."""
         return approach_factor(self.mesh.recess, self.mesh.approach)
 
     @cached_property
     def tip_relief_factor(self) -> Size:
-        """Return the tip relief factor X_Ca."""
+        """Tip relief factor X_Ca."""
         return tip_relief_factor(self.mesh.pinion_part, self.mesh.wheel_part, self.relief)
 
     @cached_property

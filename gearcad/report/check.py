@@ -277,17 +277,17 @@ class CheckSections(ABC, Generic[Checked]):
 
     @property
     def verdict(self) -> str:
-        """Return the verdict, beginning with a capital letter."""
+        """Verdict, beginning with a capital letter."""
         return self.result.verdict[0].upper() + self.result.verdict[1:]
 
     @property
     def gates(self) -> list[ComparisonRow]:
-        """Return the rows of comparisons that decide the verdict."""
+        """Rows of comparisons that decide the verdict."""
         return [_row(each) for each in self.result.comparisons if each.role is ComparisonRole.GATE]
 
     @property
     def information(self) -> list[ComparisonRow]:
-        """Return the rows of comparisons that are for information only."""
+        """Rows of comparisons that are for information only."""
         return [_row(each) for each in self.result.comparisons if each.role is ComparisonRole.INFORMATION]
 
     @property
@@ -311,11 +311,11 @@ class CheckSections(ABC, Generic[Checked]):
     @property
     @abstractmethod
     def root_reasons(self) -> list[str]:
-        """Return the reasons why the root stresses differ from those of the standard."""
+        """Reasons why the root stresses differ from those of the standard."""
 
     @property
     def stiffness_reasons(self) -> list[str]:
-        """Return the reasons why the stiffness differs from that of the standard."""
+        """Reasons why the stiffness differs from that of the standard."""
         of, part, ring = self.result.explanations.stiffness, self.result.rating.edition.part(1), self.result.pair.internal
         return [sentences("reasons_check.txt", macro, of, part, ring) for macro in ("compared", "bodies", "load", "sharing")]
 
@@ -329,7 +329,7 @@ class CheckSections(ABC, Generic[Checked]):
     @cached_property
     @abstractmethod
     def figures(self) -> list[ReportFigure]:
-        """Return the figures in the order of the report."""
+        """Figures in the order of the report."""
 
     @cached_property
     def views(self) -> list[ToothView]:
@@ -358,7 +358,7 @@ class CheckSections(ABC, Generic[Checked]):
 
     @property
     def over_torque_and_mesh_size(self) -> list[ReportFigure]:
-        """Return the figures over torque, and over mesh size if a convergence study was made."""
+        """Figures over torque, and over mesh size if a convergence study was made."""
         of = self.result
         found = [
             _common("Pressure over torque", partial(plot_sweep_pressure, of), "sweep_pressure", of.trends),
@@ -370,7 +370,7 @@ class CheckSections(ABC, Generic[Checked]):
 
     @cached_property
     def stiffness(self) -> StiffnessSection | str:
-        """Return the section on stiffness by other methods, or the reason why there is none."""
+        """Section on stiffness by other methods, or the reason why there is none."""
         return section_of_check(self.result.stiffness_methods)
 
     @cached_property
@@ -382,22 +382,22 @@ class CheckSections(ABC, Generic[Checked]):
 
     @property
     def gear_rows(self) -> list[ReportRow]:
-        """Return the rows of both gears."""
+        """Rows of both gears."""
         return gear_rows(self.result.pair)
 
     @property
     def pair_rows(self) -> list[ReportRow]:
-        """Return the rows of the pair."""
+        """Rows of the pair."""
         return pair_rows(self.result.pair)
 
     @property
     def load_rows(self) -> list[ReportRow]:
-        """Return the rows of material, load and mounting."""
+        """Rows of material, load and mounting."""
         return load_rows(self.result.material, self.result.load, self.result.mounting)
 
     @property
     def rating_rows(self) -> list[ReportRow]:
-        """Return the rows of the rating."""
+        """Rows of the rating."""
         return rating_rows(self.result)
 
 
@@ -490,7 +490,7 @@ class SolidSections(CheckSections[SolidCheck]):
 
     @property
     def line_reasons(self) -> list[str]:
-        """Return the reasons why loads along the lines of contact differ from those of the standard."""
+        """Reasons why loads along the lines of contact differ from those of the standard."""
         of = self.result.explanations.lines_of_contact
         return [sentences("reasons_solid.txt", macro, of) for macro in ("pressure", "lines", "along_face")]
 

@@ -31,7 +31,7 @@ _WORDS = {True: "passed", False: "FAILED", None: "not judged"}
 
 
 def _strength(document: Document) -> str:
-    """The verdict on strength in words: at level files nothing asks for it."""
+    """Return the verdict on strength in words; at level files no claim needs it."""
     return "not part of level files" if document["level"] == "files" else _WORDS[document["strength"]]
 
 

@@ -207,7 +207,7 @@ def _row(key: str, symbol: symbols.Symbol, values: Any) -> Row:
 
 
 def _is_there(values: Mapping[str, Any], key: str) -> bool:
-    """Return whether a key applies: not where it belongs to a feature of the body, a cutter or a modification that is absent."""
+    """Return whether a key applies: not one of a feature of the body, a cutter or a modification that is absent."""
     owner = _BELONGS_TO.get(key, key)
     missing = (None, 0) if owner.startswith("body.") else (None,)
     return "." not in owner or values.get(owner) not in missing

@@ -214,7 +214,7 @@ class Sizing(Pictured):
 
     @property
     def front_sample(self) -> tuple[SizedPair, ...]:
-        """Return at most FRONT_SAMPLE pairs of the front, evenly spaced on it, the lightest and the safest among them."""
+        """At most FRONT_SAMPLE pairs of the front, evenly spaced on it, the lightest and the safest among them."""
         number = len(self.front)
         places = dict.fromkeys(np.linspace(0, number - 1, min(number, FRONT_SAMPLE)).round().astype(int).tolist())
         return tuple(self.front[place] for place in places)

@@ -215,6 +215,6 @@ class Strengths:
 
 
 def _group(material: Material) -> MaterialGroup:
-    """Return the group of a material; the task has checked that it has one."""
+    """Return the group of a material, which the task has checked."""
     assert material.group is not None
     return material.group

@@ -180,7 +180,7 @@ class SizeTask:
 
     @property
     def tip_thicknesses(self) -> PerGear[float]:
-        """Return the least normal tip thickness s_an/m_n of both gears."""
+        """Least normal tip thickness s_an/m_n of both gears."""
         return self.materials.map(self._tip_thickness)
 
     def _tip_thickness(self, material: Material) -> float:

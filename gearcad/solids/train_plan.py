@@ -20,7 +20,7 @@ from gearcad.planetary.poses import PlanetPose, TrainPose
 from gearcad.solids.body_plan import STAGE_COLOURS, TRAIN_COLOURS, Axle, Colour, require_rim
 
 _UNNAMED = ("gear", "pinion", "wheel")
-"""Names that a gear has where nobody named it."""
+"""Default names of gears without a name."""
 
 _DARKER = 0.82
 """A stage's colours against those of the stage before it."""

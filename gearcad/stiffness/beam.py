@@ -129,7 +129,7 @@ class BeamTooth:
 
     @cached_property
     def _fillet_slope(self) -> Slope:
-        """Return the slope dx/ds of the fillet."""
+        """Slope dx/ds of the fillet."""
         fit: Slope = Chebyshev.interpolate(lambda s: self.fillet.points(s)[..., 0], _DEGREE, domain=[0, 1]).deriv()
         return fit
 
@@ -256,7 +256,9 @@ class BeamMethod(SliceMethod):
         return SinglePair(lengths, {name: factor * part for name, part in parts.items()}, factor * self.tangent_less)
 
     def _refuse_negative(self, parts: dict[str, Floats], load: Load) -> None:
-        """Raise where a formula, far outside its range, gives less than nothing."""
+        """Raise ParameterError or GeometryError if a formula, far outside its range, gives a contact or foundation that is not
+        flexible.
+        """
         if (parts["contact"] <= 0).any():
             permitted = "must be lower: Hertz's contact would be as wide as the teeth are thick"
             raise ParameterError("load.torque", load.torque, permitted, "N·m")

@@ -129,7 +129,7 @@ class OutlineGauges:
         return self._rest(diameter, lambda across, z: across**2 + z**2, diameter / 2)
 
     def pin_centre(self, diameter: float) -> float:
-        """Return the radius (mm) of the axis of a pin at rest in a space of an external gear, leaning as it likes."""
+        """Return the radius (mm) of the axis of a pin at rest in a space of an external gear, inclined freely."""
         if not self.twist:
             return self.ball_centre(diameter)
         hand = math.copysign(1.0, self.twist)
@@ -142,7 +142,7 @@ class OutlineGauges:
 
     @cached_property
     def _space(self) -> Complexes:
-        """Return both sides of a space, centred on the real axis."""
+        """Both sides of a space, centred on the real axis."""
         side = self.outline * np.exp(-1j * self._pitch / 2)
         return np.concatenate([side, side.conjugate()])
 

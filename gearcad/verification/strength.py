@@ -17,7 +17,7 @@ INFORMATION = "outside the band of the standard, which is information and decide
 
 
 def judge_check(result: CheckResult, where: str) -> Iterator[Claim]:
-    """Return the comparisons of a structural check as claims: gates decide, bands of a standard inform.
+    """Yield the comparisons of a structural check as claims: gates decide, bands of a standard inform.
 
     What a gate could not evaluate has failed, as in the check; information is passed or not judged.
     """
@@ -60,7 +60,7 @@ _VERDICTS = {Verdict.PASSED: True, Verdict.FAILED: False}
 
 
 def judge_rating(rating: StrengthRating | TrainStrength, where: str) -> Iterator[Claim]:
-    """Return the safeties of a rating as claims: judged beside what is required, or not judged, for the reason.
+    """Yield the safeties of a rating as claims: judged beside what is required, or not judged, for the reason.
 
     The verdicts are those of the rating.
     """

@@ -348,7 +348,7 @@ _INSIDE = (OutlineSide.AHEAD, OutlineSide.HELD, OutlineSide.BEHIND)
 """Sides of a sector that are no profile."""
 
 _MIRRORED = np.array([1.0, -1.0])
-"""Columns of a matrix that is to turn the mirror image of what it is given."""
+"""Columns of a matrix that turn a vector into its mirror image."""
 
 _COARSE, _FINE = 2, 16
 """Parts of an element's edge between points of the field, away from the contact and near it."""

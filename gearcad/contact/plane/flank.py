@@ -243,7 +243,7 @@ class PlaneCompliance(FlankCompliance):
 
     @cached_property
     def _last(self) -> float:
-        """Roll length (mm) beyond which nothing is resolved: half an edge before the tip corner."""
+        """Roll length (mm) above which the mesh resolves nothing: half an edge before the tip corner."""
         arc = self.flank.arc(self.flank.lengths)
         return self.flank.length_at(float(arc[-1]) - self._corner / 2)
 

@@ -83,7 +83,7 @@ class Ring:
 
     @cached_property
     def _sprung(self) -> Floats:
-        """The matrix; of a body that nothing holds with three springs at what no load moves, as all loads are balanced."""
+        """Matrix. For a body that nothing holds, add three springs at motions that balanced loads do not excite."""
         if self.motions is None:
             return self.matrix
         import scipy.linalg

@@ -96,7 +96,7 @@ class Dissected:
         return Arrived(left[self.kept], moved, work)
 
     def backward(self, at_kept: Floats, arrived: Arrived | None = None) -> Floats:
-        """Displacements (dofs, m) by those of the dofs that are kept (kept, m), and by loads; none of what is held."""
+        """Return the displacements (dofs, m) by those of the kept dofs (kept, m), and by loads; zero for held dofs."""
         found = np.zeros((self.dofs, at_kept.shape[1]))
         found[self.kept] = at_kept
         by_loads = arrived.moved if arrived is not None else [None] * len(self.fronts)
@@ -440,7 +440,7 @@ class Sector:
         return dofs[~np.isin(dofs, self.held)]
 
     def let_go(self) -> Sector:
-        """Return the same sector with nothing that holds it."""
+        """Return the same sector without supports."""
         nothing = np.zeros_like
         return replace(
             self, held=np.empty(0, int), turn=nothing(self.turn), hub=nothing(self.hub), hub_matrix=nothing(self.hub_matrix)

@@ -144,7 +144,7 @@ class Hold(Enum):
     """Support of the bore of a gear, or of the rim of a ring."""
 
     AUTO = "auto"
-    """Rigid where the rim is thick; else free, or by the key if there is a keyway."""
+    """Automatic choice: rigid if the rim is thick; otherwise free, or by the key if there is a keyway."""
 
     RIGID = "rigid"
     """Held all round, as by a stiff shaft in a tight fit, or by a stiff housing."""
@@ -153,10 +153,10 @@ class Hold(Enum):
     """Bonded to a shaft or hub ring that gives way, whose section the torque enters like St Venant's shear, as r."""
 
     KEY = "key"
-    """Free, but the torque comes from a keyway: stresses are those with the key where it is worst."""
+    """Free bore whose torque comes from a keyway: stresses are those with the key at the worst place."""
 
     FREE = "free"
-    """Shear all round, as from splines or a thin web, gives torque and force; nothing keeps the bore round."""
+    """Free bore: shear all round, as from splines or a thin web, gives torque and force; nothing keeps the bore round."""
 
     BOLTS = "bolts"
     """Support of a ring: held from its bolt circle outwards where there are bolts, free between them."""

@@ -103,7 +103,7 @@ class FlankCompliance(ABC):
 
 @dataclass(frozen=True)
 class EngagedPair:
-    """A pair as it rolls: where it touches at a roll angle, and the force of a torque."""
+    """A pair in rotation: place of contact at a roll angle, and force of a torque."""
 
     pair: GearPair
 
@@ -217,7 +217,7 @@ _ASIDE = 0.25
 """Least part of an interval that a new position cuts off."""
 
 _FEWEST = 4
-"""Positions below which nothing is known of what stands between them."""
+"""Number of positions below which nothing can be concluded between them."""
 
 _MOST = 20
 """Positions that are added for one quantity."""
@@ -237,7 +237,7 @@ class ExtremeQuantity(Generic[Seen]):
 
     @property
     def sign(self) -> int:
-        """Sign of the quantity: 1, or -1 for what is to be least."""
+        """Sign of the quantity: 1, or -1 for a quantity whose least value is sought."""
         return -1 if self.least else 1
 
 

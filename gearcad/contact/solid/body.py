@@ -402,7 +402,7 @@ class SolidBody:
         return Moved(found, torques)
 
     def let_go(self) -> None:
-        """Keep nothing of what solutions are made of: the next one makes it again."""
+        """Drop the parts of solutions; the next solution makes them again."""
         for each in (self, self.sector):
             for name in vars(each).keys() - {own.name for own in fields(each)}:
                 del vars(each)[name]
@@ -474,7 +474,7 @@ class SolidBody:
 
 
 def _some_at_a_time(loads: int) -> list[slice]:
-    """Parts of so many loads, of about equal length: half of what is solved at once, less where more cores share it."""
+    """Return slices of about equal length of the loads: half of those solved at once, fewer if more cores share the work."""
     most = max(_AT_ONCE // max(cores(), 2), _FEWEST)
     ends = np.linspace(0, loads, math.ceil(loads / most) + 1).astype(int).tolist()
     return [slice(*each) for each in pairwise(ends)]

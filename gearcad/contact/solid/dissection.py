@@ -99,7 +99,8 @@ class ElementBlock(NamedTuple):
 
 @dataclass(frozen=True)
 class SolidPart:
-    """Other parts, or the hexahedra of a `box`: the nodes that nothing else needs, `own` (n,), and those that do, `aside` (m,).
+    """Part of a sector: other parts, or the hexahedra of a `box`; its own nodes `own` (n,), and those shared with others,
+    `aside` (m,).
 
     Their numbers go up.
     """

@@ -204,7 +204,7 @@ class Images:
 
 
 class TakenOff(Images):
-    """The field that is taken off: a load's in a half-space, and its images'."""
+    """Field in closed form that is subtracted from the elements: that of a load in a half-space, and of its images."""
 
     def loads(self, at: Floats, inward: Floats) -> tuple[Floats, Floats, Floats]:
         where, to, forces = super().loads(at, inward)

@@ -211,7 +211,7 @@ class Blocks(NamedTuple):
 
 
 class Store:
-    """Memory of matrices that stay: one piece for so many numbers, which the system gets back as a whole."""
+    """Memory for matrices that are kept: one piece, which the system gets back as a whole."""
 
     def __init__(self, numbers: int) -> None:
         self._left, self._lock = np.zeros(numbers), Lock()
@@ -224,7 +224,9 @@ class Store:
 
 
 class _Room:
-    """Memory of matrices that have gone, for those to come: what the system gives is cleared page by page, and slow."""
+    """Memory of matrices no longer needed, reused for new ones, because memory from the system is cleared page by page, which
+    is slow.
+    """
 
     def __init__(self) -> None:
         self._left: list[Floats] = []
@@ -434,7 +436,7 @@ class ToothSpan:
         return self.reversal.rows(even[:n] @ given - odd[:n] @ given)
 
     def repeated(self, times: int) -> ToothSpan:
-        """Return so many copies of this row, joined."""
+        """Return a row of `times` copies of this one."""
         if times == 1:
             return self
         half = self.repeated(times // 2)

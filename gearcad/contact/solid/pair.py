@@ -116,7 +116,7 @@ _ON_ALL_CORES = 0.75
 """Time of a body on all cores, over that on one: not measured, but what two cores make of it that share half of the work."""
 
 _TICK = 0.2
-"""Seconds between looks at how far they are."""
+"""Time (s) between two reports of progress."""
 
 _SECTION = MeshSizes(flank=0.34, corner=0.045, fillet=0.11, outline=0.45, cut=0.3, rim=6.0, growth=0.45)
 """Sizes of which halving any one changes the stiffness of the FZG pair by less than 0.1 %, and its root stress by less than 0.5

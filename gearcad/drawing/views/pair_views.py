@@ -126,7 +126,7 @@ class PairPlaces:
 
     @property
     def broken(self) -> tuple[bool, bool]:
-        """Return whether a rack continues beyond the shown range, at the left and at the right."""
+        """Whether a rack continues beyond the shown range, at the left and at the right."""
         assert isinstance(self.mate.part, Rack)
         left, right = self.shown
         return left > self.rack_start, right < self.rack_start + self.mate.part.length

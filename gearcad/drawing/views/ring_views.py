@@ -82,7 +82,7 @@ class Meridian:
 
     @property
     def is_open(self) -> bool:
-        """Return whether the ring has no given outside diameter."""
+        """Whether the ring has no given outside diameter."""
         return self.gear.body.rim_diameter is None
 
     @property

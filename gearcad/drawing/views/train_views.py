@@ -88,7 +88,7 @@ class PosedTrain:
 
     @property
     def bent(self) -> bool:
-        """Return whether the plane of the section changes its direction at the axis."""
+        """Whether the plane of the section changes its direction at the axis."""
         return self.below is not None and abs(self.turns[self.below] - 180) > _STRAIGHT
 
     @cached_property

@@ -194,7 +194,8 @@ def _without(space: Floats, less: Floats) -> Floats:
 
 
 def _told_apart(model: MassSprings, modes: Floats, kind: ModeKind) -> Floats:
-    """Return modes of one frequency, the second at rest where the first moves, and so on; their signs are set.
+    """Return modes of one frequency in a unique basis: the second is at rest where the first moves, and so on; their signs are
+    set.
 
     So they are not as rounding mixes them. Of a translational pair one travels along x, the other along y.
     """

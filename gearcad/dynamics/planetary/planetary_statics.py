@@ -176,7 +176,7 @@ _FREE = 1e-9
 """Part of a motion without springs below which a member stands still in it."""
 
 _PRESENT = 1.0
-"""N/m by which a rigid spring is told from one that is not there; its compliance is 0."""
+"""Stiffness (N/m) that distinguishes a rigid spring from an absent one; its compliance is 0."""
 
 
 class SpringState(NamedTuple):

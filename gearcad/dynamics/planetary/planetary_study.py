@@ -35,7 +35,7 @@ Part = TypeVar("Part")
 
 
 class _Findings:
-    """Parts of a study as they are found, and the reasons why others are missing."""
+    """Parts of a study as they become available, and the reasons why others are missing."""
 
     def __init__(self) -> None:
         self.why_not: dict[str, str] = {}

@@ -158,7 +158,7 @@ def displacements(system: System, found: Extremes) -> Displacements:
 
 
 def _unheld(system: System) -> Bools:
-    """Return whether (i,) inertias turn where no spring is bent: how far they are turned means nothing."""
+    """Return whether (i,) inertias can rotate without bending a spring; their rotation has no meaning."""
     squares, modes = np.linalg.eigh(system.stiffness_matrix())
     free = np.abs(system.inertias.T @ modes[:, squares <= _FREE * squares.max()])
     return np.asarray((free > _FREE * free.max(initial=0.0)).any(axis=1), bool)
@@ -225,7 +225,9 @@ def bearing_loads(system: System, static: StaticState, found: Extremes) -> Beari
 
 
 def _but_rounding(across: Floats, along: Floats) -> Floats:
-    """Return the values across, or 0 where bearings are alike in all directions: nothing drives travel across the line."""
+    """Return the values across, or 0 if bearings are alike in all directions, since nothing then excites travel across the
+    line.
+    """
     return np.where(np.nanmax(np.abs(across)) > _FREE * np.nanmax(np.abs(along)), across, 0.0)
 
 

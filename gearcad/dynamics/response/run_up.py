@@ -224,7 +224,7 @@ class TimeRuns:
         return per, max(_LEAST_PERIODS, math.ceil(_TEETH / most))
 
     def _go(self, begin: _State, frequency: float, *, sampled: bool) -> _Stay:
-        """Return the motion at a frequency (1/s) that a run reaches from a state and that has settled if it does.
+        """Return the motion at a frequency (1/s) that a run reaches from a state, and whether it has settled.
 
         If it is `sampled` and does not settle, a longer stretch of it is returned.
         """

@@ -124,7 +124,7 @@ _MOST_UNKNOWNS = 80
 """
 
 _MARGIN = 0.9
-"""A branch begins at so much of the lowest frequency at which flanks part, where they do not yet."""
+"""Share of the lowest frequency at which flanks part at which a branch begins."""
 
 _LOWER = 0.75
 """Part of the frequency that is tried next if a branch cannot be followed from there; the end goes up by the same ratio.
@@ -254,7 +254,7 @@ def _beside(branch: Branch) -> Floats:
 
 
 _PILOTS = 48
-"""Speeds at which it is looked which shafts are idle."""
+"""Number of speeds at which idle shafts are looked for."""
 
 _DRAWN = 256
 """Harmonics of a motion that is drawn: flanks that touch again do so within a hundredth of a tooth."""

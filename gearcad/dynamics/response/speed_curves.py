@@ -217,7 +217,7 @@ class SpeedCurves(Driven):
 
     @cached_property
     def resolvable(self) -> bool:
-        """Return whether the common period is short enough to have all its orders."""
+        """Whether the common period is short enough to have all its orders."""
         return _LEAST_HARMONICS * max(self.excitation.orders) <= MOST_ORDERS
 
     @cached_property
@@ -255,7 +255,7 @@ class SpeedCurves(Driven):
         return self.modes.omega[self._felt(met).any(axis=0) & self.modes.sharp]
 
     def _felt(self, orders: Floats) -> Bools:
-        """Return whether modes could be felt where they meet the orders (..., r)."""
+        """Return whether modes vibrate noticeably where they meet the orders (..., r)."""
         modes = self.modes
         forces = self.driving[np.minimum(orders, len(self.driving) - 1).astype(int)]
         # A step drives as many orders at once as lie within the width of a resonance.

@@ -28,7 +28,7 @@ class EngagedPairs(Enum):
     PENETRATING_TIPS = "penetrating tips"
     """The same, but each gear's place is measured on its own flank: the zone shrinks by the approach."""
     ONE_PAIR = "one pair"
-    """Always one: the simple model, as long as it is in contact."""
+    """Always one pair: the simple model, as long as it is in contact."""
 
 
 def disc_inertia(diameter: float, width: float, density: float) -> float:

@@ -195,7 +195,7 @@ def _passed(motion: PairMotion, zone: Zone, travel: float, y: float) -> tuple[in
 
 @compiled
 def _watch(table: Floats, motion: PairMotion, side: int, first: int, last: int, drift: float, travel: float, y: float) -> None:
-    """Fill in the rows of the table: drift and share of what is watched, and its next level above and below, from here.
+    """Fill in the rows of the table: drift and share of each watched quantity, and its next level above and below.
 
     Row 0 is y itself, which parts or closes the flanks; 1 and 2 are the ends of the zone, at which the number of pairs changes.
     """

@@ -315,7 +315,7 @@ _CHUNK = 2_000_000
 """Number of steps between two reports of progress, at which a run can be stopped."""
 
 _LONGEST = 1e6
-"""Seconds of a step, where nothing turns."""
+"""Length (s) of a step if nothing turns."""
 
 _FARTHEST, _ROUNDING = 1e12, 1e-9
 """Base pitches: of such a place a ten-thousandth is left; relative, of steps that are one base pitch."""
@@ -514,7 +514,7 @@ class MovingSystem:
         return CourseTables(_plain(turns), _plain(np.array([torque.time, torque.value, torque.sums])))
 
     def _disturbance(self, size: int) -> tuple[Floats, Floats, Floats]:
-        """Return a push on all meshes, which turns nothing as a whole."""
+        """Return a small impulse on all meshes that causes no rotation of the whole."""
         push = (self.system.mesh * self.senses).sum(axis=1)[:size]
         return np.zeros(size), push / max(float(np.linalg.norm(push)), 1e-300), np.zeros(len(self.laws))
 

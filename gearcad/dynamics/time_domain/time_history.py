@@ -18,7 +18,9 @@ if TYPE_CHECKING:
 
 
 CHAOTIC_DIGITS = 6.0
-"""Digits that a motion may lose before it is called chaotic. In the thesis's study four lose 14 to 130, all others up to 3."""
+"""Number of digits that a motion may lose before it is called chaotic. Four examples in the thesis lose 14 to 130, all others
+up to 3.
+"""
 
 SETTLED = 0.5
 """Part of the time after which a motion is looked at for its means: the first half holds the start."""
@@ -64,7 +66,7 @@ class TimeHistory:
 
     @property
     def chaotic(self) -> bool:
-        """Return whether some stretch of the motion is so sensitive that only its statistics mean anything."""
+        """Whether some stretch of the motion is so sensitive that only its statistics mean anything."""
         return self.digits_lost > CHAOTIC_DIGITS
 
     @property

@@ -150,7 +150,7 @@ class Transient:
 
     @property
     def speed_changes(self) -> bool:
-        """Return whether there is anything to be drawn over speed."""
+        """Whether there is anything to be drawn over speed."""
         return bool(np.ptp(self.window_speed) > 0)
 
     @property

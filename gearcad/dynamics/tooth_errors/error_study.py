@@ -39,7 +39,9 @@ _PER_TOOTH, _PER_VIBRATION = 48, 24
 """Steps to a tooth, and to the quickest vibration of the teeth: some thousandths of K_v."""
 
 _MOST_STEPS = 8192
-"""Steps to a tooth: at less speed than asks for so many, teeth ring out hundreds of times before the next pair comes."""
+"""Largest number of steps per tooth. At speeds that need more, vibrations of the teeth decay hundreds of times before the next
+pair comes.
+"""
 
 _DECAYS, _DECAYS_FIRST = 3.5, 7.0
 """Times of decay that pass before a period is compared with the next, coming from the speed before, and from rest."""

@@ -77,7 +77,7 @@ class Train:
 
     @property
     def held(self) -> bool:
-        """Whether a shaft holds the train: otherwise it turns as a whole, at 0 Hz."""
+        """Whether a shaft holds the train; otherwise the train can turn as a whole, at 0 Hz."""
         return any(shaft.held for shaft in self.shafts)
 
     @property
@@ -212,7 +212,7 @@ def static_forces(train: Train) -> Floats:
 
 
 def require_pressed(train: Train) -> None:
-    """Raise GeometryError for a mesh whose flanks nothing presses: loads over speed refer to that force."""
+    """Raise GeometryError for a mesh without a force on its flanks: loads over speed refer to that force."""
     forces = static_forces(train)
     if forces.min() <= _NO_FORCE * forces.max():
         mesh = train.meshes[int(forces.argmin())]

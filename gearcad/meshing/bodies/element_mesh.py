@@ -104,7 +104,7 @@ def rises(gear: Gear, name: str) -> bool:
 
 
 def named_left(gear: Gear, *, positive: bool) -> bool:
-    """Whether the flank with y > 0 of a tooth on +x, or else the one with y < 0, is called left."""
+    """Return whether the flank with y > 0 of a tooth on +x (else that with y < 0) is the left flank."""
     return positive != gear.internal
 
 
@@ -259,7 +259,7 @@ def local_places(kind: str) -> Floats:
 
 @cache
 def _powers(kind: str) -> Wholes:
-    """Exponents (n, dimension) of the monomials: up to second order in simplices, else with one square at the most."""
+    """Return the exponents (n, dimension) of the monomials: up to second order in simplices, else with at most one square."""
     every = np.array(list(product(range(3), repeat=len(_VERTICES[kind][0]))))
     if kind in _SIMPLICES:
         chosen = every.sum(axis=1) <= 2

@@ -143,7 +143,7 @@ def chamfer_distances(gear: Gear, tooth: int, points: Floats, *, solid: bool) ->
 
 
 def _surfaces(mesh: ElementMesh, gear: Gear, *, solid: bool) -> Iterator[tuple[str, _Surface]]:
-    """The named flanks and fillets, and what they should be."""
+    """Yield the named flanks and fillets, with the exact surfaces that they should lie on."""
     form, curves = gear.flank_form, {each.curve.kind: each for each in flank_curves(gear)}
     flank = next(curve for curve in gear.profile.curves if isinstance(curve, Involute))
     parts = {"fillet": curves[CurveKind.FILLET], "flank": FlankCurve(flank, form.first, form.last)}
@@ -264,7 +264,7 @@ def matched_distance(mesh: ElementMesh, gear: Gear, teeth: int) -> float:
 
 
 def _sides(mesh: ElementMesh, gear: Gear, held_radius: float) -> Iterator[tuple[str, _Distances, bool]]:
-    """The sides that are measured, how, and whether they are flat."""
+    """Yield the sides that are measured, the functions that measure them, and whether they are flat."""
     back, front = gear.body.hub_ends
     radii = {body_side(gear): held_radius, "hub": gear.body.hub_diameter / 2}
     if gear.double_helix.gap_width:

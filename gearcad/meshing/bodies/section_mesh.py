@@ -322,7 +322,7 @@ def _numbers(sectors: Sequence[SectorSides], vertices: int, *, closed: bool) -> 
 
 
 def _named(gear: Gear, sector: SectorSides, element: Element, tooth: int) -> dict[str, Faces]:
-    """Sides of a tooth's sector under the names that they have in the whole, but for the cuts."""
+    """Return the sides of a tooth's sector under the names that they have in the whole, without the cuts."""
     names = _OF_RINGS if gear.internal else _OF_TEETH
     found = {f"{name}_{tooth}": _faces(sector, side, element) for side, name in names.items() if side in sector.sides}
     found[body_side(gear)] = _faces(sector, OutlineSide.HELD, element)

@@ -97,7 +97,7 @@ _ROUND = 0.5
 
 
 def filled(ring: ElementMesh, growth: float) -> ElementMesh:
-    """A ring and the disc in it. Raises SolverError if gmsh fails."""
+    """Return the mesh of a ring and of the disc in it. Raises SolverError if gmsh fails."""
     shape, nodes = ring.element.shape, len(ring.points)
     faces = ring.face_cells(BORE)
     faces = faces[np.argsort(np.arctan2(*ring.points[faces[:, 2], 1::-1].T))]
@@ -157,7 +157,7 @@ class _Rings:
         self.points, self.quads, self.last = [self.circle], [], np.arange(len(self.circle))
 
     def filled(self) -> Disc:
-        """Rings until edges are as long as they may be, then a core."""
+        """Return rings until edges reach their permitted length, then a core."""
         outer = float(np.hypot(*self.circle[0]))
         while len(self.last) // 3 >= _FEWEST and _COARSER * self._edge < _LONGEST * outer:
             wanted = self._first_edge + self.growth * (outer - self._radius)

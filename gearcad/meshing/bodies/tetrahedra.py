@@ -540,7 +540,9 @@ class _Part:
     stage: Callable[[Stage], None]
 
     def mesh_counted(self, elements: int) -> ElementMesh:
-        """Mesh it with a number of elements, which are expected, made, counted, and made again if they are too many or few."""
+        """Return a mesh with about the requested number of elements: estimated, made, counted, and made again if the number is
+        off.
+        """
 
         def size(expected: _Expected) -> float:
             least = expected(self.gear.profile.tip_diameter)
@@ -557,7 +559,7 @@ class _Part:
         return mesh
 
     def mesh(self, size: Callable[[_Expected], float]) -> ElementMesh:
-        """Mesh it with the size (mm) that is answered when it is known what one makes of it."""
+        """Return a mesh with the size (mm) that is requested after the part is known."""
         told: list[GearFace] = []
 
         def lengths(faces: Sequence[BrepFace]) -> EdgeLengths:

@@ -79,7 +79,7 @@ class FilesView(Element, component="gear_files.js"):
         self.run_method("close")
 
     def follow(self, link: str) -> None:
-        """The link that holds the design goes into the address; "" where none can."""
+        """Put the link of the design into the address; "" if there can be none."""
         self.run_method("follow", link)
 
 
@@ -97,7 +97,7 @@ class _Typed(Element):
         self.on("step", lambda event: self._hear(event, lambda change: step(bool(change["forth"]))))
 
     def _hear(self, event: GenericEventArguments, take: Callable[[dict[str, Any]], None]) -> None:
-        """Take the change if its number is the next one: the browser sends again what has no answer."""
+        """Accept the change if its number is the next one; the browser sends a change again until it is answered."""
         if int(event.args["number"]) == self._heard + 1:
             self._heard += 1
             take(event.args)

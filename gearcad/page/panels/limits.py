@@ -121,7 +121,7 @@ class LimitsPanel(Panel[KnownMap]):
 
 
 def _matters(limit: Limit) -> bool:
-    """Return whether a limit has a line in the map, or has no value somewhere. A limit that is the same everywhere has no line."""
+    """Return whether a limit has a line in the map, or has no value somewhere. A limit of one value everywhere has no line."""
     values = limit.values
     if np.isnan(values).any():
         return not np.isnan(values).all()

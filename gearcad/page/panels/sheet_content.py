@@ -71,7 +71,7 @@ def quantity_in(words: PageWords, english: str) -> str:
 
 
 _SAID = {"Mesh": "Gear mesh"}
-"""Titles that the page has for something else."""
+"""Titles that the page uses for another purpose."""
 
 
 class SheetCell(NamedTuple):

@@ -148,7 +148,7 @@ _REST = 0.4
 _LOOK = 0.25
 
 Opened = Callable[[str, str], None]
-"""Called with a text and what it is called by."""
+"""Function called with the text of a spec and its name."""
 
 
 class FilesPanel:

@@ -203,7 +203,7 @@ class TablePanel:
             await self._draw(table, first_columns(table))
 
     def _choose(self, chosen: Mapping[str, Any]) -> None:
-        """Draw other columns; what is no column leaves all as it is."""
+        """Draw other columns; names that are no columns change nothing."""
         if self._table is not None:
             columns = [str(chosen.get(axis) or "") for axis in _AXES]
             known = all(column in self._table.numbers for column in columns if column)

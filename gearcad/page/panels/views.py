@@ -131,7 +131,7 @@ def _roll_own(words: PageWords) -> dict[str, str]:
 
 
 class SharesPanel(Panel[dict[str, Any] | None]):
-    """A bar for each planet of a train, with what it carries least and most; nothing of other designs."""
+    """Panel with a bar for each planet of a train: its least and its greatest load; empty for other designs."""
 
     def __init__(self, words: PageWords) -> None:
         from gearcad.page.components.elements import SharesView  # only here: who finds shares elsewhere needs no NiceGUI

@@ -1,4 +1,4 @@
-"""Full rating of a pair by ISO 6336 or DIN 3990: what it bears, how safely, for how long, up to which torque."""
+"""Full rating of a pair by ISO 6336 or DIN 3990: strength, safeties, life and permissible torque."""
 
 import lazy_loader
 

@@ -255,7 +255,7 @@ def stresses_of(nominal: Rating, factors: LoadFactors, share: float = 1.0) -> di
 
 FLANK_POWER = 2.0
 ROOT_POWER = 1.0
-"""Torque goes with this power of the stress."""
+"""Exponents of the flank and the root stress to which the torque is proportional."""
 
 _ROUNDING = 1e-12
 """Relative excess over the static strength that still counts as rounding."""

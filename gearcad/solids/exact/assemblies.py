@@ -104,7 +104,7 @@ def _round_end(x: float, y: float, radius: float) -> CylinderSurface:
 
 
 UNNAMED = ("gear", "pinion", "wheel")
-"""Names that a gear has where nobody named it."""
+"""Default names of gears without a name."""
 
 
 class PartNames(NamedTuple):

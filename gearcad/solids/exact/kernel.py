@@ -142,7 +142,7 @@ class _Maker:
         return shape
 
     def _lay(self) -> None:
-        """Give edges their curves on surfaces, once for all copies that stand on them alike."""
+        """Give edges their curves on surfaces, once for all copies that lie on them in the same way."""
         form, sources, turned = self._form, self.sources, self.turned
         turns, locations, moved = self.places.turns, self.places.locations, self.places.moved
         done = set()

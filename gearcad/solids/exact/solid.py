@@ -68,7 +68,7 @@ def placed(offset: Vector = (0.0, 0.0, 0.0), rotation: float = 0.0) -> Frame:
 
 
 _MADE = "_gearcad_made"
-"""The attribute of a solid of ours that holds what it was made of."""
+"""Name of the attribute of a solid that holds the boundary from which it was made."""
 
 _PRODUCT = "product"
 """Key in the metadata of a part of an assembly: its name as a product, where its own name is that of one of many."""

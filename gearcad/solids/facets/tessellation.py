@@ -170,7 +170,7 @@ class RingBuilder(Builder):
         raise SolverError(f"the end faces of this ring cannot be parted into triangles within {self.chord_error:g} mm")
 
     def _surround(self, circle: Floats, *, top: bool) -> _Loop:
-        """Add a circle to an end, and the faces up to it, which is then what is to be surrounded."""
+        """Add a circle to an end and the faces up to it; the circle is then the new boundary to be surrounded."""
         inner = self.ends[top]
         numbers = self.add(np.column_stack([circle, np.full(len(circle), self._height(top=top))]))
         outer = _Loop(numbers, np.arctan2(circle[:, 1], circle[:, 0]), circle)

@@ -148,7 +148,7 @@ class RackPairProduct:
 
     @property
     def parts(self) -> dict[str, GearProduct | RackProduct]:
-        """Return pinion and rack by the names of their files."""
+        """Pinion and rack by the names of their files."""
         return {"pinion": self.pinion, "rack": self.rack}
 
     def solid(self) -> AssembledProduct:

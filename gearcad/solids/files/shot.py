@@ -26,7 +26,7 @@ from gearcad.solids.train_plan import Standing, TrainLayout
 
 
 def looks_alike_after(gear: Gear) -> int:
-    """Return whether every body then stands where one of its kind stood at first, its teeth where teeth were."""
+    """Return the number of equal parts in a turn of the gear: its teeth, fewer with bolt holes, one with a keyway."""
     body = gear.body
     return 1 if body.keyway_width else math.gcd(gear.tooth_count, body.bolt_holes)
 
@@ -169,7 +169,7 @@ def train_loop(product: TrainProduct, *, carrier_held: bool = False) -> Loop:
 
 
 def _driven(product: TrainProduct) -> tuple[float, float]:
-    """Turns of the carrier, and of the central by which a pose is told beside it (see `PlanetaryTrain.pose`)."""
+    """Return the turns of the carrier, and of the central that defines a pose beside it (see `PlanetaryTrain.pose`)."""
     train = product.train
     turns, (first, second) = turns_of(product.plan.layout, product.speeds), train.centrals
     held_first = train.fixed is not None and shafts_of(train)[train.fixed].member == first.name
@@ -243,7 +243,7 @@ class _Turning:
         return max(abs(turns * each * standing.body.gear.tooth_count) for standing, each in self._both)
 
     def looks_alike_after(self, turns: float) -> bool:
-        """Whether every body then stands where one of its kind stood at first, its teeth where teeth were."""
+        """Return whether every body then stands where one of its kind stood at first, its teeth where teeth were."""
         begun = list(self.layout(0.0).standing)
         return all(any(_alike(one, other) for one in begun) for other in self.layout(turns).standing)
 

@@ -47,12 +47,12 @@ eight.
 """
 
 _TO_A_LINE = 12
-"""References that stand on one line of a file."""
+"""Number of references in one line of a file."""
 
 _SCHEMA = "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }"
 
 _NO_DATE = datetime(2000, 1, 1)
-"""Written where nobody sets the date: files of equal input are equal."""
+"""Date in the header if none is set, so that files of equal input are equal."""
 
 
 def string(text: str) -> str:
