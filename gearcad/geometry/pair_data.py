@@ -29,7 +29,7 @@ from gearcad.core.values import (
 from gearcad.geometry.fits import Backlash, BacklashLimits, backlash, centre_distance_allowance, settled
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.involute import inverse_involute, involute, root_between, tangent_length
-from gearcad.geometry.path_of_contact import BaseTangent, Engaged, EngagedPair, PathOfContact
+from gearcad.geometry.path_of_contact import BaseTangent, Mated, MatedPair, PathOfContact
 from gearcad.geometry.profile import base_half_angle
 from gearcad.geometry.toothed import GearSizes
 
@@ -176,7 +176,7 @@ def farthest_centre_distance(base_diameters: PerGear[float], tip_diameters: PerG
     return math.hypot(sum(base_diameters) / 2, sum(tangents))
 
 
-class PairSizes(Engaged[Values]):
+class PairSizes(Mated[Values]):
     """Sizes of pairs of gears that follow by formula: of one pair, or arrays of many."""
 
     centre_distance: Values
@@ -237,7 +237,7 @@ class CommonWidth(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PairData(PairSizes[float], EngagedPair):
+class PairData(PairSizes[float], MatedPair):
     """The fields of a `GearPair`, unchecked, and sizes by formula. Lengths in mm, angles in degrees.
 
     With a ring as the wheel gear ratio, centre distance and the wheel's pitch diameter are negative (ISO 21771).

@@ -201,8 +201,8 @@ class ContactZone:
         return ContactLineLengths(float(total.min()), mean, float(total.max()))
 
 
-class Engaged(Generic[Values]):
-    """What pairs of gears and of a pinion and a rack have in common by formula: contact ratio and sliding."""
+class Mated(Generic[Values]):
+    """Contact ratio and sliding by formula, which pairs of gears share with pairs of a pinion and a rack."""
 
     @property
     def path_of_contact(self) -> PathOfContact[Values]:
@@ -231,8 +231,8 @@ class Engaged(Generic[Values]):
         return (path.E - path.A) / self._base_pitch
 
 
-class EngagedPair(Engaged[float]):
-    """What one pair has in common with any other: usable path of contact, lines of contact, and notices in words."""
+class MatedPair(Mated[float]):
+    """Usable path of contact, lines of contact and notices in words, which gear pairs share with pairs of a pinion and a rack."""
 
     pinion: Gear
 

@@ -30,7 +30,7 @@ from gearcad.geometry.gear_data import twist
 from gearcad.geometry.involute import tangent_length
 from gearcad.geometry.mating import ROUNDING_OVERLAP, check_common, check_hand
 from gearcad.geometry.pair import ROUNDING
-from gearcad.geometry.path_of_contact import EngagedPair, PathOfContact, sliding_document
+from gearcad.geometry.path_of_contact import MatedPair, PathOfContact, sliding_document
 from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.rack import Rack, RackProfile, rack_pair_html
 
@@ -45,7 +45,7 @@ class OfPinionAndRack(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class RackPairData(EngagedPair):
+class RackPairData(MatedPair):
     """The fields of a `RackPair`, unchecked, and what needs no path of contact. Lengths in mm, angles in degrees."""
 
     pinion: Gear

@@ -202,7 +202,7 @@ def check_thickness(part: ToothedPart) -> None:
 
 
 def most_dedendum(part: ToothedPart) -> float | None:
-    """Dedendum in normal modules at which the flanks of the rack's space meet; None where its own is less."""
+    """Return the dedendum in normal modules at which the flanks of the rack's space meet; None if its own is less."""
     thinning = part.tooth_thinning / part.normal_module
     if part.rack.full_root_radius(part.dedendum, thinning) >= 0:
         return None
