@@ -232,7 +232,7 @@ class Mated(Generic[Values]):
 
 
 class MatedPair(Mated[float]):
-    """Usable path of contact, lines of contact and notices in words, which gear pairs share with pairs of a pinion and a rack."""
+    """Usable path of contact, lines of contact and notices in words, shared by gear pairs and pinion-rack pairs."""
 
     pinion: Gear
 
