@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from importlib.metadata import PackageNotFoundError, version
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Unpack, cast
 from gearcad.core.errors import as_choice
 from gearcad.core.output import source_date
 from gearcad.core.records import Notice
-from gearcad.core.runtime import Progress, one_thread
+from gearcad.core.runtime import Agenda, Progress, one_thread
 from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import DesignKind
@@ -93,21 +93,31 @@ class Verify(Job[ToothedDesign, Verification]):
 
     def _claims(self, design: ToothedDesign, folder: Path, progress: Progress | None) -> Iterator[Claim]:
         """All claims of the level with their times; without these where a date is given: equal input gives equal bytes."""
-        claims = self._untimed(design, folder)
-        for number, claim in enumerate(claims if source_date() is not None else timed(claims)):
-            if progress is not None:
-                progress(f"{claim.subject.value} {claim.where}", number, number + 1)
-            yield claim
+        stages = list(self._stages(design, folder))
+        agenda = Agenda(progress, {stage.name: stage.effort for stage in stages})
+        for stage in stages:
+            agenda(stage.name)
+            claims = stage.claims()
+            yield from claims if source_date() is not None else timed(claims)
 
-    def _untimed(self, design: ToothedDesign, folder: Path) -> Iterator[Claim]:
-        yield from _of_files(design, folder, drawn=not self.folder)
+    def _stages(self, design: ToothedDesign, folder: Path) -> Iterator[_Stage]:
+        """What is judged, one after the other, and about how long each takes beside the others."""
+        parts, assembly = products_of(design, FileOptions())
+        exact = {product.name: ExactPart(_part(product)) for product in parts.values()}
+        yield from _of_files(design, folder, parts, assembly, exact)
+        of_parts = {name: exact[product.name] for name, product in parts.items()}
+        yield _Stage("drawings", 1.0, partial(_of_sheets, design, folder, of_parts, drawn=not self.folder))
+        sections = _SECTIONS if self.level.includes(Level.FULL) else 1
+        for name, product in parts.items():
+            yield _Stage(f"geometry of {name}", 0.3, partial(_of_geometry, _part(product), name, sections))
+        for mesh in _meshes(design, parts):
+            where = f"{mesh.pinion} and {mesh.mate}"
+            yield _Stage(f"geometry of {where}", 0.2, partial(judge_pair, mesh.pair, where))
         if self.level.includes(Level.STRENGTH):
-            yield from _of_strength(design)
+            yield _Stage("contact and strength", 20.0, partial(_of_strength, design))
         if self.level.includes(Level.FULL):
-            parts, _ = products_of(design, FileOptions())
-            exact = {product.name: ExactPart(_part(product)) for product in parts.values()}
-            yield from judge_meshes(design, folder, exact, made=not self.folder)
-            yield from judge_by_calculix(design)
+            yield _Stage("meshes", 10.0, partial(judge_meshes, design, folder, exact, made=not self.folder))
+            yield _Stage("CalculiX", 60.0, partial(judge_by_calculix, design))
 
     def document(self, result: Verification) -> dict[str, Any]:
         """Return the content of verify.json."""
@@ -169,30 +179,53 @@ def _write_bytes(content: bytes, path: Path) -> None:
     path.write_bytes(content)
 
 
-def _of_files(design: ToothedDesign, folder: Path, *, drawn: bool) -> Iterator[Claim]:
-    """The claims of level files: of every file, of the drawings, which are to be `drawn` or are there, and of the geometry."""
+@dataclass(frozen=True)
+class _Stage:
+    """One thing that is judged: its name, about how long that takes beside the others, and what makes its claims."""
+
+    name: str
+    effort: float
+    claims: Callable[[], Iterator[Claim]]
+
+
+_SECTIONS = 5
+"""Sections at which level full sweeps the tool."""
+
+_EFFORTS = {Format.STEP: 2.0, Format.DXF: 0.2}
+"""About how long a file of a format takes beside the others; 1 if it is not here."""
+
+
+def _of_files(
+    design: ToothedDesign,
+    folder: Path,
+    parts: Mapping[str, PartProduct],
+    assembly: AssemblyProduct | None,
+    exact: Mapping[str, ExactPart],
+) -> Iterator[_Stage]:
+    """What is judged of level files: every file."""
     options = FileOptions()
-    parts, assembly = products_of(design, options)
-    exact = {product.name: ExactPart(_part(product)) for product in parts.values()}
     for kind in FORMATS:
+        effort = _EFFORTS.get(kind, 1.0)
         for name, product in parts.items():
+            claims = partial(_of_part, kind=kind, product=product, exact=exact, options=options)
             path = folder / f"{name}.{kind.value}"
-            yield from _of_file(
-                path, kind, lambda path, product=product, kind=kind: _of_part(path, kind, product, exact, options)
-            )
+            yield _Stage(path.name, effort, partial(_of_file, path, kind, claims))
         if assembly is not None and _assembled(design, kind):
             path = folder / f"assembly.{kind.value}"
-            yield from _of_file(
-                path, kind, lambda path, kind=kind: _of_assembly(path, kind, design, parts, assembly, exact, options)
+            claims = partial(
+                _of_assembly, kind=kind, design=design, parts=parts, assembly=assembly, exact=exact, options=options
             )
+            yield _Stage(path.name, 2 * effort, partial(_of_file, path, kind, claims))
+
+
+def _of_sheets(design: ToothedDesign, folder: Path, parts: Mapping[str, ExactPart], *, drawn: bool) -> Iterator[Claim]:
+    """The claims about drawings, which are to be `drawn` or are there."""
     reason = make_sheets(design, folder) if drawn else ""
-    of_parts = {name: exact[product.name] for name, product in parts.items()}
-    yield from judge_sheets(design, folder, of_parts, Data().document(design), reason)
-    for name, product in parts.items():
-        part = _part(product)
-        yield from judge_rack(part, name) if isinstance(part, Rack) else judge_gear(part, name)
-    for mesh in _meshes(design, parts):
-        yield from judge_pair(mesh.pair, f"{mesh.pinion} and {mesh.mate}")
+    yield from judge_sheets(design, folder, parts, Data().document(design), reason)
+
+
+def _of_geometry(part: Gear | Rack, name: str, sections: int) -> Iterator[Claim]:
+    yield from judge_rack(part, name) if isinstance(part, Rack) else judge_gear(part, name, sections)
 
 
 def _assembled(design: ToothedDesign, kind: Format) -> bool:
@@ -201,7 +234,7 @@ def _assembled(design: ToothedDesign, kind: Format) -> bool:
     return of_kind is not None
 
 
-def _of_file(path: Path, kind: Format, claims: Any) -> Iterator[Claim]:
+def _of_file(path: Path, kind: Format, claims: Callable[[Path], Iterator[Claim]]) -> Iterator[Claim]:
     """Claims about a file, or the claim that it is there."""
     if not path.is_file():
         yield Judge(_subject(kind), Level.FILES, path.name, "file system").holds(
