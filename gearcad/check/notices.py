@@ -67,7 +67,7 @@ def elastic_end(task: CheckTask, summary: Summary) -> str:
 def _elastic(task: CheckTask, summary: Summary) -> Iterator[Notice]:
     if text := elastic_end(task, summary):
         advice = "the material yields, so stresses and shares are not those that are told; reduce the load"
-        yield Notice("beyond-elasticity", f"linear elasticity has ended: {text}: {advice}")
+        yield Notice("beyond-elasticity", f"linear elasticity is exceeded: {text}: {advice}")
 
 
 def _few_teeth(task: CheckTask, cycle: Cycle) -> Iterator[Notice]:

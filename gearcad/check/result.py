@@ -290,7 +290,7 @@ class CheckResult(Pictured, ABC):
             strength += f" by {standard}; by finite elements {', '.join(below)}"
         if self.without_limit and self.strength in (Verdict.PASSED, Verdict.FAILED):
             strength += f"; not judged, no limit given: {', '.join(self.without_limit)}"
-        ended = "; linear elasticity has ended, see the warnings" if elastic_end(self.task, self.summary) else ""
+        ended = "; linear elasticity is exceeded, see the warnings" if elastic_end(self.task, self.summary) else ""
         return f"numerics {numerics}{ended}; strength {strength}"
 
     @property

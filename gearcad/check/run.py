@@ -284,7 +284,8 @@ def _edge_notices(task: CheckTask, cycle: SolidCycle, summary: SolidSummary) -> 
         advice = "the modifications given do not prevent it" if modified else "reliefs and crowning would lower it"
         yield Notice(
             "edge-pressure",
-            f"beside the edges of the flanks the pressure is up to {greatest:.0f} MPa, by Hertz's formula, which no edge fits; "
+            f"beside the edges of the flanks the pressure is up to {greatest:.0f} MPa, by Hertz's formula, which does not hold "
+            "at edges; "
             f"it is left out of the verdict; {advice}",
         )
 

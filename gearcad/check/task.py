@@ -100,7 +100,11 @@ def _require_meshing(task: CheckTask) -> None:
         raise ParameterError("load.torque", task.torque, "must not be 0: without torque there is nothing to check", "N·m")
     if task.pair.transverse_contact_ratio < 1:
         ratio = task.pair.transverse_contact_ratio
-        raise GeometryError("pair.transverse_contact_ratio", ratio, "must be at least 1: the teeth lose each other")
+        raise GeometryError(
+            "pair.transverse_contact_ratio",
+            ratio,
+            "must be at least 1: between two pairs of teeth no tooth would be in contact",
+        )
 
 
 P = TypeVar("P", bound=LoadedPosition[Any])

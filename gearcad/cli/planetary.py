@@ -66,7 +66,7 @@ def require_no_search(given: Mapping[str, Any], *, force: bool) -> None:
     """Raise ParameterError for an option of a search where no ratio is wanted."""
     for name, value in {**given, "force": force or None}.items():
         if value is not None:
-            raise ParameterError(name, value, "is of a search: needs --ratio")
+            raise ParameterError(name, value, "applies to a search only: needs --ratio")
 
 
 def search_sets(given: Mapping[str, Any], output: Path | None, *, force: bool, as_json: bool, quiet: bool) -> None:

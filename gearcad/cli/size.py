@@ -199,7 +199,7 @@ def require_no_sets(given: Mapping[str, Any]) -> None:
     for option, _ in _OPTIONS:
         name = option.lstrip("-").replace("-", "_")
         if given[name] is not None:
-            raise ParameterError(name, given[name], "is of planetary sets: needs --planetary")
+            raise ParameterError(name, given[name], "applies to planetary sets only: needs --planetary")
 
 
 def size_planetary(given: Mapping[str, Any], count: int, output: Path | None, *, as_json: bool, quiet: bool) -> None:
@@ -238,7 +238,7 @@ def _task(given: Mapping[str, Any]) -> SetSizeTask:
 
     for name in _OF_PAIRS:
         if given.get(name) is not None:
-            raise ParameterError(name, given[name], "is of pairs: leave it out with --planetary")
+            raise ParameterError(name, given[name], "applies to pairs only: leave it out with --planetary")
     for needed, what in (("ratio", "speed of the input over that of the output"), ("material", 'such as "Eh MQ"')):
         if given[needed] is None:
             raise ParameterError(needed, None, f"must be given, {what}")

@@ -204,7 +204,7 @@ def printed_contact(path: Path, mesh: ElementMesh, flanks: Iterable[str]) -> Pri
             force = -rows[-1][1] if len(rows) > 3 else math.nan
             forces[sides[found[1]]] = force if math.isfinite(force) else 0.0
     if not math.isfinite(turn) or not len(stresses):
-        raise SolverError(f"{path.name} has no loaded pair: did CalculiX come to an end?")
+        raise SolverError(f"{path.name} has no loaded pair: check that CalculiX finished")
     owners = {name: np.isin(stresses[:, 0], mesh.sides[name].elements + 1) for name in forces}
     return PrintedContact(turn, forces, {name: float(stresses[own, 2].max(initial=0.0)) for name, own in owners.items()})
 
@@ -233,7 +233,7 @@ def displacements(path: Path, nodes: int) -> Floats:
             elif inside and line.startswith(" -1") and (node := int(line[3:13])) <= nodes:
                 found[node - 1] = [float(line[at : at + _COLUMN]) for at in range(13, 13 + 3 * _COLUMN, _COLUMN)]
     if np.isnan(found).any():
-        raise SolverError(f"{path.name} has not the displacements of all nodes: did CalculiX come to an end?")
+        raise SolverError(f"{path.name} does not have the displacements of all nodes: check that CalculiX finished")
     return found
 
 

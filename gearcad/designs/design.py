@@ -218,7 +218,7 @@ def tables_of_text(text: str, file: str, folder: Path) -> tuple[dict[str, Any], 
     except ValueError as error:
         raise SpecError(f"{file}: has a whole number of thousands of digits; write a smaller one") from error
     except RecursionError as error:
-        raise SpecError(f"{file}: has lists or tables in each other, hundreds deep") from error
+        raise SpecError(f"{file}: has lists or tables nested hundreds deep") from error
     lines = find_lines(text)
 
     def where(key: str) -> str:
@@ -241,7 +241,7 @@ def _refuse_table(path: Path) -> None:
 def require_sane_tables(content: Any, where: Where, key: str = "", depth: int = 0) -> None:
     """Raise SpecError for a whole number in the tables of a spec that a float could not hold, and for tables too deep."""
     if depth > _DEEPEST:
-        raise SpecError(f"{where(key)}: {shown(key)}: has lists or tables in each other, more than {_DEEPEST} deep", key)
+        raise SpecError(f"{where(key)}: {shown(key)}: has lists or tables nested more than {_DEEPEST} deep", key)
     if isinstance(content, Mapping):
         for name, inner in content.items():
             require_sane_tables(inner, where, f"{key}.{name}" if key else name, depth + 1)

@@ -70,7 +70,7 @@ class PairDesign(GearedDesign):
         _require_pair(tables, where)
         spec = PairSpec.of(tables, where)
         if (key := f"pair.{OF_RACK_PAIRS[0]}") in spec.values:
-            raise SpecError(f"{where(key)}: {key}: is of a pinion and a [rack]; did you mean centre_distance?", key)
+            raise SpecError(f"{where(key)}: {key}: applies to a pinion and a [rack]; did you mean centre_distance?", key)
         return spec
 
     @property
@@ -349,7 +349,7 @@ class RackPairDesign(ToothedDesign):
         for key in OF_GEAR_PAIRS:
             if f"pair.{key}" in spec.values:
                 wanted, full = "; did you mean mounting_distance?" if key == "centre_distance" else "", f"pair.{key}"
-                raise SpecError(f"{where(full)}: {full}: is of two gears, not of a pinion and a rack{wanted}", full)
+                raise SpecError(f"{where(full)}: {full}: applies to two gears, not to a pinion and a rack{wanted}", full)
         return spec
 
     @property

@@ -331,7 +331,9 @@ def _pair_remarks(drawn: DrawnPair, words: SheetWords) -> Iterator[str]:
 def _pair_notices(pair: GearPair | RackPair) -> Iterator[Notice]:
     if isinstance(pair, RackPair):
         yield Notice(
-            "no-limits", "the sheet has it without limits: racks have none here, say them in notes", where="mounting distance"
+            "no-limits",
+            "the sheet shows it without limits, because racks have none here: give them in notes",
+            where="mounting distance",
         )
     if isinstance(pair, GearPair) and pair.centre_distance_tolerance is None:
         text = 'the sheet has it without limits: none are given (centre_distance_tolerance in [pair], such as "js7")'
@@ -471,7 +473,9 @@ def _pitch(key: str, plan: PosedTrain, items: Mapping[str, int], words: SheetWor
 
 def _train_notices(plan: PosedTrain) -> Iterator[Notice]:
     yield Notice(
-        "no-limits", "the sheet has it without limits: trains have none here, say them in notes", where="centre distance"
+        "no-limits",
+        "the sheet shows it without limits, because trains have none here: give them in notes",
+        where="centre distance",
     )
     if plan.room:
         yield Notice("no-room", f"bodies are drawn over each other: {plan.room}")

@@ -452,7 +452,10 @@ def _notices(drawn: DrawnGear, options: DrawingOptions) -> Iterator[Notice]:
         )
         yield Notice("no-thickness-limits", text)
     if not flank_roughness(drawn).given:
-        text = "roughness of the flanks: flank_roughness is not given; the Ra by the accuracy grade is ours, verify it"
+        text = (
+            "roughness of the flanks: flank_roughness is not given; the Ra shown follows from the accuracy grade by a rule of "
+            "this program: verify it"
+        )
         yield Notice("roughness-of-grade", text)
     if not options.material and (drawn.material is None or options.material == ""):
         yield Notice("no-material", "material: none is given")

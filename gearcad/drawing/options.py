@@ -302,8 +302,7 @@ _HOLES, _SHAFTS = ("bore_tolerance", "keyway_tolerance"), ("face_width_tolerance
 
 
 def _require_fit(parameter: str, value: str) -> None:
-    """Raise ParameterError unless a text is blank or a supported tolerance class (ISO 286) of a hole or a shaft, as required.
-    """
+    """Raise ParameterError unless a text is blank or a supported tolerance class (ISO 286) of a hole or shaft, as required."""
     if not value:
         return
     try:

@@ -223,7 +223,7 @@ class Requirements:
             name = "rim_diameter" if self.drawn.gear.internal else "bore"
             yield Notice("no-datum", f"run-out: not demanded, as there is no {name} that could be its datum")
         elif None in (self.tip_runout, self.face_runout):
-            yield Notice("no-runout", "run-out: none is given, and ISO 1328 has none of these teeth to go by")
+            yield Notice("no-runout", "run-out: none is given, and ISO 1328 has no value for these teeth")
 
 
 def _rack(rack: Rack) -> dict[str, Size]:

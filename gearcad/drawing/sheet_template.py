@@ -88,9 +88,14 @@ class FrameSizes:
     def __post_init__(self) -> None:
         require_fields(self)
         if self.grid_width > min(self.margin, self.binding_margin):
-            raise ParameterError("grid_width", self.grid_width, "must have room in both margins", "mm")
+            raise ParameterError(
+                "grid_width",
+                self.grid_width,
+                f"must be at most {min(self.margin, self.binding_margin):g}: the grid lies in both margins",
+                "mm",
+            )
         if self.grid_text > self.grid_width > 0:
-            raise ParameterError("grid_text", self.grid_text, "must have room in grid_width", "mm")
+            raise ParameterError("grid_text", self.grid_text, f"must be at most grid_width, {self.grid_width:g}", "mm")
 
 
 @dataclass(frozen=True, kw_only=True)

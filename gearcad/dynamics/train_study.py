@@ -85,7 +85,7 @@ def study_train(
     """
     if not train.meshes:
         raise GeometryError(
-            "meshes", 0, "must be one at least: without teeth nothing shakes a train; study_modes has its modes"
+            "meshes", 0, "must be at least 1: without teeth nothing excites a train; study_modes gives its natural modes"
         )
     train = engaged(train, options)
     require_pressed(train)

@@ -195,7 +195,7 @@ class SideBySide(Pictured):
         if len(self.labels) != len(self.studies) or len(set(self.labels)) != len(self.labels) or not self.labels:
             raise ParameterError("labels", self.labels, f"must be one for each of {len(self.studies)} studies, all different")
         if len({study.up.mesh_names for study in self.studies}) > 1:
-            raise ParameterError("studies", self.labels, "must have the same meshes, to be held against each other")
+            raise ParameterError("studies", self.labels, "must have the same meshes, to be compared")
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of {self.name!r}: {self.what} {', '.join(self.labels)}>"

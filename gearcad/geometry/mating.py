@@ -97,7 +97,7 @@ def ring_tip_limit(pair: PairData) -> str | None:
 
 def _trochoid_interference(pair: PairData, depth: float) -> GeometryError:
     """Return the error of trochoid interference, with the shorter tip or the number of teeth of the ring that would do."""
-    why = f"trochoid interference, beside the mesh the tips foul each other by {depth:.4g} mm"
+    why = f"trochoid interference, beside the mesh the tips interfere by {depth:.4g} mm"
     tip = _shorter_tip(pair, lambda tips: tips.trochoid_margin)
     teeth = _more_teeth(pair, lambda tips: tips.trochoid_margin)
     if tip is not None:
@@ -105,7 +105,7 @@ def _trochoid_interference(pair: PairData, depth: float) -> GeometryError:
         return GeometryError("wheel.tip_diameter", pair.wheel.tip_diameter, f"must be at most {tip} mm: {why}{other}", "mm")
     if teeth is not None:
         return GeometryError("wheel.teeth", pair.wheel.teeth, f"must be at most {teeth}: {why}")
-    permitted = f"must be farther from the pinion's {pair.pinion.teeth}: {why}"
+    permitted = f"must differ more from the pinion's {pair.pinion.teeth}: {why}"
     return GeometryError("wheel.teeth", pair.wheel.teeth, permitted)
 
 
@@ -253,7 +253,7 @@ def _clearing(pair: PairData, role: Role) -> str:
 
 
 def _radial_text(pair: PairData, depth: float) -> str:
-    text = f"pushed in along the line of centres the pinion fouls the ring's tips by {depth:.4g} mm: it goes in along the axis"
+    text = f"moved in along the line of centres the pinion hits the ring's tips by {depth:.4g} mm: assemble it along the axis"
     if (teeth := _more_teeth(pair, lambda tips: tips.radial_margin)) is not None:
         return f"{text}; from wheel.teeth = {teeth} on it goes in either way"
     if (tip := _shorter_tip(pair, lambda tips: tips.radial_margin)) is not None:

@@ -243,7 +243,7 @@ class Draw(Job[ToothedDesign, Drawing]):
 def overridden(options: Drawn, given: Mapping[str, Any]) -> Drawn:
     """Return the options with the given values in place. Raises ParameterError for keys that no drawing has."""
     if unknown := set(given) - {each.name for each in fields(DrawingOptions)}:
-        raise ParameterError(min(unknown), given[min(unknown)], "is nothing that drawings have")
+        raise ParameterError(min(unknown), given[min(unknown)], "is not an option of drawings")
     known = {each.name for each in fields(options)}
     return replace(options, **{name: value for name, value in given.items() if name in known})
 

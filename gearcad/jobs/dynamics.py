@@ -271,7 +271,9 @@ _ALONE = "has its natural frequencies without damping and, with [dynamics.transi
 def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | ContactStudy:
     if design.load is None or not design.load.torque:
         given = None if design.load is None else design.load.torque
-        raise ParameterError("load.torque", given, "must be given, in N·m on the pinion: flanks without load rattle")
+        raise ParameterError(
+            "load.torque", given, "must be given, in N·m on the pinion: without load the flanks rattle, which is not modelled"
+        )
     refuse_halves(design.pair.pinion, "dynamics")
     options, material = design.dynamics or DynamicsOptions(), design.material or Material()
     pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)

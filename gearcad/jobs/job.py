@@ -170,7 +170,7 @@ def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: 
     for name, value in given.items():
         if not hasattr(subject, name):
             known = ", ".join(each for each in BESIDE if hasattr(subject, each))
-            raise ParameterError(name, value, f"is nothing that a {subject.kind.words} has; it has {known}")
+            raise ParameterError(name, value, f"is not an input of a {subject.kind.words}; permitted: {known}")
         if name == "material" and isinstance(subject, PairDesign | RackPairDesign) and isinstance(value, PerGear):
             value.map(_require_material)
         elif name == "material" and isinstance(subject, PlanetaryDesign) and isinstance(value, Mapping):

@@ -135,12 +135,15 @@ class Proposal(Pictured):
             found.append(Notice("pressure-above-bound", text))
         if after.edge_positions:
             text = (
-                f"a tip edge still touches at {after.edge_positions} positions: to free it would cost transmission error or "
-                "pressure above the bound"
+                f"a tip edge still touches at {after.edge_positions} positions: freeing it would raise the transmission error "
+                "or the pressure above the bound"
             )
             found.append(Notice("tip-edge-contact", text))
         if after.transmission_error_peak_to_peak > self.before.transmission_error_peak_to_peak:
-            text = "the transmission error is not less than it was: the flanks as they are break the bounds"
+            text = (
+                "the transmission error is not less than before: the present flanks exceed the bounds, so they are no valid "
+                "alternative"
+            )
             found.append(Notice("transmission-error-not-less", text))
         found.extend(start_notice(self.pair))
         return tuple(found)
@@ -253,7 +256,9 @@ class Modify(Job[PairDesign, Proposal]):
             raise ParameterError("load.torque", torque, "must not be 0: without torque flanks need no modification", "N·m")
         if design.pair.total_contact_ratio < 1:
             ratio = design.pair.total_contact_ratio
-            raise GeometryError("pair.total_contact_ratio", ratio, "must be at least 1: the teeth lose each other")
+            raise GeometryError(
+                "pair.total_contact_ratio", ratio, "must be at least 1: between two pairs of teeth no tooth would be in contact"
+            )
         replace(design, name=design.name + SUFFIX)  # a name that gets too long is told before the work
         return design.pair, torque
 

@@ -512,8 +512,8 @@ def fill_layout(layout: SectorLayout) -> QuadMesh:
     worst = float(scaled_jacobians(mesh.points[mesh.quads]).min())
     if worst < LEAST_SCALED_JACOBIAN:
         raise SolverError(
-            f"the section of the gear with {layout.gear.teeth} teeth makes too bad a mesh: least scaled Jacobian {worst:.3f}, "
-            f"must be at least {LEAST_SCALED_JACOBIAN}"
+            f"the section of the gear with {layout.gear.teeth} teeth gives a distorted mesh: least scaled Jacobian "
+            f"{worst:.3f}, must be at least {LEAST_SCALED_JACOBIAN}"
         )
     return mesh
 

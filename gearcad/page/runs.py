@@ -283,7 +283,7 @@ class Runs:
     def start(self, kind: str, text: str, name: str, folder: Path, given: Mapping[str, str]) -> Run:
         """Begin a run of one of RUNS, or let it wait. Raises ParameterError where too many wait."""
         if self._closed or sum(not run.state.ended for run in self.all) > _MOST_WAITING:
-            raise ParameterError("run", kind, f"must wait: {_MOST_WAITING} others do; cancel one of them")
+            raise ParameterError("run", kind, f"must wait: {_MOST_WAITING} runs are waiting already; cancel one of them")
         number = len(self.all)
         into = Path(self._folder.name) / str(number)
         run = Run(number, Asked(kind=kind, text=text, name=name, folder=str(folder), into=str(into)), given)

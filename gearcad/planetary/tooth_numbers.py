@@ -102,7 +102,9 @@ class SearchTask:
         if self.ring_teeth[1] <= self.teeth[0] and set(self.types) != {SetType.C}:
             raise ParameterError("ring_teeth", self.ring_teeth, f"must reach above {self.teeth[0]}, the least of the planets")
         if self.module_2 is not None and set(self.types) == {SetType.A}:
-            raise ParameterError("module_2", self.module_2, "is of types B, C and D: planets of type A have one rim", "mm")
+            raise ParameterError(
+                "module_2", self.module_2, "applies to types B, C and D only: planets of type A have one rim", "mm"
+            )
         for each in self.types:
             self.roles(each)
 
@@ -147,7 +149,7 @@ class SearchTask:
             if name not in members:
                 raise ParameterError(role, name, f"must be {', '.join(members)} in a set of type {kind.value}")
             if name in given.values():
-                raise ParameterError(role, name, "must be another member than the other roles have")
+                raise ParameterError(role, name, "must differ from the members of the other roles")
             given[role] = name
         usual = {
             role: name for role, name in _USUAL[kind]._asdict().items() if role not in given and name not in given.values()

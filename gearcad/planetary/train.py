@@ -120,7 +120,7 @@ def check_heights(train: TrainData) -> None:
     first = train.rims[0]
     for name, value, unit in (("axial_position", first.axial_position, "mm"), ("clocking", first.clocking, "deg")):
         if value:
-            raise ParameterError(f"{first.name}.{name}", value, f"must be 0 {unit}: it is counted from this rim", unit)
+            raise ParameterError(f"{first.name}.{name}", value, f"must be 0 {unit}: positions are measured from this rim", unit)
     fouled = next(_fouled(train), None)
     if fouled is None:
         return

@@ -371,7 +371,7 @@ def _told(
     for name, speed in [*told.items(), *given.items()]:
         key = f"speeds.{name}"
         if name not in shafts:
-            raise ParameterError(key, speed, f"is of no member: there are {', '.join(shafts)}", "rpm")
+            raise ParameterError(key, speed, f"belongs to no member: the members are {', '.join(shafts)}", "rpm")
         SPEED.require(key, speed)
         member = shafts[name].member
         if member in by:

@@ -36,7 +36,7 @@ _FINE = 5
 _NO_GROUP = Notice(
     "no-material-group",
     "K_v of ISO 6336-1: the material has no group, so its flanks run in as those of hardened steel, which wear least; "
-    '[material] group = "Eh", "V", "GG" ... tells',
+    'give [material] group, such as "Eh", "V" or "GG"',
 )
 
 

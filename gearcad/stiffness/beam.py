@@ -260,11 +260,13 @@ class BeamMethod(SliceMethod):
         flexible.
         """
         if (parts["contact"] <= 0).any():
-            permitted = "must be lower: Hertz's contact would be as wide as the teeth are thick"
+            permitted = "must be lower: the contact by Hertz's formula would be as wide as the teeth are thick"
             raise ParameterError("load.torque", load.torque, permitted, "N·m")
         for role, gear in self.mounted.gears.items():
             if (parts[f"{role.value} foundation"] <= 0).any():
-                permitted = "must leave another ring below the teeth: Sainsot's series gives less than nothing for this one"
+                permitted = (
+                    "must leave another ring below the teeth: Sainsot's series gives a negative flexibility for this one"
+                )
                 raise GeometryError(f"{role.value}.body.bore", gear.body.bore, permitted, "mm")
 
     @abstractmethod

@@ -206,7 +206,11 @@ class StiffnessMethod(ABC):
         ratio = self.mounted.usable_contact_ratio
         if ratio < 1:
             whole = self.mounted.transverse_contact_ratio
-            reason = "the teeth lose each other" if whole < 1 else f"fillets take away what the tips' {whole:.4f} promise"
+            reason = (
+                "between two pairs of teeth no tooth would be in contact"
+                if whole < 1
+                else f"fillets take away what the tips' {whole:.4f} promise"
+            )
             raise GeometryError("pair.usable_contact_ratio", ratio, f"must be at least 1 for a mesh stiffness: {reason}")
 
     def __call__(self, load: Load, positions: int = 0) -> MeshCycle:

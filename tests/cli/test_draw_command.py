@@ -65,7 +65,7 @@ def test_wrong_options_are_told(tmp_path: Path) -> None:
         result = _draw(spec, *options)
         assert result.exit_code == 2 and result.stderr.startswith(told) and result.stderr.count("\n") == 1, result.stderr
     assert not (tmp_path / "out").exists()
-    with pytest.raises(ParameterError, match="colour = 'red': is nothing that drawings have"):
+    with pytest.raises(ParameterError, match="colour = 'red': is not an option of drawings"):
         Draw(given={"colour": "red"})
     with pytest.raises(ParameterError, match=r"formats = \[\]: must be a list of formats"):
         Draw(formats=[])  # type: ignore[arg-type]

@@ -102,8 +102,8 @@ def test_the_condition_that_removes_all_is_named() -> None:
     ("words", "message"),
     [
         (("--ratio", 5.2), "module is missing: must be given, in mm, with --ratio"),
-        (("--teeth", "17:20"), "teeth = '17:20': is of a search: needs --ratio"),
-        (("--force",), "force = True: is of a search: needs --ratio"),
+        (("--teeth", "17:20"), "teeth = '17:20': applies to a search only: needs --ratio"),
+        (("--force",), "force = True: applies to a search only: needs --ratio"),
         (("x.toml", "--ratio", 3, "--module", 1), "ratio = 3: searches without a spec: leave out x.toml"),
         (("--ratio", 3, "--module", 1, "--type", "E"), "type = 'E': must be one of"),
         (("--ratio", 3, "--module", 1, "--in", "wheel"), "in = 'wheel': must be sun, ring, carrier in a set of type A"),
@@ -126,8 +126,11 @@ def test_wrong_words_get_one_line(words: tuple[object, ...], message: str) -> No
     ("words", "said"),
     [
         (("--planetary",), "ratio is missing: must be given, speed of the input over that of the output"),
-        (("--planetary", "--ratio", 5, "--shift", "0.2"), "shift = '0.2': is of pairs: leave it out with --planetary"),
-        (("--ratio", 5, "--planets", "3"), "planets = '3': is of planetary sets: needs --planetary"),
+        (
+            ("--planetary", "--ratio", 5, "--shift", "0.2"),
+            "shift = '0.2': applies to pairs only: leave it out with --planetary",
+        ),
+        (("--ratio", 5, "--planets", "3"), "planets = '3': applies to planetary sets only: needs --planetary"),
         (("--planetary", "--ratio", 5, "--helix-angle", "0,10"), "must be one number with --planetary"),
         (("--planetary", "--ratio", 5, "--wheel-hardness", 90), "ring_material.hardness = 90 HV: must be from 660 to 800 HV"),
     ],

@@ -135,4 +135,4 @@ def test_empty_options_are_refused(name: str, tmp_path: Path) -> None:
 def test_sets_have_no_most_mass(tmp_path: Path) -> None:
     words = "size --planetary --torque 300 --speed 1500 --ratio 5.2 --max-mass 3 -o"
     found = CliRunner().invoke(main, [*words.split(), str(tmp_path), "--material", "Eh MQ"])
-    assert "max_mass = 3: is of pairs" in found.stderr
+    assert "max_mass = 3: applies to pairs" in found.stderr

@@ -109,7 +109,7 @@ def test_what_is_no_table_of_results(text: str, fault: str) -> None:
 )
 def test_rows_that_make_no_design_say_so(row: str, tmp_path: Path) -> None:
     heading = "name,status,files.data.json,gear.teeth,gear.normal_module,gear.face_width\n"
-    with pytest.raises(SpecError, match="makes no design again"):
+    with pytest.raises(SpecError, match="no longer makes a design"):
         read_results(heading + row + "\n", "results.csv").spec(2, tmp_path)
 
 

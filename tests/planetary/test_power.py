@@ -37,7 +37,7 @@ def nearly_one(**fields: Any) -> TrainData:
         ),
         (plain(fixed="b"), {"b": 2.0}, "speeds.b = 2 rpm: must not be given too: b is fixed"),
         (alm_train(), {"carrier": 1.0, "pinion_1": 2.0}, "it turns with carrier, which is given"),
-        (plain(fixed="b"), {"sun": 2.0}, "speeds.sun = 2 rpm: is of no member: there are a, b, carrier"),
+        (plain(fixed="b"), {"sun": 2.0}, "speeds.sun = 2 rpm: belongs to no member: the members are a, b, carrier"),
         (plain(fixed="b"), {"a": math.nan}, "speeds.a = nan"),
     ],
 )

@@ -239,7 +239,7 @@ MISTAKES = [
     ),
     (
         (("[sun]", "[planetary.speeds]\nrnig = 1\n[sun]"),),
-        "line 11: planetary.speeds.rnig = 1 rpm: is of no member: there are sun, ring, carrier",
+        "line 11: planetary.speeds.rnig = 1 rpm: belongs to no member: the members are sun, ring, carrier",
     ),
     (
         (("[sun]", "[load]\ntorque = 1\nspeed = 9\n[planetary.speeds]\nsun = 1\n[sun]"),),

@@ -196,7 +196,7 @@ def test_a_fixed_shaft_of_a_stage_holds_the_member_that_it_is_geared_to() -> Non
 
 def test_what_is_no_stiffness_or_member_is_refused() -> None:
     train = TRAINS["A"]
-    with pytest.raises(ParameterError, match=r"held = 'sun': must be of a, b, carrier"):
+    with pytest.raises(ParameterError, match=r"held = 'sun': must be one of a, b, carrier"):
         train_springs(train, STIFFNESS, held=("sun",))
     with pytest.raises(ParameterError, match="a number, or one for each of 3 planets"):
         train_springs(train, (np.ones(4), 1.0))

@@ -86,7 +86,7 @@ def check_inputs(
         assert error.parameter == "rack.root_radius" and gear.rack.root_radius < 1e-6
     except SolverError as error:
         event("refused")
-        assert "too bad" in str(error)
+        assert "distorted" in str(error)
         assert abs(gear.helix_angle) > STEEP or element is Element.HEX8 or _shortest_curve(gear) < NEXT_TO_NOTHING
     else:
         event("meshed, modified" if drawn else "meshed")

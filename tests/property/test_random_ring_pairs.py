@@ -59,7 +59,7 @@ def confirm_refusal(pair: PairData, error: InputError) -> None:
     text = str(error)
     if "interference" in text:
         kind = "involute" if "involute interference" in text else "trochoid"
-        depth = float(re.search(r"(?:cuts|foul each other by) ([\d.e-]+) mm", text)[1])  # type: ignore[index]
+        depth = float(re.search(r"(?:cuts|interfere by) ([\d.e-]+) mm", text)[1])  # type: ignore[index]
         event(f"refused: {kind}" + ("" if depth > VISIBLE else ", too shallow to see"))
         assert depth <= VISIBLE or overlaps_before_flanks_touch(pair)
     elif "root circle" in text or "backlash would be" in text:

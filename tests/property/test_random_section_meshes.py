@@ -130,7 +130,7 @@ def check_inputs(inputs: dict[str, Any], drawn: dict[str, float] | None, how: tu
         assert error.parameter == "rack.root_radius" and gear.rack.root_radius < 1e-6
     except SolverError as error:
         event("refused")
-        assert "too bad" in str(error)
+        assert "distorted" in str(error)
         assert gear.modification.present or gear.teeth < FEW or gear.profile.tool.radius < SHARP * gear.normal_module
     else:
         event("meshed, modified" if drawn else "meshed")

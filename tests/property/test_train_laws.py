@@ -236,7 +236,10 @@ def _shaft(**changes: Any) -> list[dict[str, Any]]:
         ({"mesh": {"shape": "square"}}, "m.contact_ratio is missing: must be given for a square wave"),
         ({"mesh": {"shape": "saw"}}, "m.shape = 'saw': must be one of 'cosine', 'square'"),
         ({"mesh": {"base_radii": (20.0,)}}, "m.base_radii = (20.0,): must be two lengths in mm: of pinion and wheel"),
-        ({"mesh": {"damping": 3.0, "damping_ratio": 0.1}}, "m.damping_ratio = 0.1: not beside damping: one says the other"),
+        (
+            {"mesh": {"damping": 3.0, "damping_ratio": 0.1}},
+            "m.damping_ratio = 0.1: must be left out beside damping: one follows from the other",
+        ),
         ({"mesh": {"wheel": "c"}}, "m.wheel = 'c': must be one of the inertias a, b"),
         ({"mesh": {"wheel": "a"}}, "m.wheel = 'a': must differ from pinion"),
         ({"mesh": {"internal": 1}}, "m.internal = 1: must be true or false"),
@@ -261,7 +264,7 @@ def _shaft(**changes: Any) -> list[dict[str, Any]]:
         ({"model": "rigid"}, "model = 'rigid': must be one of 'isolated', 'massless', 'modes', 'elements', 'exact'"),
         (
             {"model": "isolated", "meshes": [], "shafts": _shaft(start="b")},
-            "model = 'isolated': a train without meshes has nothing that is left without shafts",
+            "model = 'isolated': needs meshes: a train without meshes is nothing but its shafts",
         ),
         ({"meshes": []}, "inertias = 'a': has neither a shaft nor a mesh: give it one, or leave it out"),
         (
@@ -303,7 +306,7 @@ def test_inertias_and_loops_that_make_no_train() -> None:
     with pytest.raises(InputError) as error:
         Inertia(name="a", inertia=0.0)
     assert str(error.value) == "a.inertia = 0 kg·m²: must be a number at least 1e-21 kg·m² and at most 1e+12 kg·m²"
-    with pytest.raises(InputError, match="is what does not turn"):
+    with pytest.raises(InputError, match="is the name of the ground"):
         Inertia(name=GROUND, inertia=1.0)
     train = _pair()
     again = replace(train.meshes[0], name="n", base_radii=(20.0, 40.001))

@@ -57,7 +57,7 @@ def test_verdicts_keep_numerics_and_strength_apart() -> None:
 _LACKING = "; ".join(f"sigma_{part}lim is not known: the material has no group, and no limit is given" for part in "HF")
 """Local limits replace no endurance limit."""
 
-_ENDED = "linear elasticity has ended, see the warnings"
+_ENDED = "linear elasticity is exceeded, see the warnings"
 """Of a load whose root stress is above a yield strength of 1 MPa."""
 
 

@@ -361,8 +361,8 @@ def test_a_company_changes_what_it_likes(tmp_path: Path) -> None:
         ("[words.frame]\nowner = { fr = 'x' }", "words.frame.owner = {'fr': 'x'}: must be a text, or texts for en, de, sv"),
         ("[words.frame]\nowner = 'a{b}'", "words.frame.owner = 'a{b}': unknown in braces: b; permitted: nothing"),
         ("[words.data]\nspan_teeth = 'k {'", "words.data.span_teeth = 'k {': has braces that do not match"),
-        ("[frame]\ngrid_width = 12", "company.toml: frame.grid_width = 12 mm: must have room in both margins"),
-        ("[frame]\ngrid_text = 7", "company.toml: frame.grid_text = 7 mm: must have room in grid_width"),
+        ("[frame]\ngrid_width = 12", "company.toml: frame.grid_width = 12 mm: must be at most"),
+        ("[frame]\ngrid_text = 7", "company.toml: frame.grid_text = 7 mm: must be at most grid_width, 5"),
         ("[data_table]\ntext = 5", "company.toml: data_table.row = 6.4 mm: must be 2 mm more than text at least"),
         ("[data_table]\nrow = 'x'", "company.toml: data_table.row = 'x': must be a number"),
         (

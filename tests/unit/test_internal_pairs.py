@@ -36,8 +36,8 @@ def _ring_pair(teeth: tuple[int, int], shifts: tuple[float, float] = (0.0, 0.0),
 SHORT = {"wheel": {"rack": BasicRack(addendum=0.5)}}
 REFUSED: list[tuple[dict[str, Any], str, str]] = [
     ({"teeth": (20, -60)}, "wheel.tip_diameter", "involute interference, the tip reaches 0.07492 mm beyond the base tangent"),
-    ({"teeth": (30, -38)}, "wheel.tip_diameter", "beside the mesh the tips foul each other by 0.02828 mm; or wheel.teeth"),
-    ({"teeth": (40, -44), "shifts": (0.3, -0.3)}, "wheel.teeth", "trochoid interference, beside the mesh the tips foul"),
+    ({"teeth": (30, -38)}, "wheel.tip_diameter", "beside the mesh the tips interfere by 0.02828 mm; or wheel.teeth"),
+    ({"teeth": (40, -44), "shifts": (0.3, -0.3)}, "wheel.teeth", "trochoid interference, beside the mesh the tips interfere"),
     ({"teeth": (40, -41)}, "wheel.teeth", "trochoid interference"),
     ({"teeth": (30, -34), **SHORT}, "wheel.teeth", "trochoid interference"),
     ({"teeth": (30, -38), "wheel": {"body": Body(tip_chamfer=0.01)}}, "wheel.tip_diameter", "trochoid interference"),
@@ -88,7 +88,7 @@ def test_which_gear_is_the_ring() -> None:
 
 def test_rings_next_to_their_pinions_are_refused_whatever_is_given() -> None:
     """With a centre distance of its own no other number of teeth would do, and no tip leaves contact all along."""
-    with pytest.raises(GeometryError, match=r"wheel.teeth = -41: must be farther from the pinion's 40: trochoid interference"):
+    with pytest.raises(GeometryError, match=r"wheel.teeth = -41: must differ more from the pinion's 40: trochoid interference"):
         _ring_pair((40, -41), pair={"centre_distance": -1.0})
 
 
@@ -166,7 +166,7 @@ def test_pinion_that_goes_in_along_the_axis_is_told_with_the_ring_that_takes_it_
     margins = pair.interference_margins
     assert margins is not None and margins.trochoid > 0 > margins.radial
     text = _only(pair, "radial-assembly")
-    assert f"the pinion fouls the ring's tips by {-margins.radial:.4g} mm: it goes in along the axis" in text
+    assert f"the pinion hits the ring's tips by {-margins.radial:.4g} mm: assemble it along the axis" in text
     teeth = int(re.search(r"from wheel.teeth = (-\d+) on", text)[1])  # type: ignore[index]
     codes = {z: {n.code for n in replace(pair, wheel=replace(pair.wheel, teeth=z)).notices} for z in (teeth, teeth + 1)}
     assert "radial-assembly" not in codes[teeth] and "radial-assembly" in codes[teeth + 1]

@@ -113,7 +113,7 @@ REFUSALS = [
     (tables(pinion=None), "<>: [pinion] is missing: a pinion and a rack need [pair], [pinion] and [rack]"),
     (
         tables(pair={"centre_distance": 30.0}),
-        "pair.centre_distance: is of two gears, not of a pinion and a rack; did you",
+        "pair.centre_distance: applies to two gears, not to a pinion and a rack; did you",
     ),
     (
         tables(rack={"helix_angle": 10.0}),
@@ -149,7 +149,7 @@ def test_wrong_specs_are_a_line_each(content: dict[str, Any], words: str) -> Non
 def test_a_pair_of_gears_has_no_mounting_distance() -> None:
     content = tables(pair={"mounting_distance": 21.0}, rack=None, wheel={"teeth": 30, "face_width": 20.0})
     assert refusal(content) == (
-        "<pair.mounting_distance>: pair.mounting_distance: is of a pinion and a [rack]; did you mean centre_distance?"
+        "<pair.mounting_distance>: pair.mounting_distance: applies to a pinion and a [rack]; did you mean centre_distance?"
     )
 
 
@@ -175,7 +175,7 @@ def test_jobs_take_racks_or_say_why_not(tmp_path: Path) -> None:
     ):
         gearcad.rate(pair.rack)
     with pytest.raises(
-        ParameterError, match=r"^mounting = None: is nothing that a rack and pinion has; it has material, load,"
+        ParameterError, match=r"^mounting = None: is not an input of a rack and pinion; permitted: material, load,"
     ):
         gearcad.data(pair, mounting=None)  # type: ignore[typeddict-item]
 

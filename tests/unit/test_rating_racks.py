@@ -85,6 +85,6 @@ def test_what_is_said_and_refused_of_racks() -> None:
     with pytest.raises(ValueError, match=r"^load\.torque is missing: must be given"):
         rate(_pair())
     with pytest.raises(
-        ValueError, match=r"^mounting = .*: is nothing that a rack and pinion has; it has material, load, rating"
+        ValueError, match=r"^mounting = .*: is not an input of a rack and pinion; permitted: material, load, rating"
     ):
         rate(_pair(), LOAD, mounting=None)

@@ -346,7 +346,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         farthest = self._farthest(roll_angle, force, single)
         pairs = contact_pairs(self.line, self.roll_length(roll_angle), span, cells, farthest, least_width, single=single)
         if not pairs:
-            raise GeometryError("roll_angle", roll_angle, "must be one at which teeth can touch", "deg")
+            raise GeometryError("roll_angle", roll_angle, "must be an angle at which teeth can touch", "deg")
         return solve_contact(pairs, self.bodies, force, like)
 
     def _farthest(self, roll_angle: float, force: float, single: bool) -> float:

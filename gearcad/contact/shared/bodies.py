@@ -313,7 +313,7 @@ class BodyModel:
         if gear.internal:
             self._check_ring(hold, key)
         elif hold is Hold.BOLTS:
-            raise ParameterError(key, hold.value, "must be another: bolts hold rings")
+            raise ParameterError(key, hold.value, 'must be "rigid", "free", "key" or "shaft": bolts hold rings only')
         elif self.solid and hold in (Hold.SHAFT, Hold.KEY):
             raise ParameterError(key, hold.value, 'must be "rigid" or "free" for solid bodies')
         if hold is Hold.AUTO and (not ring or self.inner_diameters.pick(role) is not None):

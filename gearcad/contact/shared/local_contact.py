@@ -74,7 +74,10 @@ def _cell_by_cell(matrix: Floats, gap: Floats, width: Floats, force: float) -> t
         if opening.min() >= _OPEN:
             return pressure, approach
         active[np.argmin(opening)] = True
-    raise SolverError("the contact did not settle: no set of cells carries the load without overlap")
+    raise SolverError(
+        "the contact did not converge: no set of cells carries the load without overlap; "
+        "change load.torque or check.refinement slightly"
+    )
 
 
 def _equations(matrix: Floats, gap: Floats, width: Floats, force: float, active: Bools) -> tuple[Floats, float]:

@@ -246,7 +246,7 @@ class SolidPair(FlexiblePair[SolidCompliance]):
             if single:
                 lines = tuple(line for line in lines if line.tooth == 0)
             if not lines:
-                raise GeometryError("roll_angle", roll_angle, "must be one at which teeth can touch", "deg")
+                raise GeometryError("roll_angle", roll_angle, "must be an angle at which teeth can touch", "deg")
             found = self.known[key] = responses(lines, self.bodies, self.modulus)
         return found
 

@@ -92,7 +92,7 @@ def planar_train(
     """
     held = held_members(train) if held is None else held
     if unknown := set(held) - set(train.members):
-        raise ParameterError("held", min(unknown), f"must be of {', '.join(train.members)}")
+        raise ParameterError("held", min(unknown), f"must be one of {', '.join(train.members)}")
     if sense not in (1, -1):
         raise ParameterError("sense", sense, "must be 1 or -1")
     a, b = train.meshes

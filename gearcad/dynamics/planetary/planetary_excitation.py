@@ -172,7 +172,7 @@ def _flat(mesh: SetMesh, load: Load, mean: float, why: str) -> MeshCycle:
         tangent_stiffness=constant.copy(),
         transmission_error=force / constant,
         mean_only=True,
-        notices=(Notice("course-unknown", f"its stiffness has no course over the mesh: {why}"),),
+        notices=(Notice("course-unknown", f"its stiffness over the mesh cycle is not known: {why}"),),
     )
 
 

@@ -419,7 +419,9 @@ def _require_course(stiffness: Mapping[str, PlanetMeshStiffness]) -> None:
     if all(each.cycle.mean_only for each in stiffness.values()):
         method = next(iter(stiffness.values())).cycle.method
         raise ParameterError(
-            "stiffness", method, "must know the course over the mesh of one mesh at least: a mean shakes nothing"
+            "stiffness",
+            method,
+            "must give the stiffness over the mesh cycle for at least one mesh: a mean stiffness excites no vibration",
         )
 
 

@@ -161,7 +161,7 @@ class Equilibrium:
         target = np.r_[np.zeros(self.redundancy), 1.0]
         weights, rest = nnls(rows, target)
         if rest < _NONE:
-            raise SolverError("no forces that only press are in balance with the load")
+            raise SolverError("no compressive forces are in equilibrium with the load")
         left = rows @ weights - target
         opening = np.zeros_like(forces)
         opening[self.press] = -weights / left[-1] * scale * measure.softest
@@ -314,7 +314,7 @@ def train_statics(
 
 def _given(stiffness: Mapping[str, ArrayLike], name: str) -> ArrayLike:
     if name not in stiffness:
-        raise ParameterError("stiffness", sorted(stiffness), f"must have that of {name}")
+        raise ParameterError("stiffness", sorted(stiffness), f"must have the stiffness of {name}")
     return stiffness[name]
 
 

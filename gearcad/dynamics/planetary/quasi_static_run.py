@@ -239,7 +239,12 @@ class Running:
         found = [Notice("span", f"run over {span}, in which {turn}, at {len(self.rolled)} places; without masses and friction")]
         found.extend(planar_notices(self.train))
         if self.rolled[-1] >= LONGEST:
-            found.append(Notice("span-cut", f"it ends there, before all has come round: {', '.join(self.turning)}"))
+            found.append(
+                Notice(
+                    "span-cut",
+                    f"the run ends there, before these parts have returned to their start: {', '.join(self.turning)}",
+                )
+            )
         if (self.shares <= 0).any():
             planets = ", ".join(str(n + 1) for n in np.flatnonzero((self.shares <= 0).any(axis=1)))
             found.append(Notice("planet-unloaded", f"planets that lose contact: {planets}"))

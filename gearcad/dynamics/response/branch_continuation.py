@@ -190,7 +190,7 @@ def follow(balance: HarmonicBalance, approach: Complexes, low: float, high: floa
     """
     (started,), (found,) = balance.solve(approach[None], np.array([low]))
     if not found:
-        raise SolverError(f"no periodic motion found at {low / balance.excitation.fundamental:g} 1/s: begin at another speed")
+        raise SolverError(f"no periodic motion found at {low / balance.excitation.fundamental:g} 1/s: start at another speed")
     scales = np.append(np.full(approach.size, balance.scale), 0.2 * (low + high))
     state = np.append(started.ravel(), low) / scales
     direction = np.zeros(len(state), complex)
@@ -202,7 +202,9 @@ def follow(balance: HarmonicBalance, approach: Complexes, low: float, high: floa
         found = _correct(balance, state + step * direction, scales, direction)
         if step < 1e-7 or len(points) > _MOST_POINTS:
             where = points[-1][1] / balance.excitation.fundamental
-            raise SolverError(f"the branch of periodic motions could not be followed beyond {where:g} 1/s")
+            raise SolverError(
+                f"the branch of periodic motions could not be followed beyond {where:g} 1/s: choose a range that ends there"
+            )
         if found is None:
             step /= 2
             continue
@@ -212,7 +214,7 @@ def follow(balance: HarmonicBalance, approach: Complexes, low: float, high: floa
         step = min(longest, step * 1.5) if needed <= 4 else step
         share(max((points[-1][1] - low) / (high - low), len(points) / _MOST_POINTS))
     if points[-1][1] < low:
-        raise SolverError("the branch of periodic motions turns back to the lowest speed: begin lower")
+        raise SolverError("the branch of periodic motions turns back to the lowest speed: start at a lower one")
     return BranchArc(balance, tuple(_with_folds(balance, points, scales)))
 
 

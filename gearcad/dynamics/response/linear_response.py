@@ -201,7 +201,10 @@ def _solve(
     except np.linalg.LinAlgError:
         approach = np.full(1, np.nan)
     if not np.isfinite(approach).all():
-        raise SolverError("no finite periodic motion at one of the frequencies: it is at the limit of parametric instability")
+        raise SolverError(
+            "no finite periodic motion at one of the frequencies: it is at the limit of parametric instability; "
+            "more damping moves the limit"
+        )
     half = slice(len(orders) - 1, None)
     return approach[:, half], told_by(system, static, flexible, forces[:, half])
 

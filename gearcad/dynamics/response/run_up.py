@@ -334,7 +334,9 @@ def _start(curves: SpeedCurves, motion: Motions) -> Start:
     try:
         waves = np.linalg.solve(dynamic, forces[1:, :, None])[:, :, 0]
     except np.linalg.LinAlgError:
-        raise SolverError("no finite periodic motion to begin a run with") from None
+        raise SolverError(
+            "no finite periodic motion was found to start a run: choose another first speed or more damping"
+        ) from None
     mean = curves.static.modal + np.linalg.pinv(system.stiffness_matrix(), rcond=1e-11) @ forces[0].real
     return Start(
         coordinates=mean + 2 * waves.real.sum(axis=0),

@@ -147,7 +147,7 @@ def mesh_campbell(
     rows = on_all_cores(row, speeds.tolist(), counted)
     kept = np.array([each is not None for each in rows])
     if not kept.any():
-        raise SolverError("the motion grows beyond all numbers at every speed of the Campbell diagram")
+        raise SolverError("the motion grows without bound at every speed of the Campbell diagram")
     found = [each for each in rows if each is not None]
     columns = {name: np.array(values) for name, values in zip(SpeedRow._fields, zip(*found, strict=True), strict=True)}
     arrays = {

@@ -439,7 +439,7 @@ class MovingSystem:
                 )
             if not np.isfinite(state.z).all():
                 raise SolverError(
-                    f"the motion grows beyond all numbers before {step * (first + steps):g} s: more damping ends that, or a "
+                    f"the motion grows without bound before {step * (first + steps):g} s: more damping limits it, or a "
                     "backlash, with which flanks part"
                 )
             tell((first + steps) / count)

@@ -141,7 +141,9 @@ class Inertia(NamedPart):
     def __post_init__(self) -> None:
         self._check_fields()
         if self.name == GROUND:
-            raise ParameterError("name", self.name, "is what does not turn: an inertia needs another name")
+            raise ParameterError(
+                "name", self.name, "is the name of the ground, which does not turn: give the inertia another name"
+            )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -326,7 +328,9 @@ class ToothMesh(NamedPart):
         Raises ParameterError for a square wave without a contact ratio.
         """
         if self.damping is not None and self.damping_ratio is not None:
-            raise GeometryError(f"{self.name}.damping_ratio", self.damping_ratio, "not beside damping: one says the other")
+            raise GeometryError(
+                f"{self.name}.damping_ratio", self.damping_ratio, "must be left out beside damping: one follows from the other"
+            )
         if self.shape is StiffnessWave.SQUARE and self.variation:
             permitted = "not with a square wave: its contact ratio says how far it jumps"
             raise GeometryError(f"{self.name}.variation", self.variation, permitted)

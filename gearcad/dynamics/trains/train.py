@@ -63,7 +63,7 @@ class Train:
             TORQUE.require(f"torques.{inertia}", torque)
         self._graph.require_one_train(self.torques)
         if self.model is TrainModel.ISOLATED and not self.meshes:
-            raise GeometryError("model", self.model, "a train without meshes has nothing that is left without shafts")
+            raise GeometryError("model", self.model, "needs meshes: a train without meshes is nothing but its shafts")
         if not self.held:
             self._graph.require_balance(self.torques)
         self._check_modes()
@@ -323,10 +323,10 @@ def coarse_elements(train: Train, speed: float) -> tuple[Notice, ...]:
     good = good_up_to(train)
     if speed <= good:
         return ()
-    more = "" if train.order == _HIGHEST else f"; a greater order, up to {_HIGHEST}, goes further"
+    more = "" if train.order == _HIGHEST else f"; raise train.order, up to {_HIGHEST}"
     text = (
-        f"charts are good up to {good:.5g} rpm of the first pinion: beyond, the teeth raise more half waves in a shaft than"
-        f" {train.order / _PER_HALF_WAVE:.3g}, for which elements of order {train.order} are good{more}"
+        f"charts are accurate up to {good:.5g} rpm of the first pinion: above, the teeth excite more half waves in a shaft than"
+        f" {train.order / _PER_HALF_WAVE:.3g}, which elements of order {train.order} can represent{more}"
     )
     return (Notice("coarse-elements", text),)
 

@@ -284,7 +284,7 @@ def natural_frequencies(train: DynamicTrain, count: int) -> Floats:
             return np.concatenate([np.zeros(rigid), high])
         below = train.count_below(middle) > ranks
         low, high = np.where(below, low, middle), np.where(below, middle, high)
-    raise SolverError("bisection of natural frequencies did not end")
+    raise SolverError("the search for natural frequencies did not converge")
 
 
 def _above(train: DynamicTrain, count: int) -> float:
@@ -338,7 +338,7 @@ def natural_modes(train: Train, *, count: int | None = None, up_to: float | None
     Shapes of shafts are given at `points` places. Raises ParameterError.
     """
     if count is not None and up_to is not None:
-        raise ParameterError("count", count, "not beside up_to: one limit only")
+        raise ParameterError("count", count, "must be left out beside up_to: give one limit only")
     if up_to is not None:
         require_number("up_to", up_to, "Hz", above=0)
     require_whole("points", points, at_least=2, at_most=10_000)

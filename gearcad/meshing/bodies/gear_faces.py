@@ -285,7 +285,7 @@ def _filled(gmsh: Any, faces: Sequence[int]) -> TetrahedronMesh:
     place[tags.astype(int)] = np.arange(len(tags), dtype=np.int32)
     tetrahedra = cells(_TETRAHEDRON, 4, -1)
     if not len(tetrahedra):
-        raise SolverError("there is nothing in it")
+        raise SolverError("the solid has no tetrahedra inside")
     return TetrahedronMesh(coordinates.reshape(-1, 3), tetrahedra, [cells(_TRIANGLE, 3, tag) for tag in faces])
 
 
@@ -366,7 +366,7 @@ class GearFaces:
         else:
             name, known = f"tip_{tooth}", profile.tip_diameter / 2
         if abs(radius - known) > _NEAR:
-            raise SolverError(f"the solid has a cylinder of radius {radius:.6g} mm that the gear has not")
+            raise SolverError(f"the solid has a cylinder of radius {radius:.6g} mm that the gear does not have")
         return GearFace(face.surface, name, tooth % gear.tooth_count, radius=known)
 
     def _outside(self, face: BrepFace, radius: float) -> GearFace:
@@ -378,7 +378,7 @@ class GearFaces:
         place = pitch * round(math.atan2(face.middle[1], face.middle[0]) / pitch)
         axis = (body.bolt_circle / 2 * math.cos(place), body.bolt_circle / 2 * math.sin(place))
         if abs(math.dist(axis, face.middle[:2]) - body.bolt_diameter / 2) > _NEAR:
-            raise SolverError(f"the solid has a cylinder at {radius:.6g} mm from the axis that the ring has not")
+            raise SolverError(f"the solid has a cylinder at {radius:.6g} mm from the axis that the ring does not have")
         return GearFace(face.surface, "bolt_holes", radius=body.bolt_diameter / 2, axis=axis)
 
     def _conical(self, face: BrepFace) -> GearFace:
@@ -397,7 +397,7 @@ class GearFaces:
         for name, height in heights.items():
             if abs(face.middle[2] - height) < _NEAR:
                 return GearFace(face.surface, name)
-        raise SolverError(f"the solid has an end at z = {face.middle[2]:.6g} mm that the gear has not")
+        raise SolverError(f"the solid has an end at z = {face.middle[2]:.6g} mm that the gear does not have")
 
 
 _TELL = {

@@ -129,12 +129,12 @@ def require_good(measured: Quality, least: float | None = None) -> None:
     if not measured.least_jacobian >= gate:
         worst = measured.worst[0]
         raise SolverError(
-            f"the mesh is too bad: least scaled Jacobian {worst.scaled_jacobian:.3f}, must be at least {gate}; {worst}"
+            f"the mesh is too distorted: least scaled Jacobian {worst.scaled_jacobian:.3f}, must be at least {gate}; {worst}"
         )
     if not measured.largest_aspect <= LARGEST_ASPECT:
         raise SolverError(
-            f"the mesh is too bad: an edge is {measured.largest_aspect:.3g} times as long as another of its element, must be "
-            f"at most {LARGEST_ASPECT:.0f}: some land or fillet of the gear is next to nothing"
+            f"the mesh is too distorted: an edge is {measured.largest_aspect:.3g} times as long as another of its element, "
+            f"must be at most {LARGEST_ASPECT:.0f}: some land or fillet of the gear is extremely narrow"
         )
 
 

@@ -105,7 +105,7 @@ class ResultsTable:
                 continue
             if _explains(design, {key: cells[key] for key in self._inputs[count:] if key in cells}):
                 return _text(design, values, where)
-        raise SpecError(f"{where}: makes no design again: {fault}")
+        raise SpecError(f"{where}: no longer makes a design: {fault}")
 
 
 def read_results(text: str, name: str) -> ResultsTable:

@@ -167,7 +167,10 @@ class RingBuilder(Builder):
             angle = np.arctan2(points[:, 1], points[:, 0])
             if all(upright(np.concatenate([each.points, points])[_between(each, angle)], least) for each in self.ends.values()):
                 return found
-        raise SolverError(f"the end faces of this ring cannot be parted into triangles within {self.chord_error:g} mm")
+        raise SolverError(
+            f"the end faces of this ring cannot be divided into triangles within {self.chord_error:g} mm: "
+            "give another chord_error"
+        )
 
     def _surround(self, circle: Floats, *, top: bool) -> _Loop:
         """Add a circle to an end and the faces up to it; the circle is then the new boundary to be surrounded."""
