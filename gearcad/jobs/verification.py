@@ -140,7 +140,8 @@ class Verify(Job[ToothedDesign, Verification]):
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """Return verdicts, counts, and every deviation and safety for one line of a table."""
-        found: dict[str, Any] = {name: document[name] for name in ("passed", "strength")} | document["counts"]
+        found: dict[str, Any] = {name: document[name] for name in ("passed", "strength")}
+        found |= {f"claims_{name.replace(' ', '_')}": count for name, count in document["counts"].items()}
         for claim in document["claims"]:
             value = claim["computed"] if claim["claim"] == About.STRENGTH.value else claim["deviation"]
             if isinstance(value, float | int):

@@ -34,10 +34,12 @@ class Moved:
     @property
     def change(self) -> float:
         """Relative change of a number, infinite for all else."""
-        one, two = self.before, self.now
-        if isinstance(one, str | bool) or isinstance(two, str | bool) or one is None or two is None:
+        try:
+            one, two = float(self.before or 0.0), float(self.now or 0.0)
+        except ValueError:
             return math.inf
-        return (two - one) / abs(one) if one else math.inf
+        known = not any(value is None or isinstance(value, bool) for value in (self.before, self.now))
+        return (two - one) / abs(one) if one and known else math.inf
 
     def to_dict(self) -> dict[str, Any]:
         """Return the figure as an entry of a document."""
