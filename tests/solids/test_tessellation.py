@@ -61,7 +61,7 @@ def _gear(body: dict[str, object], helix: float) -> Gear:
 
 
 def _mesh(facets: Facets) -> trimesh.Trimesh:
-    return trimesh.Trimesh(facets.vertices, facets.faces, process=False)
+    return facets.to_trimesh()
 
 
 def _opening_area(body: Body) -> float:
@@ -212,6 +212,22 @@ def test_volume_converges_linearly_with_the_chord_error() -> None:
     misses = np.abs([tessellate(gear, error).volume - _volume(gear) for error in errors])
     rate = np.polyfit(np.log(errors), np.log(misses), 1)[0]
     assert rate == pytest.approx(1.0, abs=0.15)
+
+
+def test_trimesh_of_a_gear_has_its_section_mass_and_closed_surface() -> None:
+    """For users in Python: the section between the ends is as long as an outline by the chord rule, mass goes by volume."""
+    facets = tessellate(Gear(teeth=20, normal_module=2.0, face_width=20.0), DEFAULT)
+    solid = facets.to_trimesh()
+    assert solid.is_watertight and solid.is_winding_consistent and solid.euler_number == 2
+    solid.density = 7.85e-6  # kg/mm³
+    assert solid.mass == pytest.approx(7.85e-6 * facets.volume, rel=1e-12)
+    end = facets.faces[np.all(facets.vertices[facets.faces][..., 2] == 0.0, axis=1)]
+    edges, uses = np.unique(np.sort(end[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0, return_counts=True)
+    length = np.linalg.norm(np.diff(facets.vertices[edges[uses == 1]], axis=1), axis=-1).sum()
+    cut = solid.section(plane_origin=[0.0, 0.0, 10.0], plane_normal=[0.0, 0.0, 1.0])
+    assert cut is not None and cut.length == pytest.approx(length, rel=1e-9)
+    solid.apply_scale(2.0)
+    assert facets.volume * 8 == pytest.approx(solid.volume, rel=1e-12)
 
 
 def test_end_plane_has_the_area_of_the_section() -> None:

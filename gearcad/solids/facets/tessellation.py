@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -31,6 +31,9 @@ from gearcad.solids.facets.ends import (
     zip_rings,
 )
 from gearcad.solids.facets.sampling import ToothGrid, arc_step, least_distance, outermost_radius, tooth_grid
+
+if TYPE_CHECKING:
+    from trimesh import Trimesh
 
 
 class DiscBuilder(Builder):
@@ -287,6 +290,12 @@ class Facets:
         """Enclosed volume in mm³."""
         a, b, c = (self.vertices[self.faces[:, corner]] for corner in range(3))
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
+
+    def to_trimesh(self) -> Trimesh:
+        """Return the surface as a `trimesh.Trimesh` in mm, for its sections, mass properties and tests of watertightness."""
+        from trimesh import Trimesh
+
+        return Trimesh(self.vertices.copy(), self.faces.copy(), process=False)
 
 
 def permitted_chord_error(chord_error: float, size: float, words: str, module: float) -> float:
