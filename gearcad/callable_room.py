@@ -15,7 +15,7 @@ class CallableRoom(ModuleType):
     def __wrapped__(self) -> Callable[..., Any]:
         """The function of the verb, whose signature `inspect.signature` takes for that of the room."""
         verb = self.__name__.rpartition(".")[2]
-        module = import_module("gearcad.jobs.verbs").module_of(verb)
+        module = import_module("gearcad.jobs").module_of(verb)
         function: Callable[..., Any] = getattr(import_module(f"gearcad.jobs.{module}"), verb)
         return function
 

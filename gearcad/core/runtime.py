@@ -1,4 +1,4 @@
-"""Runtime: CPU cores, memory of the machine, progress, and files that ship with the package."""
+"""Runtime: CPU cores, memory of the machine, progress, files that ship with the package, and machine code by numba."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import math
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import NamedTuple, Protocol, TypeVar
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 Item = TypeVar("Item")
 Found = TypeVar("Found")
@@ -200,3 +200,41 @@ def templates() -> Path:
     """Return the folder of starters and of the templates of reports: inside the package in a wheel, beside it in a checkout."""
     installed = PACKAGE / "templates"
     return installed if installed.is_dir() else PACKAGE.parent / "templates"
+
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def compiled(function: Function) -> Function:
+    """Return a function as machine code that lets other threads run and rounds as written; cached on disk if possible."""
+    import numba
+
+    options = {"nogil": True, "error_model": "numpy"}
+    try:
+        made: Function = numba.njit(cache=True, **options)(function)
+    except RuntimeError:  # no folder for it
+        made = numba.njit(**options)(function)
+    else:
+        _forget_unreadable(made)
+    return made
+
+
+def _forget_unreadable(made: Any) -> None:
+    """Empty the cache of a function if it names what is no more, such as a class of an older version of the package."""
+    cache = made._cache
+    try:
+        cache._cache_file._load_index()
+    except Exception:  # an index is a pickle: it may raise anything
+        with suppress(OSError):
+            cache.flush()
+
+
+def inlined(function: Function) -> Function:
+    """Return a function as machine code that is inlined into its callers.
+
+    Passing an array to a function takes longer than using it.
+    """
+    import numba
+
+    made: Function = numba.njit(nogil=True, error_model="numpy", inline="always")(function)
+    return made

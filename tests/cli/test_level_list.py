@@ -109,7 +109,10 @@ def test_a_list_of_one_is_the_plain_study(here: Path) -> None:
         (with_models('["exact", 3]'), r"line 10: train.model = 3: must be one of"),
         (with_models('[["exact"], "isolated"]'), r"train.model = \['exact'\]: must be one of"),
         (COUPLED, r"line 3: train.model = 'massless, exact': must be one model for a train without meshes"),
-        (with_models('["exact", "isolated"]', COUPLED), r"line 3: train.model = 'isolated': needs meshes: a train without meshes"),
+        (
+            with_models('["exact", "isolated"]', COUPLED),
+            r"line 3: train.model = 'isolated': needs meshes: a train without meshes",
+        ),
         (with_models('["exact", "modes"]').replace("modes = 2 ", "modes = 9 "), r"input.modes = 9: must be at most half"),
         (with_models('["exact", "modes"]') + "operating_to = 0.0\n", r"dynamics.operating_to = 0 rpm"),
         (with_models('["exact", "modes"]') + "operating_from = 9.0\noperating_to = 9.0\n", r"must be above operating_from"),

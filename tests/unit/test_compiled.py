@@ -9,7 +9,7 @@ import sys
 from io import BytesIO
 from pathlib import Path
 
-KERNEL = "from gearcad.core.compiled import compiled\n\n@compiled\ndef f(x):\n    return x + 1.0\n"
+KERNEL = "from gearcad.core.runtime import compiled\n\n@compiled\ndef f(x):\n    return x + 1.0\n"
 
 
 def result(folder: Path) -> str:
@@ -23,6 +23,6 @@ def test_a_cache_that_names_a_class_that_is_gone_is_made_anew(tmp_path: Path) ->
     assert result(tmp_path) == "3.0\n"
     (index,) = tmp_path.rglob("kept/**/*.nbi")
     version = pickle.load(BytesIO(index.read_bytes()))
-    index.write_bytes(pickle.dumps(version) + b"cgearcad.core.compiled\nClassOfBefore\n.")
+    index.write_bytes(pickle.dumps(version) + b"cgearcad.core.runtime\nClassOfBefore\n.")
     assert result(tmp_path) == "3.0\n"
     assert b"ClassOfBefore" not in index.read_bytes()

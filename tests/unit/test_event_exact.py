@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from gearcad.core.compiled import compiled
+from gearcad.core.runtime import compiled
 from gearcad.dynamics.time_domain.event_kernel import (
     MotionOutcome,
     Oscillator,

@@ -37,12 +37,11 @@ from gearcad import (
 from gearcad.check import CheckOptions
 from gearcad.designs import Design, PairDesign, read_spec
 from gearcad.dynamics import DynamicsOptions
-from gearcad.jobs import VERBS, job_of
+from gearcad.jobs import VERBS, job_of, module_of
 from gearcad.jobs.build import Build
 from gearcad.jobs.job import as_design
 from gearcad.jobs.modify import Modify
 from gearcad.jobs.strength import Rate
-from gearcad.jobs.verbs import module_of
 from gearcad.solids import Format
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -174,7 +173,7 @@ def test_a_job_without_a_load_or_on_something_else_is_one_line(verb: str) -> Non
 
 
 def test_what_is_permitted_beside_the_load_is_said() -> None:
-    with pytest.raises(ParameterError, match=r"has; it has material, load, mounting, check, mesh, dynamics, rating, drawing$"):
+    with pytest.raises(ParameterError, match=r"permitted: material, load, mounting, check, mesh, dynamics, rating, drawing$"):
         gearcad.check(FZG_C, Load(torque=60), chek=CheckOptions())
     for methods in ("iso6336", [], 5):
         with pytest.raises(ParameterError, match=r"^methods = .*: must be a list of names"):

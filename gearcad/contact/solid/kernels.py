@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import math
 
-from gearcad.core.compiled import compiled, inlined
 from gearcad.core.records import Floats, Wholes
+from gearcad.core.runtime import compiled, inlined
 
 _AT_LOAD = 1e-9
 """Distance (mm) below which a point is the load's own, where the field has no value."""

@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.core.compiled import compiled
 from gearcad.core.records import Floats
+from gearcad.core.runtime import compiled
 
 _ANCHORED = 64
 """Samples taken by one step matrix in a row before the closed form is evaluated again, so that rounding does not add up."""

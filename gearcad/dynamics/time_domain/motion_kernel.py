@@ -21,8 +21,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.core.compiled import compiled, inlined
 from gearcad.core.records import Floats, Wholes
+from gearcad.core.runtime import compiled, inlined
 
 _LEAST_WINDOW = 1e-6
 """Base pitches over which a mean is taken at least: at rest as well."""

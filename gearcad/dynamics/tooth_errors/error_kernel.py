@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.core.compiled import compiled, inlined
 from gearcad.core.records import Floats, Wholes
+from gearcad.core.runtime import compiled, inlined
 
 _SWEEPS = 4
 """Rounds over meshes that share gears: what one does to another within a step is some hundredths of what it does to itself."""

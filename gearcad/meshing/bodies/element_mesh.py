@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from itertools import groupby, product
 from typing import Any
 
@@ -366,6 +366,13 @@ def meshio_mesh(mesh: ElementMesh) -> Any:
     return made
 
 
+_NEWTON_STEP = 1e-9
+"""Step of Newton's method, in shares of an element, after which a place is within rounding: the next one would be its square.
+
+In short elements far from the origin, scikit-fem's own search asks for steps that are smaller than rounding.
+"""
+
+
 def skfem_mesh(mesh: ElementMesh) -> Any:
     """A mesh of scikit-fem, of second order as ours is; parts are its subdomains, sides its boundaries.
 
@@ -374,8 +381,7 @@ def skfem_mesh(mesh: ElementMesh) -> Any:
     quadrangles ends where rounding does; meshes that it makes of this one, by refining it or so, have its own search again.
     """
     from skfem.io.meshio import from_meshio
-
-    from gearcad.meshing.bodies.rounded_mapping import RoundedMapping
+    from skfem.mapping import MappingIsoparametric
 
     mesh = _vertices_first(mesh)
     kind, points, cells = mesh.element.value, mesh.points, mesh.cells
@@ -385,7 +391,9 @@ def skfem_mesh(mesh: ElementMesh) -> Any:
         kind, (points, cells) = "quad9", _with_centres(points, cells, np.arange(8), "quad8")
     found = from_meshio(_with_sets(mesh, kind, points, cells, _LINEAR_FACES[mesh.element.shape.face]), ignore_orientation=True)
     if not found.affine:
-        found._cached_mapping = RoundedMapping(found, found.elem(), found.bndelem)
+        mapping = MappingIsoparametric(found, found.elem(), found.bndelem)
+        mapping.invF = partial(mapping.invF, newton_tol=_NEWTON_STEP)
+        found._cached_mapping = mapping
     return found
 
 
