@@ -7,14 +7,17 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from enum import Enum
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from gearcad.check.options import Model
-from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
 from gearcad.core.records import JsonObject, PerGear, Role, Verdict
 from gearcad.rating.load_factors import LoadFactors
 from gearcad.rating.strength import PartStrength, RatedPart, StrengthRating
 from gearcad.rating.strength.duty import stresses_of
+
+if TYPE_CHECKING:
+    from gearcad.check.summary import Summary
 
 
 class ComparisonRole(Enum):

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from gearcad.check.summary import STRESSES, by_name, figures
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.shared.loaded import Cycle
-from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.core.records import JsonObject, PerGear, Role
+
+if TYPE_CHECKING:
+    from gearcad.contact.solid.cycle import SolidCycle
 
 FEW_POSITIONS = 12
 """Positions of a mesh cycle where only its extremes matter."""
@@ -64,6 +66,13 @@ class Convergence:
     def key(self) -> str:
         """Name of the figure in a summary."""
         return _FIGURES[self.quantity]
+
+    @property
+    def order_words(self) -> str:
+        """The observed order in words."""
+        if self.order is None or self.order < LEAST_ORDER:
+            return "the changes from mesh to mesh show no order"
+        return f"observed order {self.order:.1f}"
 
     def to_dict(self) -> JsonObject:
         """Return the convergence as `check.json` has it."""

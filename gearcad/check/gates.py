@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from operator import attrgetter, itemgetter
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from gearcad.check.comparison import CheckStrength, Comparison, Subject, agrees, at_most, beside, strength_comparisons
-from gearcad.check.convergence import LEAST_ORDER, Convergence
 from gearcad.check.summary import PRESSURE, ROOTS, PlaneSummary, SolidSummary, Summary
 from gearcad.check.task import CheckTask, face_factors
 from gearcad.contact.plane.cycle import PlaneCycle, conformal
@@ -20,6 +19,9 @@ from gearcad.core.records import Notice, PerGear, Role
 from gearcad.geometry import Gear
 from gearcad.material import Limit, Material, by_gear
 from gearcad.rating.tooth_stiffness import RIM_LIMIT, RING_RIM_LIMIT
+
+if TYPE_CHECKING:
+    from gearcad.check.convergence import Convergence
 
 _SAME = 1e-9
 """Difference of radii (mm) below which they count as equal."""
@@ -204,11 +206,9 @@ def _reactions(cycle: Cycle, source: str) -> Iterator[Comparison]:
 def _mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...], summary: Summary) -> Iterator[Comparison]:
     """The estimated error of each quantity, by mesh and positions together, against what it may be (relative)."""
     for each, limit in zip(convergence, limits, strict=bool(convergence)):
-        unclear = "the changes from mesh to mesh show no order"
-        order = unclear if each.order is None or each.order < LEAST_ORDER else f"observed order {each.order:.1f}"
         between = summary.sampling_error[each.key]
         source = "three meshes, Richardson, and what the positions may miss"
-        note = f"{100 * each.error:.2g} % by the mesh ({order}), {100 * between:.2g} % by the positions"
+        note = f"{100 * each.error:.2g} % by the mesh ({each.order_words}), {100 * between:.2g} % by the positions"
         told = 100 * (each.error + between)
         yield at_most(f"discretisation error, {each.quantity}", told, 100 * limit, "%", source, note)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeAlias, TypedDict
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypedDict
 
 import numpy as np
 
@@ -18,9 +18,11 @@ from gearcad.contact.plane.cycle import (
     tooth_field,
 )
 from gearcad.contact.shared.loaded import INTERIOR, Cycle, Extreme, ExtremeQuantity, LoadedPosition, RootStress
-from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact, SolidPosition
 from gearcad.core.records import Floats, JsonObject, PerGear, Role
 from gearcad.rating.contact_stress import LineContact
+
+if TYPE_CHECKING:
+    from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact, SolidPosition
 
 _Position: TypeAlias = LoadedPosition[Any]
 _Quantities: TypeAlias = tuple[ExtremeQuantity[_Position], ...]

@@ -39,11 +39,12 @@ from gearcad.material import Grade, Material, Materials, grade_of
 from gearcad.planetary.members import mesh_material, stage_material
 from gearcad.planetary.power import FactorSource, MeshLoad, PowerFlow, mesh_loads, power_flow, stage_loads
 from gearcad.planetary.search import PlanetarySet, SearchResult
-from gearcad.sizing import SizedPair, SizeTask, Sizing
-from gearcad.sizing.planetary_sets import SizedSet, SizedSets
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
+
+    from gearcad.sizing import SizedPair, SizeTask, Sizing
+    from gearcad.sizing.planetary_sets import SizedSet, SizedSets
 
 
 _ALWAYS = ("helix_angle", "profile_shift", "tip_alteration")

@@ -10,14 +10,16 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from gearcad.core.errors import GeometryError, at_least, at_most, require_number, require_whole
 from gearcad.core.records import Notice
 from gearcad.geometry.fits import ToothAllowance
-from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.involute import inverse_involute, involute, root_between
 from gearcad.geometry.profile import base_half_angle
+
+if TYPE_CHECKING:
+    from gearcad.geometry.gear_data import GearData
 
 _FARTHEST_CENTRE = math.radians(75)
 """Largest pressure angle at the centre of a suggested ball: there its dimension is 3.9 times the base circle."""

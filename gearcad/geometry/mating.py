@@ -24,7 +24,7 @@ from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.toothed import ToothedPart
 
 ROUNDING = 1e-9
-"""Cut into a fillet, in normal modules, that counts as rounding."""
+"""Overlap in normal modules, of flanks or of an edge and a fillet, that counts as rounding."""
 
 _ASIDE = 1e-6
 """Clearance that a limit keeps from a tip that would just touch, in normal modules."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields
 from enum import Enum
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,9 @@ from gearcad.core.errors import GeometryError, at_most
 from gearcad.core.quantities import Range, Words, require_fields
 from gearcad.core.records import Floats, JsonObject, concise
 from gearcad.geometry.involute import tangent_length
-from gearcad.geometry.profile import ToothProfile
+
+if TYPE_CHECKING:
+    from gearcad.geometry.profile import ToothProfile
 
 __all__ = [
     "ASSUMED_TRANSITION",

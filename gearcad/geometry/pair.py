@@ -15,6 +15,7 @@ from gearcad.geometry.gear import Pose, pair_html, wheel_pose
 from gearcad.geometry.gear_data import twist
 from gearcad.geometry.interference import FilletCut, InterferenceMargins, fillet_cut
 from gearcad.geometry.mating import (
+    ROUNDING,
     check_centre_distance,
     check_inputs,
     check_mates,
@@ -29,9 +30,6 @@ from gearcad.geometry.pair_data import PairData
 from gearcad.geometry.path_of_contact import sliding_document
 
 __all__ = ["GearPair"]
-
-ROUNDING = 1e-9
-"""Overlap in normal modules, of flanks or of an edge and a fillet, that counts as rounding."""
 
 _DERIVED = (
     "gear_ratio reference_centre_distance profile_shift_sum zero_backlash_shift_sum working_transverse_pressure_angle "

@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from typing import Any, ClassVar, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,8 +19,10 @@ from numpy.typing import ArrayLike
 from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, require_number
 from gearcad.core.records import Floats
 from gearcad.core.values import Values, degrees
-from gearcad.geometry.fillets import FilletTool
 from gearcad.geometry.involute import inverse_involute, involute, involute_at_roll, root_between
+
+if TYPE_CHECKING:
+    from gearcad.geometry.fillets import FilletTool
 
 AIM = 0.98
 """Share of the chord error that the local rule aims at: where the bend changes along a chord it is off by up to 1 %."""

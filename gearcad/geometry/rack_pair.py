@@ -28,8 +28,7 @@ from gearcad.geometry.fits import settled
 from gearcad.geometry.gear import Gear, RackPose
 from gearcad.geometry.gear_data import twist
 from gearcad.geometry.involute import tangent_length
-from gearcad.geometry.mating import ROUNDING_OVERLAP, check_common, check_hand
-from gearcad.geometry.pair import ROUNDING
+from gearcad.geometry.mating import ROUNDING, ROUNDING_OVERLAP, check_common, check_hand
 from gearcad.geometry.path_of_contact import MatedPair, PathOfContact, sliding_document
 from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.rack import Rack, RackProfile, rack_pair_html

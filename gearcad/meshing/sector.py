@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,7 +15,9 @@ from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
 from gearcad.geometry.gear_data import twist
 from gearcad.meshing.outline import HalfLengths, MeshSizes, OutlineSide, SectorSides, Stretch, sector_outline
-from gearcad.meshing.quads import QuadMesh
+
+if TYPE_CHECKING:
+    from gearcad.meshing.quads import QuadMesh
 
 _INSTEAD = 'solid checks (model = "3d"), stiffness "potential-energy" and all that is not meshed do without'
 

@@ -15,7 +15,7 @@ import numpy as np
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Notice, PerGear
 from gearcad.core.values import Values, bounded, chosen, number_or_array, power
-from gearcad.geometry import FlankModification
+from gearcad.geometry.modification import FlankModification
 
 
 class Edition(StrEnum):

@@ -11,12 +11,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
 from gearcad.contact.shared.loaded import FlankCompliance, LoadedFlank
-from gearcad.contact.solid.body import SolidBody
 from gearcad.contact.solid.elements import boundary_faces, layer_matrices, summing
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Floats, JsonObject, Wholes
@@ -25,6 +24,9 @@ from gearcad.geometry import Gear
 from gearcad.material import Material
 from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.sector import SweptMesh, turned
+
+if TYPE_CHECKING:
+    from gearcad.contact.solid.body import SolidBody
 
 Places = tuple[Floats, Floats]
 """Roll lengths (n,) and heights z (n,) of places on a flank, in mm."""

@@ -15,19 +15,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from gearcad.contact.shared.line_of_action import LEAST_LENGTH, LineOfAction, gears_loaded_left
 from gearcad.contact.shared.loaded import TOOTH_ORDER
 from gearcad.contact.shared.local_contact import complementary, onsets, start_distance
-from gearcad.contact.solid.flank import Places, SolidCompliance, SolidFlank
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Bools, Floats, PerGear, Role, Wholes
 from gearcad.geometry import Gear, GearPair
 from gearcad.mounting import Mounting
 from gearcad.rating.contact_stress import half_width, peak_pressure
+
+if TYPE_CHECKING:
+    from gearcad.contact.solid.flank import Places, SolidCompliance, SolidFlank
 
 BEND = 0.05
 """Distance (mm per mm of normal module) over which slope and curvature of a modification are taken."""

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
-from gearcad.contact.solid.flank import SolidCompliance, ToothForces
 from gearcad.core.records import Floats, Wholes
 from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.quads import GAUSS, edges_of_chain
+
+if TYPE_CHECKING:
+    from gearcad.contact.solid.flank import SolidCompliance, ToothForces
 
 __all__ = ["FilletState", "SolidFillet", "SolidFillets", "solid_fillets"]
 

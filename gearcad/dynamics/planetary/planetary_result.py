@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearcad.core.records import JsonObject, Notice, Pictured, Verdict, strength_verdict, texts
 from gearcad.dynamics.planetary.load_sharing import LoadSharing
 from gearcad.dynamics.planetary.planar_model import TrainMasses
-from gearcad.dynamics.planetary.planetary_excitation import PlanetMeshStiffness
 from gearcad.dynamics.planetary.planetary_modes import PlanetaryCampbell, PlanetaryModes
-from gearcad.dynamics.planetary.planetary_response import PlanetaryResponse
 from gearcad.dynamics.planetary.planetary_statics import TorsionalStiffness
 from gearcad.dynamics.planetary.planetary_strength import TrainRating
 from gearcad.dynamics.planetary.quasi_static_run import Running
@@ -21,6 +19,10 @@ from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.planetary.poses import MeshPhases, TrainPose, train_harmonics
 from gearcad.planetary.power import MeshLoad, PowerFlow, TrainForces
 from gearcad.planetary.train_data import Speeds
+
+if TYPE_CHECKING:
+    from gearcad.dynamics.planetary.planetary_excitation import PlanetMeshStiffness
+    from gearcad.dynamics.planetary.planetary_response import PlanetaryResponse
 
 PARTS = {
     "speeds": "speeds",

@@ -9,14 +9,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from gearcad.core.errors import GeometryError, SolverError
 from gearcad.core.records import Bools, Complexes, Floats, Indices, Notice
-from gearcad.dynamics.trains.mesh_excitation import Excitation
 from gearcad.dynamics.trains.shaft_lines import System
+
+if TYPE_CHECKING:
+    from gearcad.dynamics.trains.mesh_excitation import Excitation
 
 
 class Direction(Enum):
