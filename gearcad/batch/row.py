@@ -315,7 +315,7 @@ def _update(task: Task, folder: Path, job: Job[Any, Any]) -> _Update:
     row, wanted = task.row, job.parts
     inputs = inputs_hash(row.inputs)
     before = read_manifest(folder)
-    kept = _kept(before, inputs, folder)
+    kept = _valid_parts(before, inputs, folder)
     missing = [name for name, options in wanted.items() if task.fresh or name not in kept or kept[name].options != options]
     if missing:
         design = task.design(inputs)
@@ -344,7 +344,7 @@ def _staging(task: Task, folder: Path) -> Iterator[Path]:
         shutil.rmtree(staging, ignore_errors=True)
 
 
-def _kept(before: Manifest | None, inputs: str, folder: Path) -> dict[str, RowPart]:
+def _valid_parts(before: Manifest | None, inputs: str, folder: Path) -> dict[str, RowPart]:
     """The parts that are there and still true."""
     if before is None or before.inputs != inputs:
         return {}

@@ -81,7 +81,7 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
     if not shown:
         yield None
         return
-    if expected is not None and (told := _told(expected)):
+    if expected is not None and (told := _effort_note(expected)):
         click.echo(told, err=True)
     clock = Clock(expected)
     if not shows_styles(sys.stderr):
@@ -100,7 +100,7 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
         )
 
 
-def _told(expected: Expected) -> str:
+def _effort_note(expected: Expected) -> str:
     """Return a note on the job before it begins: what it makes, and time and memory if they are large."""
     takes = f"takes {about(expected.seconds)} and {about_memory(expected.memory)} of memory"
     return ", ".join(filter(None, (expected.makes, takes if expected.seconds >= _LONG or expected.memory >= _LARGE else "")))

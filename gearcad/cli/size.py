@@ -121,7 +121,7 @@ def nothing_lines(result: Sizing) -> Iterator[str]:
     """Yield lines that say why no pair was found: what each condition removed, the safest variant, and what would help."""
     took = ", ".join(f"{grouped(number)} by {name}" for name, number in result.removed.items() if number)
     yield f"No pair of {grouped(result.considered)} variants meets all conditions: removed {took}"
-    last = _last(result)
+    last = _last_condition(result)
     if last == "mass" and (light := result.lightest) is not None:
         yield f"the lightest variant that is safe is {light.name}, b {light.face_width:g} mm: {light.mass:.3g} kg"
     elif (best := result.strongest) is not None:
@@ -134,7 +134,7 @@ def nothing_lines(result: Sizing) -> Iterator[str]:
         yield f"what would help: {_hint(last, result)}"
 
 
-def _last(result: Sizing) -> str | None:
+def _last_condition(result: Sizing) -> str | None:
     """The condition that removed the last candidates: those that it took had met all before. None where some met all."""
     if result.cloud.size:
         return None

@@ -187,7 +187,7 @@ def with_amounts(pair: GearPair, amounts: Floats, shape: ReliefShape) -> GearPai
     """The pair with the amounts (6,) of a variant. Raises GeometryError where they do not fit the gears."""
     gears = []
     for role, gear in pair.gears.items():
-        given = _given(amounts, role)
+        given = _named_amounts(amounts, role)
         form, length = gear.flank_form, given.get("tip_relief_length", 0.0)
         transition = fitting_transition(form, shape, length)
         changed = replace(gear.modification, **given, tip_relief_shape=shape, tip_relief_transition=transition)
@@ -206,7 +206,7 @@ def fitting_transition(form: FlankForm, shape: ReliefShape, length: float) -> fl
     return min(given, longest) if given and longest > LEAST_TRANSITION else 0.0
 
 
-def _given(amounts: Floats, role: Role) -> dict[str, Any]:
+def _named_amounts(amounts: Floats, role: Role) -> dict[str, Any]:
     """The amounts (6,) of a gear's modification by name, without the length of a relief that has none."""
     named = (name.split(".") for name in AMOUNTS)
     own = {name: value for (owner, name), value in zip(named, amounts.tolist(), strict=True) if owner == role.value}

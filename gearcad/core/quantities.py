@@ -365,7 +365,7 @@ class FieldSchema:
 
     def _require_either(self, instance: DataclassInstance, parameter: str, mark: InPlaceOf) -> None:
         """Raise ParameterError if neither this field nor the one in its place is given."""
-        if not any(_given(getattr(instance, each)) for each in (self.name, mark.other)):
+        if not any(_has_value(getattr(instance, each)) for each in (self.name, mark.other)):
             try:
                 if self.permitted is not None:
                     self.permitted.require(parameter, None)
@@ -373,7 +373,7 @@ class FieldSchema:
                 raise ParameterError(parameter, None, f"{error.permitted}, or give {mark.other} instead") from None
 
 
-def _given(value: Any) -> bool:
+def _has_value(value: Any) -> bool:
     return value is not None and not getattr(value, "derived", False)
 
 

@@ -134,7 +134,7 @@ def names_file(key: str) -> bool:
 
 def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """The values with files, which are seen from `folder`, as they are found from here."""
-    return {key: _found(key, each, folder) if names_file(key) else each for key, each in values.items()}
+    return {key: _file_path(key, each, folder) if names_file(key) else each for key, each in values.items()}
 
 
 def find_named_files(tables: Mapping[str, Any], folder: Path) -> None:
@@ -144,10 +144,10 @@ def find_named_files(tables: Mapping[str, Any], folder: Path) -> None:
     named = [(f"train.mesh[{at}]", mesh, "pair") for at, mesh in enumerate(meshes)] if isinstance(meshes, list) else []
     for where, table, key in (*named, ("drawing", drawing, "template")):
         if isinstance(table, dict) and key in table:
-            table[key] = _found(f"{where}.{key}", table[key], folder)
+            table[key] = _file_path(f"{where}.{key}", table[key], folder)
 
 
-def _found(key: str, name: Any, folder: Path) -> Any:
+def _file_path(key: str, name: Any, folder: Path) -> Any:
     """Return the path of a file as seen from here. A name that no file can have stays as it is: whoever reads the file refuses
     it.
     """

@@ -231,7 +231,7 @@ def _is_name(key: str) -> bool:
 _OF_TRAINS = {each.name for each in fields(PlanetaryTrain)}
 _REQUIRED = ("planets", "input", "output")
 
-_TAKEN = ("kind", "name", "gearcad", "materials", "drawings", "assumed", SPEEDS, MAIN, *BESIDE)
+_RESERVED_KEYS = ("kind", "name", "gearcad", "materials", "drawings", "assumed", SPEEDS, MAIN, *BESIDE)
 """Keys of a document beside its gears."""
 
 
@@ -259,7 +259,7 @@ class PlanetaryDesign(ToothedDesign):
         names += [gear.name for stage in self.train.stages for gear in stage.pair.gears]
         for name in names:
             require_plain_name(name)
-            if name in _TAKEN:
+            if name in _RESERVED_KEYS:
                 raise ParameterError("name", name, "must be another word: documents have a table of this name")
             if names.count(name) > 1:
                 raise ParameterError("name", name, "must be given once: every gear and the carrier have names of their own")

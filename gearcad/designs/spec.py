@@ -543,7 +543,7 @@ def materials_of(spec: Spec, gears: Sequence[str]) -> Material | dict[str, Mater
     own = {gear: _own(spec, gear) for gear in gears}
     if not any(own.values()):
         return common_material(spec, gears) if common else None
-    return {gear: _made(spec, gear, _merged(common, layers)) for gear, layers in own.items()}
+    return {gear: _gear_material(spec, gear, _merged(common, layers)) for gear, layers in own.items()}
 
 
 def common_material(spec: Spec, gears: Sequence[str]) -> Material:
@@ -597,7 +597,7 @@ def _grade(name: Given | None) -> Grade | None:
     return grade_of(name.value) if name is not None and isinstance(name.value, str) else None
 
 
-def _made(spec: Spec, gear: str, values: Mapping[str, Given]) -> Material:
+def _gear_material(spec: Spec, gear: str, values: Mapping[str, Given]) -> Material:
     """The material of a gear; errors name the key that was written."""
     for key, given in values.items():
         spec.values[f"{gear}.{_TABLE}.{key}"] = given

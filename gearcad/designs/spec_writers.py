@@ -290,12 +290,12 @@ def pair_keys(sized: SizedPair) -> dict[str, dict[str, Any]]:
             "normal_module": sized.normal_module,
             "helix_angle": sized.helix_angle,
             "face_width": sized.face_width,
-            **_given("rack.", task.rack, ISO53_A),
+            **_changed_fields("rack.", task.rack, ISO53_A),
         },
         "pinion": {"teeth": sized.teeth.pinion, "profile_shift": sized.pinion_shift},
         "wheel": {"teeth": sized.teeth.wheel, "profile_shift": AUTO},
-        "load": _given("", task.load),
-        "rating": _given("", task.rating),
+        "load": _changed_fields("", task.load),
+        "rating": _changed_fields("", task.rating),
     }
     if one == other:
         tables["material"] = _material("", one)
@@ -305,7 +305,7 @@ def pair_keys(sized: SizedPair) -> dict[str, dict[str, Any]]:
     return {table: values for table, values in tables.items() if values}
 
 
-def _given(prefix: str, instance: DataclassInstance, usual: DataclassInstance | None = None) -> dict[str, Any]:
+def _changed_fields(prefix: str, instance: DataclassInstance, usual: DataclassInstance | None = None) -> dict[str, Any]:
     """The fields that differ from their defaults, or from those of another instance."""
     found = {}
     for each in fields(instance):
@@ -317,7 +317,7 @@ def _given(prefix: str, instance: DataclassInstance, usual: DataclassInstance | 
 
 def _material(prefix: str, material: Material) -> dict[str, Any]:
     """Return the keys of a material, without group and quality if its name implies them."""
-    found = _given(prefix, material)
+    found = _changed_fields(prefix, material)
     if grade_of(material.name) is not None:
         found = {key: value for key, value in found.items() if key.removeprefix(prefix) not in Grade._fields}
     return found

@@ -225,19 +225,19 @@ def _near(field: str, tables: Iterable[str]) -> list[tuple[str, str]]:
     return [(home, key) for key in spelt for home in known[key]]
 
 
-_EACH = {
+_ALL_FIELDS = {
     f"{table}.{key}": field for kind in (PLANETARY, FIELDS) for table, fields in kind.items() for key, field in fields.items()
 } | {
     f"{table}.{ALL}.{key}" if table in TRAIN_PARTS else f"{table}.{key}": field
     for table, fields in TRAIN.items()
     for key, field in fields.items()
 }
-COUNTS = frozenset(key for key, field in _EACH.items() if field.whole)
-LISTS = frozenset(key for key, field in _EACH.items() if field.several)
-NESTED = frozenset(key for key, field in _EACH.items() if field.nested)
-TEXT_LISTS = frozenset(key for key, field in _EACH.items() if field.texts)
-TEXTS = NESTED | frozenset(key for key, field in _EACH.items() if field.text or ELSEWHERE in field.marks)
-SWITCHES = frozenset(key for key, field in _EACH.items() if field.switch)
+COUNTS = frozenset(key for key, field in _ALL_FIELDS.items() if field.whole)
+LISTS = frozenset(key for key, field in _ALL_FIELDS.items() if field.several)
+NESTED = frozenset(key for key, field in _ALL_FIELDS.items() if field.nested)
+TEXT_LISTS = frozenset(key for key, field in _ALL_FIELDS.items() if field.texts)
+TEXTS = NESTED | frozenset(key for key, field in _ALL_FIELDS.items() if field.text or ELSEWHERE in field.marks)
+SWITCHES = frozenset(key for key, field in _ALL_FIELDS.items() if field.switch)
 """Full keys of whole numbers, of what may be several numbers (in a cell there is space between them), of lists of lists (a text
 in a cell), of lists of texts, of these and words, and of true and false; of a train's parts those of all (`general_key`)."""
 

@@ -124,17 +124,17 @@ def column_of_train(heading: str) -> tuple[str, Symbol] | None:
     kind, _, named = field.partition(".")
     if table == "planetary" and kind in _NAMED_OF_TRAINS:
         owner, _, of = named.rpartition(".") if kind == "members" else named.partition(".")
-        return _found(owner, of, _NAMED_OF_TRAINS[kind])
+        return _known_symbol(owner, of, _NAMED_OF_TRAINS[kind])
     if table == "planetary" and kind == "mesh_stiffness":
         return named, symbols.STIFFNESS["mean"]
-    if table in _OF_TRAINS and (found := _found("", field, _OF_TRAINS[table])):
+    if table in _OF_TRAINS and (found := _known_symbol("", field, _OF_TRAINS[table])):
         return found
     if table in _TABLES and table not in ("gear", "pinion", "wheel", "pair", "rack"):
         return column_symbol(heading)
-    return _of_own(heading) or _found(table, field, _TABLES["gear"])
+    return _of_own(heading) or _known_symbol(table, field, _TABLES["gear"])
 
 
-def _found(owner: str, field: str, known: Mapping[str, Symbol]) -> tuple[str, Symbol] | None:
+def _known_symbol(owner: str, field: str, known: Mapping[str, Symbol]) -> tuple[str, Symbol] | None:
     return (owner, known[field]) if field in known else None
 
 
@@ -165,7 +165,7 @@ def _of_own(heading: str) -> tuple[str, Symbol] | None:
     table, _, rest = heading.partition(".")
     owner, _, field = rest.partition(".")
     own = {"materials": Material, "drawings": PartDrawing}.get(table)
-    return None if own is None else _found(owner, field, symbols_of(own))
+    return None if own is None else _known_symbol(owner, field, symbols_of(own))
 
 
 def _of_part(heading: str) -> tuple[str, Symbol] | None:

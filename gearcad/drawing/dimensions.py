@@ -295,12 +295,12 @@ def _framed(tip: Point, side: Side, frame: Figure, clear: float | None) -> Itera
         end = side.point(side.along(tip), start + side.outwards * length)
         line = Line(tip, end, Pen.SYMBOL)
         if side.is_upright:
-            yield Figure.of(point, line), _beside(frame, end, side.outwards)
+            yield Figure.of(point, line), _at_line_end(frame, end, side.outwards)
             continue
         for across in (1.0, -1.0):
             for landing in (_LANDING, 3 * _LANDING):
                 corner = end[0] + across * landing, end[1]
-                yield Figure.of(point, line, Line(end, corner, Pen.SYMBOL)), _beside(frame, corner, across)
+                yield Figure.of(point, line, Line(end, corner, Pen.SYMBOL)), _at_line_end(frame, corner, across)
         up = box.height / 2 * side.outwards
         yield Figure.of(point, line), frame.moved(end[0] - box.width / 2, end[1] + up)
 
@@ -323,10 +323,10 @@ def _led(tip: Point, way: float, length: float, what: Written | Figure) -> tuple
     if isinstance(what, Written):
         place = (elbow[0] + end[0]) / 2, elbow[1] + max(_LEADER_LIFT, what.below + _LEADER_LEAST_LIFT)
         return (*shapes, *what.at(place, Anchor.CENTRE).shapes)
-    return (*shapes, *_beside(what, end, across).shapes)
+    return (*shapes, *_at_line_end(what, end, across).shapes)
 
 
-def _beside(figure: Figure, end: Point, across: float) -> Figure:
+def _at_line_end(figure: Figure, end: Point, across: float) -> Figure:
     """Return a figure with its left or right side at the end of a line, which joins it where its own y is 0."""
     box = figure.box
     left = end[0] if across > 0 else end[0] - box.width
@@ -377,7 +377,7 @@ def linear_dimension(
     or in its place (ISO 5459). A tolerance `frame`, the middle of its left side at (0, 0), stands at the end of a horizontal
     line. It applies to the middle plane (ISO 1101).
     """
-    drawn = _Drawn(first, second, side, size, draughting, datum_letter, frame)
+    drawn = _LaneDimension(first, second, side, size, draughting, datum_letter, frame)
     outs = _lanes(side, clear)
     for out in outs[:_NEAR]:
         yield from drawn.in_lane(out)
@@ -393,7 +393,7 @@ def _lanes(side: Side, clear: float) -> list[float]:
 
 
 @dataclass(frozen=True)
-class _Drawn:
+class _LaneDimension:
     """A dimension to be drawn in one of many lanes."""
 
     first: Point

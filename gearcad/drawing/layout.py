@@ -126,7 +126,7 @@ class _Places:
             yield figure
 
 
-class _Beside(NamedTuple):
+class _DimensionOrder(NamedTuple):
     """Order of a linear dimension: its direction, whether its line is above (right of) the measured points, and its length."""
 
     measured: MeasuredDistance
@@ -139,7 +139,7 @@ def _in_order(view: View) -> list[_Places]:
     place is left out.
     """
     marks = [(places, first) for each in view.annotations if (first := next(iter(places := _Places(each)), None)) is not None]
-    sides = [_beside(first) for _, first in marks]
+    sides = [_dimension_order(first) for _, first in marks]
     order = list(range(len(marks)))
     for side in {(each.measured, each.above) for each in sides if each is not None}:
         found = {number: each.length for number, each in enumerate(sides) if each is not None and each[:2] == side}
@@ -148,13 +148,13 @@ def _in_order(view: View) -> list[_Places]:
     return [marks[number][0] for number in order]
 
 
-def _beside(first: Figure) -> _Beside | None:
+def _dimension_order(first: Figure) -> _DimensionOrder | None:
     dimension = first.shapes[0]
     if not isinstance(dimension, Dimension):
         return None
     axis = 0 if dimension.measured is MeasuredDistance.HORIZONTAL else 1
     above = 2 * dimension.line[1 - axis] > dimension.first[1 - axis] + dimension.second[1 - axis]
-    return _Beside(dimension.measured, above, abs(dimension.second[axis] - dimension.first[axis]))
+    return _DimensionOrder(dimension.measured, above, abs(dimension.second[axis] - dimension.first[axis]))
 
 
 _LARGEST = 50.0
@@ -259,8 +259,8 @@ class _Trial:
     """A view whose marks had no place at some scale."""
 
     _rooms: dict[SheetSize, Room] = field(default_factory=dict)
-    _bare: dict[str, _Shown] = field(default_factory=dict)
-    _dressed: dict[str, _Shown | None] = field(default_factory=dict)
+    _bare: dict[str, _ViewFigures] = field(default_factory=dict)
+    _dressed: dict[str, _ViewFigures | None] = field(default_factory=dict)
 
     def largest(self, sheet: SheetSize, scales: Sequence[str], least: float = 0.0) -> Arrangement | None:
         """Return the arrangement at the first of the scales that has room and is no smaller than `least`; None if there is
@@ -304,15 +304,15 @@ class _Trial:
             return made
         return Views(tuple(tuple(reversed(row)) for row in reversed(made.rows)), made.blocks)
 
-    def _outlines(self, scale: str) -> _Shown:
+    def _outlines(self, scale: str) -> _ViewFigures:
         if scale not in self._bare:
-            self._bare[scale] = _Shown.of(self._made(scale), lambda view: view.figure)
+            self._bare[scale] = _ViewFigures.of(self._made(scale), lambda view: view.figure)
         return self._bare[scale]
 
-    def _with_marks(self, scale: str) -> _Shown | None:
+    def _with_marks(self, scale: str) -> _ViewFigures | None:
         if scale not in self._dressed:
             try:
-                self._dressed[scale] = _Shown.of(self._made(scale), _with_all)
+                self._dressed[scale] = _ViewFigures.of(self._made(scale), _with_all)
             except _Crowded as crowded:
                 self._dressed[scale], self.crowded = None, str(crowded)
         return self._dressed[scale]
@@ -329,14 +329,14 @@ def _with_all(view: View) -> Figure:
     return figure
 
 
-class _Shown(NamedTuple):
+class _ViewFigures(NamedTuple):
     """Figures of views by their names."""
 
     rows: tuple[tuple[tuple[str, Figure], ...], ...]
     blocks: tuple[tuple[str, Figure], ...]
 
     @classmethod
-    def of(cls, views: Views, shown: Callable[[View], Figure]) -> _Shown:
+    def of(cls, views: Views, shown: Callable[[View], Figure]) -> _ViewFigures:
         rows = tuple(tuple((view.name, shown(view)) for view in row) for row in views.rows)
         return cls(rows, tuple((view.name, shown(view)) for view in views.blocks))
 

@@ -91,7 +91,7 @@ Item = Stroked | Area | Text
 
 def items(document: Drawing) -> Iterator[Item]:
     """Return all items that a document shows, in its order."""
-    return _of_all(document.modelspace(), document)
+    return _all_items(document.modelspace(), document)
 
 
 def line_widths(document: Drawing) -> dict[Pen, float]:
@@ -105,15 +105,15 @@ def paper_size(document: Drawing) -> tuple[float, float]:
     return across, up
 
 
-def _of_all(entities: object, document: Drawing) -> Iterator[Item]:
+def _all_items(entities: object, document: Drawing) -> Iterator[Item]:
     for entity in entities:  # type: ignore[attr-defined] # a layout: type checkers do not see the library
-        yield from _of(entity, document)
+        yield from _entity_items(entity, document)
 
 
-def _of(entity: DXFEntity, document: Drawing) -> Iterator[Item]:
+def _entity_items(entity: DXFEntity, document: Drawing) -> Iterator[Item]:
     kind, dxf = entity.dxftype(), entity.dxf
     if kind == "DIMENSION":
-        yield from _of_all(document.blocks.get(dxf.geometry), document)
+        yield from _all_items(document.blocks.get(dxf.geometry), document)
         return
     pen = Pen(dxf.layer)
     match kind:
@@ -257,7 +257,7 @@ def set_letters(words: str) -> str:
     >>> set_letters("Rad 齿轮 1")
     'Rad □□ 1'
     """
-    return "".join(letter if has_glyph(letter) else _MISSING for letter in _as_seen(words))
+    return "".join(letter if has_glyph(letter) else _MISSING for letter in _visual_order(words))
 
 
 def unshowable(words: Iterable[str]) -> str:
@@ -265,7 +265,7 @@ def unshowable(words: Iterable[str]) -> str:
     return "".join(sorted({letter for text in words for letter in text if not has_glyph(letter)}))
 
 
-def _as_seen(words: str) -> str:
+def _visual_order(words: str) -> str:
     """Return a text as seen from left to right: right-to-left parts reversed, except their numbers, and Arabic letters joined.
 
     A simple case of the Unicode bidirectional algorithm (UAX 9): one level, in a line that runs from left to right.

@@ -107,7 +107,7 @@ class Occupied:
         level = lines[np.abs(lines[:, 1] - lines[:, 3]) <= _LEVEL * np.abs(lines[:, 0] - lines[:, 2])]
         heights = (level[:, 1] + level[:, 3]) / 2
         others = np.stack([np.minimum(level[:, 0], level[:, 2]), np.maximum(level[:, 0], level[:, 2]), heights], axis=1)
-        return bool(_beside(spans, self._spans[measured], _LANE).any() or _beside(spans, others, _BESIDE).any())
+        return bool(_near_spans(spans, self._spans[measured], _LANE).any() or _near_spans(spans, others, _BESIDE).any())
 
 
 def _no_rows(width: int = 4) -> Floats:
@@ -171,7 +171,7 @@ def _meet(ones: Floats, others: Floats) -> Bools:
     return met
 
 
-def _beside(spans: Floats, others: Floats, distance: float) -> Bools:
+def _near_spans(spans: Floats, others: Floats, distance: float) -> Bools:
     """Return which spans run beside which others, nearer than a distance, shape (spans, others)."""
     one, other = spans[:, None, :], others[None, :, :]
     shared = np.minimum(one[..., 1], other[..., 1]) - np.maximum(one[..., 0], other[..., 0])
@@ -186,7 +186,7 @@ def _doubled(ones: Floats, others: Floats) -> Bools:
     for turn in ([0, 1, 2, 3], [1, 0, 3, 2]):
         one, other = _level_spans(ones[:, turn]), _level_spans(others[:, turn])
         apart = np.abs(one[:, None, 2] - other[None, :, 2])
-        found |= _beside(one, other, _DOUBLE) & (apart > _SAME)
+        found |= _near_spans(one, other, _DOUBLE) & (apart > _SAME)
     return found
 
 
@@ -237,7 +237,7 @@ def _intersecting(ones: Floats, others: Floats) -> Bools:
 _ROUNDS = 3
 """Number of rounds; each group moves once a round, with the others at their current places."""
 
-_ASIDE = 5.0
+_LIMITING_DISTANCE = 5.0
 """Distance (mm) aside within which boxes limit the move of a group."""
 
 
@@ -263,7 +263,9 @@ def _to_middle(group: Iterable[Box], others: Sequence[Box], free: Box) -> float:
     """Return the distance up (mm) that gives boxes as much room above as below them."""
     above, below = [], []
     for box in group:
-        beside = [each for each in others if each.left < box.right + _ASIDE and box.left - _ASIDE < each.right]
+        beside = [
+            each for each in others if each.left < box.right + _LIMITING_DISTANCE and box.left - _LIMITING_DISTANCE < each.right
+        ]
         above.append(min([free.top, *(each.bottom for each in beside if each.bottom >= box.top)]) - box.top)
         below.append(box.bottom - max([free.bottom, *(each.top for each in beside if each.top <= box.bottom)]))
     return (min(above) - min(below)) / 2 if above else 0.0

@@ -231,7 +231,7 @@ def _shafts_between(train: Train, own: Set[str]) -> dict[str, tuple[str, ...]]:
     return ways
 
 
-_SAID = 2
+_DESCRIBED_MODES = 2
 """Number of modes that a sentence describes; tables have all of them."""
 
 
@@ -365,7 +365,7 @@ class LevelVerdict:
     def _reasons(self) -> Iterator[str]:
         """Yield in words what the model lacks, for the modes that decide most, each mode once."""
         first = {each.mode: each for each in reversed(self.decisions) if each.shares}
-        for each in [each for each in self.decisions if first.get(each.mode) is each][:_SAID]:
+        for each in [each for each in self.decisions if first.get(each.mode) is each][:_DESCRIBED_MODES]:
             mode = f"at {_rpm(each.speed)} natural mode {each.mode} ({each.frequency:.5g} Hz) decides"
             yield f"{mode}, with {' and '.join(share.words for share in each.shares)}"
 

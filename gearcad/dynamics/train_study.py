@@ -330,7 +330,7 @@ def _course(train: Train, over: OverSpeed, asked: float, options: DynamicsOption
         samples = max(samples, 8 * int(min(felt, most)))
         if felt > most:
             notices = (*notices, _unresolved(most))
-    return _drawn(train, response, samples), notices
+    return _sampled_course(train, response, samples), notices
 
 
 def _greatest_in_operation(train: Train, over: OverSpeed, options: DynamicsOptions) -> float:
@@ -354,7 +354,7 @@ def _pull(response: PeriodicResponse) -> bool:
     return bool((response.senses * response.spring_forces()).min() <= 0)
 
 
-def _drawn(train: Train, response: PeriodicResponse, samples: int) -> Course:
+def _sampled_course(train: Train, response: PeriodicResponse, samples: int) -> Course:
     """Return the course of a response with about so many samples; K_v is taken from more samples."""
     step = max(1, 8 * int(response.harmonics[-1]) // samples)
     count = max(samples, 8 * int(response.harmonics[-1]) // step * step)

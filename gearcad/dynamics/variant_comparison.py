@@ -97,11 +97,11 @@ def joined_modes(studies: Sequence[TrainStudy], first: int) -> list[tuple[int | 
             if mode not in matched.values():
                 more.append([mode if each == place else None for each in range(len(studies))])
     every = [*groups, *more]
-    every.sort(key=lambda group: next(float(studies[at].modes.circular[mode]) for at, mode in _given(group, first)))
+    every.sort(key=lambda group: next(float(studies[at].modes.circular[mode]) for at, mode in _group_members(group, first)))
     return [tuple(group) for group in every]
 
 
-def _given(group: Sequence[int | None], first: int) -> list[tuple[int, int]]:
+def _group_members(group: Sequence[int | None], first: int) -> list[tuple[int, int]]:
     """Return which trains have the mode, and its number in each: the train `first` before others."""
     given = [(place, mode) for place, mode in enumerate(group) if mode is not None]
     return sorted(given, key=lambda each: each[0] != first)

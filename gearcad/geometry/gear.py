@@ -130,13 +130,13 @@ def sheet(name: str, picture: str, headings: list[str], rows: Iterable[tuple[sym
     lines = [f"<tr><th>{escape(name)}</th><th></th>{head}</tr>"]
     for symbol, values in rows:
         span = f' colspan="{columns}"' if len(values) < columns else ""
-        cells = "".join(f"<td{span}>{_shown(value, symbol.unit)}</td>" for value in values)
+        cells = "".join(f"<td{span}>{_value_text(value, symbol.unit)}</td>" for value in values)
         lines.append(f"<tr><td>{escape(symbol.words)}</td><td>{escape(symbol.symbol)}</td>{cells}</tr>")
     table = f"<table cellpadding=3 {_FLAT}>{''.join(lines)}</table>"
     return f'<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:center">{picture}{table}</div>'
 
 
-def _shown(value: float | None, unit: str) -> str:
+def _value_text(value: float | None, unit: str) -> str:
     if value is None:
         return "-"
     # What is left of a difference is no figure; adding zero makes -0.0 a plain zero.

@@ -26,7 +26,7 @@ from gearcad.geometry.toothed import ToothedPart
 ROUNDING = 1e-9
 """Overlap in normal modules, of flanks or of an edge and a fillet, that counts as rounding."""
 
-_ASIDE = 1e-6
+_TIP_CLEARANCE = 1e-6
 """Clearance that a limit keeps from a tip that would just touch, in normal modules."""
 
 _HALVINGS = 40
@@ -86,7 +86,7 @@ def check_interference(pair: PairData) -> None:
 
 def ring_tip_limit(pair: PairData) -> str | None:
     """ "at most" the ring's tip diameter (mm) that fouls nothing of the pinion but perhaps its fillet; None if none does."""
-    root, aside = -pair.centre_distance + pair.pinion.root_diameter / 2, _ASIDE * pair.pinion.normal_module
+    root, aside = -pair.centre_distance + pair.pinion.root_diameter / 2, _TIP_CLEARANCE * pair.pinion.normal_module
 
     def room(tips: InternalTips) -> float:
         return min(tips.first - aside, tips.trochoid_margin, tips.ring.edges[-1][0] - root - aside)
@@ -181,7 +181,7 @@ def _is_clear(pair: PairData) -> bool:
     """Whether the ring's tip was drawn in just to stay off the pinion's fillet ("clear" in a spec): it follows the teeth."""
     if pair.wheel.tip_alteration >= 0 or (clear := clear_tip_diameter(pair)) is None:
         return False
-    return abs(clear - pair.wheel.tip_diameter) <= _ASIDE * pair.wheel.normal_module
+    return abs(clear - pair.wheel.tip_diameter) <= _TIP_CLEARANCE * pair.wheel.normal_module
 
 
 def _tip_alteration(pair: PairData, teeth: int, clear: bool) -> float:

@@ -27,7 +27,7 @@ _STEPS = np.array([1e-5, 1e-4, 1e-3, 1e-4, 1e-4, 1e-4, 1e-3, 1e-4])
 """Steps of finite differences for each unknown: small beside its influence on a reading, large beside rounding."""
 
 
-_FELT_BY: dict[int, tuple[Gauge, ...]] = {
+_DEPENDENT_GAUGES: dict[int, tuple[Gauge, ...]] = {
     Unknown.ADDENDUM: (Gauge.TIP_DIAMETER, Gauge.TIP_HELIX_ANGLE, Gauge.MATE_TIP_DIAMETER, Gauge.CHORDAL_THICKNESS),
     Unknown.DEDENDUM: (Gauge.ROOT_DIAMETER,),
     Unknown.MATE_SHIFT: (Gauge.CENTRE_DISTANCE, Gauge.MATE_TIP_DIAMETER),
@@ -136,7 +136,9 @@ def sensitivity(
     here = read_off(measured, places, unknowns)
     slopes = np.zeros((len(places), UNKNOWNS))
     for each in varied:
-        felt = [row for row, place in enumerate(places) if each not in _FELT_BY or place.gauge in _FELT_BY[each]]
+        felt = [
+            row for row, place in enumerate(places) if each not in _DEPENDENT_GAUGES or place.gauge in _DEPENDENT_GAUGES[each]
+        ]
         beside = unknowns.copy()
         beside[each] += _STEPS[each]
         slopes[felt, each] = (read_off(measured, [places[row] for row in felt], beside) - here[felt]) / _STEPS[each]

@@ -214,20 +214,20 @@ def further(measured: Measured, rivals: Sequence[Candidate], uncertainty: float)
     rivals = rivals[:_RIVALS]
     known = {each.place for each in measured.readings}
     places = {place.place: place for place in _places(measured, rivals, uncertainty) if place.place not in known}
-    found = [each for place in places.values() if (each := _told(measured, rivals, place, None)) is not None]
+    found = [each for place in places.values() if (each := _deciding_reading(measured, rivals, place, None)) is not None]
     alike = tuple(rival for number, rival in enumerate(rivals) if number and _alike(found, number))
     spans = sorted((each.place for each in found if each.place.gauge is Gauge.SPAN), key=lambda place: place.size)
     pairs = [(more, less) for less, more in combinations(spans, 2)]
-    found += [each for more, less in pairs if (each := _told(measured, rivals, more, less)) is not None]
-    found.sort(key=lambda each: -_told_by(each, rivals))
+    found += [each for more, less in pairs if (each := _deciding_reading(measured, rivals, more, less)) is not None]
+    found.sort(key=lambda each: -_separation(each, rivals))
     chosen: dict[tuple[Gauge, bool], Deciding] = {}
     for each in found:
-        if _told_by(each, rivals) >= _TELLING * _told_by(found[0], rivals):
+        if _separation(each, rivals) >= _TELLING * _separation(found[0], rivals):
             chosen.setdefault((each.place.gauge, each.less is None), each)
     return Further(tuple(chosen.values())[:_FURTHER_MOST], alike)
 
 
-def _told_by(each: Deciding, rivals: Sequence[Candidate]) -> float:
+def _separation(each: Deciding, rivals: Sequence[Candidate]) -> float:
     """Return how well a measurement separates all candidates; more probable ones count more."""
     return sum(rival.probability * min(apart, _FAR) for rival, apart in zip(rivals[1:], each.apart, strict=True))
 
@@ -258,7 +258,7 @@ def _places(measured: Measured, rivals: Sequence[Candidate], uncertainty: float)
             )
 
 
-def _told(measured: Measured, rivals: Sequence[Candidate], place: Reading, less: Reading | None) -> Deciding | None:
+def _deciding_reading(measured: Measured, rivals: Sequence[Candidate], place: Reading, less: Reading | None) -> Deciding | None:
     """Return what each candidate would read at `place`, and how far apart.
 
     The result is None where the gauge does not touch all their flanks.

@@ -55,7 +55,7 @@ def drawn_gears(design: ToothedDesign) -> tuple[DrawnGear, ...]:
     if isinstance(design, RackDesign):
         return (DrawnGear(role="rack", gear=design.rack, material=design.material),)
     if isinstance(design, GearDesign):
-        return (_drawn(design, "gear", design.gear, design.material),)
+        return (_drawn_gear(design, "gear", design.gear, design.material),)
     if isinstance(design, RackPairDesign):
         return _of_pair(design, ("pinion", "rack"), design.pair)
     if isinstance(design, PairDesign):
@@ -81,7 +81,7 @@ def _of_pair(
     gears: tuple[Gear, Gear | Rack] = (pair.pinion, pair.wheel if isinstance(pair, GearPair) else pair.rack)
     materials = (None, None) if design.material is None else design.materials
     first, second = (
-        _drawn(design, role, gear, material, (_mate(design, other, mate, pair),))
+        _drawn_gear(design, role, gear, material, (_mate(design, other, mate, pair),))
         for role, gear, material, other, mate in zip(roles, gears, materials, roles[::-1], gears[::-1], strict=True)
     )
     return first, second
@@ -108,7 +108,7 @@ def _gears_of_train(design: PlanetaryDesign) -> Iterator[DrawnGear]:
             mates[name] = (*mates.get(name, ()), _mate(design, other, gears[other], pair))
     for name, gear in gears.items():
         material = None if design.material is None else material_of(design.material, name)
-        yield _drawn(design, name, gear, material, mates[name])
+        yield _drawn_gear(design, name, gear, material, mates[name])
 
 
 def _mate(design: ToothedDesign, name: str, gear: Gear | Rack, pair: GearPair | RackPair) -> Mate:
@@ -116,7 +116,7 @@ def _mate(design: ToothedDesign, name: str, gear: Gear | Rack, pair: GearPair | 
     return Mate(name=name, number=own.number or "" if own is not None else "", gear=gear, pair=pair)
 
 
-def _drawn(
+def _drawn_gear(
     design: ToothedDesign, role: str, gear: Gear | Rack, material: Material | None, mates: tuple[Mate, ...] = ()
 ) -> DrawnGear:
     """Return a gear or rack to draw, with its accuracy grade: its own, otherwise the one given for its rating."""

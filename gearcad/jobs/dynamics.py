@@ -372,13 +372,13 @@ class DynamicsBeside(Dynamics):
             _require_chart(each)
         count, studies = len(designs), []
         for number, (label, each) in enumerate(zip(self.variants.labels, designs, strict=True)):
-            own = None if progress is None else partial(_told, progress, label, number, count)
+            own = None if progress is None else partial(_report_progress, progress, label, number, count)
             studies.append(_over_speed(super().run(each, own), label))
         of = self.variants
         return SideBySide(name=design.name, what=of.what, labels=of.labels, studies=tuple(studies), key=of.key)
 
 
-def _told(progress: Progress, label: str, before: int, count: int, step: str, done: float, of: float) -> None:
+def _report_progress(progress: Progress, label: str, before: int, count: int, step: str, done: float, of: float) -> None:
     """Tell how far one of several studies is."""
     progress(f"{label}: {step}", before + done / of, count)
 

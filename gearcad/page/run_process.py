@@ -163,27 +163,29 @@ _LONGEST = 120.0
 _NICENESS = 5
 """Niceness of a run's process, so that the page itself comes first."""
 
-_ASIDE = ThreadPoolExecutor(1, thread_name_prefix="gearcad-aside", initializer=own_worker)
+_EXECUTOR = ThreadPoolExecutor(1, thread_name_prefix="gearcad-aside", initializer=own_worker)
 
 Found = TypeVar("Found")
 
 
-async def found_aside(find: Callable[[Design], Found], design: Design) -> Found:
+async def result_in_process(find: Callable[[Design], Found], design: Design) -> Found:
     """Return the result of a module's function for a design, computed in another process, one at a time for all sessions.
 
     Raises the errors of the function, and WorkerLostError if its process has ended.
     """
-    found: Found = await asyncio.get_running_loop().run_in_executor(_ASIDE, isolated, _found, (find, design), _LONGEST)
+    found: Found = await asyncio.get_running_loop().run_in_executor(
+        _EXECUTOR, isolated, _low_priority_result, (find, design), _LONGEST
+    )
     return found
 
 
-def close_aside() -> None:
+def stop_process() -> None:
     """Stop the computation in the other process when the server ends."""
-    _ASIDE.shutdown(wait=False, cancel_futures=True)
+    _EXECUTOR.shutdown(wait=False, cancel_futures=True)
     close_workers()
 
 
-def _found(asked: tuple[Callable[[Design], Any], Design]) -> Any:
+def _low_priority_result(asked: tuple[Callable[[Design], Any], Design]) -> Any:
     """Run a function on a design with low priority, in the process beside the server."""
     with suppress(AttributeError, OSError):
         os.setpriority(os.PRIO_PROCESS, 0, _NICENESS)
@@ -202,7 +204,7 @@ _LONGEST_FAULT = 500
 
 
 @dataclass(frozen=True, kw_only=True)
-class Asked:
+class RunRequest:
     """A run: its kind, the text and name of the design, the folder of files that it names, and where results go."""
 
     kind: str
@@ -219,7 +221,7 @@ class Asked:
 def serve() -> None:
     """Do the run that stands on stdin, whose closing ends it: nobody waits for it any more."""
     tell = _Teller(become_child())
-    asked = Asked(**json.loads(sys.stdin.buffer.readline()))
+    asked = RunRequest(**json.loads(sys.stdin.buffer.readline()))
     end_with_input(sys.stdin.buffer.read, 1)
     _bound()
     tell(**_outcome(asked, tell))
@@ -238,7 +240,7 @@ def _bound() -> None:
         Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
 
 
-def _outcome(asked: Asked, tell: _Teller) -> Mapping[str, Any]:
+def _outcome(asked: RunRequest, tell: _Teller) -> Mapping[str, Any]:
     """The last line: what came of it, or the error as the command line prints it."""
     try:
         return {"result": _run(asked, tell)}
@@ -251,7 +253,7 @@ def _outcome(asked: Asked, tell: _Teller) -> Mapping[str, Any]:
         return {"error": f"unexpected {what} (a fault of gearcad: please report it)"}
 
 
-def _run(asked: Asked, tell: _Teller) -> dict[str, Any]:
+def _run(asked: RunRequest, tell: _Teller) -> dict[str, Any]:
     kind = RUNS[asked.kind]
     design = kind.made(design_of(asked.text, asked.name, Path(asked.folder)))
     job = kind.job()

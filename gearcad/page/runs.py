@@ -29,7 +29,7 @@ from fastapi.responses import FileResponse
 from gearcad.core.child_process import ending_words, pipes_of, start_child, time_limit_words
 from gearcad.core.errors import ParameterError, require_number
 from gearcad.core.runtime import Clock, Expected, cores, machine_memory
-from gearcad.page.run_process import RUNS, Asked
+from gearcad.page.run_process import RUNS, RunRequest
 
 GIGABYTE = 1e9
 
@@ -75,7 +75,7 @@ class Run:
     """One run: its request, and the reports of its process so far. A thread fills it, others read it."""
 
     number: int
-    asked: Asked
+    asked: RunRequest
     given: Mapping[str, str]
     """Values of the spec under its keys, by which runs are told apart."""
 
@@ -117,7 +117,7 @@ def do_run(run: Run, limits: RunLimits) -> None:
     process = start_child("gearcad.page.run_process", own_session=True)
     requests, answers = pipes_of(process)
     lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
-    threading.Thread(target=_hear, args=(answers, lines), daemon=True).start()
+    threading.Thread(target=_queue_lines, args=(answers, lines), daemon=True).start()
     try:
         with suppress(BrokenPipeError):
             requests.write(run.asked.line())
@@ -184,7 +184,7 @@ def _flat(figures: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, A
             yield f"{before}{key}", value
 
 
-def _hear(pipe: Any, lines: queue.SimpleQueue[bytes]) -> None:
+def _queue_lines(pipe: Any, lines: queue.SimpleQueue[bytes]) -> None:
     """Put the lines of a pipe into a queue as they arrive, and b"" at the end."""
     with suppress(OSError, ValueError):
         for line in pipe:
@@ -286,7 +286,7 @@ class Runs:
             raise ParameterError("run", kind, f"must wait: {_MOST_WAITING} runs are waiting already; cancel one of them")
         number = len(self.all)
         into = Path(self._folder.name) / str(number)
-        run = Run(number, Asked(kind=kind, text=text, name=name, folder=str(folder), into=str(into)), given)
+        run = Run(number, RunRequest(kind=kind, text=text, name=name, folder=str(folder), into=str(into)), given)
         self.all.append(run)
         for old in self.all[:-_MOST_KEPT]:
             old.files = ()
@@ -359,7 +359,7 @@ def add_made(app: FastAPI) -> None:
         return FileResponse(path, media_type="text/html", headers={**_HEADERS, "Content-Security-Policy": _POLICY})
 
 
-def taken_along(run: Run) -> tuple[str, Path]:
+def download_file(run: Run) -> tuple[str, Path]:
     """Name and path of the file that holds what a run has made: the one file, or a zip of several."""
     kind = run.asked.kind
     paths = [path for name in run.files if fnmatch(name, RUNS[kind].taken) and (path := run.file(name)) is not None]
@@ -383,7 +383,7 @@ def _run(key: str, number: int) -> Run | None:
 
 
 def _attached(run: Run) -> Response:
-    name, path = taken_along(run)
+    name, path = download_file(run)
     return FileResponse(path, filename=name, media_type="application/octet-stream", headers=_HEADERS)
 
 
@@ -412,18 +412,18 @@ def add_given(app: FastAPI) -> None:
     @app.post("/given/{key}/{what}")
     async def given(key: str, what: str, name: str, request: Request) -> Response:
         if key not in _WAITING or what not in _WAITING[key]:
-            return _told(404, "no such session")
+            return _text_response(404, "no such session")
         most, take = _WAITING[key][what]
         content = bytearray()
         async for part in request.stream():
             content += part
             if len(content) > most:
-                return _told(413, f"more than {most // 1024} kB")
+                return _text_response(413, f"more than {most // 1024} kB")
         take(name[:_LONGEST_NAME], bytes(content))
-        return _told(200, "taken")
+        return _text_response(200, "taken")
 
 
-def _told(status: int, text: str) -> Response:
+def _text_response(status: int, text: str) -> Response:
     return Response(text, status, media_type="text/plain")
 
 

@@ -149,7 +149,7 @@ Components are compiled in the browser, for which Vue needs to evaluate; Quasar 
 """
 
 
-class Fences:
+class SecurityHeaders:
     """Adds headers, and to pages a policy: their own scripts have a word of this one answer, which nothing else knows.
 
     A policy that an answer brings with it stays. Paths that a proxy claims are not taken from headers.
@@ -384,13 +384,13 @@ def serve(
     from fastapi import Response
 
     from gearcad.page.panels.sheet_content import warm_up
-    from gearcad.page.run_process import close_aside
+    from gearcad.page.run_process import stop_process
     from gearcad.page.runs import add_routes, close_all_runs
     from gearcad.page.session import Session
     from gearcad.page.workbench import Workbench
 
     first = Workbench(text, name, folder)  # what is wrong with it is told here, not in the browser
-    held = _held(host or LOCAL, port)
+    held = _listening_socket(host or LOCAL, port)
     port = held.getsockname()[1]
     taken: dict[str, Any] = {"fd": held.fileno()} if hasattr(socket, "AF_UNIX") else {}
     if not taken:  # Windows, where no socket can be handed on
@@ -411,7 +411,7 @@ def serve(
         logging.getLogger(logger).addFilter(lines)
     core.sio.eio.cors_allowed_origins = sorted(f"http://{each}" for each in hosts)
     add_routes(app)
-    app.add_middleware(Fences)
+    app.add_middleware(SecurityHeaders)
     app.add_middleware(Access, hosts=hosts, token=token, single_use=single_use)
     app.on_startup(lambda: print(address + token, flush=True))
     app.on_startup(threading.Thread(target=warm_up, args=(first.design,), daemon=True).start)
@@ -419,7 +419,7 @@ def serve(
         app.on_startup(threading.Thread(target=webbrowser.open, args=(address + single_use,), daemon=True).start)
     app.on_shutdown(Session.leave_all)
     app.on_shutdown(close_all_runs)
-    app.on_shutdown(close_aside)
+    app.on_shutdown(stop_process)
     sys.setswitchinterval(_TURN)
     with ending():
         ui.run(
@@ -441,7 +441,7 @@ def serve(
         )
 
 
-def _held(host: str, port: int | None) -> socket.socket:
+def _listening_socket(host: str, port: int | None) -> socket.socket:
     """Return a socket that listens at the requested port, or at the first free one from PORT on.
 
     Raises ParameterError.

@@ -22,7 +22,7 @@ from gearcad.page.panels.sheet_content import StrengthPanel
 from gearcad.page.panels.spec import BesidePanel, FilesPanel, InputsPanel, TextPanel
 from gearcad.page.panels.table import TablePanel
 from gearcad.page.panels.views import BodiesPanel, RollPanel, SectionPanel, SharesPanel, SheetPanel
-from gearcad.page.run_process import found_aside
+from gearcad.page.run_process import result_in_process
 from gearcad.page.runs import Runs
 from gearcad.page.words import PageLanguage, PageWords, language_of
 from gearcad.page.workbench import DESIGN, TEXT, BesideDesign, linked_bench
@@ -31,29 +31,29 @@ _SECONDS = 60.0
 """Seconds until an unclaimed handover is dropped."""
 
 
-class Handed(NamedTuple):
+class SessionHandover(NamedTuple):
     """A workbench with what is kept beside it, and the runs of its session."""
 
     beside: BesideDesign
     runs: Runs
 
 
-_HANDED: dict[str, Handed] = {}
+_HANDOVERS: dict[str, SessionHandover] = {}
 
 
-def hand_over(handed: Handed) -> str:
+def hand_over(handed: SessionHandover) -> str:
     """Store the workbench under a secret key for a limited time."""
     key = secrets.token_urlsafe(12)
-    _HANDED[key] = handed
+    _HANDOVERS[key] = handed
     waiting = threading.Timer(_SECONDS, _drop, (key,))
     waiting.daemon = True
     waiting.start()
     return key
 
 
-def take_over(key: str) -> Handed | None:
+def take_over(key: str) -> SessionHandover | None:
     """Return the handover that was left under a key, once; None if there is none."""
-    return _HANDED.pop(key, None)
+    return _HANDOVERS.pop(key, None)
 
 
 def _drop(key: str) -> None:
@@ -197,7 +197,7 @@ class Following:
         """
         line, aside = self._faults.get(panel), panel.aside(design)
         try:
-            found = (await (run.io_bound(panel.find, design) if aside is None else found_aside(aside, design)),)
+            found = (await (run.io_bound(panel.find, design) if aside is None else result_in_process(aside, design)),)
             if app.is_stopping:  # then nothing was asked of the panel
                 return None
         except Exception as error:  # whatever it is: the other panels are as good as before
@@ -276,7 +276,7 @@ class Session:
 
     def speak(self, language: PageLanguage) -> None:
         """Open the page in another language, with this workbench."""
-        key = hand_over(Handed(self.beside, self._runs.hand_over()))
+        key = hand_over(SessionHandover(self.beside, self._runs.hand_over()))
         ui.navigate.to(f"/?lang={language.value}&from={key}")
 
     def _bar(self) -> None:

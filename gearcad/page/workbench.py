@@ -295,7 +295,7 @@ def text_of(content: bytes, name: str) -> str:
         raise SpecError(f"{name}: is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
 
 
-class Kept(NamedTuple):
+class KeptDesign(NamedTuple):
     """A design, the text that makes it, and what it is called where its text says no name."""
 
     text: str
@@ -308,7 +308,7 @@ class BesideDesign:
 
     def __init__(self, bench: Workbench) -> None:
         self.bench, self.folder = bench, Folder(bench.folder)
-        self.kept: Kept | None = None
+        self.kept: KeptDesign | None = None
 
     @property
     def design(self) -> Design | None:
@@ -321,7 +321,7 @@ class BesideDesign:
     def open(self, file: str) -> None:
         """Keep that of a spec in the folder. Raises ParameterError, SpecError."""
         text, name = self.folder.spec(file), file.removesuffix(".toml")
-        self.kept = Kept(text, name, design_of(text, name, self.folder.path))
+        self.kept = KeptDesign(text, name, design_of(text, name, self.folder.path))
 
     def swap(self) -> None:
         """Edit what was kept, as a step that can be undone, and keep what was edited. Raises SpecError while that is none."""
@@ -333,8 +333,8 @@ class BesideDesign:
         """Let the kept design go."""
         self.kept = None
 
-    def _present(self) -> Kept:
+    def _present(self) -> KeptDesign:
         bench = self.bench
         if bench.fault is not None and bench.fault.written:
             raise SpecError(bench.fault.line, bench.fault.key)
-        return Kept(bench.text, bench.name, bench.design)
+        return KeptDesign(bench.text, bench.name, bench.design)

@@ -52,7 +52,7 @@ def balance(
             outward = torque
         else:
             for link in ends[member].path:
-                outward = _asked(stages, link, outward, speeds, eta)
+                outward = _outer_torque(stages, link, outward, speeds, eta)
         torques[known.name if member == known.member else ends[member].name] = outward
     return Balance(torques=torques, members=members, stages=stages)
 
@@ -60,20 +60,22 @@ def balance(
 def _passed(stages: dict[str, PerGear[float]], link: Link, torque: float, speeds: Mapping[str, float], eta: float) -> float:
     """Return the torque on the inner shaft of a stage caused by a torque on its outer shaft; set both in `stages`."""
     inner, outer = link.teeth
-    through = -torque * inner / outer * _kept(torque * speeds[link.shafts[1]], eta)
+    through = -torque * inner / outer * _power_ratio(torque * speeds[link.shafts[1]], eta)
     _note(stages, link, -through, torque)
     return through
 
 
-def _asked(stages: dict[str, PerGear[float]], link: Link, torque: float, speeds: Mapping[str, float], eta: float) -> float:
+def _outer_torque(
+    stages: dict[str, PerGear[float]], link: Link, torque: float, speeds: Mapping[str, float], eta: float
+) -> float:
     """Return the torque on the outer shaft of a stage that causes a given torque on its inner shaft."""
     inner, outer = link.teeth
-    asked = -torque * outer / inner / _kept(torque * speeds[link.shafts[0]], eta)
+    asked = -torque * outer / inner / _power_ratio(torque * speeds[link.shafts[0]], eta)
     _note(stages, link, -torque, asked)
     return asked
 
 
-def _kept(power: float, eta: float) -> float:
+def _power_ratio(power: float, eta: float) -> float:
     """Return the ratio of the power behind a mesh to that before it, seen in the direction in which `power` is positive."""
     return eta ** ((power > 0) - (power < 0))
 

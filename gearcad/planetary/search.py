@@ -171,7 +171,7 @@ class SearchResult:
 def search(task: SearchTask, count: int = 20) -> SearchResult:
     """The best sets for a ratio: by its deviation, then diameter, planets out of phase, hunting teeth, efficiency."""
     met = _meeting(task)
-    found, unmade, left = _made(met.kept, count)
+    found, unmade, left = _best_sets(met.kept, count)
     nearest = () if found or left else _nearest(task)
     return SearchResult(
         task=task,
@@ -207,7 +207,7 @@ def _meeting(task: SearchTask) -> _Meeting:
     return _Meeting(kept, considered, removed)
 
 
-def _made(kept: list[ManySets], count: int) -> tuple[list[PlanetarySet], list[str], int]:
+def _best_sets(kept: list[ManySets], count: int) -> tuple[list[PlanetarySet], list[str], int]:
     """The best that can be made, what those say that cannot, and how many are left."""
     found: list[PlanetarySet] = []
     unmade: list[str] = []
@@ -230,7 +230,7 @@ def _nearest(task: SearchTask) -> tuple[float, ...]:
         tolerance = min(tolerance * WIDER, WIDEST)
         kept = _meeting(replace(task, tolerance=tolerance)).kept
         sides = [[sets.picked(side * (sets.ratio - task.ratio) > 0) for sets in kept] for side in (-1, 1)]
-        if reached := [each.ratio for side in sides for each in _made(side, 1)[0]]:
+        if reached := [each.ratio for side in sides for each in _best_sets(side, 1)[0]]:
             return tuple(reached)
     return ()
 

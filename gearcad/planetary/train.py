@@ -54,7 +54,7 @@ def least_gap(train: TrainData) -> Gap:
 
 def most_planets(train: TrainData) -> int:
     """Return the number of planets at equal angles that have room for every rim, whether their teeth fit or not."""
-    share = max(_wanted(train, rim) for rim in train.rims) / (2 * float(train.centre_distance))
+    share = max(_least_axis_distance(train, rim) for rim in train.rims) / (2 * float(train.centre_distance))
     return 1 if share >= 1 else max(math.ceil(math.pi / math.asin(share)) - 1, 1)
 
 
@@ -76,8 +76,8 @@ def check_neighbours(train: TrainData) -> None:
         return
     gap = least_gap(train)
     apart = _apart(train, gap)
-    rim = max(train.rims, key=lambda each: _wanted(train, each))
-    if apart > _wanted(train, rim):
+    rim = max(train.rims, key=lambda each: _least_axis_distance(train, each))
+    if apart > _least_axis_distance(train, rim):
         return
     first, second = (number + 1 for number in gap.planets)
     free = f" and {train.tip_distance:g} mm shall be free" if train.tip_distance else ""
@@ -96,7 +96,7 @@ def _apart(train: TrainData, gap: Gap) -> float:
     return 2 * float(train.centre_distance) * math.sin(math.radians(gap.angle) / 2)
 
 
-def _wanted(train: TrainData, rim: Rim) -> float:
+def _least_axis_distance(train: TrainData, rim: Rim) -> float:
     """Return the least distance (mm) of axes that a rim needs."""
     return rim.gear.tip_diameter + train.tip_distance
 
@@ -355,7 +355,7 @@ def _named(mesh: SetMesh) -> Iterator[Notice]:
         yield replace(notice, text=text).within(mesh.name)
 
 
-_GIVEN = ("planets", "input", "output", "fixed", "tip_distance", "basic_ratio", "positions", "unbalance")
+_DOCUMENT_KEYS = ("planets", "input", "output", "fixed", "tip_distance", "basic_ratio", "positions", "unbalance")
 
 
 def train_document(train: TrainData) -> JsonObject:
@@ -367,7 +367,7 @@ def train_document(train: TrainData) -> JsonObject:
     notices = tuple(train_notices(train))
     return {
         "set_type": train.set_type.value,
-        **{key: getattr(train, key) for key in _GIVEN},
+        **{key: getattr(train, key) for key in _DOCUMENT_KEYS},
         "centre_distance": float(train.centre_distance),
         "free_tip_distance": free_distance(train),
         "planet_angles": list(train.angles),

@@ -335,7 +335,7 @@ def speeds(train: TrainData, given: Mapping[str, float]) -> Speeds:
     Raises ParameterError where a speed is missing, or follows from the others.
     """
     shafts = shafts_of(train)
-    known = _known(train, shafts, given)
+    known = _member_speeds(train, shafts, given)
     row = willis_row(train)
     (missing,) = set(row) - set(known)
     # Zero is added where a product of signs would print as -0.
@@ -348,12 +348,12 @@ def speeds(train: TrainData, given: Mapping[str, float]) -> Speeds:
 
 def check_speeds(train: TrainData, given: Mapping[str, float]) -> None:
     """Raise ParameterError where one of the speeds `given` (rpm) is of no member, or follows from those before it."""
-    _told(train, shafts_of(train), given)
+    _given_speeds(train, shafts_of(train), given)
 
 
-def _known(train: TrainData, shafts: Mapping[str, TrainShaft], given: Mapping[str, float]) -> dict[str, float]:
+def _member_speeds(train: TrainData, shafts: Mapping[str, TrainShaft], given: Mapping[str, float]) -> dict[str, float]:
     """The two speeds of members that were given. Raises ParameterError."""
-    known, by = _told(train, shafts, given)
+    known, by = _given_speeds(train, shafts, given)
     if len(known) < 2:
         free = [shaft.name for shaft in shafts.values() if shaft.member not in by]
         count, reason = ("one", "") if known else ("two", ": no member is fixed")
@@ -361,7 +361,7 @@ def _known(train: TrainData, shafts: Mapping[str, TrainShaft], given: Mapping[st
     return known
 
 
-def _told(
+def _given_speeds(
     train: TrainData, shafts: Mapping[str, TrainShaft], given: Mapping[str, float]
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Return the given speeds of members, at most two, and the shaft that each belongs to. Raises ParameterError."""

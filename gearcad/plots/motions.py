@@ -324,7 +324,7 @@ _DECADES = 3.0
 _MOST_PIECES = 400
 """Greatest number of pieces of a line over speed: each shows the greatest amplitude of its speeds."""
 
-_SHOWN = 0.02
+_LEAST_AMPLITUDE = 0.02
 """Share of the greatest amplitude: frequencies go up to the highest of a line that reaches it."""
 
 _NEAR = 0.05
@@ -420,7 +420,7 @@ def _draw_rays(axes: Axes, study: TrainStudy, mesh: int, name: str) -> None:
         felt = amplitudes[:, line] > floor
         if not felt.any():
             continue
-        top = max(top, float(frequencies[1:][amplitudes[:, line] > _SHOWN * greatest].max(initial=0.0)))
+        top = max(top, float(frequencies[1:][amplitudes[:, line] > _LEAST_AMPLITUDE * greatest].max(initial=0.0)))
         pieces = np.stack([places[:-1], places[1:]], axis=1)[felt]
         rays = LineCollection(list(pieces), norm=norm, cmap="viridis", linewidth=2.4, rasterized=True)
         rays.set_array(amplitudes[felt, line])

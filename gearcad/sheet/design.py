@@ -68,7 +68,7 @@ def _material_section(document: Mapping[str, Any]) -> Section:
 
 
 def _row(key: str, symbol: Symbol, values: list[Any]) -> Row:
-    return Row(key, symbol, tuple(values), tuple(ABSENT if value is None else _given(value) for value in values))
+    return Row(key, symbol, tuple(values), tuple(ABSENT if value is None else _input_text(value) for value in values))
 
 
 def _shown_of(table: str, values: Mapping[str, Any]) -> dict[str, Any]:
@@ -97,7 +97,7 @@ def _title(design: Design, document: Mapping[str, Any]) -> str:
     return f"{'internal ' if internal else ''}{teeth_are} {design.kind.value}, z = {teeth}"
 
 
-def _given(value: Any) -> str:
+def _input_text(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, tuple):

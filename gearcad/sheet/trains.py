@@ -52,38 +52,40 @@ def train_sections(document: Mapping[str, Any]) -> Iterator[Section]:
     """Yield the sections of a train from the document of `data.json`, without rows that have no value."""
     known = {key: field.symbol for key, field in TRAIN[MAIN].items()} | symbols.TRAIN
     own = {key: value for key, value in document[MAIN].items() if key != TORQUES}
-    yield Section((), (Block("Train", _given(_train_row(MAIN, key, known[key], [value]) for key, value in own.items())),))
+    yield Section(
+        (), (Block("Train", _nonzero_rows(_train_row(MAIN, key, known[key], [value]) for key, value in own.items())),)
+    )
     for table in TRAIN_PARTS:
         if not (parts := document[table]):
             continue
         known = {key: field.symbol for key, field in TRAIN[table].items()} | symbols.TRAIN_PARTS[table]
         rows = (_train_row(table, key, symbol, [part.get(key) for part in parts.values()]) for key, symbol in known.items())
-        yield Section(tuple(parts), (Block(_TITLES[table], _given(rows)),))
+        yield Section(tuple(parts), (Block(_TITLES[table], _nonzero_rows(rows)),))
 
 
-def _given(rows: Iterable[Row]) -> tuple[Row, ...]:
+def _nonzero_rows(rows: Iterable[Row]) -> tuple[Row, ...]:
     """Return the rows that have a value other than 0 in some column."""
     return tuple(row for row in rows if set(row.texts) - {ABSENT, "0"})
 
 
 def _train_row(table: str, key: str, symbol: Symbol, values: list[Any]) -> Row:
-    return Row(f"{table}.{key}", symbol, tuple(values), tuple(map(_shown, values)))
+    return Row(f"{table}.{key}", symbol, tuple(values), tuple(map(_cell_text, values)))
 
 
-def _shown(value: Any) -> str:
+def _cell_text(value: Any) -> str:
     if value is None or value == []:
         return ABSENT
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, list):
-        return " ".join(map(_shown, value)) if len(value) <= 2 else f"{len(value)} values"
+        return " ".join(map(_cell_text, value)) if len(value) <= 2 else f"{len(value)} values"
     return f"{value + 0.0:.6g}" if isinstance(value, float) else str(value)
 
 
 LONGEST_LIFE = 1e6
 """Hours above which a life is told as more than that."""
 
-_TOLD = {
+_PART_SYMBOLS = {
     "permissible_torque": Symbol("T_1", "N·m", "", "torque on the pinion at the required safety"),
     "life": Symbol("", "h", "", "life at the required safety"),
     "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety"),
@@ -143,10 +145,12 @@ def safety_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> It
         yield Quantity(f"safety.{name}", safety, document["safety"][name])
         required = Symbol(f"{safety.symbol}min", "", "", f"required safety of the {name}")
         yield Quantity(f"required.{name}", required, document["required"][name])
-        torque = _TOLD["permissible_torque"]._replace(words=f"torque on the {rating.gear_names.pinion} at the required safety")
+        torque = _PART_SYMBOLS["permissible_torque"]._replace(
+            words=f"torque on the {rating.gear_names.pinion} at the required safety"
+        )
         yield Quantity(f"permissible_torque.{name}", torque, document["permissible_torque"][name])
-        yield Quantity(f"damage.{name}", _TOLD["damage"], document["damage"][name])
-        yield Quantity(f"life.{name}", _TOLD["life"], document["life"][name])
+        yield Quantity(f"damage.{name}", _PART_SYMBOLS["damage"], document["damage"][name])
+        yield Quantity(f"life.{name}", _PART_SYMBOLS["life"], document["life"][name])
         cycles = symbols.STRENGTH["N_L"]._replace(source=_CYCLES[part])
         yield Quantity(f"load_cycles.{name}", cycles, document["load_cycles"][name])
     for symbol, key in (("S_int", "integral"), ("S_B", "flash")):

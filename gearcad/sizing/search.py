@@ -269,7 +269,7 @@ CONDITIONS = (*LIMITS, WIDTH, RATED, *REQUIRED)
 
 _SAFETIES = tuple(name for name in REQUIRED if name != MASS)
 
-_KEPT = 1 << 16
+_MOST_KEPT_VARIANTS = 1 << 16
 """Variants that are kept before the best of them are picked."""
 
 
@@ -288,7 +288,7 @@ class _Keeper:
         """Add variants that meet all conditions."""
         self.best.append(self._best(rated))
         self.front.append(rated.picked(front(rated)))
-        if sum(len(each.order) for each in self.best) > _KEPT:
+        if sum(len(each.order) for each in self.best) > _MOST_KEPT_VARIANTS:
             self.settle()
 
     def _best(self, rated: Rated) -> Rated:

@@ -8,7 +8,7 @@ import pytest
 from support.awaited import awaited
 
 from gearcad.core.errors import ParameterError
-from gearcad.page.server import Access, Fences, require_token
+from gearcad.page.server import Access, SecurityHeaders, require_token
 
 HERE = "127.0.0.1:8765"
 TOKEN = "t" * 43
@@ -104,7 +104,7 @@ def test_tokens_that_are_short_or_no_part_of_an_address_are_refused(token: str) 
 
 
 def test_pages_run_their_own_scripts_only() -> None:
-    status, headers, body = ask(Fences(_app), {"host": HERE})
+    status, headers, body = ask(SecurityHeaders(_app), {"host": HERE})
     policy = dict(each.split(" ", 1) for each in headers["content-security-policy"].split("; "))
     nonce = policy["script-src"].split("'nonce-")[1].split("'")[0]
     assert status == 200 and body.count(f'<script nonce="{nonce}"') == 2 == body.count("<script")
@@ -114,7 +114,7 @@ def test_pages_run_their_own_scripts_only() -> None:
     assert headers["referrer-policy"] == "no-referrer" and headers["x-content-type-options"] == "nosniff"
     assert headers["x-frame-options"] == "DENY"
     assert headers["cross-origin-opener-policy"] == headers["cross-origin-resource-policy"] == "same-origin"
-    assert nonce not in ask(Fences(_app), {"host": HERE})[2]
+    assert nonce not in ask(SecurityHeaders(_app), {"host": HERE})[2]
 
 
 def test_no_path_is_taken_from_a_header() -> None:
@@ -125,7 +125,9 @@ def test_no_path_is_taken_from_a_header() -> None:
         told.extend(name for name, _ in scope["headers"])
 
     awaited(
-        Fences(app)({"type": "http", "headers": [(b"X-Forwarded-Prefix", b"//evil.example"), (b"host", b"x")]}, _none, _none)
+        SecurityHeaders(app)(
+            {"type": "http", "headers": [(b"X-Forwarded-Prefix", b"//evil.example"), (b"host", b"x")]}, _none, _none
+        )
     )
     assert told == [b"host"]
 

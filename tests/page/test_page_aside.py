@@ -13,7 +13,7 @@ from gearcad.core.runtime import templates
 from gearcad.designs.design import Design
 from gearcad.designs.reader import read_spec
 from gearcad.page.panels.sheet_content import Figures, strength_figures
-from gearcad.page.run_process import found_aside
+from gearcad.page.run_process import result_in_process
 
 
 def place(_design: Design) -> tuple[int, bool]:
@@ -29,7 +29,7 @@ def test_a_rating_found_beside_the_server_is_the_one_found_here() -> None:
     design = read_spec(templates() / "reducer-21-43.toml")
 
     async def asked() -> tuple[Figures, tuple[int, bool]]:
-        return await found_aside(strength_figures, design), await found_aside(place, design)
+        return await result_in_process(strength_figures, design), await result_in_process(place, design)
 
     strength, (process, page) = awaited(asked())
     assert strength == strength_figures(design)
@@ -39,4 +39,4 @@ def test_a_rating_found_beside_the_server_is_the_one_found_here() -> None:
 
 def test_what_is_refused_there_is_refused_here() -> None:
     with pytest.raises(ParameterError, match="teeth = 2: must be at least 3"):
-        awaited(found_aside(refusal, read_spec(templates() / "spur.toml")))
+        awaited(result_in_process(refusal, read_spec(templates() / "spur.toml")))

@@ -10,12 +10,12 @@ import pytest
 from gearcad.designs.reader import starter_text
 from gearcad.page import session
 from gearcad.page.runs import Runs, runs_of
-from gearcad.page.session import Handed, hand_over, take_over
+from gearcad.page.session import SessionHandover, hand_over, take_over
 from gearcad.page.workbench import BesideDesign, Workbench
 
 
-def _left() -> Handed:
-    return Handed(BesideDesign(Workbench(starter_text("spur")[1], "mine", Path())), Runs())
+def _left() -> SessionHandover:
+    return SessionHandover(BesideDesign(Workbench(starter_text("spur")[1], "mine", Path())), Runs())
 
 
 def test_what_is_left_is_taken_once() -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from gearcad.designs.reader import read_spec
 from gearcad.page.panels.runs import expected_of, figures_beside
-from gearcad.page.run_process import Asked
+from gearcad.page.run_process import RunRequest
 from gearcad.page.runs import Run
 from gearcad.page.words import PageLanguage, PageWords
 
@@ -23,7 +23,7 @@ def test_what_would_not_begin_says_why() -> None:
 
 
 def test_verdicts_are_told_in_the_words_of_the_page() -> None:
-    asked = Asked(kind="rate", text="", name="trial", folder="", into="")
+    asked = RunRequest(kind="rate", text="", name="trial", folder="", into="")
     runs = [
         Run(number, asked, {}, figures={"strength": said}) for number, said in enumerate(("passed", "failed", "not judged"))
     ]

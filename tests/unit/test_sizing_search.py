@@ -124,7 +124,7 @@ def test_the_order_of_ranges_has_no_say() -> None:
 def test_chunks_have_no_say(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = survey(WIDE)
     monkeypatch.setattr("gearcad.sizing.search.CHUNK", 37)
-    monkeypatch.setattr("gearcad.sizing.search._KEPT", 10)
+    monkeypatch.setattr("gearcad.sizing.search._MOST_KEPT_VARIANTS", 10)
     parts = survey(WIDE)
     assert whole.best is not None and whole.front is not None and parts.best is not None and parts.front is not None
     assert np.array_equal(whole.best.order, parts.best.order)

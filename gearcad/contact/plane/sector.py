@@ -128,7 +128,7 @@ def _ordered(centres: Floats, chosen: Wholes) -> Wholes:
     return result
 
 
-class _Left(NamedTuple):
+class _Remainder(NamedTuple):
     """The nodes (k,) that a part leaves, and the matrix (2 k, 2 k) on their dofs."""
 
     nodes: Wholes
@@ -158,9 +158,9 @@ class _Dissection:
             raise SolverError(f"the stiffness matrix of a gear body could not be factorised ({error})") from error
         return Dissected(2 * self.nodes, node_dofs(nodes), matrix, self.fronts)
 
-    def _eliminated(self, begin: int, end: int) -> _Left:
+    def _eliminated(self, begin: int, end: int) -> _Remainder:
         """Return the nodes that the elements from `begin` to before `end` leave, and the matrix on their dofs."""
-        parts: list[_Left] = []
+        parts: list[_Remainder] = []
         if end - begin > _FEW:
             middle = begin + (end - begin) // 2
             parts = [self._eliminated(begin, middle), self._eliminated(middle, end)]
@@ -179,9 +179,9 @@ class _Dissection:
             across = inverse @ matrix[:count, count:]
             rest = rest - matrix[count:, :count] @ across
             self.fronts.append(_Front(node_dofs(own), node_dofs(aside), inverse, across))
-        return _Left(aside, rest)
+        return _Remainder(aside, rest)
 
-    def _joined(self, parts: list[_Left], count: int) -> Floats:
+    def _joined(self, parts: list[_Remainder], count: int) -> Floats:
         """Return the matrix (2 n, 2 n) on so many nodes by what parts have left."""
         dofs = [node_dofs(self.places[part.nodes]) for part in parts]
         entries = [(2 * count * each[:, None] + each).ravel() for each in dofs]

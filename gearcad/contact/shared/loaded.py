@@ -197,7 +197,7 @@ class FlexiblePair(EngagedPair, ABC, Generic[Body]):
 
 
 P = TypeVar("P")
-Seen = TypeVar("Seen", contravariant=True)
+PositionKind = TypeVar("PositionKind", contravariant=True)
 
 _TOLERANCE = 0.0005
 """Part of a value by which it may be exceeded between the positions: well within 0.2 %, as the bound is an estimate."""
@@ -213,7 +213,7 @@ most.
 _BEYOND = 1.5
 """Factor by which a curve can fall to the higher position more steeply than beyond it."""
 
-_ASIDE = 0.25
+_LEAST_CUT = 0.25
 """Least part of an interval that a new position cuts off."""
 
 _FEWEST = 4
@@ -224,14 +224,14 @@ _MOST = 20
 
 
 @dataclass(frozen=True)
-class ExtremeQuantity(Generic[Seen]):
+class ExtremeQuantity(Generic[PositionKind]):
     """Quantity that is to be greatest, or `least`: `value` gives it at a position, NaN where it has none there.
 
     `swing` measures tolerance and error by how far the quantity goes up and down, not by its size.
     """
 
     name: str
-    value: Callable[[Seen], float]
+    value: Callable[[PositionKind], float]
     least: bool = False
     swing: bool = False
 
@@ -373,7 +373,7 @@ def _roof(first: float, second: float, before: float, after: float) -> tuple[flo
         return second, 0.5
     # Two lines, of which the lower one holds, meet at the kink; steeper ones are above it.
     reached = first + before > second
-    part = min(max((second - first - after) / (before - after), _ASIDE), 1 - _ASIDE) if reached else 0.5
+    part = min(max((second - first - after) / (before - after), _LEAST_CUT), 1 - _LEAST_CUT) if reached else 0.5
     up, down = before, _BEYOND * after
     if before > 0:
         up *= min(_UP + _BEND * abs((second - first) / before - 1), _MOST_UP)

@@ -224,7 +224,7 @@ def line_gap(
     bend = (after - 2 * middle + before) / step**2
     curvature = np.maximum(line.curvature + bend, _LEAST_BEND * line.curvature)
     # Where the depth slopes, the flanks are nearest a little aside: the gap is a parabola there.
-    slope = np.where(line.on_edge, 0.0, (after - before) / (2 * step) - bend * _aside(line, pair, mounting))
+    slope = np.where(line.on_edge, 0.0, (after - before) / (2 * step) - bend * _tangent_step(line, pair, mounting))
     transverse = line.gap + here - slope**2 / (2 * curvature)
     if line.tooth == 0:
         transverse = transverse - mounting.pitch_error / 1000
@@ -245,7 +245,7 @@ def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list
 
     The wheel has slid along the tangent where its axis is turned across, so that the pinion meets it nearer to its tip.
     """
-    step, aside = BEND * pair.pinion.normal_module, _aside(line, pair, mounting)
+    step, aside = BEND * pair.pinion.normal_module, _tangent_step(line, pair, mounting)
     found = []
     for place in (np.zeros_like(aside), aside - step, aside, aside + step):
         pinion, wheel = (
@@ -271,7 +271,7 @@ def _sides(line: ContactLine, pair: GearPair, mounting: Mounting) -> PerGear[tup
     return PerGear((pair.pinion, pinion, 1, np.zeros_like(slid)), (pair.wheel, wheel, -1, slid))
 
 
-def _aside(line: ContactLine, pair: GearPair, mounting: Mounting) -> Floats:
+def _tangent_step(line: ContactLine, pair: GearPair, mounting: Mounting) -> Floats:
     """Return the distance (n,) in mm along the tangent from the line at which slope and curvature are taken.
 
     No end of a flank is passed: beyond it a modification goes on no more.

@@ -323,7 +323,7 @@ def solid_pair(
     gears, meshes, supports = gears_loaded_left(pair), _meshes(pair, body, sizes), body.supports(pair)
     for gear, of, mesh, support, start in zip(gears, of_both(material), meshes, supports, starts, strict=True):
         held = body.teeth_held(gear)
-        heard = _Heard(body_cost(mesh, held or gear.tooth_count, neighbours))
+        heard = _BodyProgress(body_cost(mesh, held or gear.tooth_count, neighbours))
         solid = assemble_body(
             mesh,
             gear.tooth_count,
@@ -369,7 +369,7 @@ def _meshes(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> list[SweptMes
     return [sweep(gear, mesh_quads(gear, radius, sizes.section_of(gear)), sizes.layers(gear)) for gear, radius in gears]
 
 
-class _Heard:
+class _BodyProgress:
     """Progress of a body: the expected seconds that are over, reported by the thread that solves it."""
 
     def __init__(self, cost: BodyCost) -> None:
@@ -385,7 +385,7 @@ class _Heard:
         self.seconds = self.cost.fields + self.cost.condensation + share * self.cost.solution
 
 
-def _one_by_one(jobs: Sequence[tuple[_Heard, Callable[[], SolidCompliance]]], tell: Share) -> list[SolidCompliance]:
+def _one_by_one(jobs: Sequence[tuple[_BodyProgress, Callable[[], SolidCompliance]]], tell: Share) -> list[SolidCompliance]:
     """Solve both gears one after the other in a thread, while this thread reports progress. Each needs the memory that the
     other has left.
     """

@@ -52,7 +52,7 @@ _STEP = 1e-4
 def press_starts(pair: GearPair, action: LineOfAction, mounting: Mounting, helix: float, found: LineSolution) -> LineSolution:
     """Return a contact with the cells beside the starts of linear reliefs pressed by their exact gaps. Raises SolverError."""
     given, shortest = found.given, _shortest(action)
-    if shortest == math.inf or not len(cells := _beside(found, action, mounting, pair, helix)):
+    if shortest == math.inf or not len(cells := _cells_at_start(found, action, mounting, pair, helix)):
         return found
     curve, solved = _Curve.of(found, cells, pair, action, mounting, helix), found
     force, normal, radii = float(found.forces.sum()), found.gaps.normal.copy(), found.gaps.radii.copy()
@@ -90,7 +90,7 @@ def _rounded(flank: TransverseFlank) -> TransverseFlank:
     return replace(flank, form=replace(form, modification=replace(form.modification, **sharp))) if sharp else flank
 
 
-def _beside(found: LineSolution, action: LineOfAction, mounting: Mounting, pair: GearPair, helix: float) -> Wholes:
+def _cells_at_start(found: LineSolution, action: LineOfAction, mounting: Mounting, pair: GearPair, helix: float) -> Wholes:
     """Return the cells (k,) that touch flanks beside the start of a linear relief."""
     even = found.forces.sum() * found.given.lengths / found.given.lengths.sum()
     loads = np.maximum(found.forces, even) / found.given.lengths

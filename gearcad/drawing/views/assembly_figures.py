@@ -470,9 +470,9 @@ def balloons(parts: Mapping[int, Sequence[Point]], around: Box) -> Iterator[Figu
         if crossings := _crossings(way):
             crossing.append((crossings, way))
         else:
-            yield _drawn(way)
+            yield _balloon_figures(way)
     for _, way in sorted(crossing, key=lambda each: each[0])[:_MOST]:
-        yield _drawn(way)
+        yield _balloon_figures(way)
 
 
 class _Balloon(NamedTuple):
@@ -538,11 +538,11 @@ def _edge(box: Box, side: Side) -> float:
     return {Side.LEFT: box.left, Side.RIGHT: box.right, Side.ABOVE: box.top, Side.BELOW: box.bottom}[side]
 
 
-def _drawn(way: Sequence[_Balloon]) -> Figure:
-    return Figure.of(*(_drawn_one(*balloon) for balloon in way))
+def _balloon_figures(way: Sequence[_Balloon]) -> Figure:
+    return Figure.of(*(_balloon_figure(*balloon) for balloon in way))
 
 
-def _drawn_one(number: int, dot: Point, ring: Point) -> Figure:
+def _balloon_figure(number: int, dot: Point, ring: Point) -> Figure:
     share = 1.0 - _RADIUS / math.dist(dot, ring)
     end = dot[0] + share * (ring[0] - dot[0]), dot[1] + share * (ring[1] - dot[1])
     return Figure.of(

@@ -161,7 +161,7 @@ _BEYOND_BREAK = 2.0
 def pair_face(pair: GearPair | RackPair, draughting: Draughting) -> View:
     """Return the view from the upper ends, the pinion above, with the centre distance and the overall sizes."""
     places, scale = PairPlaces.of(pair), draughting.scale
-    outlines = Figure.of(*(_drawn(places, part, scale) for part in places.parts))
+    outlines = Figure.of(*(_part_figure(places, part, scale) for part in places.parts))
     whole, box = places.front, _paper(places.front, scale)
     inside = isinstance(pair, GearPair) and pair.internal
     marks: list[Candidates] = [
@@ -177,7 +177,7 @@ def _paper(box: Box, scale: float) -> Box:
     return Box(*(scale * side for side in box))
 
 
-def _drawn(places: PairPlaces, part: Placed, scale: float) -> Figure:
+def _part_figure(places: PairPlaces, part: Placed, scale: float) -> Figure:
     """Return a gear, or the body of a rack up to the tips, broken where it continues."""
     if not isinstance(part.part, Rack):
         return FrontView(part.part, (0.0, part.height), (part.pitch,)).figure(scale)

@@ -18,7 +18,7 @@ from gearcad.drawing.views.tooth_detail import tooth_outline
 from gearcad.drawing.words import Draughting, Size
 from gearcad.geometry import Rack
 
-_SHOWN = 6.0
+_SHOWN_LENGTH = 6.0
 """Greatest length that is shown, over the larger of height and face width."""
 
 _PITCHES = 7
@@ -48,7 +48,7 @@ class RackRange:
     def kept(self) -> float | None:
         """Length shown at each end (mm of the part); None for a rack that is shown whole."""
         rack = self.rack
-        shown = max(_SHOWN * max(rack.total_height, rack.face_width), _PITCHES * rack.transverse_pitch)
+        shown = max(_SHOWN_LENGTH * max(rack.total_height, rack.face_width), _PITCHES * rack.transverse_pitch)
         return shown / 2 if rack.length > _WORTH * shown else None
 
     @property

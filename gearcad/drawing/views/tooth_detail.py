@@ -369,7 +369,9 @@ def thickness_dimension(gear: Gear | Rack, place: Placing, draughting: Draughtin
     room = line.point(half)[0] - line.point(-half)[0]
     over = line.height + (_OVER if inwards > 0 else -_OVER) / place.scale
     extensions = (Line(place.point(reference, side), place.point(over, side), Pen.DIMENSION) for side in (-half, half))
-    return Figure.of(*extensions, _between(line, text) if room >= text.width + 2 * _SIZE_AIR else _aside(line, text, room))
+    return Figure.of(
+        *extensions, _between(line, text) if room >= text.width + 2 * _SIZE_AIR else _dimension_at_left(line, text, room)
+    )
 
 
 def _between(line: _Line, text: Written) -> Figure:
@@ -378,7 +380,7 @@ def _between(line: _Line, text: Written) -> Figure:
     return Figure.of(line.line(-line.half, line.half), *arrows, text.at((x, y + _SIZE_LIFT + text.below), Anchor.CENTRE))
 
 
-def _aside(line: _Line, text: Written, room: float) -> Figure:
+def _dimension_at_left(line: _Line, text: Written, room: float) -> Figure:
     """Return the dimension with its text to the left of the half space."""
     end = line.place.further(-max(line.place.middle_of_space, line.half), -_SIZE_AIR)
     x, y = line.point(end)
@@ -403,7 +405,7 @@ _DETAIL_AIR = 1.2
 def detail_scale(drawn: DrawnGear) -> float:
     """Return the largest scale of ISO 5455 at which a tooth has room."""
     place = placing(drawn.gear, 1.0)
-    box = _shown(place)
+    box = _visible_box(place)
     most = min(_ROOM[0] / box.width, _ROOM[1] / box.height)
     return next((scale for scale in SCALES.values() if scale <= most), min(SCALES.values()))
 
@@ -421,7 +423,7 @@ def tooth_figure(drawn: DrawnGear, draughting: Draughting, letter: str = "Z") ->
     return tooth + _title(letter, draughting.scale, tooth.box)
 
 
-def _shown(place: Placing) -> Box:
+def _visible_box(place: Placing) -> Box:
     return Box.around((*place.outline().points, *place.limit))
 
 

@@ -60,10 +60,10 @@ def planets_alike(planar: PlanarTrain, phases: Mapping[str, MeshPhases]) -> int:
     They are the n-th, the 2 n-th ... after it; 1 where it is the only one.
     """
     count = planar.planets
-    return max(count // step for step in range(1, count + 1) if count % step == 0 and _comes_again(planar, phases, step))
+    return max(count // step for step in range(1, count + 1) if count % step == 0 and _repeats(planar, phases, step))
 
 
-def _comes_again(planar: PlanarTrain, phases: Mapping[str, MeshPhases], step: int) -> bool:
+def _repeats(planar: PlanarTrain, phases: Mapping[str, MeshPhases], step: int) -> bool:
     """Return whether all is the same `step` planets further."""
 
     def later(values: Floats) -> Floats:

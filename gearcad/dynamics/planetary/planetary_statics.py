@@ -293,7 +293,7 @@ def train_statics(
     flow = lossless_flow(train, load, given_speeds)
     sense = 1 if flow.set_torques[train.centrals[0].name] > 0 else -1
     output = shafts_of(train)[train.output].member
-    a, b = (_given(stiffness, mesh.name) for mesh in train.meshes)
+    a, b = (_member_stiffness(stiffness, mesh.name) for mesh in train.meshes)
     held = [name for name in train.members if name != output]
     planar = planar_train(train, (a, b), held=held, sense=sense)
     springs, compliance = _with_rigid(planar, output)
@@ -312,7 +312,7 @@ def train_statics(
     return found
 
 
-def _given(stiffness: Mapping[str, ArrayLike], name: str) -> ArrayLike:
+def _member_stiffness(stiffness: Mapping[str, ArrayLike], name: str) -> ArrayLike:
     if name not in stiffness:
         raise ParameterError("stiffness", sorted(stiffness), f"must have the stiffness of {name}")
     return stiffness[name]

@@ -28,8 +28,8 @@ from gearcad.dynamics.trains.steady_response import (
     at_orders,
     both_sides,
     instability,
+    outputs_of,
     pressed,
-    told_by,
 )
 
 _MOST_NEWTON = 30
@@ -379,7 +379,7 @@ class Branch:
         approach, stable = self.approach[chosen], self.stable[chosen]
         flexible = at_orders(self.system, balance.static, self.excitation.fundamental * frequencies, self.harmonics)
         forces = balance.forces(both_sides(approach), self.excitation.fundamental * frequencies)[0]
-        outputs = told_by(self.system, balance.static, flexible, forces[:, len(self.harmonics) - 1 :])
+        outputs = outputs_of(self.system, balance.static, flexible, forces[:, len(self.harmonics) - 1 :])
         return PeriodicResponse(
             system=self.system,
             excitation=self.excitation,

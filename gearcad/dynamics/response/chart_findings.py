@@ -18,7 +18,7 @@ _NEAR = 0.04
 _NAMED = 8
 """Harmonics of a tooth frequency that give a resonance its name: beyond, each lies near the next."""
 
-_FELT = 0.02
+_LEAST_MESH_ENERGY = 0.02
 """Share of a mode's potential energy that the meshes must hold for half its frequency to be a speed to know."""
 
 
@@ -155,14 +155,14 @@ def chart_resonances(charts: Charts, natural: Floats) -> tuple[ChartResonance, .
                     tooth_circular=own,
                     directions=() if charts.down is None else tuple(directions),
                     stable=bool(charts.up.stable[charts.up.frequencies == frequency].all()),
-                    met=_met(charts, natural, mesh, frequency),
+                    met=_met_mode(charts, natural, mesh, frequency),
                     damped=damped[frequency, factor],
                 )
             )
     return tuple(found)
 
 
-def _met(charts: Charts, natural: Floats, mesh: int, frequency: float) -> MetMode | None:
+def _met_mode(charts: Charts, natural: Floats, mesh: int, frequency: float) -> MetMode | None:
     """Return the natural frequency met there by the lowest harmonic of a tooth frequency (1/s of the first mesh), if any."""
     found = [
         (harmonic, abs(harmonic * ratio * frequency / circular - 1), mode, other)
@@ -198,7 +198,7 @@ def mode_speeds(modes: NaturalModes, teeth: int, others: Sequence[float] = ()) -
     if others:
         elastic = [(mode, hertz) for mode, hertz in enumerate(others, 1) if hertz]
         return tuple(ModeSpeed(mode, part, 0, 60 * hertz / teeth / part) for mode, hertz in elastic for part in (1, 2))
-    felt = modes.potential_meshes.sum(axis=1) > _FELT
+    felt = modes.potential_meshes.sum(axis=1) > _LEAST_MESH_ENERGY
     return tuple(
         ModeSpeed(mode + 1, part, mesh, speed)
         for mode in range(modes.rigid, len(modes))

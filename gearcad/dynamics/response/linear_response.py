@@ -24,9 +24,9 @@ from gearcad.dynamics.trains.steady_response import (
     at_orders,
     both_sides,
     instability,
+    outputs_of,
     parting,
     static_state,
-    told_by,
 )
 
 UNSTABLE = 1 + 1e-5
@@ -206,7 +206,7 @@ def _solve(
             "more damping moves the limit"
         )
     half = slice(len(orders) - 1, None)
-    return approach[:, half], told_by(system, static, flexible, forces[:, half])
+    return approach[:, half], outputs_of(system, static, flexible, forces[:, half])
 
 
 def _driving(system: System, excitation: Excitation, omega: Floats, signed: Indices) -> Complexes:

@@ -17,7 +17,7 @@ from gearcad.core.records import Bools, Floats, Indices
 from gearcad.dynamics.response.harmonic_balance import Motions
 from gearcad.dynamics.response.kv_chart import Extremes
 from gearcad.dynamics.response.linear_response import UNSTABLE, growth
-from gearcad.dynamics.response.speed_curves import SpeedCurves, Told
+from gearcad.dynamics.response.speed_curves import BoundedExtremes, SpeedCurves
 from gearcad.dynamics.time_domain.motion import (
     Motion,
     MovingSystem,
@@ -108,12 +108,12 @@ class TimeRuns:
         return np.asarray(natural * np.exp(_RUNG * places), float)
 
     @cached_property
-    def contact(self) -> tuple[Told, Bools]:
+    def contact(self) -> tuple[BoundedExtremes, Bools]:
         """Loads at the rungs with flanks in contact, and whether (r,) these would part, or the motion does not last."""
         told = self.linear.told(self.rungs)[0].rising()
         return told, self.parts(told)
 
-    def parts(self, told: Told) -> Bools:
+    def parts(self, told: BoundedExtremes) -> Bools:
         """Return whether (s,) flanks would part in linear motions, or these do not last or were not found."""
         found = np.asarray((told.least <= 0).any(axis=1) | ~np.isfinite(told.left_out), bool)
         rest = np.flatnonzero(~found)
@@ -169,10 +169,10 @@ class TimeRuns:
             before = k
         return TimeRun(direction, most, nonlinear, tuple(states))
 
-    def told(self, run: TimeRun, contact: Told, flagged: Bools) -> tuple[Told, Bools, Bools]:
+    def told(self, run: TimeRun, contact: BoundedExtremes, flagged: Bools) -> tuple[BoundedExtremes, Bools, Bools]:
         """Return loads (s,) in contact, or in time where the run has these or at those `flagged`; which are in time; and which
         are of a motion that repeats."""
-        rows, parts = np.arange(len(contact.frequencies)), list[Told]()
+        rows, parts = np.arange(len(contact.frequencies)), list[BoundedExtremes]()
         in_time, repeats = np.zeros(len(rows), bool), np.ones(len(rows), bool)
         for i, frequency in enumerate(contact.frequencies.tolist()):
             begin = self._before(run, frequency)
@@ -184,7 +184,7 @@ class TimeRuns:
                 continue
             parts.append(self._extremes(stay.motion, frequency, stay.per))
             rows[i], in_time[i], repeats[i] = len(contact.frequencies) + len(parts) - 1, True, stay.repeats
-        return (Told.joined(contact, *parts).at(rows) if parts else contact), in_time, repeats
+        return (BoundedExtremes.joined(contact, *parts).at(rows) if parts else contact), in_time, repeats
 
     def _place(self, run: TimeRun, frequency: float) -> int:
         """Return the index of the rung that the run passes last before a frequency (1/s), or at it."""
@@ -277,7 +277,7 @@ class TimeRuns:
         response = curves.response(found if found.solved.all() else balance.motions(omega, known[None]))
         return replace(response, stable=np.array([repeats]))
 
-    def _extremes(self, motion: Motion, frequency: float, per: int) -> Told:
+    def _extremes(self, motion: Motion, frequency: float, per: int) -> BoundedExtremes:
         """Return the extremes of the samples of a settled motion."""
         system, senses = self.linear.system, self.moving.senses
         signs = self.linear.references[1]
@@ -302,7 +302,7 @@ class TimeRuns:
             resultants=np.hypot(bearing[:, ::2], bearing[:, 1::2]).max(axis=0)[None],
             lines=lines[None],
         )
-        return Told.of(found, np.array([frequency]), np.zeros(1))
+        return BoundedExtremes.of(found, np.array([frequency]), np.zeros(1))
 
 
 def _both(course: Floats) -> Floats:
@@ -310,7 +310,7 @@ def _both(course: Floats) -> Floats:
     return np.stack([course.max(axis=0), course.min(axis=0)])[None]
 
 
-def without_values(told: Told, rows: Indices) -> Told:
+def without_values(told: BoundedExtremes, rows: Indices) -> BoundedExtremes:
     """Return the loads with nan in some of the rows (x,)."""
     values = {name: np.array(value) for name, value in vars(told).items()}
     for name, value in values.items():
@@ -318,7 +318,7 @@ def without_values(told: Told, rows: Indices) -> Told:
             value[rows] = np.nan
         elif name == "left_out":
             value[rows] = 0.0
-    return Told(**values)
+    return BoundedExtremes(**values)
 
 
 def _start(curves: SpeedCurves, motion: Motions) -> Start:

@@ -17,7 +17,14 @@ from gearcad.dynamics.response.harmonic_balance import Motions
 from gearcad.dynamics.response.kv_chart import KvChart, chart_of, extremes, idle_shafts, kv_chart
 from gearcad.dynamics.response.linear_response import UNSTABLE, growth, harmonic_orders, periodic_response
 from gearcad.dynamics.response.run_up import TimeRun, TimeRuns, without_values
-from gearcad.dynamics.response.speed_curves import HIGHEST_SOUGHT, LEAST_RATIO, LEFT_OUT, SpeedCurves, Told, speeds_between
+from gearcad.dynamics.response.speed_curves import (
+    HIGHEST_SOUGHT,
+    LEAST_RATIO,
+    LEFT_OUT,
+    BoundedExtremes,
+    SpeedCurves,
+    speeds_between,
+)
 from gearcad.dynamics.trains.mesh_excitation import Excitation
 from gearcad.dynamics.trains.shaft_lines import System
 from gearcad.dynamics.trains.steady_response import (
@@ -31,7 +38,7 @@ from gearcad.dynamics.trains.steady_response import (
 from gearcad.rating.dynamic_factor import DynamicFactor
 
 
-def left_out(curves: SpeedCurves, told: Told) -> tuple[Notice, ...]:
+def left_out(curves: SpeedCurves, told: BoundedExtremes) -> tuple[Notice, ...]:
     """Return a notice where more harmonics would be needed to leave out at most a hundredth of the load."""
     short = told.left_out > LEFT_OUT
     if not short.any():
@@ -144,17 +151,17 @@ class Parted:
     """A branch, the loads `told` of each of its motions, and which of them (s,) are seen running up, and running down."""
 
     branch: Branch
-    told: Told
+    told: BoundedExtremes
     curves: SpeedCurves
 
-    def seen(self, direction: Direction) -> tuple[Told, Bools, Floats]:
+    def seen(self, direction: Direction) -> tuple[BoundedExtremes, Bools, Floats]:
         """Return loads (s,) over the branch's frequencies, whether they last, and the frequencies (1/s) of jumps."""
         chosen, jumps = self._chosen(direction)
         return self.told.at(chosen), self.branch.stable[chosen], jumps
 
     def refined(self, share: Share) -> Parted:
         """Return the branch with speeds between added, until both directions show every maximum or `MOST_ROUNDS` are done."""
-        of = self._with(_beside(self.branch))
+        of = self._with(_fold_neighbours(self.branch))
         for number in range(MOST_ROUNDS):
             share(1 - 0.5**number)
             curves = [of.curves.curves(of.seen(direction)[0]) for direction in Direction]
@@ -171,7 +178,7 @@ class Parted:
         others = self.branch.at(more)
         if not len(others.frequencies):
             return self
-        joined = Told.joined(self.told, loads(others, self.curves))
+        joined = BoundedExtremes.joined(self.told, loads(others, self.curves))
         return Parted(self.branch.with_motions(others), joined, self.curves)
 
     def at_least(self, frequencies: Floats) -> Parted:
@@ -233,7 +240,7 @@ def _harmonics(curves: SpeedCurves, frequency: float) -> int:
     raise SolverError(f"motions in which they part would have {unknowns} harmonics here; {fewer} to see them")
 
 
-def loads(branch: Branch, curves: SpeedCurves, share: Share = unheard) -> Told:
+def loads(branch: Branch, curves: SpeedCurves, share: Share = unheard) -> BoundedExtremes:
     """Return the loads of every motion of a branch, with as many harmonics as it needs, or its own where these lead astray."""
     start, frequencies = branch.coefficients(), branch.frequencies[branch.index]
     told = curves.told(frequencies, start, share)[0]
@@ -241,13 +248,13 @@ def loads(branch: Branch, curves: SpeedCurves, share: Share = unheard) -> Told:
     if not len(astray):
         return told
     own = extremes(branch.response(astray), curves.references[1], curves.tracked)
-    instead = Told.of(own, frequencies[astray], np.full(len(astray), np.inf))
+    instead = BoundedExtremes.of(own, frequencies[astray], np.full(len(astray), np.inf))
     rows = np.arange(len(frequencies))
     rows[astray] = len(frequencies) + np.arange(len(astray))
-    return Told.joined(told, instead).at(rows)
+    return BoundedExtremes.joined(told, instead).at(rows)
 
 
-def _beside(branch: Branch) -> Floats:
+def _fold_neighbours(branch: Branch) -> Floats:
     """Return frequencies (1/s) close to both sides of the folds."""
     near = np.concatenate([branch.folds * (1 - _FOLD_DISTANCE), branch.folds * (1 + _FOLD_DISTANCE)])
     return np.unique(near[(near > branch.frequencies[0]) & (near < branch.frequencies[-1])])
@@ -368,7 +375,7 @@ def over_speed(
     )
 
 
-_Side = tuple[Told, Bools, Floats]
+_Side = tuple[BoundedExtremes, Bools, Floats]
 """Loads, whether motions last, and frequencies of jumps."""
 
 
@@ -376,7 +383,7 @@ def _by_runs(
     linear: SpeedCurves,
     excitation: Excitation,
     frequencies: Floats,
-    told: Told,
+    told: BoundedExtremes,
     stable: Bools,
     branch: Parted | None,
     remedies: str,
@@ -392,7 +399,7 @@ def _by_runs(
                 return [], None, ()
             wanted = _speeds_of(runs, both, frequencies, told.frequencies[~flagged])
             places = np.setdiff1d(wanted, told.frequencies)
-            contact = Told.joined(told, linear.told(places)[0]).rising() if len(places) else told
+            contact = BoundedExtremes.joined(told, linear.told(places)[0]).rising() if len(places) else told
             contact = contact.at(np.flatnonzero(np.isin(contact.frequencies, wanted)))
             parting_there = runs.parts(contact)
             sides, shown = list[_Side](), np.zeros(len(contact.frequencies), bool)
@@ -457,7 +464,7 @@ def _curves(system: System, excitation: Excitation, frequencies: Floats, harmoni
     return SpeedCurves(system, excitation, harmonics, idle_shafts(np.concatenate(torques), curves.references[0]))
 
 
-def _refined(curves: SpeedCurves, frequencies: Floats, share: Share) -> tuple[Told, Floats]:
+def _refined(curves: SpeedCurves, frequencies: Floats, share: Share) -> tuple[BoundedExtremes, Floats]:
     """Return loads at the frequencies, where resonances are narrower than their distance, and where maxima are sharper.
 
     Returns also the frequencies (x,) at which there might be sharper maxima, but that are too low to look for them.
@@ -470,7 +477,7 @@ def _refined(curves: SpeedCurves, frequencies: Floats, share: Share) -> tuple[To
         skipped, more = np.union1d(skipped, more[~searched]), more[searched]
         if not len(more):
             break
-        told, more = Told.joined(told, curves.told(more, share=_round_of(share, number))[0]).rising(), np.zeros(0)
+        told, more = BoundedExtremes.joined(told, curves.told(more, share=_round_of(share, number))[0]).rising(), np.zeros(0)
     return told, skipped
 
 
@@ -487,16 +494,20 @@ def _near(frequencies: Floats, places: Floats) -> Bools:
     return np.asarray((np.abs(beside - frequencies) <= _CLOSE * frequencies).any(axis=0), bool)
 
 
-def _together(told: Told, stable: Bools, branch: Parted, direction: Direction) -> tuple[Told, Bools, Floats]:
+def _together(
+    told: BoundedExtremes, stable: Bools, branch: Parted, direction: Direction
+) -> tuple[BoundedExtremes, Bools, Floats]:
     """Return the linear motions outside the branch together with the motions of the branch."""
     inside, lasting, jumps = branch.seen(direction)
     outside = (told.frequencies < inside.frequencies[0]) | (told.frequencies > inside.frequencies[-1])
-    joined = Told.joined(told.at(np.flatnonzero(outside)), inside)
+    joined = BoundedExtremes.joined(told.at(np.flatnonzero(outside)), inside)
     order = np.argsort(joined.frequencies, kind="stable")
     return joined.at(order), np.concatenate([stable[outside], lasting])[order], jumps
 
 
-def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFactor | None, unstable: Unstable) -> KvChart:
+def _chart(
+    curves: SpeedCurves, told: BoundedExtremes, stable: Bools, method_b: DynamicFactor | None, unstable: Unstable
+) -> KvChart:
     return chart_of(
         curves.system,
         curves.static,

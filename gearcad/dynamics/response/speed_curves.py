@@ -18,7 +18,7 @@ from gearcad.dynamics.response.harmonic_balance import Motions, Resolution
 from gearcad.dynamics.response.kv_chart import Extremes, extremes, torque_references
 from gearcad.dynamics.trains.mesh_excitation import Excitation
 from gearcad.dynamics.trains.shaft_lines import System
-from gearcad.dynamics.trains.steady_response import Driven, PeriodicResponse, StaticState, told_by
+from gearcad.dynamics.trains.steady_response import Driven, PeriodicResponse, StaticState, outputs_of
 
 LEAST_RATIO = 5e-4
 """Least damping ratio of the search. Modes with less are treated as having this ratio, so narrower resonances are not searched.
@@ -170,7 +170,7 @@ _APART = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Told(Extremes):
+class BoundedExtremes(Extremes):
     """Extremes at `frequencies` (s,), with bounds `left_out` (s,) of the share that harmonics left out have in forces and
     torques.
 
@@ -181,11 +181,11 @@ class Told(Extremes):
     left_out: Floats
 
     @staticmethod
-    def of(found: Extremes, frequencies: Floats, left_out: Floats) -> Told:
+    def of(found: Extremes, frequencies: Floats, left_out: Floats) -> BoundedExtremes:
         """Return the extremes with their frequencies and bounds."""
-        return Told(**vars(found), frequencies=frequencies, left_out=left_out)
+        return BoundedExtremes(**vars(found), frequencies=frequencies, left_out=left_out)
 
-    def rising(self) -> Told:
+    def rising(self) -> BoundedExtremes:
         """Return the same in order of rising frequencies."""
         return self.at(np.argsort(self.frequencies, kind="stable"))
 
@@ -311,7 +311,7 @@ class SpeedCurves(Driven):
 
     def response(self, motions: Motions) -> PeriodicResponse:
         """Return the response of the motions, with turns and torques."""
-        outputs = told_by(self.system, self.static, motions.flexible, motions.forces)
+        outputs = outputs_of(self.system, self.static, motions.flexible, motions.forces)
         return PeriodicResponse(
             system=self.system,
             excitation=self.excitation,
@@ -349,19 +349,21 @@ class SpeedCurves(Driven):
 
     # ------------------------------------------------------------------ what is told of them
 
-    def told(self, frequencies: Floats, start: Complexes | None = None, share: Share = unheard) -> tuple[Told, Floats]:
+    def told(
+        self, frequencies: Floats, start: Complexes | None = None, share: Share = unheard
+    ) -> tuple[BoundedExtremes, Floats]:
         """Return loads at frequencies (s,), and frequencies (x,) of resonances between these that a chart would not show."""
         done = 0
         order, parts, narrow = [np.zeros(0, np.intp)], [], [np.zeros(0)]
         for which, motions, left in self.motions(frequencies, start):
-            parts.append(Told.of(self.loads(motions), frequencies[which], left))
+            parts.append(BoundedExtremes.of(self.loads(motions), frequencies[which], left))
             narrow.append(self._narrow(motions, frequencies))
             order.append(which)
             done += len(which)
             share(done / len(frequencies))
-        return Told.joined(*parts).at(np.argsort(np.concatenate(order))), np.concatenate(narrow)
+        return BoundedExtremes.joined(*parts).at(np.argsort(np.concatenate(order))), np.concatenate(narrow)
 
-    def curves(self, told: Told) -> Floats:
+    def curves(self, told: BoundedExtremes) -> Floats:
         """Return the curves (s, c) of a chart: loads over those at rest, of meshes and of the shafts that carry some."""
         forces = np.abs(self.system.stiffness * self.static.approach)
         kept = np.isfinite(self.references[0])

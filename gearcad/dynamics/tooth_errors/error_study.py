@@ -52,7 +52,7 @@ _MOST_SETTLING, _MOST_TEETH = 2000, 1500
 _SAME = 0.01
 """Largest relative difference of the greatest forces in two periods that follow each other, in a motion that has settled."""
 
-_FELT, _TOUCHED = 0.02, 1e-3
+_TOOTH_VIBRATION, _AFFECTED_TEETH = 0.02, 1e-3
 """Shares of a mode's potential energy in the meshes: above the first a vibration is one of the teeth, above the second it
 affects the teeth.
 """
@@ -122,13 +122,13 @@ class Sampling:
     def quickest(self) -> float:
         """Circular frequency (1/s) of the quickest vibration of the teeth."""
         omega, _, share = self._vibrations
-        return float(omega[share > _FELT].max(initial=omega[share.argmax()]))
+        return float(omega[share > _TOOTH_VIBRATION].max(initial=omega[share.argmax()]))
 
     @cached_property
     def decay(self) -> float:
         """Rate (1/s) of the slowest decay that teeth feel; 0 where something is not damped at all."""
         _, decay, share = self._vibrations
-        return float(decay[share > _TOUCHED].min())
+        return float(decay[share > _AFFECTED_TEETH].min())
 
     @cached_property
     def period(self) -> int:

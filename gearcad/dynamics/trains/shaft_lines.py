@@ -81,7 +81,7 @@ class System:
         return result
 
 
-Each = float | Floats
+NumberOrArray = float | Floats
 """A value of one shaft at one frequency, or arrays of them."""
 
 
@@ -121,7 +121,7 @@ _SMALL = 1e-2
 """Wave number below which series are more accurate than differences of large terms: the first one left out is its 6th power."""
 
 
-def _wave_number(stiffness: Each, inertia: Each, omega: Each) -> Floats:
+def _wave_number(stiffness: NumberOrArray, inertia: NumberOrArray, omega: NumberOrArray) -> Floats:
     """Return beta = omega L / c = omega sqrt(J / k)."""
     result: Floats = np.asarray(omega) * np.sqrt(np.asarray(inertia) / np.asarray(stiffness))
     return result
@@ -131,7 +131,7 @@ def _two_by_two(diagonal: Floats, off: Floats) -> Floats:
     return np.moveaxis(np.array([[diagonal, off], [off, diagonal]]), (0, 1), (-2, -1))
 
 
-def dynamic_stiffness(stiffness: Each, inertia: Each, omega: Each) -> Floats:
+def dynamic_stiffness(stiffness: NumberOrArray, inertia: NumberOrArray, omega: NumberOrArray) -> Floats:
     """Return the dynamic stiffness (..., 2, 2): torques on the ends of a shaft that turn harmonically.
 
     It is k beta [[cot beta, -1/sin beta], [..., cot beta]].
@@ -141,7 +141,7 @@ def dynamic_stiffness(stiffness: Each, inertia: Each, omega: Each) -> Floats:
     return _two_by_two(np.cos(beta) * per_sine, -per_sine)
 
 
-def dynamic_inertia(stiffness: Each, inertia: Each, omega: Each) -> Floats:
+def dynamic_inertia(stiffness: NumberOrArray, inertia: NumberOrArray, omega: NumberOrArray) -> Floats:
     """Return the dynamic inertia (..., 2, 2): minus the derivative of `dynamic_stiffness` by omega squared.
 
     Its quadratic form is twice the kinetic energy over omega squared, of the whole shaft.
@@ -158,7 +158,7 @@ def dynamic_inertia(stiffness: Each, inertia: Each, omega: Each) -> Floats:
     return _two_by_two(half * diagonal, half * off)
 
 
-def clamped_modes_below(stiffness: Each, inertia: Each, omega: Each) -> NDArray[np.int64]:
+def clamped_modes_below(stiffness: NumberOrArray, inertia: NumberOrArray, omega: NumberOrArray) -> NDArray[np.int64]:
     """Return J_0 of Wittrick and Williams: the number of natural frequencies below omega of a shaft with both ends clamped."""
     beta = _wave_number(stiffness, inertia, omega)
     count: NDArray[np.int64] = np.maximum(np.ceil(beta / np.pi) - 1, 0).astype(np.int64)
@@ -273,7 +273,7 @@ def _line_modes(
             # All that turns turns alike; the polynomials that vanish at the ends of shafts come after the inertias.
             turn = (own < len(parts.inertias)).astype(float)
             square[0], shape[:, 0] = 0.0, turn / np.sqrt(turn @ inertia[np.ix_(own, own)] @ turn)
-        kept = slice(_kept(parts, inside, held) if first_only else None)
+        kept = slice(_kept_modes(parts, inside, held) if first_only else None)
         full = np.zeros((len(stiffness), len(square)))
         full[own] = shape
         squares.append(square[kept])
@@ -281,7 +281,7 @@ def _line_modes(
     return np.concatenate(squares), np.concatenate(modes, axis=1)
 
 
-def _kept(parts: Parts, inside: list[int], held: bool) -> int | None:
+def _kept_modes(parts: Parts, inside: list[int], held: bool) -> int | None:
     """Return the number of modes that a line keeps, None for all.
 
     They are those that its shafts require, and the turn of a free line as a whole.

@@ -196,7 +196,7 @@ class Outputs(NamedTuple):
     travels: Complexes
 
 
-def told_by(system: System, static: StaticState, flexible: Flexibility, forces: Complexes) -> Outputs:
+def outputs_of(system: System, static: StaticState, flexible: Flexibility, forces: Complexes) -> Outputs:
     """Return the outputs under forces (s, q, m) in N on the mean system, with the static ones in order 0.
 
     The approach of the flanks is not among them.

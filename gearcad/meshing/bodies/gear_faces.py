@@ -130,7 +130,7 @@ def fill_brep(
         with _refusals("fill the solid"):
             _set_sizes(gmsh, faces, wanted)
         with _interrupts_kept() as interrupted:
-            gmsh.model.mesh.set_size_callback(_asked(_by_radius(gmsh, faces, wanted.radial), interrupted))
+            gmsh.model.mesh.set_size_callback(_length_callback(_by_radius(gmsh, faces, wanted.radial), interrupted))
             for dimension, each in enumerate(Stage, 1):
                 stage(each)
                 with _refusals("fill the solid"):
@@ -228,7 +228,7 @@ def _interrupts_kept() -> Iterator[Event]:
             signal.raise_signal(signal.SIGINT)
 
 
-def _asked(radial: Mapping[tuple[int, int], RadialLengths], interrupted: Event) -> Callable[..., float]:
+def _length_callback(radial: Mapping[tuple[int, int], RadialLengths], interrupted: Event) -> Callable[..., float]:
     """Return a callback that tells gmsh the length (mm) at a place; after an interrupt the greatest length, to finish soon."""
 
     def length(dimension: int, tag: int, x: float, y: float, _z: float, length: float) -> float:
@@ -329,7 +329,7 @@ class GearFaces:
 
     def told(self, faces: Sequence[BrepFace]) -> list[GearFace]:
         """Return the kind of each of these faces. Raises SolverError for a face that a gear does not have."""
-        return [_TELL[face.surface](self, face) for face in faces]
+        return [_SURFACE_RULES[face.surface](self, face) for face in faces]
 
     def _tooth(self, face: BrepFace) -> tuple[int, float]:
         """The tooth whose middle is nearest, and the angle (rad) from there."""
@@ -400,7 +400,7 @@ class GearFaces:
         raise SolverError(f"the solid has an end at z = {face.middle[2]:.6g} mm that the gear does not have")
 
 
-_TELL = {
+_SURFACE_RULES = {
     SurfaceKind.SPLINE: GearFaces._swept,
     SurfaceKind.CYLINDER: GearFaces._round,
     SurfaceKind.CONE: GearFaces._conical,

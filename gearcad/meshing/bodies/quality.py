@@ -36,7 +36,7 @@ _CHUNK = 1024
 _NOTHING = 1e-300
 """Instead of a length or a volume of zero, so that an element without one can be measured."""
 
-_SHOWN = 5
+_NAMED_ELEMENTS = 5
 """Number of worst elements that a message names."""
 
 _FACE_VERTICES = {"line3": 2, "tri6": 3, "quad4": 4, "quad8": 4}
@@ -236,7 +236,7 @@ def _corners(element: Element) -> tuple[Wholes, Wholes, Floats]:
 
 def _worst(mesh: ElementMesh, least: Floats) -> tuple[WorstElement, ...]:
     """The elements with the least scaled Jacobians, the worst first."""
-    few = np.argpartition(least, min(_SHOWN, len(least) - 1))[:_SHOWN]
+    few = np.argpartition(least, min(_NAMED_ELEMENTS, len(least) - 1))[:_NAMED_ELEMENTS]
     few = few[np.argsort(least[few], kind="stable")]
     places = mesh.points[mesh.cells[few, : mesh.element.shape.vertices]].mean(axis=1)
     near = _nearest_sides(mesh, places)

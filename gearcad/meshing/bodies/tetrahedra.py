@@ -139,7 +139,7 @@ def mended(points: Floats, cells: Cells, free: Bools) -> Floats:
     the others of its element have gone from half-way, and stays where the worst element that has it is best.
     """
     points = points.copy()
-    quality = _of_all(points, cells)
+    quality = _least_in_chunks(points, cells)
     for _ in range(_ROUNDS):
         poor = np.flatnonzero(quality < _POOR)
         before = quality[poor].copy()
@@ -155,10 +155,10 @@ def mended(points: Floats, cells: Cells, free: Bools) -> Floats:
 
 def poor_elements(points: Floats, cells: Cells) -> Indices:
     """Numbers of the elements that are poor."""
-    return np.flatnonzero(_of_all(points, cells) < _POOR)
+    return np.flatnonzero(_least_in_chunks(points, cells) < _POOR)
 
 
-def _of_all(points: Floats, cells: Cells) -> Floats:
+def _least_in_chunks(points: Floats, cells: Cells) -> Floats:
     return np.concatenate([_least(points, cells[start : start + _CHUNK]) for start in range(0, len(cells), _CHUNK)])
 
 
@@ -608,7 +608,7 @@ def _sides(gear: Gear, faces: Sequence[GearFace], filled: TetrahedronMesh, cells
         for name, part in parts.items():
             groups.setdefault(name, []).append(part)
     together = {name: np.concatenate(groups[name]) for name in sorted(groups, key=_in_order)}
-    at = _found(cells, np.concatenate(list(together.values())))
+    at = _side_places(cells, np.concatenate(list(together.values())))
     ends = np.cumsum([len(part) for part in together.values()])[:-1]
     return {
         name: Faces((where // 4).astype(np.int32), (where % 4).astype(np.int8))
@@ -634,7 +634,7 @@ def _halved(gear: Gear, tooth: int, triangles: Cells, points: Floats) -> dict[st
     }
 
 
-def _found(cells: Cells, triangles: Cells) -> Wholes:
+def _side_places(cells: Cells, triangles: Cells) -> Wholes:
     """Return the places of triangles (k, 3) among the sides of tetrahedra (m, 10), four sides each. Raises SolverError."""
     number = np.full(int(cells.max()) + 1, -1)
     nodes = np.unique(triangles)

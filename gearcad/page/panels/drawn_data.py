@@ -35,19 +35,19 @@ if TYPE_CHECKING:
     from gearcad.dynamics.planetary.planetary_result import PlanetaryStudy
 
 
-Of = TypeVar("Of", bound=Design)
+AnyDesign = TypeVar("AnyDesign", bound=Design)
 Found = TypeVar("Found")
 
 
-def of_last(find: Callable[[Of], Found]) -> Callable[[Of], Found]:
+def of_last(find: Callable[[AnyDesign], Found]) -> Callable[[AnyDesign], Found]:
     """Return a function that keeps its result for the last design, equal in what is given and in what is assumed.
 
     Designs hold dictionaries, so they have no hash, which `functools.lru_cache` would need.
     """
-    last: list[tuple[Of, Found]] = []
+    last: list[tuple[AnyDesign, Found]] = []
 
     @wraps(find)
-    def found_of(design: Of) -> Found:
+    def found_of(design: AnyDesign) -> Found:
         for of, found in last:
             if of == design and [*assumed_values(of)] == [*assumed_values(design)]:
                 return found

@@ -183,7 +183,7 @@ class RunsPanel:
             self._show_runs()
         for each in self._runs.all:
             if each.state is RunState.RUNNING:
-                self._view.tell(each.number, {"step": each.step, "share": each.share, "left": _left(each)})
+                self._view.tell(each.number, {"step": each.step, "share": each.share, "left": _time_left(each)})
         if not busy:
             self._timer.deactivate()
 
@@ -215,7 +215,7 @@ class RunsPanel:
             "state": of.state.value,
             "step": of.step,
             "share": of.share,
-            "left": _left(of),
+            "left": _time_left(of),
             "line": of.line,
             "notices": list(of.notices),
             "report": f"{address}/{report}" if report in of.files else "",
@@ -258,7 +258,7 @@ def _size(expected: Expected) -> str:
     return f"{_figure(about(expected.seconds))}{memory}"
 
 
-def _left(of: Run) -> str:
+def _time_left(of: Run) -> str:
     return f"≈ {_figure(of.left)}" if of.left else ""
 
 

@@ -70,7 +70,7 @@ def quantity_in(words: PageWords, english: str) -> str:
     return words[english]
 
 
-_SAID = {"Mesh": "Gear mesh"}
+_OTHER_TITLES = {"Mesh": "Gear mesh"}
 """Titles that the page uses for another purpose."""
 
 
@@ -127,7 +127,7 @@ def shown_sections(
 
 def _title(title: str, words: PageWords) -> str:
     """Return the title of a block in the language of the page: its subject, or the gear that it describes."""
-    known = words[_SAID.get(title, title)]
+    known = words[_OTHER_TITLES.get(title, title)]
     return called(words, title) if known == title else known
 
 
@@ -153,14 +153,14 @@ def _row(row: Row, section: Section, words: PageWords, changed: Mapping[tuple[st
             {
                 "text": value_in(words, cell.text),
                 "former": value_in(words, changed.get(place, "")),
-                **_beside(cell, kept.get(place), words),
+                **_kept_text(cell, kept.get(place), words),
             }
             for place, cell in _places(row, section)
         ],
     }
 
 
-def _beside(cell: SheetCell, kept: SheetCell | None, words: PageWords) -> dict[str, str]:
+def _kept_text(cell: SheetCell, kept: SheetCell | None, words: PageWords) -> dict[str, str]:
     """Return the text of the kept design's cell, if it is different, and the difference from it; otherwise an empty mapping."""
     if kept is None or kept.text == cell.text:
         return {}

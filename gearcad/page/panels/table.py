@@ -155,7 +155,7 @@ def _text(design: Design, values: Mapping[str, Cell], where: str) -> str:
 
 _MOST_LISTED = 200
 _DIGITS = 6
-_WANTED = (
+_FIRST_COLUMNS = (
     ("rate.S_H_min", "check.root_tension_pinion", "pair.total_contact_ratio", "gear.tip_diameter"),
     ("rate.S_F_min", "check.contact_pressure", "pair.circumferential_backlash", "gear.root_diameter"),
 )
@@ -274,7 +274,7 @@ def _read(text: str, name: str) -> ResultsTable:
 def first_columns(table: ResultsTable) -> list[str]:
     """Return the columns drawn at first: x, y, and "" for no colour."""
     numbers = table.numbers or ("seconds", "seconds")
-    x, y = (next((column for column in wanted if column in numbers), "") for wanted in _WANTED)
+    x, y = (next((column for column in wanted if column in numbers), "") for wanted in _FIRST_COLUMNS)
     x = x or numbers[0]
     return [x, y or next((column for column in reversed(numbers) if column != x), x), ""]
 

@@ -90,7 +90,7 @@ class _Maker:
         """A curve or surface of the kernel, the same one whenever it is asked for."""
         made = self.forms.get(form)
         if made is None:
-            made = self.forms[form] = _made(form)
+            made = self.forms[form] = _kernel_form(form)
         return made
 
     def _vertex(self, source: tuple[int, int]) -> tuple[Any, Any]:
@@ -217,7 +217,7 @@ def _location(place: Turn) -> Any:
     return TopLoc_Location(moved)
 
 
-def _made(form: CurveForm | SurfaceForm | OnSurface) -> Any:
+def _kernel_form(form: CurveForm | SurfaceForm | OnSurface) -> Any:
     """The kernel's curve or surface."""
     from OCP.Geom import (
         Geom_Circle,

@@ -67,7 +67,7 @@ def placed(offset: Vector = (0.0, 0.0, 0.0), rotation: float = 0.0) -> Frame:
     return Frame(offset, (0.0, 0.0, 1.0), (math.cos(angle), math.sin(angle), 0.0))
 
 
-_MADE = "_gearcad_made"
+_BOUNDARY_ATTRIBUTE = "_gearcad_made"
 """Name of the attribute of a solid that holds the boundary from which it was made."""
 
 _PRODUCT = "product"
@@ -80,7 +80,7 @@ def cad_solid(boundary: Boundary) -> cadquery.Solid:
 
     made = kernel_solid(boundary)
     solid = cadquery.Solid(made)
-    setattr(solid, _MADE, (made.Located(made.Location()), boundary))
+    setattr(solid, _BOUNDARY_ATTRIBUTE, (made.Located(made.Location()), boundary))
     return solid
 
 
@@ -156,7 +156,7 @@ def _part_of(node: cadquery.Assembly, parts: dict[Any, SolidProduct]) -> SolidPr
 
 def _boundary_of(solid: Any) -> Boundary | None:
     """Return the boundary of a solid that gearcad made, if it has not been moved since; else None."""
-    made, boundary = getattr(solid, _MADE, (None, None))
+    made, boundary = getattr(solid, _BOUNDARY_ATTRIBUTE, (None, None))
     return boundary if made is not None and solid.wrapped.IsEqual(made) else None
 
 

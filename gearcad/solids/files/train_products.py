@@ -199,7 +199,7 @@ def turns_of(layout: TrainLayout, given: Mapping[str, float] | None = None) -> d
     other.
     """
     train = layout.train
-    found = speeds(train, _given(train, given or {}))
+    found = speeds(train, _given_speeds(train, given or {}))
     turns = {**found.members, **{planet[0].axle.name: found.planet_relative for planet in layout.planets}}
     once = next((abs(turns[name]) for name in (train.carrier.name, train.input) if turns[name]), max(map(abs, turns.values())))
     return {name: speed / once for name, speed in turns.items()}
@@ -219,7 +219,7 @@ def _times_round(layout: TrainLayout, turns: Mapping[str, float], most: float) -
     return 1
 
 
-def _given(train: PlanetaryTrain, known: Mapping[str, float]) -> Mapping[str, float]:
+def _given_speeds(train: PlanetaryTrain, known: Mapping[str, float]) -> Mapping[str, float]:
     """The speeds (rpm) that say how all turns."""
     if len(known) >= (1 if train.fixed else 2) and any(known.values()):
         return known
