@@ -146,7 +146,7 @@ def plain_numbers(instance: Any) -> None:
 
 
 def _is_marked(value: Any) -> bool:
-    """Return whether a number says of itself that nobody gave it."""
+    """Return whether a number is marked as not given by the user."""
     return getattr(value, "derived", False) or getattr(value, "assumed", False)
 
 

@@ -46,18 +46,18 @@ def _tell(kind: bytes, path: Path | None = None) -> None:
 
 
 def note_staging(folder: Path) -> None:
-    """Say, before it is made, that `folder` and all in it must go if this process dies."""
+    """Record, before it is made, a `folder` to be removed with its contents if this process dies."""
     _tell(_STAGING, folder)
 
 
 def note_folder(folder: Path) -> None:
-    """Say, before it is made, that `folder` must go if this process dies and nothing is in it."""
+    """Record, before it is made, a `folder` to be removed if this process dies and it is empty."""
     _tell(_FOLDER, folder)
 
 
 @contextmanager
 def undivided() -> Iterator[None]:
-    """Keep Ctrl-C from dividing changes on disk inside this context; it is for short moments."""
+    """Keep Ctrl-C from interrupting changes on disk inside this context, which should be short."""
     _tell(_BEGIN)
     try:
         yield
@@ -66,7 +66,7 @@ def undivided() -> Iterator[None]:
 
 
 def guarded(work: Callable[[], None]) -> None:
-    """Do `work` in a fork of this process and end as it ends: this call returns in the fork only.
+    """Do `work` in a fork of this process and end as it ends; the call returns in the fork only.
 
     A signal that ends the work (SIGINT, SIGTERM, SIGHUP) gives the exit status of a shell, 128 and its number.
     """
@@ -94,7 +94,7 @@ def _is_heard(number: signal.Signals) -> bool:
 
 
 def _nothing(_number: int, _frame: object) -> None:
-    """Do nothing: a handler that only wakes up the process."""
+    """Do nothing; this signal handler only wakes up the process."""
 
 
 def _become_worker(keeper: int, told: int) -> None:

@@ -228,7 +228,7 @@ def _has_lock(fd: int) -> bool | None:
 
 
 def _is_there(folder: Path, fd: int) -> bool:
-    """Return whether the folder that is open stands at this path still: another process may have removed it meanwhile."""
+    """Return whether the open folder still exists at this path: another process may have removed it."""
     try:
         return os.path.samestat(os.fstat(fd), folder.stat())
     except OSError:

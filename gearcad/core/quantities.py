@@ -186,7 +186,7 @@ Permitted = Range | Whole | Choice | Member
 
 
 ELSEWHERE = "written elsewhere"
-"""The mark of a field whose own fields are not written with the others: they have tables, or a file, of their own."""
+"""Mark of a field whose own fields are written elsewhere: in tables, or a file, of their own."""
 
 
 class AssumedNumber(float):
@@ -219,7 +219,7 @@ class AssumedText(str):
 
 
 def assumed_values(inputs: Any, key: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield all values in `inputs` that nobody gave, under keys such as "load.application_factor".
+    """Yield all values in `inputs` that the user did not give, under keys such as "load.application_factor".
 
     `inputs` is a value, a dataclass of them, or a tuple, list or mapping of these; `key` is its own key. Inner documents with a
     list "assumed" of their own are left out.
@@ -240,7 +240,7 @@ def assumed_values(inputs: Any, key: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def with_assumed(document: dict[str, Any]) -> dict[str, Any]:
-    """Return a document with a list "assumed" of all values in it that nobody gave: "load.application_factor = 1"."""
+    """Return a document with a list "assumed" of all values in it that the user did not give: "load.application_factor = 1"."""
     return document | {"assumed": [f"{key} = {format_number(value)}" for key, value in assumed_values(document)]}
 
 
@@ -312,12 +312,12 @@ class FieldSchema:
 
     @cached_property
     def choices(self) -> type[Enum] | None:
-        """The enum whose member it is."""
+        """Enum of which the value is a member; None for other fields."""
         return next(filter(_is_enum, self.members), None)
 
     @cached_property
     def part(self) -> type[DataclassInstance] | None:
-        """The type of a field that has fields of its own."""
+        """Type of the field's value if that has fields of its own; otherwise None."""
         if ELSEWHERE in self.marks:
             return None
         return next((member for member in self.members if isinstance(member, type) and is_dataclass(member)), None)

@@ -40,7 +40,7 @@ def distinct(values: Floats) -> Floats:
 
 
 def freeze(result: DataclassInstance) -> None:
-    """Let no array among the fields of a frozen dataclass be written to."""
+    """Make all arrays among the fields of a frozen dataclass read-only."""
     for each in fields(result):
         value = getattr(result, each.name)
         if isinstance(value, np.ndarray):
@@ -172,7 +172,7 @@ class Verdict(Enum):
 
 
 def together(verdicts: Iterable[Verdict]) -> Verdict:
-    """Return failed if one verdict is failed, passed if all are, otherwise not judged.
+    """Return failed if one verdict failed, passed if all passed, otherwise not judged.
 
     >>> together([Verdict.PASSED, Verdict.NOT_JUDGED]).value
     'not judged'
@@ -211,7 +211,7 @@ class Pictured:
 
 
 def is_assumed(value: Any) -> bool:
-    """Return whether a value of a field is its default, which nobody gave (see `AssumedNumber`).
+    """Return whether a value of a field is its default, which the user did not give (see `AssumedNumber`).
 
     >>> from gearcad.core.quantities import AssumedCount
     >>> is_assumed(AssumedCount(6)), is_assumed(6)

@@ -550,7 +550,7 @@ TRAIN_PARTS = {
         "static_force": Symbol("F", "N", "", "mean force between the flanks"),
     },
 }
-"""Symbols of a train and its parts, beside what is given of them, as data.json has them."""
+"""Symbols of derived values of a train and its parts, as data.json has them."""
 
 TRAIN_DYNAMICS = {
     "kv": DYNAMICS["kv"],

@@ -174,7 +174,7 @@ class PairDecks(ABC):
 
     @abstractmethod
     def mesh(self, role: Role, zones: Mapping[int, ContactRefinement]) -> ElementMesh:
-        """A gear, or what the check has of it, in coordinates of its own."""
+        """Return the mesh of a gear, or the part of it that the check uses, in its own coordinates."""
 
     @abstractmethod
     def root_tension(self, mesh: ElementMesh, moved: Floats, role: Role, tooth: int, turn: float) -> float:

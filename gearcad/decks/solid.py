@@ -206,7 +206,7 @@ class SolidDecks(PairDecks):
 
 
 def _beyond(low: float, high: float, thickness: float) -> Floats:
-    """Planes (n,) from a height to another; one if there is nothing between them."""
+    """Return the planes (n,) from one height to another; a single one if they are equal."""
     return np.linspace(low, high, math.ceil((high - low) / thickness - 1e-6) + 1)
 
 

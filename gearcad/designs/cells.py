@@ -119,7 +119,7 @@ def guarded_text(text: str) -> str:
 
 
 def is_blank(cell: RawCell) -> bool:
-    """True for a cell with nothing but space in it."""
+    """Return True for a cell that contains only space."""
     return cell is None or (isinstance(cell, str) and not cell.strip())
 
 
@@ -220,7 +220,7 @@ class Decimal(Enum):
     """Decimal points, and commas between cells."""
 
     COMMA = "comma"
-    """Cells between semicolons, and a mark in front by which Excel knows UTF-8."""
+    """Decimal commas, semicolons between cells, and a mark at the beginning by which Excel recognises UTF-8."""
 
     @property
     def separator(self) -> str:
@@ -233,7 +233,7 @@ class Decimal(Enum):
         return "utf-8-sig" if self is Decimal.COMMA else "utf-8"
 
     def number(self, text: str) -> str:
-        """A number, written with a point, as it stands in a cell."""
+        """Return a number, written with a point, as it appears in a cell."""
         return text.replace(".", ",") if self is Decimal.COMMA else text
 
 

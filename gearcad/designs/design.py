@@ -66,7 +66,7 @@ def find_lines(text: str) -> dict[str, int]:
 
 
 def _inside(table: str, lists: Counter[str]) -> str:
-    """A table's name, with the number of the table in a list that it stands in: `mesh[0].pair` below [[mesh]]."""
+    """Return a table's name with its number in a list of tables: `mesh[0].pair` below [[mesh]]."""
     for name in sorted(lists, key=len, reverse=True):
         if table.startswith(f"{name}."):
             return f"{name}[{lists[name] - 1}]{table.removeprefix(name)}"
@@ -74,7 +74,7 @@ def _inside(table: str, lists: Counter[str]) -> str:
 
 
 def nearest_line(lines: dict[str, int], key: str) -> int | None:
-    """Line of `key`, else of the innermost table around it that has one."""
+    """Return the line of `key`, or else of the innermost table around it that has one."""
     while key not in lines and "." in key:
         key = key.rpartition(".")[0]
     return lines.get(key)
@@ -93,7 +93,7 @@ def explain_syntax(error: tomllib.TOMLDecodeError, text: str) -> str:
 
 WORKBOOKS = (".xlsx", ".xlsm")
 UNREADABLE = (".xls", ".xlsb", ".ods", ".numbers")
-"""Tables that have to be saved as something else."""
+"""Suffixes of tables that must first be saved as files of another kind."""
 
 _TEXTS = (".csv", ".tsv")
 """Names of tables that are texts; a text under any other name than a spec's is read as one too."""
@@ -117,7 +117,9 @@ _fence: ContextVar[Path | None] = ContextVar("the folder in which files must be"
 
 @contextmanager
 def files_only_in(folder: Path) -> Iterator[None]:
-    """Restrict specs that this thread reads meanwhile to files in `folder`, links followed. Others raise ParameterError."""
+    """Restrict the specs that this thread reads inside this context to files in `folder`, links followed. Other files raise
+    ParameterError.
+    """
     token = _fence.set(folder.resolve())
     try:
         yield

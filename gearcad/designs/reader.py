@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def type_of(kind: DesignKind) -> type[Design]:
-    """The class of a kind's designs; a train's is not imported for a gear."""
+    """Return the class of a kind's designs, imported only when it is asked for."""
     module = import_module("gearcad.designs")
     name = "".join(word.capitalize() for word in kind.value.split("_"))
     return cast("type[Design]", getattr(module, f"{name}Design"))
@@ -108,7 +108,7 @@ def _files() -> dict[str, Path]:
 
 
 def starters() -> dict[str, str]:
-    """Name of every starter and what it is, from the first line of its file."""
+    """Return the name of every starter with its description, from the first line of its file."""
     found = {}
     for name, path in _files().items():
         with path.open(encoding="utf-8") as file:
@@ -157,7 +157,9 @@ def edit_spec(text: str, values: Mapping[str, Cell | None], notes: Mapping[str, 
 
 
 def _take(document: Container, path: list[str]) -> None:
-    """Remove the value under a path with its line, wherever it is; what holds nothing else by dotted keys goes as well."""
+    """Remove the value under a path with its line, wherever it is. A table that then holds nothing by dotted keys is removed
+    too.
+    """
     for inside, _, _, table in sorted(_tables_around(document, path), key=itemgetter(0), reverse=True):
         if len(path) - inside == 1 and path[-1] in table.value:
             table.value.remove(path[-1])

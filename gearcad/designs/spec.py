@@ -374,7 +374,7 @@ class Spec:
         return Given(None, self._written(owner, field), note)
 
     def name(self, main: str, default: str) -> str:
-        """The name of the design, which its main table or else the file gives."""
+        """Name of the design: that of its main table, or else of the file."""
         given = self.values.get(f"{main}.name")
         with self.blame(main):
             require_plain_name(default if given is None else given.value)
@@ -403,15 +403,15 @@ class Spec:
             return kind(**_missing(FIELDS[owner.rpartition(".")[2]]) | _with_parts(values, PARTS_BESIDE.get(owner, {})))
 
     def gear_inputs(self, owner: str) -> dict[str, Any]:
-        """Keyword arguments of Gear; "auto" not yet resolved, what is missing as None for Gear to complain about."""
+        """Return keyword arguments of Gear: "auto" is not yet resolved, missing values are None so that Gear reports them."""
         return self._inputs_of(owner, PARTS, GEAR_FIELDS)
 
     def rack_inputs(self, owner: str) -> dict[str, Any]:
-        """Keyword arguments of Rack; what is missing as None."""
+        """Return keyword arguments of Rack; missing values are None."""
         return self._inputs_of(owner, {"rack": BasicRack}, FIELDS["rack"])
 
     def _inputs_of(self, owner: str, kinds: Mapping[str, type[Any]], fields: Mapping[str, FieldSchema]) -> dict[str, Any]:
-        """Keyword arguments of what has parts of these kinds, and these fields."""
+        """Return keyword arguments for a type with parts of these kinds and with these fields."""
         given = self.fields_of(owner)
         parts: dict[str, dict[str, Any]] = {part: {} for part in kinds}
         inputs = _missing(fields)

@@ -52,7 +52,7 @@ _ALWAYS = ("helix_angle", "profile_shift", "tip_alteration")
 
 
 def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
-    """The TOML of a design of a pair, led by `comments`, a line each. "auto" stands nowhere: what it gave does."""
+    """Return the TOML of a design of a pair, beginning with `comments`, a line each. Derived values replace "auto"."""
     pair = design.pair
     tables = {
         "pair": dict(
@@ -74,7 +74,7 @@ def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
 
 
 def toml_text(tables: Mapping[str, Mapping[str, Any]], comments: Sequence[str] = ()) -> str:
-    """The TOML of tables with flattened keys, led by `comments`, a line each."""
+    """Return the TOML of tables with flattened keys, beginning with `comments`, a line each."""
     blocks = ["\n".join(f"# {line}".rstrip() for line in comments)] if comments else []
     for table, values in tables.items():
         blocks.append("\n".join([f"[{table}]", *(f"{key} = {_toml(value)}" for key, value in values.items())]))
@@ -337,7 +337,7 @@ def write_front(result: Sizing, path: Path) -> None:
 
 
 def _write_table(task: SizeTask, rows: list[dict[str, str]], said: str, path: Path) -> None:
-    """Write rows under what they are for."""
+    """Write rows below a line that says what they are for."""
     wanted = f"{task.load.torque:g} N·m at {task.load.speed:g} rpm / u = {task.ratio:g} within {task.ratio_tolerance:g} %"
     write_found_rows(rows, f"Pairs for {wanted}; {said}", path)
 
@@ -350,12 +350,12 @@ def _cells(sized: SizedPair) -> Iterator[tuple[str, str]]:
 
 
 def _word(value: Any) -> Any:
-    """A member of an enum as its value."""
+    """Return the value of an enum's member; other values unchanged."""
     return getattr(value, "value", value)
 
 
 def write_pair(sized: SizedPair, comments: list[str], path: Path) -> None:
-    """Write the spec of one of them, led by `comments`, a line each."""
+    """Write the spec of one of the pairs, beginning with `comments`, a line each."""
     path.write_text(toml_text(_tables(sized), comments), encoding="utf-8")
 
 
@@ -372,7 +372,9 @@ _RIM = 5.0
 
 
 def write_found(result: SearchResult, path: Path) -> None:
-    """Write it: complete or not at all. Raises ParameterError for a name that is no table's, and if nothing was found."""
+    """Write the table of the sets that were found, complete or not at all. Raises ParameterError for a name that is not that of
+    a table, and if nothing was found.
+    """
     if path.suffix.lower() != ".csv":
         raise ParameterError("output", str(path), "must end in .csv")
     if not result.found:
@@ -490,7 +492,7 @@ def _sized_sets_cells(sized: SizedSet) -> Iterator[tuple[str, str]]:
 
 
 def write_sized_set(sized: SizedSet, comments: list[str], path: Path) -> None:
-    """Write the spec of one of them, led by `comments`, a line each."""
+    """Write the spec of one of the sets, beginning with `comments`, a line each."""
     path.write_text(toml_text(sized_keys(sized), comments), encoding="utf-8")
 
 

@@ -36,7 +36,7 @@ from gearcad.geometry.gear_parts import MODULE_OR_PITCH
 Where = Callable[[str], str]
 
 _REQUIRED: dict[str, Cell] = {"teeth": 20, "normal_module": 2.0, "face_width": 20.0, "height": 20.0}
-"""Keys that a gear or a rack needs, as far as they have them, with values that fit each other."""
+"""Keys that a gear or a rack needs, where it has them, with values that are consistent."""
 
 _TOOTHED = {
     kind: tuple(table for table in tables if table in FIELDS and table != "pair") for kind, tables in MAIN_TABLES.items()
@@ -210,7 +210,7 @@ class DesignRow:
     columns: tuple[str, ...]
 
     def where(self, key: str) -> str:
-        """The place of a key for the beginning of a message: file, row, column if it has one, name of the design."""
+        """Return the place of a key for the beginning of a message: file, row, column if it has one, name of the design."""
         return _place(self.table, self.number, self._index(key), self.name)
 
     def design(self) -> Design:

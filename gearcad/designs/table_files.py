@@ -32,7 +32,7 @@ _MOST_OF_A_PART = 32
 """Largest parts (MB, unpacked) that are read: a sheet row by row, so this is some millions of cells, the others all at once."""
 
 _LONGEST_RUN = 1 << 20
-"""Bytes of XML without a tag in which no permitted cell is so long."""
+"""Number of bytes of XML without a tag that no permitted cell reaches."""
 
 
 def open_workbook(path: Path) -> Workbook:
@@ -226,7 +226,7 @@ def _is_comment_line(line: str, separators: str) -> bool:
 
 @contextmanager
 def _text_file(path: Path, encoding: str) -> Iterator[io.TextIOWrapper]:
-    """The file, open for csv; what is not in its encoding becomes a SpecError that says where."""
+    """Yield the file, open for csv. Bytes that are not in its encoding raise a SpecError that names the place."""
     try:
         with path.open(encoding=encoding, newline="") as file:
             yield file

@@ -190,12 +190,12 @@ _OTHER_KINDS = {
     **dict.fromkeys(("rack",), DesignKind.RACK_PAIR.words),
     **dict.fromkeys(("gear",), DesignKind.GEAR.words),
 }
-"""Tables that a spec of a pair does not have, and what has them."""
+"""Tables that a spec of a pair does not have, and the kinds of designs that have them."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class DesignedPair(MeshPair):
-    """The pair of a mesh, and the `design` that it is of."""
+    """Pair of a mesh, with the `design` that it belongs to."""
 
     design: PairDesign
 

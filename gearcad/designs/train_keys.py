@@ -92,7 +92,7 @@ def explain_unknown_planetary_column(heading: str) -> str:
 MAIN = "train"
 
 ALL = "*"
-"""Stands in place of a name for all parts of a kind. A part's own value counts before it."""
+"""Word in place of a name for all parts of a kind; a part's own value takes precedence."""
 
 TRAIN_PARTS: dict[str, type[DataclassInstance]] = {"inertia": Inertia, "shaft": Shaft, "mesh": ToothMesh}
 """Types of the parts of a train, by the tables of its spec."""

@@ -262,7 +262,7 @@ _INSTEAD = {
 """Keys that a part of a train loses when another key of it varies."""
 
 _MOST_SHOWN = 6
-"""Values of a wrong list that a message repeats."""
+"""Largest number of values of a wrong list that a message repeats."""
 
 
 Value = TypeVar("Value")
@@ -351,7 +351,7 @@ def _parted(text: str, kind: DesignKind, base: Collection[str]) -> tuple[str, st
 
 
 def _known_to_train(name: str, base: Collection[str]) -> str | None:
-    """The full key of a train with these keys; None for what it does not have."""
+    """Return the full key of a train with these keys; None for a key that it does not have."""
     names = names_of(base)
     for key in (name, f"{MAIN}.{name}"):
         found = TrainKey.of(key)

@@ -208,7 +208,7 @@ _SYMBOLS = {
 
 _LENGTHS = (10.0, 15.0, 21.0, 28.0, 36.0, 46.0, 58.0, 72.0)
 _LANDING = 3.0
-"""Length of a leader's level end before a figure; a text stands on a line 1 mm longer than itself."""
+"""Length (mm) of a leader's level end before a figure; the line below a text is 1 mm longer than the text."""
 
 _LEADER_LIFT, _LEADER_LEAST_LIFT = 0.9, 0.6
 _BELOW_TEXT = 1.0

@@ -463,7 +463,7 @@ class LevelStudy(SideBySide):
 
     @property
     def idle_shafts(self) -> tuple[str, ...]:
-        """Shafts that carry next to nothing at rest in any model: their overload says nothing."""
+        """Indices of the shafts that carry almost nothing at rest in some model; their overload has no meaning."""
         known = dict.fromkeys(name for study in self.studies for name in study.up.shaft_names)
         return tuple(name for name in known if name not in self.shaft_names)
 

@@ -128,7 +128,7 @@ def _alikeness(of: TrainStudy, other: TrainStudy) -> Floats:
 
 
 def _product(one: NaturalModes, two: NaturalModes, train: Train) -> Floats:
-    """Return the sums (n, k) of inertia times turn times turn over the parts that both have."""
+    """Return the sums (n, k) of the products of inertia and both rotations over the parts that both trains have."""
     found = np.zeros((len(one), len(two)))
     for inertia in train.inertias:
         if inertia.name in one.inertias and inertia.name in two.inertias:

@@ -280,7 +280,7 @@ class Gear(GearData):
 
     @property
     def _side(self) -> int:
-        """Sign of the gear's diameters: -1 for a ring, else 1."""
+        """Sign of the gear's diameters: -1 for a ring, otherwise 1."""
         return -1 if self.internal else 1
 
     @property
@@ -447,7 +447,7 @@ def refuse_halves(gear: Gear, what: str) -> None:
 
 
 _HEIGHTS = 65
-"""Places over the face width at which the width of the root land is looked at."""
+"""Number of places over the face width at which the width of the root land is evaluated."""
 
 _STEP = 1e-5
 """Step of a curve's parameter over which its speed is taken."""

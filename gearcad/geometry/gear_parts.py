@@ -290,7 +290,7 @@ class Body:
         self._check_keyway()
 
     def _derive_keyway(self) -> None:
-        """Width and depth by the bore, where `keyway` asks for them; 0 where it does no more."""
+        """Derive width and depth from the bore, if `keyway` asks for it; 0 without a keyway."""
         sizes = ("keyway_width", "keyway_depth")
         for name in sizes:
             if self.keyway and is_given(value := getattr(self, name)) and value:

@@ -437,9 +437,7 @@ def check_centre_distance(pair: PairData) -> None:
 
 
 def check_tolerance(pair: PairData) -> None:
-    """Raise GeometryError if the tolerance of the centre distance lets the axes come to where base circles touch, or if ISO 286
-    has none.
-    """
+    """Raise GeometryError if the tolerance of the centre distance lets base circles touch, or if ISO 286 does not define it."""
     if (name := pair.centre_distance_tolerance) is None:
         return
     if abs(pair.centre_distance) > LARGEST_DISTANCE:

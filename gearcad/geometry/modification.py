@@ -108,7 +108,7 @@ class ReliefTransition:
 
     @property
     def rounding(self) -> float:
-        """Return w (mm), what the transition takes off at the onset: C_a t/(8 l_a)."""
+        """Height w (mm) that the transition removes at the onset: C_a t/(8 l_a)."""
         return self.slope * self.length / 8
 
 
@@ -231,7 +231,7 @@ class FlankForm:
         return cls(modification, first, last, face_width, base / 2, -1 if helix_angle < 0 else 1, module)
 
     def depth(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
-        """Return the depth (mm) by which the left or right flank is taken back at roll lengths and heights z (mm).
+        """Return the depth (mm) of the relief of the left or right flank at roll lengths and heights z (mm).
 
         The result has the shape to which both broadcast. Beyond the ends of the flank the depth is that at the end.
         """

@@ -205,7 +205,7 @@ class ToothProfile:
 
     @property
     def _side(self) -> int:
-        """Sign of a step from root to tip along a radius: -1 for a ring, whose tip is inside, else 1."""
+        """Sign of a step from root to tip along a radius: -1 for a ring, whose tip is inside, otherwise 1."""
         return -1 if self.internal else 1
 
     def __repr__(self) -> str:

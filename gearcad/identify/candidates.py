@@ -15,7 +15,7 @@ from gearcad.identify.standards import FREE, StandardRack, Unknown
 
 _DIGITS = 4
 _WIDTH = 10
-"""Face width in modules of a gear whose width nobody asked for."""
+"""Face width, in modules, of a gear whose width is not given."""
 
 _RADIUS_STEP = 0.01
 _SLACK = 0.05
@@ -168,10 +168,10 @@ def variance(slopes: Floats, fit: FittedHypothesis) -> float:
 
 
 _CERTAIN = 0.95
-"""The least probability of what is called certain."""
+"""Least probability of a candidate that is called certain."""
 
 _WORN = 0.12
-"""Tooth thinning in modules above that of gears as they are made."""
+"""Tooth thinning, in modules, above that of new gears."""
 
 _OFF = 2.0
 """Uncertainties that a reading is off and is told."""

@@ -178,7 +178,7 @@ class Measured:
 
     @property
     def notices(self) -> Iterable[Notice]:
-        """Notices on what the readings leave open, whatever the gear is."""
+        """Notices about what the readings leave undecided, whatever the gear is."""
         if self._across_tips_less:
             less = self._across_tips_less
             text = f"an odd number of teeth: calipers across the tips read about {less:.2g} mm less than the tip diameter"

@@ -286,7 +286,7 @@ _OFF_INVOLUTE = 6.0
 
 _JUDGED = 40
 _RUN_LEAST = 1e-4
-"""Probability of what is listed beside the best."""
+"""Least probability of candidates that are listed beside the best."""
 
 _USUAL_UNCERTAINTY = 0.02
 

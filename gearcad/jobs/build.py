@@ -34,7 +34,7 @@ AssemblyProduct: TypeAlias = "PairProduct | RackPairProduct | TrainProduct"
 
 
 def products_of(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[str, PartProduct], AssemblyProduct | None]:
-    """Gears and racks by the names of their files, and what they are in mesh."""
+    """Return gears and racks by the names of their files, and the product that they make in mesh."""
     if design.kind is DesignKind.PLANETARY:
         train = _train_product(cast("PlanetaryDesign", design), options)
         return train.parts, train

@@ -384,7 +384,7 @@ def _report_progress(progress: Progress, label: str, before: int, count: int, st
 
 
 def _require_chart(design: PairDesign | TrainDesign) -> None:
-    """Raise ParameterError for what has no chart of K_v, or several."""
+    """Raise ParameterError for a design without a chart of K_v, or with several."""
     if isinstance(design, TrainDesign):
         if design.other_models:
             listed = ", ".join(each.value for each in design.models)

@@ -87,7 +87,7 @@ class Job(ABC, Generic[Accepted, Result]):
         return ""
 
     def files(self, result: Result) -> dict[str, Writer]:
-        """The names of a result's files, in the order in which they are made, and what writes each."""
+        """Return the names of a result's files, in the order in which they are made, with the function that writes each."""
         return {f"{self.verb}.json": partial(self.write_document, result)}
 
     def write_document(self, result: Result, path: Path) -> None:

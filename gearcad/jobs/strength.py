@@ -199,7 +199,7 @@ def _least(values: Collection[float | None]) -> float | None:
 
 
 KEYS = {"torque": "load.torque", "hardness": "material.hardness"}
-"""Keys of values that only the rating finds to be wrong."""
+"""Keys of values that only the rating can refuse."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -162,7 +162,7 @@ def _write_set(file: TextIO, number: int, nodes: NDArray[np.integer]) -> None:
 
 
 def _continued(fields: Letters, first: int) -> list[bytes | Letters]:
-    """Fields (n, k, 8) over several lines: so many on the first, eight on each other."""
+    """Return fields (n, k, 8) over several lines: so many on the first, eight on each further line."""
     starts = [0, *range(first, fields.shape[1], _FIELDS), fields.shape[1]]
     pieces: list[bytes | Letters] = [fields[:, : starts[1]]]
     for start, stop in pairwise(starts[1:]):

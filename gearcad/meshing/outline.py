@@ -413,7 +413,7 @@ def _gentle(run: Floats, length: Floats, growth: float) -> Floats:
 
 
 def _by_bend(curve: Curve, s: Floats, run: Floats, sizes: MeshSizes, module: float) -> Floats:
-    """Longest edges (n,) that turn no more than fillets should, and bulge as the curve does."""
+    """Return the longest edges (n,) that turn by no more than edges of fillets should, and follow the curve's bulge."""
     between = np.diff(np.unwrap(curve.direction(s))) / np.diff(run)
     middles = (run[1:] + run[:-1]) / 2
     bend = np.maximum(np.abs(np.interp(run, middles, between)), 1e-12 / run[-1])

@@ -239,7 +239,7 @@ _FOLDED = 1e-6
 """Least scaled Jacobian of a valid mesh: an element below it has no inside."""
 
 _ON = 1e-9
-"""Largest distance (mm) of nodes from the exact sides, and from the nodes they are matched with: rounding."""
+"""Largest distance (mm) of nodes from the exact sides, and from their matched nodes, that counts as rounding."""
 
 _ON_SOLID = 1e-6
 """The same of sides of tetrahedra that are no flanks: where these end, nodes are as the edges of the boundary representation

@@ -345,7 +345,7 @@ _TRIED = 100
 _EVERYWHERE = ("0.0.0.0", "::", "")
 
 _RECONNECT = 30.0
-"""Seconds that a tab may be away, as where a laptop sleeps, and find its page as it was."""
+"""Time (s) after which a tab without a connection loses its page: a laptop may sleep."""
 
 _MOST_SESSIONS = 32
 """Largest number of tabs at a time."""
@@ -354,13 +354,13 @@ _LARGEST_MESSAGE = 1 << 20
 """Bytes that a browser may send at once over its connection: four times the largest spec."""
 
 _WAITING = 128
-"""Connections that nobody has accepted yet."""
+"""Largest number of connections that wait to be accepted."""
 
 _RANDOM = 32
 """Number of random bytes in a token."""
 
 _TURN = 5e-4
-"""Seconds that a thread may compute while another waits: what is found is sent at once, whatever else is being found."""
+"""Time (s) that a thread may compute while another one waits, so that results are sent at once."""
 
 _GRACE = 1
 """Seconds that answers have to end when the server does."""

@@ -80,11 +80,11 @@ class Tabs:
         row.set_value(first)
 
     def choose(self, key: str) -> None:
-        """Have what is under a key seen."""
+        """Show the contents under a key."""
         self._row.set_value(key)
 
     def on(self, key: str, do: Callable[[], None]) -> None:
-        """Have something done each time that what is under a key is seen again."""
+        """Call a function each time that the contents under a key are shown again."""
         self._on[key] = do
 
     @contextmanager
@@ -210,7 +210,7 @@ class Following:
 
 
 class Session:
-    """Builds the page in the browser, and lets every panel follow the design.
+    """Page in the browser, whose panels all follow the design.
 
     `open` are all that somebody has open.
     """
@@ -300,16 +300,16 @@ class Session:
         return button
 
     def typed(self, key: str, text: str, step: int) -> None:
-        """Write what was typed into the field of a key, as part of a step."""
+        """Write the text that was typed into the field of a key, as part of a step."""
         self.change({key: text}, step)
 
     def change(self, given: Mapping[str, str], step: int | None = None) -> None:
-        """Write under keys of the spec what was typed or moved."""
+        """Write values that were typed or moved under keys of the spec."""
         self.bench.change(given, step)
         self.follow()
 
     def written(self, text: str, step: int) -> None:
-        """Take what was typed into the text, as part of a step."""
+        """Take the text that was typed into the spec, as part of a step."""
         self.bench.write(text, TEXT, step)
         self.follow()
 

@@ -77,7 +77,7 @@ class PageWords:
         return _LONG_WORD.sub(lambda long: joint.sub(_SOFT_HYPHEN, long[0]), text)
 
     def said(self, line: str) -> str:
-        """Return the translated words for what the line of a fault permits; "" if this language has none."""
+        """Return the translated words for the permitted values in a fault's line; "" if this language has none."""
         end = line[line.rfind(": must be ") + len(": ") :]
         for pattern, words in self.permitted.items():
             if found := re.fullmatch(pattern, end):

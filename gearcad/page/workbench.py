@@ -296,7 +296,7 @@ def text_of(content: bytes, name: str) -> str:
 
 
 class KeptDesign(NamedTuple):
-    """A design, the text that makes it, and what it is called where its text says no name."""
+    """A design, the text that makes it, and its name if the text has none."""
 
     text: str
     name: str
@@ -324,7 +324,9 @@ class BesideDesign:
         self.kept = KeptDesign(text, name, design_of(text, name, self.folder.path))
 
     def swap(self) -> None:
-        """Edit what was kept, as a step that can be undone, and keep what was edited. Raises SpecError while that is none."""
+        """Edit the kept design, as a step that can be undone, and keep the edited one. Raises SpecError if that is not a
+        design.
+        """
         if (kept := self.kept) is not None:
             self.kept = self._present()
             self.bench.open(kept.text, kept.name)

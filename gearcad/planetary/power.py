@@ -439,7 +439,7 @@ class FactorSource(Enum):
 
 
 class MeshLoadFactor(NamedTuple):
-    """K_gamma of ISO 6336-1, and where it comes from."""
+    """Mesh load factor K_gamma of ISO 6336-1, and its source."""
 
     value: float
     source: FactorSource

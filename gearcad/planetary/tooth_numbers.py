@@ -619,4 +619,4 @@ CONDITIONS: dict[str, Callable[[ManySets], Bools]] = {
     "diameter": _small,
     "no self-locking": _turns,
 }
-"""Words of each condition, and where it is met: in this order, each of the sets that met all before."""
+"""Words of each condition, and the function that says where it is met, in the order in which sets must meet them."""

@@ -207,7 +207,7 @@ def _stage_room_reach(gear: Gear, place: GearPlace) -> Span:
 
 
 MISFIT = 1e-7
-"""Pitches by which teeth may miss their spaces from rounding."""
+"""Distance, in pitches, by which teeth may miss their spaces due to rounding."""
 
 _NEAR = 4
 """Largest change of a gear's number of teeth in the search for a set that can be assembled."""
@@ -235,10 +235,7 @@ def check_angles(train: TrainData) -> None:
 
 
 def check_assembly(train: TrainData) -> None:
-    """Check that nothing is in the way of anything, and that the teeth fit.
-
-    Raises ParameterError, GeometryError with what would do.
-    """
+    """Raise GeometryError or ParameterError, with values that would do, unless all parts have room and the teeth fit."""
     check_heights(train)
     try:
         check_neighbours(train)

@@ -137,7 +137,7 @@ _ROUNDED = 6
 """Decimals (mm) of places that count as one."""
 
 _GAP = 3.0
-"""Edges of triangles longer than so many times the distance between neighbours span a hole in the map."""
+"""Ratio of a triangle's edge to the distance between neighbours above which the edge spans a hole in the map."""
 
 _ACROSS = "across the face, from the middle of the common width, in mm"
 

@@ -26,7 +26,7 @@ _CHORD = 2e-3
 """Error of the drawn outlines, in normal modules, too small to be visible."""
 
 _WIDTH, _LEAST, _MOST = 6.6, 2.2, 5.0
-"""Inches: width of the picture, and between what its height lies."""
+"""Width of the picture, and least and largest height (inches)."""
 
 _MARGIN = 0.4
 """Around the gears, in normal modules."""

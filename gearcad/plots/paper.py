@@ -111,7 +111,7 @@ def _fitting(axes: Axes, most: int) -> int:
 
 
 def draw_limit(axes: Axes, limit: float | tuple[float, float] | None) -> None:
-    """The limit of a material, or the range in which it lies, with room above; nothing where there is none."""
+    """Draw the limit of a material, or the range in which it lies, with room above; nothing if there is none."""
     if limit is None:
         return
     lowest, highest = limit if isinstance(limit, tuple) else (limit, limit)

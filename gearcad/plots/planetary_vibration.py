@@ -343,7 +343,7 @@ _BANDS = 300
 """Largest number of pieces of a long run, each drawn from its least to its greatest value."""
 
 _PITCHES = 6.0
-"""Base pitches that are drawn close by, or fewer where the run is shorter."""
+"""Number of base pitches that are drawn in detail, fewer if the run is shorter."""
 
 _SHADES = ("#cc79a7", "#0072b2", "#009e73", "#d55e00", "#56b4e9", "#e69f00")
 """Colours of planets; they repeat if there are more planets."""

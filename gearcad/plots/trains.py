@@ -36,7 +36,7 @@ _SHADES = {
 """Blue stores the motion of bodies, green is of shafts, orange of teeth."""
 
 _GAP = 0.1
-"""Part of all shafts' length that a mesh takes, so that what it joins does not lie on each other."""
+"""Share of all shafts' length that a mesh takes, so that the parts that it joins do not overlap."""
 
 _WORD = 0.018
 """Share of a bar (of 1) that one letter takes."""
@@ -48,7 +48,7 @@ _LETTERS = 30
 """Greatest number of letters of all names along the train below a panel of half the width."""
 
 _Node = tuple[str, str]
-"""("inertia", name), or ("ground", name of the shaft that ends there)."""
+"""Node of a train: ("inertia", name), or ("ground", name of the shaft that ends there)."""
 
 
 _BETWEEN, _LEAST_PLACES = 8, 4

@@ -310,7 +310,9 @@ def contact_factor(curvature: Values, overlap_ratio: Values) -> Values:
 
 
 def profile_factor(edition: Edition, helix_angle: Values, modified: bool) -> Values:
-    """f_ZCa of the edition of 2019, by which Z_B and Z_D are multiplied, by whether profiles are taken back; 1 in others."""
+    """Return f_ZCa of the edition of 2019, by which Z_B and Z_D are multiplied, for modified or unmodified profiles; 1 in other
+    editions.
+    """
     return modification_factor(helix_angle, modified=modified) if edition is Edition.ISO_2019 else 1.0
 
 

@@ -115,7 +115,7 @@ def modification_factor(helix_angle: Values, *, modified: bool) -> Values:
 
 
 def relieved(pinion: FlankModification, wheel: FlankModification = _UNMODIFIED) -> bool:
-    """Whether profiles are taken back where contact begins and where it ends, which is taken to be adequate."""
+    """Return whether profiles are relieved where contact begins and where it ends, which counts as adequate."""
     crowned = max(pinion.profile_crowning, wheel.profile_crowning) > 0
     return crowned or bool((pinion.tip_relief or wheel.root_relief) and (wheel.tip_relief or pinion.root_relief))
 

@@ -327,7 +327,7 @@ class RatingOptions(LubricantOptions, LoadFactorOptions, DutyOptions, _Standards
         return self.manufacturing_misalignment if self.standard is Edition.DIN_1987 else None
 
     def grade_of(self, gear: Gear) -> int:
-        """A gear's own accuracy grade, else that of both."""
+        """Return a gear's own accuracy grade, or else that of both."""
         return self.accuracy_grade if gear.accuracy_grade is None else gear.accuracy_grade
 
 

@@ -250,7 +250,7 @@ def scuffing_notices(
 
 
 def uncertain(pair: GearPair, options: RatingOptions, integral: IntegralTemperature) -> Iterator[str]:
-    """Yield the symbols of values that stand in one source only, or are remembered."""
+    """Yield the symbols of values that rest on a single source, or on memory."""
     yield from ("X_J", "X_Gamma")
     if float(integral.helical_load) > 1:
         yield "K_Bgamma"

@@ -262,7 +262,14 @@ class GearTolerances(Generic[Values]):
             except ParameterError as error:
                 reasons[str(error)] = None
         verify = [symbol for symbol in _RECALLED[self.accuracy] if found[symbol] is not None]
-        return {"accuracy": self.accuracy.value, "grade": self.grade, **found, "verify": verify, "unconfirmed": verify, "not_covered": list(reasons)}
+        return {
+            "accuracy": self.accuracy.value,
+            "grade": self.grade,
+            **found,
+            "verify": verify,
+            "unconfirmed": verify,
+            "not_covered": list(reasons),
+        }
 
     # ------------------------------------------------------------------ sizes that the standard covers
 

@@ -168,7 +168,7 @@ class ReportFigure(NamedTuple):
 
 
 def pair_picture(pair: GearPair) -> ReportFigure:
-    """Both gears as they stand in mesh."""
+    """Return a picture of both gears in mesh."""
     address = picture_address(partial(plot_pair, pair), "svg", pair_inches(pair))
     return ReportFigure("The pair in mesh", address, sentences("captions_check.txt", "pair", pair))
 

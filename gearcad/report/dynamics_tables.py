@@ -207,7 +207,7 @@ def _met(mode: MetMode | None, study: TrainStudy) -> str:
 
 
 def factor_text(factor: float) -> str:
-    """K_v: three decimals of what is of interest."""
+    """Return K_v with three decimals if it is small enough for them to matter."""
     return f"{factor:.3f}" if factor < 10 else short(factor)
 
 

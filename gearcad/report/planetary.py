@@ -501,7 +501,7 @@ def _resonance_table(campbell: PlanetaryCampbell) -> WordTable:
 
 
 _MISSING = "not-computed"
-"""Code of the notices of parts that could not be had: they have a section of their own."""
+"""Code of the notices of parts that are missing; they have a section of their own."""
 
 
 def write_planetary_report(study: PlanetaryStudy, name: str, path: Path) -> None:

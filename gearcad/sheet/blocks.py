@@ -187,7 +187,7 @@ def gear_section(gears: Mapping[str, Gear], document: Mapping[str, Any], pair: M
 
 
 def rack_section(rack: Rack) -> Section:
-    """The blocks of a rack."""
+    """Return the blocks of a rack."""
     values = flattened(rack.to_dict() | _given_pitch(rack))
     blocks: list[Block] = []
     for title, keys in _RACK_BLOCKS.items():

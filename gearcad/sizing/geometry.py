@@ -386,7 +386,7 @@ def pair_map(pair: GearPair, across: Axis, up: Axis, *, rest: Role | None, dista
 
 
 def _teeth(gear: Gear, teeth: Numbers, helix: Numbers, shift: Numbers, alteration: Numbers) -> ManyTeeth:
-    """Gears like one. Raises ParameterError."""
+    """Return arrays of gears with the data of one gear. Raises ParameterError."""
     if gear.internal or gear.cutter.teeth is not None:
         raise ParameterError("teeth", gear.teeth, "must be those of an external gear from a hob for a shift diagram")
     return ManyTeeth(

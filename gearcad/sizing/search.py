@@ -206,7 +206,7 @@ def ranked(rated: Rated, criterion: Criterion) -> Indices:
 
 
 def _keys(rated: Rated, criterion: Criterion) -> tuple[np.ndarray[Any, Any], ...]:
-    """The criterion, no finer than matters, so that what is as good in it goes by mass."""
+    """Return the criterion, rounded to what matters, so that pairs of equal value are ordered by mass."""
     first = {
         Criterion.MASS: rated.mass,
         Criterion.SAFETY: np.round(-rated.margin, 3),

@@ -206,7 +206,7 @@ def require_room(layout: TrainLayout) -> None:
 
 
 def _require_apart(parameter: str, value: float, moved: Sequence[Standing], others: Sequence[Standing]) -> None:
-    """Bodies that an axial position moves must not stand in any of the others."""
+    """Raise GeometryError if bodies that an axial position moves intersect any of the others."""
     pairs = [
         (one, other)
         for mine in moved
@@ -314,7 +314,7 @@ def carrier_plan(layout: TrainLayout) -> CarrierPlan:
 
 
 def _free(sides: tuple[_Extent, ...], radii: _Extent, gaps: tuple[_Extent, ...], stages: list[SweptSpace]) -> Iterator[_Extent]:
-    """The plates in whose way, and in whose pins' way, nothing stands."""
+    """Yield the plates that collide with nothing, and whose pins collide with nothing."""
     for plate, gap in zip(sides, gaps, strict=True):
         reach = min(*plate, *gap), max(*plate, *gap)
         if not any(overlap(reach, sweep.heights) and overlap(radii, sweep.about_the_train()) for sweep in stages):

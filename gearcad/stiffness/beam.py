@@ -244,7 +244,7 @@ class BeamMethod(SliceMethod):
         return PerGear(*map(BeamTooth.from_gear, self.mounted.gears))
 
     def single(self, lengths: Floats, load: Load) -> SinglePair:
-        """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
+        """Return one pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
         parts: dict[str, Floats] = {}
         curvatures = self.curvatures(lengths)
         loads = PerGear.each(lambda role: self.teeth.pick(role).load_at(curvatures.pick(role)))

@@ -146,7 +146,9 @@ class Slices:
         return np.concatenate(places), np.concatenate(middles)
 
     def _over_width(self, values: Floats, at: Floats) -> Floats:
-        """The integral over the width of what has `values` at `lengths`, for lines with their middle `at` (nan: none)."""
+        """Return the integral over the width of a quantity with `values` at `lengths`, for lines with their middle `at` (nan:
+        none).
+        """
         from scipy.interpolate import CubicSpline
 
         spline = CubicSpline(self.lengths, values)

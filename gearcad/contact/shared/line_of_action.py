@@ -52,7 +52,7 @@ _SETTLED = 1e-9
 """Newton steps for the turn (rad) of flanks that face each other, and the last one: the next would be its square."""
 
 _POSITIONS = 13
-"""Positions of one base pitch, at which pairs that come near are counted."""
+"""Number of positions of one base pitch at which nearby pairs are counted."""
 
 _SAMPLES = 1201
 """Places on a pair of flanks among which the nearest is sought: 5 µm apart on teeth of module 2, 0.001 µm of the gap."""

@@ -303,7 +303,7 @@ def sides_around(
 
 @dataclass(frozen=True)
 class _SidesAround:
-    """`lowers` are L (see `dense`) of the first cut inside rows of 2, 3 ... sectors up to the held cut."""
+    """`lowers` are L (see `factorise`) of the first cut inside rows of 2, 3 ... sectors up to the held cut."""
 
     sector: ToothSpan
     side: int

@@ -27,7 +27,7 @@ PLACES = np.array(
         *([x, y, 0.5] for x, y in _CORNERS),
     ]
 )
-"""Our order of the nodes in the unit cube: lower face, upper face, half-way up."""
+"""Places of the nodes in the unit cube, in our order: lower face, upper face, half-way up."""
 
 _ORDER = 5
 """Order of quadrature: 3 x 3 x 3 points. Fewer leave hexahedra with zero-energy modes, more change nothing that shows."""

@@ -51,7 +51,7 @@ def greatest(quantities: Callable[[Floats], Floats], turning: int) -> tuple[Floa
 
 
 _UNLOADED = 1e-9
-"""Part of the mean load below which a planet carries nothing."""
+"""Share of the mean load below which a planet counts as unloaded."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -112,7 +112,7 @@ class LoadSharing:
 
     @property
     def unloaded(self) -> tuple[int, ...]:
-        """Planets (from 0) that carry nothing at some angle."""
+        """Numbers (from 0) of the planets that are unloaded at some angle."""
         return tuple(int(planet) for planet in np.flatnonzero(self.least_shares <= _UNLOADED))
 
     @property

@@ -211,7 +211,7 @@ def _central(central: Central, density: float) -> MemberMass:
 
 
 def _carrier(train: PlanetaryTrain) -> MemberMass:
-    """Return the mass of the carrier as it is given: it has no solid."""
+    """Return the given mass of the carrier, which has no solid to derive it from."""
     carrier = train.carrier
     values = {"mass": carrier.mass, "inertia": carrier.inertia}
     given = tuple(name for name, value in values.items() if value is not None)
@@ -221,7 +221,7 @@ def _carrier(train: PlanetaryTrain) -> MemberMass:
 
 
 def _either(gears: Mapping[str, tuple[Gear, float]], mass: float | None, inertia: float | None) -> MemberMass:
-    """Return the given mass and inertia, or else those of gears of some densities together on one axis."""
+    """Return the given mass and inertia, or else those of gears of known densities together on one axis."""
     given = tuple(name for name, value in (("mass", mass), ("inertia", inertia)) if value is not None)
     if len(given) == 2:
         return MemberMass(mass=mass, inertia=inertia, given=given)

@@ -21,7 +21,7 @@ from gearcad.planetary import MeshPhases, PlanetaryTrain
 from gearcad.planetary.train_data import speeds
 
 _RIGID = 1e-11
-"""Part of the highest frequency: rounding of a mode in which no spring gives way."""
+"""Share of the highest frequency below which a mode bends no spring, but for rounding."""
 
 _NEAR = 1e-6
 """Relative distance within which modes are told apart by their motion, not by their frequencies."""
@@ -30,7 +30,7 @@ _EQUAL = 1e-9
 """Relative distance within which frequencies are the same but for rounding."""
 
 _STILL = 1e-5
-"""Part of a mode by which a central at rest may move."""
+"""Share of a mode by which a central at rest may move."""
 
 
 _UNKNOWN = MemberMass(mass=None, inertia=None)
@@ -176,7 +176,7 @@ def _parts(model: MassSprings, modes: Floats, rows: list[int]) -> Floats:
 
 
 def _unmoved(parts: Floats) -> Floats:
-    """Return an orthonormal basis (g, d) of the mixtures of g modes in which parts (r, g) rest."""
+    """Return an orthonormal basis (g, d) of the combinations of g modes in which the parts (r, g) are at rest."""
     _, values, mixtures = np.linalg.svd(parts)
     return mixtures[int((values > _STILL).sum()) :].T
 
@@ -358,7 +358,7 @@ NEAR = 0.05
 """Part of the speed of a resonance within which a load gets a notice."""
 
 _SHAKEN = 1e-6
-"""Part of what all planets together could do to a mode: rounding of excitations that cancel."""
+"""Share of the excitation by all planets together below which excitations cancel but for rounding."""
 
 _UNMESHED = 1e-9
 """Part of the potential energy that a mesh holds in a mode that does not move it."""

@@ -121,7 +121,7 @@ _FAST = 0.05
 
 
 def turning_axes(modes: PlanetaryModes, carrier: float, highest_speed: float) -> tuple[Notice, ...]:
-    """Return a notice if axes that turn with the carrier would show, else none.
+    """Return a notice if the rotation of axes with the carrier would have an effect, otherwise none.
 
     `carrier` is its speed over that of the input; `highest_speed` is in rpm of the input.
     """
@@ -415,7 +415,7 @@ def _or_null(values: Floats) -> list[list[float | None]]:
 
 
 def _require_course(stiffness: Mapping[str, PlanetMeshStiffness]) -> None:
-    """Raise ParameterError where no mesh has a course of its stiffness: nothing would shake the train."""
+    """Raise ParameterError if no mesh has a stiffness that varies over the mesh cycle: nothing would excite the train."""
     if all(each.cycle.mean_only for each in stiffness.values()):
         method = next(iter(stiffness.values())).cycle.method
         raise ParameterError(

@@ -101,7 +101,7 @@ class Equilibrium:
         return self._balance.free
 
     def unbalanced(self, load: Floats) -> Floats:
-        """Return the part (s, n) of a load that no spring can carry, 0 but for rounding where all of it is carried."""
+        """Return the part (s, n) of a load that no spring can carry; 0 but for rounding if all of it is carried."""
         found: Floats = load @ self.free @ self.free.T
         found[np.abs(found).max(axis=1) <= _BALANCE * np.abs(load).max(axis=1)] = 0.0
         return found
@@ -355,7 +355,7 @@ def _with_rigid(planar: PlanarTrain, output: str) -> tuple[TrainSprings, Floats]
 
 
 def _check_carried(statics: TrainStatics) -> None:
-    """Raise GeometryError where members float that together carry nothing across the axis."""
+    """Raise GeometryError if members float that together carry nothing across the axis."""
     loads = np.vstack([statics.load[None], *(each.load for each in statics.turning)])
     if not statics.equilibrium.unbalanced(loads).any():
         return
@@ -367,7 +367,7 @@ def _check_carried(statics: TrainStatics) -> None:
 
 
 def _floating(train: PlanetaryTrain) -> str:
-    """Return the members that float in words, such as "sun floats", or "" where nothing does."""
+    """Return in words the members that float, such as "sun floats"; "" if none does."""
     names = [each.name for each in set_members(train) if each.support_stiffness == 0]
     return f"{' and '.join(names)} float{'s' if len(names) == 1 else ''}" if names else ""
 

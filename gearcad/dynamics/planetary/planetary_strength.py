@@ -403,7 +403,7 @@ class MeshRating:
 
     @property
     def planets_verify(self) -> tuple[str, ...]:
-        """Symbols of values for planets only that rest on a text of the standard that was not at hand."""
+        """Symbols of values for planets only that are to be verified, since the text of the standard was not at hand."""
         idlers = (f"{role.value}.Y_M" for role, factor in self.mean_stress_factor.items() if factor != 1)
         return (*(["K_v"] if self.dynamic_factor is not None else ()), *idlers)
 
@@ -507,7 +507,7 @@ def _mesh_rating(
 
 
 def _inertias(train: PlanetaryTrain, load: MeshLoad, masses: TrainMasses) -> PerGear[float] | str:
-    """Return the inertias (kg·m²) that count in one mesh, or why they are not known (recalled of ISO 6336-1).
+    """Return the inertias (kg·m²) that count in one mesh, or the reason why they are not known (recalled of ISO 6336-1).
 
     All of the planet counts, the N-th part of a central; a held central counts as infinite.
     """

@@ -127,7 +127,7 @@ class HarmonicBalance(Driven):
         return approach, found
 
     def _newton(self, approach: Complexes, omega: Floats, found: Bools, rows: Indices) -> None:
-        """Newton's steps for some rows of the motions, in place; `found` tells for which they come to rest."""
+        """Apply Newton's steps to some rows of the motions, in place; `found` marks those that converge."""
         for _ in range(_MOST_NEWTON):
             residual, jacobian, *_ = self._linearised(approach[rows], omega[rows])
             change = np.linalg.solve(jacobian, residual[:, :, None]).reshape(len(rows), *approach.shape[1:])

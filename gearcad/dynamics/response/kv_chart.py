@@ -477,7 +477,7 @@ def chart_of(
 
 
 def idle_shafts(torques: Floats, references: Floats) -> NDArray[np.bool_]:
-    """Return whether shafts (n,) have greatest torques (s, n) over speed that have little to do with those at rest (n,)."""
+    """Return whether shafts (n,) have greatest torques (s, n) over speed that are unrelated to those at rest (n,)."""
     if not torques.size:
         return np.zeros(len(references), bool)
     torques = torques[np.isfinite(torques).all(axis=1)]

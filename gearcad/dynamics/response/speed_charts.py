@@ -52,7 +52,7 @@ def left_out(curves: SpeedCurves, told: BoundedExtremes) -> tuple[Notice, ...]:
 
 
 def standstill(curves: SpeedCurves) -> tuple[Notice, ...]:
-    """Return a notice if loads do not come down to those at rest, however slowly gears turn."""
+    """Return a notice if loads do not approach those at rest, however slowly gears turn."""
     factor = curves.standstill
     if factor < 1 + LEFT_OUT:
         return ()

@@ -325,7 +325,7 @@ class SpeedCurves(Driven):
         )
 
     def _left_out(self, motions: Motions) -> Floats:
-        """Return a bound (s,) of what is left out, over the greatest wave or the load at rest.
+        """Return a bound (s,) of the waves that are left out, over the greatest wave or the load at rest.
 
         The bound is that of the waves of orders beyond those known, all crests at once.
         """

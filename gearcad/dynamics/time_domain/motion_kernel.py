@@ -25,7 +25,7 @@ from gearcad.core.records import Floats, Wholes
 from gearcad.core.runtime import compiled, inlined
 
 _LEAST_WINDOW = 1e-6
-"""Base pitches over which a mean is taken at least: at rest as well."""
+"""Least number of base pitches over which a mean is taken, also at rest."""
 
 _MOST_PASSED, _FARTHEST = 1.001, 2.0**50
 """Base pitches that pass in a step at most - there is room for the teeth of so many - and places that are told apart."""

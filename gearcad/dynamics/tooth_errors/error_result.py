@@ -27,7 +27,7 @@ class ToothLaw(Enum):
     """Teeth as one spring, whose error changes gradually from one pair to the next: the law of the other charts."""
 
     SINGLE = "single teeth"
-    """Each pair as a spring of its own, which begins to carry where the bent teeth reach each other: too early, or too late."""
+    """Each pair as its own spring, which begins to carry where the deflected teeth meet: early or late."""
 
 
 class Ranks(NamedTuple):

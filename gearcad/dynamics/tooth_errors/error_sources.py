@@ -188,7 +188,7 @@ _BY_ERRORS = 4.0
 """Part of that gap for errors, in sums of both gears' cumulative pitch and profile slope tolerances."""
 
 _TURNS = 512
-"""Places over a tooth, for means at rest."""
+"""Number of places over a tooth for means at rest."""
 
 _ROUNDS = 40
 """Rounds of the iteration between the stiffness of a pair and the number of pairs that carry."""

@@ -223,12 +223,12 @@ class Excitation:
 
     @property
     def parting(self) -> bool:
-        """Whether any flanks may part."""
+        """Whether flanks of any mesh may part."""
         return any(mesh.backlash is not None for mesh in self.meshes)
 
     @property
     def shakes(self) -> bool:
-        """Whether a stiffness varies over the mesh, or teeth have errors."""
+        """Whether a stiffness varies over the mesh cycle, or teeth have errors."""
         phases = 2 * np.pi * np.arange(1024) / 1024
         return any(mesh.error is not None or np.ptp(mesh.stiffness.values(phases)) > 0 for mesh in self.meshes)
 

@@ -265,7 +265,7 @@ def _free_turns(inertias: Sequence[Inertia], shafts: Sequence[Shaft], meshes: Se
 
 
 def _mesh_forces(parts: Parts) -> Floats:
-    """Return the mesh forces (m,) in N of the static train with massless shafts; what turns freely is held where it is."""
+    """Return the mesh forces (m,) in N of the static train with massless shafts; parts that turn freely are held in place."""
     k = (parts.approach * parts.stiffness) @ parts.approach.T
     for shaft, ends in zip(parts.shafts, parts.ends, strict=True):
         twist = np.zeros(len(k))

@@ -241,7 +241,7 @@ _VERTICES: dict[str, tuple[tuple[int, ...], ...]] = {
 _VERTICES["hex20"] = _VERTICES["hex8"]
 
 _FACE_EDGES = {"line3": ((0, 1),), "quad4": ()}
-"""Pairs of vertices with a node between them, of faces that are no elements of their own."""
+"""Pairs of vertices with a node between them, for faces that are not elements themselves."""
 
 _LINEAR = ("quad4", "hex8")
 _SIMPLICES = ("tri6", "tet10")

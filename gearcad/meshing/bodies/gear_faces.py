@@ -423,7 +423,7 @@ _ROUND = 24
 """Least number of edges round a bore or a hub."""
 
 _NARROW = 2.0
-"""Edges are at most so many times as long as a face is wide: flatter tetrahedra would be poor ones."""
+"""Largest ratio of an edge to the width of its face: flatter tetrahedra would be poor."""
 
 _ABOVE, _GROWN = 0.9, 0.6
 """Tetrahedra above a triangle of the surface: this many, and so many over the growth; measured on many gears."""

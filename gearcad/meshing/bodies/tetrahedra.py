@@ -122,7 +122,7 @@ class ExactFlank:
 
 
 _POOR = 0.06
-"""Scaled Jacobian below which it is tried to make an element better."""
+"""Scaled Jacobian below which the mesh is improved at an element."""
 
 _ROUNDS = 6
 
@@ -276,7 +276,7 @@ def _worst(points: Floats, parts: Cells) -> float:
 
 
 _OFF = 1e-5
-"""A node that is farther (mm) from the face it is said to be on is on another one."""
+"""Largest distance (mm) of a node from its face; a node farther away is on another face."""
 
 _TRIES = 4
 """Times that poor elements are parted: those beside them may be the next."""
@@ -486,7 +486,7 @@ _MOST = 10_000_000
 """Largest number of tetrahedra that gmsh is asked for: they take some 10 GB, and minutes."""
 
 _NEAR = 0.1
-"""Share of the elements asked for by which there may be more or less without another try."""
+"""Relative deviation from the requested number of elements that needs no further try."""
 
 _TETRAHEDRA_TRIES = 3
 

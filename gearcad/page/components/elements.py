@@ -131,7 +131,7 @@ class InputsView(_Typed, component="spec_inputs.js", esm={"gear-changes": "chang
         self._props["words"], self._props["tables"] = words, []
 
     def have(self, tables: list[dict[str, Any]]) -> None:
-        """Make fields of what `gearcad.page.fields` says of the tables of a kind of design."""
+        """Make input fields of the tables of a kind of design, as `gearcad.page.fields` describes them."""
         self._props["tables"] = tables
         self.update()
 

@@ -38,7 +38,7 @@ class Panel(ABC, Generic[Found]):
 
     @abstractmethod
     def show(self, found: Found) -> None:
-        """Show it; what was found for an older design than the one that is being shown never comes here."""
+        """Show a result. A result for an older design than the one that is shown never arrives here."""
 
     def keep(self, found: Found | None) -> None:
-        """Take what was found for the kept design, or that there is none, to be shown with what follows."""
+        """Take the result for the kept design, or None, to be shown with later results."""

@@ -62,7 +62,7 @@ def figures_beside(runs: Sequence[Run], words: PageWords) -> list[dict[str, Any]
 
 
 def _text(value: Any, words: PageWords) -> str:
-    """A figure as the page has it; nothing where there is none."""
+    """Return a figure as the page shows it; empty if there is none."""
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -175,7 +175,7 @@ class RunsPanel:
             self._runs.cancel(self._runs.all[number])
 
     def _look(self) -> None:
-        """While something is being done: how far it is."""
+        """Show the progress of the work that is being done."""
         busy = self._runs.busy
         states = {each.number: each.state for each in self._runs.all}
         if states != self._states:

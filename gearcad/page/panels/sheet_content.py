@@ -86,7 +86,7 @@ Cells = Mapping[tuple[str, str], SheetCell]
 
 
 def cells_of(sections: Iterable[Section]) -> Cells:
-    """Everything that stands on a sheet."""
+    """Return all cells of a sheet."""
     return {place: cell for section in sections for row in _rows(section) for place, cell in _places(row, section)}
 
 

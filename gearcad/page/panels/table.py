@@ -52,7 +52,7 @@ class ResultsTable:
         )
 
     def points(self, *columns: str) -> Iterator[tuple[int, tuple[float, ...]]]:
-        """Rows that have numbers in all of these columns: their numbers, and these."""
+        """Yield the rows that have numbers in all of these columns: their indices, and the numbers."""
         places = [self.headings.index(column) for column in columns]
         for number, cells in self.rows.items():
             values = [plain_number(cells[place]) for place in places]

@@ -114,7 +114,7 @@ _BRINELL_OF_VICKERS = 0.95
 """HB over HV of steel (ISO 18265): part 5 has the hardness of through-hardened steel in HV, Z_W asks for HB."""
 
 _SLOWEST = 1e-6
-"""Speed (m/s) that stands for rest, where Z_v and R_zH have a limit."""
+"""Speed (m/s) that represents rest, where Z_v and R_zH have a limit."""
 
 _WROUGHT_OR_CAST = (Family.STRUCTURAL, Family.THROUGH_HARDENED)
 _IRON = (MaterialGroup.NODULAR_IRON, MaterialGroup.MALLEABLE_IRON)

@@ -37,7 +37,7 @@ from gearcad.rating.tooth_stiffness import rim_of
 
 
 def half_of(pair: GearPair) -> GearPair:
-    """The lower half: by which contact lines, overlap ratio and stresses go."""
+    """Return the lower half, which defines contact lines, overlap ratio and stresses."""
     return replace(pair, pinion=halves(pair.pinion)[0].gear, wheel=halves(pair.wheel)[0].gear)
 
 
@@ -374,7 +374,7 @@ def _limited(task: StrengthTask, part: RatedPart) -> bool:
 
 
 _MATTERS = 0.01
-"""Share of a damage from which it is told what it rests on."""
+"""Share of a damage from which its origin is named."""
 
 
 def notices_of(task: StrengthTask, parts: Mapping[RatedPart, PerGear[PartStrength]]) -> Iterator[Notice]:

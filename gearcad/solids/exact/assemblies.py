@@ -160,7 +160,7 @@ def pair_assembly(pair: GearPair, *, bracket: bool = False) -> cadquery.Assembly
 
 
 def rack_part_names(pair: RackPair) -> tuple[str, str]:
-    """Names of pinion and rack as products, as `part_names` gives them to gears."""
+    """Return the names of pinion and rack as products, as `part_names` gives them to gears."""
     ours = f"{pair.name} pinion", f"{pair.name} rack"
     given, unnamed = (pair.pinion.name, pair.rack.name), (*UNNAMED, "rack")
     pinion, rack = (our if own in unnamed else own for own, our in zip(given, ours, strict=True))

@@ -83,7 +83,9 @@ class FilletSurface:
         return CylinderSurface(Frame((c, y, 0.0), unit((self.drift, 0.0, 1.0)), (0.0, 1.0, 0.0)), self._radius)
 
     def u(self, c: float) -> float:
-        """u (rad) of the line of constant c on it: pi at the lowest, more towards +x's left."""
+        """Return the parameter u (rad) of the line of constant c on the surface: pi at the lowest line, larger to the left of
+        +x.
+        """
         sine = (self._axis[0] - c) / (self._radius * self._stretch)
         return math.pi - math.asin(min(max(sine, -1.0), 1.0))
 

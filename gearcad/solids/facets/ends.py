@@ -35,7 +35,7 @@ from gearcad.solids.facets.sampling import ToothGrid, arc_step
 Chain = tuple[Sequence[float], Sequence[int]]
 
 _TIE = 1e-12
-"""Angle (rad) by which one edge is put before another that has the same middle."""
+"""Angle (rad) that puts one edge before another edge with the same middle."""
 
 
 def zip_levels(lower: Chain, upper: Chain) -> list[tuple[int, int, int]]:
@@ -186,7 +186,7 @@ def points_at(radius: Floats, angle: Floats, z: Floats) -> Floats:
 
 
 _CLEAR = 0.01
-"""A level has no point of its own nearer to its ends than this share of the step."""
+"""Share of the step within which a level has no point of its own near its ends."""
 
 
 def cap_teeth(grid: ToothGrid, end: GearEnd, next_vertex: int) -> Cap:
@@ -476,7 +476,7 @@ def _turn(angle: float) -> Floats:
 
 
 LEAST_SIDES = 8
-"""A hole keeps at least so many sides, however small it is."""
+"""Least number of sides of a hole, however small it is."""
 
 
 class Builder:

@@ -82,7 +82,7 @@ class Cutaway(Enum):
 
 @dataclass(frozen=True, eq=False)
 class CutPlanes:
-    """Cut that takes off what is beyond all planes through `point` (3,).
+    """Cut that removes everything beyond all planes through `point` (3,).
 
     One or two planes have unit normals (3,) towards what is taken off. Two planes are square to each other.
     """

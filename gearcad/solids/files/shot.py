@@ -125,7 +125,7 @@ def pair_loop(product: PairProduct) -> Loop:
 
 
 def rack_loop(product: RackPairProduct) -> Loop:
-    """A rack has ends: it goes forth and back from where it stands, and its pinion with it."""
+    """Return the loop of a rack, which has ends: it moves to and fro from its place, and its pinion with it."""
     rack, pinion = product.pair.rack, product.pair.pinion
     pitches = min(_SWING, max(rack.length / rack.transverse_pitch / 2 - 1, 0.5))
     turn = 360 * pitches / pinion.tooth_count
@@ -424,7 +424,7 @@ class Shot:
         return close_up(points, direction, (place.x, place.y), _CLOSE * place.module * max(1.0, _WIDE * height / width))
 
     def _looked_at(self, share: float) -> Floats:
-        """Points (n, 3) that are to be in the picture at a share of the loop."""
+        """Return the points (n, 3) that the picture must contain at a share of the loop."""
         parts = self.scene(share)
         cuts = cuts_of(self.product, parts, self.cutaway) if self.cutaway else {}
         found = []

@@ -99,7 +99,7 @@ class DataSection:
         return len(self._lines)
 
     def shared(self, entity: str) -> int:
-        """The number of an entity that may stand for all of the same text, added where there is none."""
+        """Return the number of an entity that serves for all entities of equal text; add it if there is none."""
         number = self._shared.get(entity)
         if number is None:
             number = self._shared[entity] = self.add(entity)

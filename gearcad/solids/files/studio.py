@@ -169,7 +169,7 @@ class StudioShape:
 
 
 def whole_shape(part: ScenePart) -> StudioShape:
-    """A part before it is put in its place."""
+    """Return a part before it is put in its place."""
     return StudioShape(part.facets, Edges.of(part.facets), ((_smoothed(part.facets), part.colour),), np.zeros((0, 2, 3)))
 
 
