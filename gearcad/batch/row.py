@@ -345,7 +345,7 @@ def _staging(task: Task, folder: Path) -> Iterator[Path]:
 
 
 def _valid_parts(before: Manifest | None, inputs: str, folder: Path) -> dict[str, RowPart]:
-    """The parts that are there and still true."""
+    """Return the parts that exist and are still valid."""
     if before is None or before.inputs != inputs:
         return {}
     return {name: part for name, part in before.parts.items() if part.is_there(folder)}

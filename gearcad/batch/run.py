@@ -128,7 +128,7 @@ def _columns(journal: Results) -> dict[str, type]:
 
 
 def _common(one: type | None, other: type | None) -> type | None:
-    """The type that holds cells of both; None for that of no cell."""
+    """Return the type that can hold the cells of both; None for the type of no cell."""
     if one is None or other is None or one is other:
         return one or other
     return float if {one, other} == {int, float} else str

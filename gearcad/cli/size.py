@@ -135,7 +135,7 @@ def nothing_lines(result: Sizing) -> Iterator[str]:
 
 
 def _last_condition(result: Sizing) -> str | None:
-    """The condition that removed the last candidates: those that it took had met all before. None where some met all."""
+    """Return the condition that removed the last candidates, which had met all conditions before it; None if some met all."""
     if result.cloud.size:
         return None
     return next((name for name, number in reversed(result.removed.items()) if number), None)

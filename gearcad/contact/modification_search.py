@@ -511,7 +511,7 @@ def _aligning(model: SolidPair) -> float:
 
 
 def _bounds(model: SolidPair, shape: ReliefShape, deflection: float) -> tuple[Floats, Floats]:
-    """The least and the greatest amounts (6,)."""
+    """Return the least and the greatest amounts (6,)."""
     path, pair = model.pair.path_of_contact, model.pair
     reach = path.E - path.A
     longest = [min(_LONGEST * reach, gear.flank_form.last - gear.flank_form.first) for gear in pair.gears]

@@ -207,7 +207,7 @@ def fitting_transition(form: FlankForm, shape: ReliefShape, length: float) -> fl
 
 
 def _named_amounts(amounts: Floats, role: Role) -> dict[str, Any]:
-    """The amounts (6,) of a gear's modification by name, without the length of a relief that has none."""
+    """Return the amounts (6,) of a gear's modification by name, without the length of a relief that is absent."""
     named = (name.split(".") for name in AMOUNTS)
     own = {name: value for (owner, name), value in zip(named, amounts.tolist(), strict=True) if owner == role.value}
     return {name: value for name, value in own.items() if value or not name.endswith("_length")}

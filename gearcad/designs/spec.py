@@ -598,7 +598,7 @@ def _grade(name: Given | None) -> Grade | None:
 
 
 def _gear_material(spec: Spec, gear: str, values: Mapping[str, Given]) -> Material:
-    """The material of a gear; errors name the key that was written."""
+    """Return the material of a gear. Errors name the key that the user wrote."""
     for key, given in values.items():
         spec.values[f"{gear}.{_TABLE}.{key}"] = given
     return spec.simple(f"{gear}.{_TABLE}", Material, values={key: given.value for key, given in values.items()})

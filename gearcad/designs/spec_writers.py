@@ -306,7 +306,7 @@ def pair_keys(sized: SizedPair) -> dict[str, dict[str, Any]]:
 
 
 def _changed_fields(prefix: str, instance: DataclassInstance, usual: DataclassInstance | None = None) -> dict[str, Any]:
-    """The fields that differ from their defaults, or from those of another instance."""
+    """Return the fields that differ from their defaults, or from those of another instance."""
     found = {}
     for each in fields(instance):
         value, default = getattr(instance, each.name), each.default if usual is None else getattr(usual, each.name)

@@ -419,7 +419,9 @@ class _Reader:
         return SpecError(f"{self.where(owner)}: {field} is missing in [[{owner.partition('[')[0]}]]")
 
     def _read_pair(self, given: dict[str, Any], owner: str) -> None:
-        """The pair of a mesh in place of how it is written; what it tells must not stand beside it."""
+        """Replace the written form of a mesh's pair by the pair itself; values that the pair defines must not be given beside
+        it.
+        """
         name = shown(str(given.get("name", "mesh")))
         if given.get("backlash") == _NEVER_PART:
             given["backlash"] = None

@@ -467,7 +467,7 @@ class Rack(RackData):
 
     @cached_property
     def inspection(self) -> RackInspection:
-        """Measuring over any pin; the properties below are those of the pin suggested."""
+        """Inspection of the rack with any pin; the properties below are those of the suggested pin."""
         return RackInspection(
             normal_pitch=self.normal_pitch,
             normal_tooth_thickness=self.normal_tooth_thickness,

@@ -253,7 +253,7 @@ class LogPlane:
 
 @dataclass(frozen=True)
 class CurvePiece:
-    """A part of one of the outline's curves, graded; the side of the outline to which it belongs, on the left.
+    """Part of a curve of the outline with its graded edges, and the side of the outline on its left.
 
     It has at least so many edges.
     """

@@ -208,7 +208,7 @@ def _meeting(task: SearchTask) -> _Meeting:
 
 
 def _best_sets(kept: list[ManySets], count: int) -> tuple[list[PlanetarySet], list[str], int]:
-    """The best that can be made, what those say that cannot, and how many are left."""
+    """Return the best sets that can be made, the messages of those that cannot, and the number that are left."""
     found: list[PlanetarySet] = []
     unmade: list[str] = []
     for candidate in _ranked(kept):

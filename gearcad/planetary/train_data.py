@@ -116,7 +116,9 @@ ADJUSTED: Literal["adjusted"] = "adjusted"
 """A clocking of each planet by itself."""
 
 ANGLE_ROUNDING = 1e-3
-"""Degrees between an angle as it is given and where the teeth fit that come from printed digits."""
+"""Largest difference (degrees) between a given angle and the one at which the teeth fit that counts as rounding of printed
+digits.
+"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -352,7 +354,7 @@ def check_speeds(train: TrainData, given: Mapping[str, float]) -> None:
 
 
 def _member_speeds(train: TrainData, shafts: Mapping[str, TrainShaft], given: Mapping[str, float]) -> dict[str, float]:
-    """The two speeds of members that were given. Raises ParameterError."""
+    """Return the two given speeds of members. Raises ParameterError."""
     known, by = _given_speeds(train, shafts, given)
     if len(known) < 2:
         free = [shaft.name for shaft in shafts.values() if shaft.member not in by]

@@ -374,7 +374,7 @@ def viewed(points: Floats) -> Floats:
 
 
 def plot_tooth(surface: ToothSurface, ax: Axes | None = None) -> Axes:
-    """A still picture: triangles that face us, the farthest first."""
+    """Draw a still picture of a tooth: triangles that face the viewer, the farthest first."""
     from matplotlib.collections import PolyCollection
 
     axes = new_figure().subplots() if ax is None else ax

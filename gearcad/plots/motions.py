@@ -335,7 +335,7 @@ _PAPER: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.4,
 
 _PANEL = 3.4
 _TOP_AXIS = 36.0
-"""Inches of a panel, and points that a second axis above takes."""
+"""Height (inches) of a panel, and space (points) for a second axis above."""
 
 
 def plot_lines(study: TrainStudy, ax: Axes | None = None) -> Axes:

@@ -351,7 +351,7 @@ _SHADES = ("#cc79a7", "#0072b2", "#009e73", "#d55e00", "#56b4e9", "#e69f00")
 _ARCSECONDS = 3600.0
 
 _LEVEL = 5e-3
-"""Half of the least range of an axis, over what is in its middle."""
+"""Half of the least range of an axis, as a share of the value in its middle."""
 
 
 def shown_pitches(running: Running) -> float:

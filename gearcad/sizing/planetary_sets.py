@@ -273,7 +273,7 @@ def _nothing(task: SetSizeTask, considered: int, refused: dict[str, str]) -> str
 
 
 def made(task: SetSizeTask, candidate: PlanetarySet, module: float, width: float) -> SizedSet:
-    """A set of a module and a face width (mm), rated. Raises InputError where it cannot be made."""
+    """Return a set of a module and a face width (mm), rated. Raises InputError if it cannot be made."""
     own = replace(
         candidate,
         task=replace(candidate.task, module=module, face_width=width, tip_distance=None, diameter=None),

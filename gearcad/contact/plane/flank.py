@@ -457,7 +457,7 @@ class Fillets:
 
 
 def seen_from(own: int, loads: list[ToothLoad]) -> list[ToothLoad]:
-    """Loads as a tooth sees them."""
+    """Return the loads with tooth numbers counted from the tooth `own`."""
     return [(tooth - own, length, force) for tooth, length, force in loads]
 
 

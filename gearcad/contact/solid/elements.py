@@ -242,7 +242,9 @@ _ON_ARC = 3
 
 
 def seen_at(angle: float) -> Floats:
-    """Dofs of the hub (6, 6) as a sector turned by an angle (rad) sees them, from those that the loaded one sees."""
+    """Return the matrix (6, 6) from the hub's dofs as the loaded sector sees them to those of a sector turned by an angle
+    (rad).
+    """
     cosine, sine = math.cos(angle), math.sin(angle)
     seen = np.eye(6)
     for first in (1, 4):

@@ -257,7 +257,7 @@ def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list
 
 
 def _along_tangent(gear: Gear, lengths: Floats, towards_tip: Floats) -> Floats:
-    """Roll lengths (n,) at distances (n,) along the tangent from others (mm)."""
+    """Return roll lengths (n,) at distances (n,) in mm along the tangent from other roll lengths."""
     square = np.maximum(lengths**2 + gear.base_diameter * towards_tip, 0.0)
     return np.copysign(np.sqrt(square), gear.base_diameter)
 

@@ -370,7 +370,7 @@ def _meshes(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> list[SweptMes
 
 
 class _BodyProgress:
-    """Progress of a body: the expected seconds that are over, reported by the thread that solves it."""
+    """Progress of a body: the expected seconds that have passed, reported by the thread that solves it."""
 
     def __init__(self, cost: BodyCost) -> None:
         self.cost, self.seconds = cost, 0.0

@@ -178,7 +178,7 @@ def _paper(box: Box, scale: float) -> Box:
 
 
 def _part_figure(places: PairPlaces, part: Placed, scale: float) -> Figure:
-    """Return a gear, or the body of a rack up to the tips, broken where it continues."""
+    """Return the figure of a gear, or of the body of a rack up to the tips, broken where it continues."""
     if not isinstance(part.part, Rack):
         return FrontView(part.part, (0.0, part.height), (part.pitch,)).figure(scale)
     left, bottom, right, top = _paper(places.front_of(part), scale)

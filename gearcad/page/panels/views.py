@@ -184,7 +184,7 @@ _PINNED = {
     "rack": "teeth normal_module helix_angle length",
     "planetary": "ratio centre_distance planets",
 }
-"""The figures that an engineer looks at first: on top until somebody chooses others."""
+"""Figures that an engineer looks at first, at the top until the user chooses others."""
 
 _PINS = [f"{table}.{key}" for table, keys in _PINNED.items() for key in keys.split()]
 

@@ -385,7 +385,9 @@ def _between(safety_of: Callable[[float], float], required: float, low: float, h
 
 
 def _falling(curve: Points) -> list[tuple[float, float]]:
-    """No corner above an earlier one: what breaks in one load cycle breaks in more."""
+    """Return the corners of the life curve so that none is above an earlier one: a stress that breaks a part in one load cycle
+    also does in more.
+    """
     least = math.inf
     corners = []
     for cycles, stress in curve:

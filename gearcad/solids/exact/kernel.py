@@ -218,7 +218,7 @@ def _location(place: Turn) -> Any:
 
 
 def _kernel_form(form: CurveForm | SurfaceForm | OnSurface) -> Any:
-    """The kernel's curve or surface."""
+    """Return the kernel's curve or surface."""
     from OCP.Geom import (
         Geom_Circle,
         Geom_ConicalSurface,

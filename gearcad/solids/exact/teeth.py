@@ -142,7 +142,7 @@ class _ToothRing:
         return [list(range(first + i * count, first + (i + 1) * count)) for i in range(self.teeth)]
 
     def _chains(self, which: int) -> list[list[int]]:
-        """Segments of an end by piece."""
+        """Segments of an end face's outline, by piece."""
         segments = self.layout.segments[which][0]
         return [[j for j, segment in enumerate(segments) if segment.piece == k] for k in range(len(self.layout.pieces))]
 

@@ -396,7 +396,7 @@ class MirroredSweep(Sweep):
         return (poles, angles) if 2 * stretch < last else (self._mirrored(poles), angles[::-1])
 
     def _mirrored(self, poles: Floats) -> Floats:
-        """Poles (..., m + 1, 3), upwards, of what is the mirror image about the middle."""
+        """Return the poles (..., m + 1, 3), upwards, of the mirror image about the middle."""
         return poles[..., ::-1, :] * [1, 1, -1] + [0, 0, self.width]
 
 

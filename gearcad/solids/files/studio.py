@@ -238,7 +238,7 @@ class Studio:
     shapes: dict[int, StudioShape] = field(default_factory=dict)
 
     def photograph(self, parts: Sequence[ScenePart], camera: Camera, cuts: Mapping[str, CutPlanes] | None = None) -> Pixels:
-        """The parts, those with a cut by their name without what that takes off."""
+        """Show the parts, without the pieces that cuts remove from parts of these names, and return the image."""
         renderer = _renderer(camera)
         for part in parts:
             for actor in self._actors(part, camera, (cuts or {}).get(part.name)):

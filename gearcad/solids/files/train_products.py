@@ -220,7 +220,7 @@ def _times_round(layout: TrainLayout, turns: Mapping[str, float], most: float) -
 
 
 def _given_speeds(train: PlanetaryTrain, known: Mapping[str, float]) -> Mapping[str, float]:
-    """The speeds (rpm) that say how all turns."""
+    """Return the speeds (rpm) that define the motion of the train."""
     if len(known) >= (1 if train.fixed else 2) and any(known.values()):
         return known
     given = {train.input: math.copysign(1.0, known.get(train.input, 1.0))}
