@@ -116,7 +116,7 @@ class Verify(Job[ToothedDesign, Verification]):
         if self.level.includes(Level.STRENGTH):
             yield _Stage("contact and strength", 20.0, partial(_of_strength, design))
         if self.level.includes(Level.FULL):
-            yield _Stage("meshes", 10.0, partial(judge_meshes, design, folder, exact, made=not self.folder))
+            yield _Stage("meshes", 10.0, partial(judge_meshes, design, folder, of_parts, made=not self.folder))
             yield _Stage("CalculiX", 60.0, partial(judge_by_calculix, design))
 
     def document(self, result: Verification) -> dict[str, Any]:

@@ -24,6 +24,9 @@ _SAME = 0.01
 _ROUNDED = 1e-6
 """Share of half a unit of the last digit that is permitted beside it, for values that end with a five."""
 
+_DIMENSION, _SIZE = 2, 3
+"""Fewest decimals of dimensions, unless these end with zeros, and of sizes that parts have as inputs."""
+
 _DASH = "—"
 
 
@@ -198,7 +201,7 @@ def _judge_dimensions(judge: Judge, sheet: _Sheet) -> Iterator[Claim]:
         measured = float(dimension.get_measurement()) * factor
         written = [text for text in texts if sheet.digits(text)]
         nominal = sheet.digits(written[0])[-1] if written else ""
-        if not nominal or _shown(measured, 3, nominal) != nominal:
+        if not nominal or _shown(measured, _DIMENSION, nominal) != nominal:
             faults.append(f"{' '.join(texts)} measures {measured:.6g} mm")
         if "<>" not in dimension.dxf.text and nominal not in dimension.dxf.text.replace(sheet.mark, "."):
             faults.append(f"{dimension.dxf.text} is drawn as {' '.join(texts)}")
@@ -210,7 +213,7 @@ def _judge_sizes(judge: Judge, sheet: _Sheet, texts: Sequence[str], sizes: Mappi
     """Judge that each size is among the texts of the views."""
     written = [number for text in texts for number in sheet.digits(text)]
     for name, size in sizes.items():
-        there = any(_shown(size, 3, number) == number for number in written)
+        there = any(_shown(size, _SIZE, number) == number for number in written)
         yield judge.holds(f"size, {name}", there, place=f"{size:.3f} mm is nowhere")
 
 
