@@ -387,7 +387,7 @@ def test_modes_that_planets_in_phase_do_not_shake_can_grow() -> None:
 def test_a_mean_shakes_nothing() -> None:
     train = on_springs(TRAINS["A"], **ELASTIC)
     stiffness = train_stiffness(train, mesh_loads(train, power_flow(train, LOAD)), method="iso6336")
-    with pytest.raises(ParameterError, match=r"stiffness = 'iso6336': must know the course over the mesh"):
+    with pytest.raises(ParameterError, match=r"stiffness = 'iso6336': must give the stiffness over the mesh cycle"):
         planetary_response(train, LOAD, stiffness, MASSES)
 
 

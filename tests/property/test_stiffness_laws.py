@@ -192,7 +192,7 @@ def test_pairs_that_no_method_can_treat() -> None:
         PotentialEnergy(pair=lost)
     with pytest.raises(ValueError, match=r"pair\.helix_angle = 10 deg: must be 0 for plane-strain"):
         PlaneStrainContact(pair=_pair(helix=10.0))
-    with pytest.raises(ValueError, match=r"load\.torque = 1000000 N·m: must be lower: Hertz's contact"):
+    with pytest.raises(ValueError, match=r"load\.torque = 1000000 N·m: must be lower: the contact by Hertz's formula"):
         WeberBanaschek(pair=_pair())(Load(torque=1e6))
 
 

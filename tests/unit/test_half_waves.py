@@ -51,7 +51,7 @@ def test_a_short_shaft_keeps_its_order_and_no_order_is_above_forty() -> None:
     assert study_train(long_shaft("exact", length=1000.0), options, speeds=SPEEDS).train.order == 12
     longest = study_train(long_shaft("exact", length=24000.0), options, speeds=SPEEDS)
     assert longest.train.order == 40
-    assert any("good up to 2673" in notice.text for notice in longest.notices)
+    assert any("accurate up to 2673" in notice.text for notice in longest.notices)
 
 
 def test_levels_do_not_judge_what_elements_do_not_follow() -> None:

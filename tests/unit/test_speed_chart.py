@@ -310,7 +310,7 @@ def test_a_train_without_teeth_has_modes() -> None:
     train = replace(whole, meshes=(), shafts=whole.shafts[1:2], inertias=whole.inertias[1:3], torques={})
     modes = study_modes(train).modes
     assert modes.circular == pytest.approx([0, math.sqrt(1e7 * 2 / 0.0446)], abs=1e-3)
-    with pytest.raises(GeometryError, match="without teeth nothing shakes a train"):
+    with pytest.raises(GeometryError, match="without teeth nothing excites a train"):
         study_train(train)
 
 
