@@ -61,9 +61,9 @@ FILL = """
 from dataclasses import replace
 from gearcad.batch.run import Journal
 from gearcad.core.errors import OutputError
-from gearcad.designs.table import Row
+from gearcad.designs.table import DesignRow
 journal = Journal()
-row = Row(2, "a", {"gear.rack": "x" * 100_000}, (), (), "table.csv", ("name", "gear.rack"))
+row = DesignRow(2, "a", {"gear.rack": "x" * 100_000}, (), (), "table.csv", ("name", "gear.rack"))
 try:
     for number in range(100):
         journal.add(replace(row, number=number, name=str(number)))
