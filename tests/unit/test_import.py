@@ -1,11 +1,15 @@
-"""`import gearcad` must stay light: names are imported when first used, heavy libraries inside the functions that need them."""
+"""What `import gearcad` and each command load; system libraries, examples in docstrings, and the version."""
 
 from __future__ import annotations
 
 import ast
+import doctest
+import importlib
+import json
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from types import ModuleType
 
@@ -55,3 +59,116 @@ def test_dataclasses_are_frozen() -> None:
             re.findall(r"@dataclass(?![^\n]*frozen=True)[^\n]*\n(?:@[^\n]*\n)*class (\w+)", path.read_text(encoding="utf-8"))
         )
     assert found == MUTABLE
+
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+_CODE = """
+import json, sys
+from gearcad.cli import main
+def known(*arguments):
+    try:
+        main(arguments, standalone_mode=False)
+    except SystemExit as end:
+        assert not end.code
+    return sorted(sys.modules)
+spec = sys.argv[1]
+found = [known("data", spec), known("build", spec, "--quiet", "--format", "stl,3mf,glb,csv"), known("build", spec, "--quiet")]
+print(json.dumps(found))
+"""
+"""Every command after the other, the lightest first, in one process, which tells what it has imported by then."""
+
+COMMAND_HEAVY = {
+    *("matplotlib", "gmsh", "skfem", "meshio", "numba", "scipy", "vtk", "vtkmodules", "PIL", "reportlab", "lxml", "networkx"),
+    *(
+        "cadquery",
+        "OCP",
+        "trimesh",
+        "ezdxf",
+        "fontTools",
+        "rich",
+        "tomlkit",
+        "jinja2",
+        "filelock",
+        "threadpoolctl",
+        "distributed",
+    ),
+}
+"""No command for the data or the usual files of a gear needs any of these."""
+
+FOREIGN = {"check", "contact", "dynamics", "meshing", "planetary", "rating", "sizing", "stiffness", "report", "plots", "batch"}
+"""Rooms of gearcad that a gear's data and files have nothing to do with."""
+
+
+def test_data_and_files_of_a_gear_need_no_heavy_library_and_no_room_of_other_kinds(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", _CODE, str(TEMPLATES / "spur.toml")], cwd=tmp_path, check=True, capture_output=True, text=True
+    )
+    for modules in map(set, json.loads(done.stdout.splitlines()[-1])):
+        assert "numpy" in modules
+        assert {each.partition(".")[0] for each in modules} & COMMAND_HEAVY == set()
+        assert {each.split(".")[1] for each in modules if each.startswith("gearcad.")} & FOREIGN == set()
+    assert {"gear.step", "gear.stl", "gear.glb"} < {file.name for file in (tmp_path / "output" / "spur").iterdir()}
+
+
+@pytest.mark.parametrize("library", ["cadquery", "ezdxf", "jinja2", "lxml", "matplotlib", "meshio", "skfem", "trimesh", "vtk"])
+def test_library_loads(library: str) -> None:
+    importlib.import_module(library)
+
+
+def test_gmsh_meshes() -> None:
+    """gmsh loads OpenGL, X and OpenMP libraries of the system, which a bare machine lacks."""
+    import gmsh
+
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addDisk(0, 0, 0, 1, 1)
+        gmsh.model.occ.synchronize()
+        gmsh.model.mesh.generate(2)
+        assert len(gmsh.model.mesh.getElementsByType(2)[0]) > 10
+    finally:
+        gmsh.finalize()
+
+
+PACKAGE = Path(gearcad.__file__).parent
+ROOMS = [
+    ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+    for path in sorted(PACKAGE.rglob("*.py"))
+    if re.search(rb"^ *>>> ", path.read_bytes(), re.MULTILINE)
+]
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_examples_give_what_they_show(room: str) -> None:
+    found = doctest.testmod(importlib.import_module(room))
+    assert found.attempted and not found.failed
+
+
+ROOT = Path(__file__).parents[2]
+FALLBACK = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["hatch"]["version"]["fallback-version"]
+
+
+def test_a_checkout_that_was_never_installed_has_the_version_of_a_build_without_a_tag(tmp_path: Path) -> None:
+    (tmp_path / "gearcad").mkdir()
+    (tmp_path / "gearcad" / "__init__.py").touch()
+    (tmp_path / "gearcad" / "version.py").write_bytes((ROOT / "gearcad" / "version.py").read_bytes())
+    shown = [sys.executable, "-c", "from gearcad.version import __version__; print(__version__)"]
+    done = subprocess.run(shown, cwd=tmp_path, env={"PYTHONPATH": str(tmp_path)}, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == FALLBACK
+
+
+def test_the_version_is_that_which_was_written() -> None:
+    written = ROOT / "gearcad" / "_version.py"
+    names: dict[str, str] = {}
+    exec(written.read_text() if written.exists() else f'__version__ = "{FALLBACK}"', names)
+    assert gearcad.__version__ == names["__version__"]
+
+
+def test_a_release_stands_in_the_changelog_and_is_what_is_cited() -> None:
+    """A version without "dev" is that of a tag; before the first release the one to come is cited."""
+    changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    released = re.findall(r"^## \[(\d+\.\d+\.\d+)\] - \d{4}-\d\d-\d\d$", changes, re.MULTILINE)
+    (cited,) = re.findall(r"^version: (\S+)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.MULTILINE)
+    assert cited == (released[0] if released else FALLBACK.partition(".dev")[0])
+    assert "dev" in gearcad.__version__ or released[:1] == [gearcad.__version__]

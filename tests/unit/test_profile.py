@@ -1,4 +1,4 @@
-"""The tooth outline: its curves, their joints, undercut, and polylines along it."""
+"""The tooth outline: the involute function, its curves, their joints, undercut, and polylines along it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ import pytest
 from numpy.testing import assert_allclose
 from support.samples import SAMPLES
 
-from gearcad import BasicRack, Gear, GeometryError, ParameterError
+from gearcad import BasicRack, Gear, GearcadError, GeometryError, ParameterError
+from gearcad.geometry import inverse_involute, involute
 from gearcad.geometry.profile import Curve, CurveKind, parameters_within
 
 ANGLE = 1e-10
@@ -275,3 +276,37 @@ def test_any_root_radius_meets_root_circle_and_involute(radius: float) -> None:
     gear = Gear(teeth=20, normal_module=2.0, face_width=5, profile_shift=0.2, rack=BasicRack(root_radius=radius))
     assert gear.profile.half_angle(gear.root_diameter / 2) <= 180 / 20
     assert gear.root_diameter == pytest.approx(40 - 4 * 1.05, abs=1e-12)
+
+
+ROUNDING = 1e-13
+"""Relative: some units in the last place."""
+
+
+@pytest.mark.parametrize("angle", [1e-3, 0.1, 1.0, 14.5, 20.0, 22.402523646885253, 45.0, 70.0, 89.0, 89.99])
+def test_inverse_involute_returns_the_angle(angle: float) -> None:
+    # At small angles inv a = a^3/3 loses eps/a^2 of relative precision to the difference tan a - a.
+    rounding = max(ROUNDING, 4e-16 / math.radians(angle) ** 2)
+    assert inverse_involute(involute(angle)) == pytest.approx(angle, rel=rounding)
+
+
+def test_arrays_keep_their_shape() -> None:
+    angles = np.linspace(5, 80, 24).reshape(2, 3, 4)
+    found = inverse_involute(involute(angles))
+    assert found.shape == angles.shape
+    assert_allclose(found, angles, rtol=ROUNDING)
+    assert isinstance(involute(20.0), float)
+    assert isinstance(inverse_involute(0.0149), float)
+
+
+def test_known_values() -> None:
+    # inv 20 deg = 0.014904383867336446 (every gear book prints 0.014904)
+    assert involute(20.0) == pytest.approx(0.014904383867336446, rel=ROUNDING)
+    assert involute(0.0) == 0.0
+    assert inverse_involute(0.0) == 0.0
+
+
+@pytest.mark.parametrize("value", [-1e-12, -1.0, math.nan])
+def test_no_angle_has_a_negative_involute(value: float) -> None:
+    with pytest.raises(GearcadError) as caught:
+        inverse_involute(np.array([0.01, value]))
+    assert "involute" in str(caught.value)

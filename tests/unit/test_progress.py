@@ -1,24 +1,39 @@
-"""How far long jobs are: never backwards, on stderr only, and what they take is told before they start."""
+"""Progress of long jobs: never backwards, on stderr only, and what they take is told before they start."""
 
 from __future__ import annotations
 
 import json
+import math
 import re
 import tracemalloc
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 from support.coarse import coarse_pair
+from support.pairs import thesis_model
 from support.pictures import leave_out_pictures
+from support.responses import cosine, oscillator
 from threadpoolctl import threadpool_limits
 
-from gearcad import Load, Material
+from gearcad import Gear, GearPair, Load, Material
+from gearcad.check.options import CheckOptions
+from gearcad.check.run import expected_check, plane_steps
+from gearcad.check.task import check_task
 from gearcad.cli import job as shown
 from gearcad.cli import main
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, solid_pair
-from gearcad.core.runtime import Agenda, Expected, Share
+from gearcad.core.runtime import Agenda, Expected, Share, cores, onwards, part
+from gearcad.designs import TrainDesign
+from gearcad.designs.reader import read_spec
+from gearcad.dynamics.response.speed_charts import over_speed
+from gearcad.dynamics.time_domain import campbell as module
+from gearcad.dynamics.time_domain.campbell import campbell
+from gearcad.jobs.dynamics import Dynamics
 from gearcad.stiffness import finite_elements
 from gearcad.stiffness.methods import compare_methods
 
@@ -162,3 +177,93 @@ def test_memory_of_bodies_is_what_was_expected() -> None:
     finally:
         tracemalloc.stop()
     assert expected_bodies(pair, body, sizes).memory == pytest.approx(peak, rel=1 / 3)
+
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+
+@pytest.mark.parametrize("backlash", [None, math.inf])
+def test_a_chart_tells_how_far_it_is(backlash: float | None) -> None:
+    """Of a resonance over which flanks stick, or part: many shares, never backwards, most of it told."""
+    told: list[float] = []
+    over_speed(oscillator(0.05), cosine(0.2, phase=180.0, backlash=backlash), np.linspace(0.5, 1.4, 13), share=told.append)
+    assert len(set(told)) > 3 and told == sorted(told)
+    assert 0 < told[0] < 0.6 and told[-1] == 1
+
+
+def test_speeds_are_counted_and_an_interrupt_ends_a_study(monkeypatch: pytest.MonkeyPatch) -> None:
+    speeds, told, begun = np.linspace(1000.0, 4000.0, 40), list[tuple[int, int]](), list[float]()
+    motion = module.time_history
+
+    def noted(model: object, speed: float, **options: object) -> object:
+        begun.append(speed)
+        return motion(model, speed, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(module, "time_history", noted)
+    campbell(thesis_model(), speeds[:3], duration=0.01, counted=lambda done, count: told.append((done, count)))
+    assert told == [(1, 3), (2, 3), (2, 3)]
+    begun.clear()
+
+    def interrupt(_done: int, _count: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        campbell(thesis_model(), speeds, duration=0.2, counted=interrupt)
+    assert len(begun) < 20
+
+
+def test_runs_in_time_of_a_train_are_told_beforehand() -> None:
+    """A Campbell diagram by its duration, drawn errors by the number of samples; nothing of what is soon there."""
+    design = read_spec(TEMPLATES / "train-pairs.toml")
+    assert isinstance(design, TrainDesign)
+
+    def seconds(**options: object) -> float:
+        found = Dynamics().expected(replace(design, dynamics=replace(design.dynamics, **options)))
+        assert found is not None
+        return found.seconds
+
+    assert Dynamics().expected(design) is None
+    half, whole = seconds(campbell="on", duration=0.5), seconds(campbell="on")
+    drawn = [seconds(tooth_errors="on", error_samples=count) for count in (9, 19, 29)]
+    assert drawn[2] - drawn[1] == pytest.approx(drawn[1] - drawn[0], rel=1e-9)
+    # 54 CPU seconds were measured for the first, and more than 289 for some 20 samples.
+    assert 25 < whole * cores() < 110 and whole > 1.3 * half
+    assert drawn[1] * cores() > 289
+
+
+def test_shares_of_parts() -> None:
+    told: list[float] = []
+    share = onwards(told.append)
+    for done in (0.0, 0.5, 1.0):
+        part(share, 0.2, 0.6)(done)
+    part(share, 0.2, 0.6)(0.0)  # once more
+    assert told == pytest.approx([0.2, 0.4, 0.6, 0.6])
+
+
+PAIR = GearPair(
+    pinion=Gear(teeth=16, normal_module=4.5, face_width=14.0), wheel=Gear(teeth=24, normal_module=4.5, face_width=14.0)
+)
+
+
+def steps(**options: object) -> dict[str, float]:
+    asked = replace(CheckOptions(), **options)
+    return plane_steps(check_task(PAIR, material=None, load=Load(torque=302.0), options=asked))  # type: ignore[arg-type]
+
+
+def test_steps_follow_what_is_asked_for() -> None:
+    usual = steps()
+    assert steps(convergence="off")["convergence"] == 0.0
+    assert steps(torques=(100.0,))["torque sweep"] == pytest.approx(usual["torque sweep"] / 5)
+    more, most = (steps(positions=count)["mesh cycle"] - usual["mesh cycle"] for count in (120, 180))
+    assert most == pytest.approx(2 * more) and more > 0
+    fine, finer = (steps(refinement=factor)["mesh cycle"] - usual["mesh cycle"] for factor in (2.0, 3.0))
+    assert finer / fine == pytest.approx(8 / 3)
+
+
+def test_all_of_them_are_what_the_check_takes() -> None:
+    from gearcad import Material
+
+    asked = CheckOptions(model="2d")
+    assert expected_check(check_task(PAIR, Material(), Load(torque=302.0), asked)).seconds == pytest.approx(
+        sum(steps().values())
+    )

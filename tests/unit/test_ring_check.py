@@ -1,4 +1,4 @@
-"""The check of a pair with a ring, in the plane: what it says of the rim, of bolts, and of flanks that are nearly alike."""
+"""What a plane check says of rims, bolts, rings, thin faces and roots wider than the mesh."""
 
 from __future__ import annotations
 
@@ -8,26 +8,32 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.checks import small_check
 
 from gearcad import Body, Gear, GearPair, Load, Material
-from gearcad.check.comparison import ComparisonRole
-from gearcad.check.gates import compare_plane
+from gearcad.check.comparison import ComparisonRole, Subject
+from gearcad.check.gates import compare_plane, standards
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult
-from gearcad.check.run import check_pair
-from gearcad.check.task import check_task
+from gearcad.check.run import check_pair, plane_notices
+from gearcad.check.summary import SummaryFigures, figures
+from gearcad.check.task import CheckTask, check_task
 from gearcad.contact.plane.cycle import PlaneCycle, conformal
 from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.plane.ring import assemble
-from gearcad.contact.plane.sector import PlaneElasticity
+from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.contact.shared.bodies import BodyModel, Cuts, Hold, Support, support_of
+from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.contact.solid.pair import SolidSizes, solid_pair
 from gearcad.core.errors import GeometryError, ParameterError
-from gearcad.core.records import PerGear
+from gearcad.core.records import PerGear, texts
 from gearcad.geometry import ShaperCutter
 from gearcad.meshing.outline import MeshSizes
 from gearcad.meshing.sector import mesh_sector
 from gearcad.plots.gears import pair_inches, plot_pair
+from gearcad.rating import Edition, RatingOptions
+from gearcad.stiffness import PlaneStrainContact, PlaneStressContact, StrainEnergy
 
 STEEL = Material()
 ON_BOLTS = {"bolt_circle": 160.0, "bolt_holes": 8, "bolt_diameter": 5.0}
@@ -196,3 +202,159 @@ def test_picture_of_a_pinion_in_its_ring() -> None:
     angle, pitch = np.arctan2(near[:, 1], near[:, 0]), 2 * math.pi / 22
     half = np.radians(PAIR.pinion.profile.half_angle(np.clip(np.hypot(*near.T), 20.11, 24.6)))
     assert (np.abs((angle + pitch / 2) % pitch - pitch / 2) - half).min() > -0.02 / 22
+
+
+LIMIT = 300.0
+"""MPa: above the greatest root tension of the thin rim at half the load, below its compression."""
+
+
+def _checked(bore: float, load: float = 150.0, **options: Any) -> CheckResult:
+    """The FZG pair, its pinion with a bore of 50 mm at half the load of stage 9."""
+    pinion = Gear(teeth=16, normal_module=4.5, face_width=14, profile_shift=0.1817, body=Body(bore=bore))
+    wheel = replace(pinion, teeth=24, profile_shift=0.1715, body=Body(bore=30))
+    chosen = CheckOptions(convergence="off", torques=(load,), positions=12, **options)
+    material = Material(root_limit=LIMIT)
+    return check_pair(check_task(GearPair(pinion=pinion, wheel=wheel), material, Load(torque=load), chosen))
+
+
+def _gate(result: CheckResult, quantity: str) -> Any:
+    return next((each for each in result.comparisons if each.quantity == quantity), None)
+
+
+def test_a_thin_rim_held_rigidly_fails_the_check_and_a_free_one_is_judged_by_what_it_bends() -> None:
+    rigid, free = _checked(50, pinion_support="rigid"), _checked(50)
+    gate = _gate(rigid, "tooth depth over rim, pinion")
+    assert not gate.passed and not rigid.passed
+    pinion = rigid.pair.pinion
+    ratio = (pinion.root_diameter / 2 - 25) / ((pinion.tip_diameter - pinion.root_diameter) / 2)
+    assert gate.computed == pytest.approx(1 / ratio, rel=1e-12)
+    assert any("held rigidly" in each for each in rigid.warnings)
+    assert rigid.summary.bore_tension_pinion is None
+    assert _gate(free, "tooth depth over rim, pinion") is None
+    assert "free" in free.bodies["pinion"]
+    compression = _gate(free, "root compression, pinion")
+    assert compression.computed == -free.summary.root_compression.pinion > LIMIT > free.summary.root_tension.pinion
+    assert not compression.passed
+    bore = free.summary.bore_tension_pinion
+    assert _gate(free, "tension on the bore, pinion").computed == bore
+    assert any(f"bore is {bore:.0f} MPa" in each and f"{ratio:.3g} tooth depths" in each for each in free.warnings)
+    notes = {each.quantity: each.note for each in free.comparisons if each.subject is Subject.STANDARD}
+    assert f"({free.summary.root_compression.pinion:.0f} MPa)" in notes["root stress, pinion"]
+    assert "Y_B" not in notes["root stress, wheel"]
+    # The wheel is thick, and nobody bends it.
+    assert _gate(free, "root compression, wheel") is None
+    assert free.summary.bore_tension_wheel is None
+
+
+def test_hertz_holds_for_flanks_of_a_rim_that_bends() -> None:
+    """The rim turns the tooth, so that other parts of its involute meet: their curvature is what is compared."""
+    free = _checked(50, load=302.0)
+    assert _gate(free, "peak contact pressure").passed
+    assert _gate(free, "half width of contact").passed
+
+
+def test_solid_bodies_know_no_shaft_and_no_key() -> None:
+    keyed = Gear(teeth=16, normal_module=4.5, face_width=14, body=Body(bore=45, keyway_width=10, keyway_depth=2))
+    pair = GearPair(pinion=keyed, wheel=replace(keyed, teeth=24))
+    assert [each.hold for each in BodyModel().supports(pair)] == [Hold.KEY, Hold.RIGID]
+    assert [each.hold for each in BodyModel().for_solids().supports(pair)] == [Hold.FREE, Hold.RIGID]
+    with pytest.raises(ParameterError, match=r'pinion_support.*must be "rigid" or "free" for solid bodies'):
+        BodyModel(holds=PerGear(Hold.SHAFT, Hold.AUTO)).for_solids().supports(pair)
+
+
+@pytest.mark.long
+def test_solid_rims_bend_like_those_of_a_plane() -> None:
+    """A spur gear of 14 mm: the solid one a little more at the root, where the load is uneven, as a thick one is too."""
+    thick, plane, solid = (
+        _checked(bore, model=model, refinement=fineness).summary
+        for bore, model, fineness in ((30.0, "2d", 1.0), (50.0, "2d", 1.0), (50.0, "3d", 0.7))
+    )
+    assert plane.root_compression.pinion < 1.5 * thick.root_compression.pinion
+    assert solid.root_compression.pinion == pytest.approx(plane.root_compression.pinion, rel=0.05)
+    assert solid.bore_tension_pinion == pytest.approx(plane.bore_tension_pinion, rel=0.05)
+    assert solid.mesh_stiffness_mean == pytest.approx(plane.mesh_stiffness_mean, rel=0.06)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"pinion_support": "loose"}, "pinion_support.*'rigid'.*'free'"),
+        ({"wheel_support": ["free"]}, "wheel_support"),
+        ({"shaft_modulus": 0.0}, "shaft_modulus"),
+        ({"wheel_shaft_bore": -1.0}, "wheel_shaft_bore"),
+    ],
+)
+def test_options_of_a_support(options: Any, words: str) -> None:
+    with pytest.raises(ParameterError, match=words):
+        CheckOptions(**options)
+
+
+STRAIN, STRESS = (PlaneElasticity(Material(), plane) for plane in Plane)
+
+
+def task_of(pair: GearPair, **changes: object) -> CheckTask:
+    """The task of a small check with another pair, and changes."""
+    return replace(small_check().task, pair=pair, **changes)
+
+
+def fzg(pinion_width: float, wheel_width: float) -> GearPair:
+    """FZG's C gears in other widths; the teeth of both are 7.66 and 7.63 mm thick."""
+    pinion, wheel = (
+        Gear(teeth=teeth, normal_module=4.5, profile_shift=shift, face_width=width, body=Body(bore=30))
+        for teeth, shift, width in ((16, 0.1817, pinion_width), (24, 0.1715, wheel_width))
+    )
+    return GearPair(pinion=pinion, wheel=wheel)
+
+
+def plane_texts(task: CheckTask, elasticity: PlaneElasticity) -> tuple[str, ...]:
+    plane = "strain" if elasticity.plane is Plane.STRAIN else "stress"
+    return texts(plane_notices(replace(task, material=elasticity.material, options=replace(task.options, plane=plane))))
+
+
+def test_a_face_thinner_than_its_teeth_is_told() -> None:
+    thin, wide = plane_texts(task_of(fzg(14.0, 7.0)), STRAIN)
+    assert thin.startswith("the wheel's face width of 7 mm is below its tooth thickness, 7.63 mm: so thin a body is nearer to ")
+    assert "up to 9 % too stiff" in thin
+    assert wide.startswith("the pinion is 14 mm wide, and the plane model has the 7 mm in mesh; by ISO 6336-3 14 mm carry")
+    assert plane_texts(task_of(fzg(14.0, 14.0)), STRAIN) == ()
+    (pressure,) = plane_texts(task_of(fzg(5.0, 5.0)), STRESS)
+    assert pressure == "plane stress: the contact itself stays in plane strain, where its pressure is up to 4.8 % higher"
+
+
+def test_methods_in_plane_strain_tell_a_thin_face() -> None:
+    load = Load(torque=10.0)
+    for method in (PlaneStrainContact, StrainEnergy):
+        (thin,) = method(pair=fzg(7.0, 14.0)).notices(load)
+        assert thin.code == "thin-face" and "nearer to plane stress" in thin.text
+        assert not list(method(pair=fzg(14.0, 14.0)).notices(load))
+    assert not list(PlaneStressContact(pair=fzg(7.0, 14.0)).notices(load))
+
+
+def test_a_wider_root_is_told() -> None:
+    """16 mm on 14 mm: ISO's root carries on all of it, at most m_n on either side; by the standard asked for."""
+    (found,) = plane_texts(task_of(fzg(16.0, 14.0)), STRAIN)
+    assert found == (
+        "the pinion is 16 mm wide, and the plane model has the 14 mm in mesh; by ISO 6336-3 16 mm carry at its root, with 12 % "
+        "less stress; --model 3d has the whole width"
+    )
+    german = task_of(fzg(14.0, 40.0), rating_options=RatingOptions(standard=Edition.DIN_1987))
+    (found,) = plane_texts(german, STRAIN)
+    assert "the wheel is 40 mm wide" in found and "by DIN 3990-3 23 mm carry" in found
+    source = next(each.source for each in standards(german, small_check().summary) if each.quantity == "root stress, wheel")
+    assert source == "sigma_F0, DIN 3990-3:1987 Method B, over b = 23 mm"
+
+
+@pytest.mark.long
+def test_solid_bodies_show_what_is_told() -> None:
+    """A thin pair is almost as soft as in plane stress; a pinion that stands over has less stress at its root."""
+
+    def solid(pair: GearPair, torque: float) -> SummaryFigures:
+        return figures(SolidCycle.run(solid_pair(pair, Material(), sizes=SolidSizes().refined(0.8)), torque, 12))
+
+    strain, stress = (figures(PlaneCycle.run(plane_pair(fzg(1.5, 1.5), Material(), plane=plane), 32.4, 12)) for plane in Plane)
+    thin = solid(fzg(1.5, 1.5), 32.4)
+    assert thin.mesh_stiffness - stress.mesh_stiffness < 0.2 * (strain.mesh_stiffness - stress.mesh_stiffness)
+    # 4.5 mm on both sides, one module: ISO has 14/23 = 0.61 of the stress.
+    even, wider = solid(fzg(14.0, 14.0), 302.0), solid(fzg(23.0, 14.0), 302.0)
+    assert wider.root_tension.pinion / even.root_tension.pinion == pytest.approx(0.705, abs=0.01)
+    assert wider.root_tension.wheel == pytest.approx(even.root_tension.wheel, rel=0.01)

@@ -1,4 +1,6 @@
-"""Words and symbols cover what the objects hold, no more and no less: of inputs at their fields, of the rest in a table."""
+"""Words and symbols cover what the objects hold; sentences of templates are plain text on one line."""
+
+from __future__ import annotations
 
 from dataclasses import fields
 from typing import Any
@@ -6,6 +8,7 @@ from typing import Any
 import pytest
 
 from gearcad import Gear, GearPair, Load, Material, Mounting
+from gearcad.check.explanation import Compared, LinesExplanation
 from gearcad.check.options import CheckOptions
 from gearcad.check.summary import PlaneSummary, SolidSummary
 from gearcad.core import symbols
@@ -17,6 +20,7 @@ from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 from gearcad.meshing.options import MeshOptions
 from gearcad.rating import RatingOptions
+from gearcad.report.document import sentences
 
 
 def _keys(document: dict[str, Any]) -> set[str]:
@@ -101,3 +105,26 @@ def test_words_tell_the_rows_of_a_sheet_apart(table: dict[str, symbols.Symbol]) 
     words = [symbol.words for symbol in table.values()]
     assert len(set(words)) == len(words)
     assert all(words)
+
+
+LINES = LinesExplanation(
+    greatest_pressure=None,
+    length=Compared(computed=31.25, standard=30.0),
+    mean_line_load=12345.6,
+    pitch_point_radius=9.5,
+    face_load_factor=Compared(computed=1.25, standard=1.5),
+    greatest_across=-4.0,
+    misalignment=-8.0,
+)
+
+
+def test_branches_and_lines_follow_each_other_after_one_space() -> None:
+    assert sentences("reasons_solid.txt", "pressure", LINES) == (
+        "Pressure: none away from the edges. ISO has the mean, F_bn K_A over 30 mm of lines: 12\u202f350 N/mm, on the radius "
+        "9.5 mm of the pitch point, and carries it to the inner point of single contact by Z_B and Z_D."
+    )
+
+
+def test_nothing_is_escaped_before_the_page_does_it() -> None:
+    said = sentences("reasons_solid.txt", "lines", LINES)
+    assert said.startswith("Lines of contact: 31.25 mm carry on the mean; the rigid gears' lines are 30 mm long. Teeth that")

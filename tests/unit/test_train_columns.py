@@ -1,11 +1,12 @@
-"""What tables and the data sheet say of trains: derived quantities, figures of dynamics, and what each column holds."""
+"""Columns and data sheet of trains; options without effect are told, and those of the starters can be used."""
 
 from __future__ import annotations
 
 import json
 import math
+import re
 import tomllib
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
@@ -13,13 +14,16 @@ import pytest
 import gearcad
 from gearcad.batch.row import _warnings, flat_document
 from gearcad.batch.study import plan_study, write_study
-from gearcad.designs import TrainDesign, design_from_tables, open_table, read_spec
+from gearcad.designs import PairDesign, TrainDesign, design_from_tables, open_table, read_spec
+from gearcad.designs.keys import permitted_words
 from gearcad.designs.reader import starter_text
 from gearcad.designs.variations import column_symbol
 from gearcad.dynamics import Inertia, Shaft, ToothMesh, Train
-from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.options import DynamicsOptions, idle_in_contact, idle_without_levels, undamped_bearings
+from gearcad.dynamics.time_domain.transient_result import TransientOptions
 from gearcad.jobs.dynamics import Dynamics, dynamics_columns
 from gearcad.jobs.job import Data
+from gearcad.rating import RatingOptions, endurance_limits
 
 _, TWO_STAGES = starter_text("train-2-stage")
 
@@ -123,3 +127,77 @@ def test_a_row_makes_the_document_of_the_spec_edited_by_hand(tmp_path: Path) -> 
     path.write_text(f"{before}stiffness = 600.0{second}", encoding="utf-8")
     made, by_hand = (Dynamics().run(design).to_dict() for design in (row.design(), read_spec(path)))
     assert made == by_hand
+
+
+LEVELS = "a train with a list of models, held against each other"
+
+
+def test_what_is_for_levels_or_for_the_mesh() -> None:
+    assert not idle_without_levels(DynamicsOptions(tooth_errors="on")) and not idle_in_contact(DynamicsOptions(model="contact"))
+    (one,) = idle_without_levels(DynamicsOptions(operating_to=5000.0, level_tolerance=0.1))
+    assert one.text == f"without effect here: level_tolerance, which is for {LEVELS}"
+    asked = DynamicsOptions(
+        model="contact", tooth_errors="on", error_samples=5, premature_engagement="on", level_tolerance=0.1, zone="one pair"
+    )
+    assert [each.text for each in idle_in_contact(asked)] == [
+        'without effect here: tooth_errors, error_samples, premature_engagement, which are for the model "mesh" of a pair',
+        f"without effect here: level_tolerance, which is for {LEVELS}",
+    ]
+
+
+def test_bearings_without_damping() -> None:
+    given = {"pinion_bearing_stiffness": 300.0, "wheel_bearing_stiffness": 300.0}
+    assert not undamped_bearings(DynamicsOptions()) and not undamped_bearings(DynamicsOptions(**given, bearing_damping=10.0))
+    (one,) = undamped_bearings(DynamicsOptions(**given))
+    assert one.code == "undamped-bearings" and "bearing_damping" in one.text
+
+
+def test_an_unknown_key_names_the_nearest_of_many() -> None:
+    words = permitted_words("xyzzy", [f"key_{number}" for number in range(30)])
+    assert words.startswith("the nearest of the 30 permitted are ") and words.count(",") == 4
+    assert permitted_words("xyzzy", ["a", "b"]) == "permitted are a, b"
+
+
+OPTION = re.compile(r"^# (?=\[dynamics|\w+ = )", re.MULTILINE)
+
+
+@pytest.mark.parametrize("name", ["train-1-stage", "train-2-stage", "train-pairs", "fzg-c"])
+def test_commented_options_of_the_dynamics(name: str, tmp_path: Path) -> None:
+    _, text = starter_text(name)
+    head, found, options = re.split(r"(?m)^((?:# )?\[dynamics\])", text)
+    spec = tmp_path / "all.toml"
+    spec.write_text(head + found.removeprefix("# ") + OPTION.sub("", options), encoding="utf-8")
+    design = read_spec(spec)
+    assert isinstance(design, PairDesign | TrainDesign) and design.dynamics is not None
+    read = design.dynamics
+    assert read.error_samples > 1 and read.distribution.value == "normal" and read.transient is not None
+    if name == "train-1-stage":  # it shows all there is
+        assert read.level_tolerance == 0.05 and read.operating_to is not None and read.premature
+        assert all(f"\n# {field.name} = " in options.partition("[dynamics.transient]")[2] for field in fields(TransientOptions))
+
+
+@pytest.mark.parametrize("name", ["fzg-c", "volvo-13-44", "ring-22-70"])
+def test_commented_options_of_material_and_rating(name: str, tmp_path: Path) -> None:
+    _, text = starter_text(name)
+    for table in ("material", "rating"):
+        head, found, rest = re.split(rf"(?m)^((?:# )?\[{table}\])", text)
+        options, gap, others = rest.partition("\n\n")
+        text = head + found.removeprefix("# ") + OPTION.sub("", options) + gap + others
+    spec = tmp_path / "all.toml"
+    spec.write_text(text, encoding="utf-8")
+    design = read_spec(spec)
+    assert isinstance(design, PairDesign) and design.rating is not None
+    assert all(endurance_limits(material).contact for material in design.materials)
+    assert design.materials.pinion.name == "Eh MQ" and design.rating.life == 20000.0
+    if name == "fzg-c":  # it shows all there is
+        assert all(re.search(rf"\b{field.name} = ", text) for field in fields(RatingOptions))
+
+
+def test_lists_of_models_in_comments(tmp_path: Path) -> None:
+    for name in ("train-1-stage", "train-2-stage"):
+        _, text = starter_text(name)
+        (listed,) = re.findall(r"^#.*(model = \[.*?\])|^model.*(model = \[.*?\])", text, re.MULTILINE)[:1]
+        spec = tmp_path / f"{name}.toml"
+        spec.write_text(re.sub(r"(?m)^model = .*$", listed[0] or listed[1], text), encoding="utf-8")
+        design = read_spec(spec)
+        assert isinstance(design, TrainDesign) and len(design.models) > 1
