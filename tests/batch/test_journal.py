@@ -1,16 +1,29 @@
-"""The journal holds every row of a run outside the memory, and says so when there is no room for them."""
+"""The journal of a run, checked rows on their way to workers, and what an interrupted run tells."""
 
+from __future__ import annotations
+
+import csv
 import os
+import pickle
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
 
 import psutil
+import pytest
+from click.testing import CliRunner
+from support.batches import PAIRS, write_table
+from support.designs import starter_specs
 
-from gearcad.batch.row import Record, Status
+from gearcad.batch import run as run_module
+from gearcad.batch.row import Checked, Record, Status, Task, check_rows, inputs_hash, make_row, stages
 from gearcad.batch.run import Journal
-from gearcad.designs.table import DesignRow
+from gearcad.cli import main
+from gearcad.designs import read_spec
+from gearcad.designs.table import DesignRow, open_table
+from gearcad.jobs.job import Data
 
 ROW = DesignRow(2, "a", {"gear.teeth": 20}, (), (), "table.csv", ("name", "gear.teeth"))
 LARGE = {"gear.rack": "x" * 100_000}
@@ -84,3 +97,60 @@ def test_no_room_for_temporary_files_is_told_also_by_what_comes_after(small_disk
     assert len(lines) == 2 and done.stderr == ""
     for line in lines:
         assert line.startswith("temporary files = '': cannot be written (") and line.endswith("); TMPDIR names their folder")
+
+
+SPECS = starter_specs()
+
+
+@pytest.mark.parametrize("spec", SPECS, ids=lambda path: path.stem)
+def test_design_of_any_kind_arrives_as_it_was_sent(spec: Path) -> None:
+    design = read_spec(spec)
+    assert pickle.loads(pickle.dumps(design)).to_dict() == design.to_dict()
+
+
+def task(row: DesignRow, checked: Checked, folder: Path) -> Task:
+    workspace = folder / ".work"
+    workspace.mkdir(parents=True, exist_ok=True)
+    return Task(row, stages([Data()]), folder, workspace, True, checked)
+
+
+def test_row_is_made_of_the_design_that_its_check_has_made(tmp_path: Path) -> None:
+    first, second = open_table(write_table(tmp_path / "t.csv", PAIRS)).rows()
+    one, other = check_rows([first, second])
+    assert (one.faults, one.inputs) == ((), inputs_hash(first.inputs))
+    swapped = task(first, Checked(inputs=one.inputs, design=other.design), tmp_path)
+    assert swapped.design(one.inputs).name == second.name
+    assert swapped.design("of other inputs").name == first.name
+    made = make_row(task(first, one, tmp_path))
+    content = (tmp_path / first.name / "data.json").read_bytes()
+    shutil.rmtree(tmp_path / first.name)
+    again = make_row(task(first, Checked(), tmp_path))
+    assert (made.status, made.values, made.files) == (Status.OK, again.values, again.files)
+    assert (tmp_path / first.name / "data.json").read_bytes() == content
+
+
+def test_row_at_fault_has_no_design(tmp_path: Path) -> None:
+    (row,) = open_table(write_table(tmp_path / "t.csv", (PAIRS[0], "bad,1,,2,23,0.4,2,2"))).rows()
+    (checked,) = check_rows([row])
+    assert (len(checked.faults), checked.design) == (1, b"")
+    with pytest.raises(ValueError, match="teeth"):
+        task(row, checked, tmp_path).design(inputs_hash(row.inputs))
+
+
+def test_ctrl_c_tells_how_many_rows_are_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    table, tell = tmp_path / "gears.csv", run_module._Run.tell
+    rows = [f"gear{number},{20 + number},2,10" for number in range(5)]
+    table.write_text("\n".join(["name,teeth,normal_module,face_width", *rows]) + "\n", encoding="utf-8")
+
+    def pressed(run: run_module._Run, phase: str, failed: int, whole: int) -> None:
+        tell(run, phase, failed, whole)
+        if phase == "making" and run.done == 2:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(run_module._Run, "tell", pressed)
+    words = ["batch", str(table), "-o", str(tmp_path / "out"), "--do", "data", "-j", "1"]
+    stopped = CliRunner().invoke(main, words)
+    assert stopped.exit_code == 130
+    assert stopped.stderr.splitlines()[-2:] == ["2 rows ok, 0 failed, 3 not run; the same command makes the rest", "Aborted!"]
+    with (tmp_path / "out" / "results.csv").open(encoding="utf-8") as file:
+        assert [row["status"] for row in csv.DictReader(file)].count("not run") == 3

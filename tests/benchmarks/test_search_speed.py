@@ -1,4 +1,4 @@
-"""How many variants of flank modifications a second: `pytest -m benchmark_suite tests/benchmarks/test_search_speed.py`"""
+"""Timings of searches: `pytest -m benchmark_suite tests/benchmarks/test_search_speed.py`"""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from threadpoolctl import threadpool_limits
 
 from gearcad.contact.modification_search import start_search
 from gearcad.geometry import ReliefShape
+from gearcad.planetary.members import SetType
+from gearcad.planetary.search import search
+from gearcad.planetary.tooth_numbers import SearchTask
 
 pytestmark = pytest.mark.benchmark_suite
 
@@ -32,3 +35,31 @@ def test_variants(benchmark: Any, name: str) -> None:
     benchmark.extra_info["variants a second"] = VARIANTS / benchmark.stats.stats.min
     print(name, [given.cells for given in search.variants.positions], benchmark.extra_info)
     assert benchmark.extra_info["variants a second"] > LEAST
+
+
+MOST_SECONDS = 2.0
+"""For a hundred thousand sets and more, twenty trains made of the best."""
+
+TASKS = {
+    "A": SearchTask(ratio=5.2, module=2.0, planets=(2, 6), teeth=(15, 110)),
+    "B": SearchTask(ratio=7.3, module=2.0, module_2=2.5, types=(SetType.B,)),
+    "C": SearchTask(ratio=-30.0, module=2.0, types=(SetType.C,)),
+    "D": SearchTask(ratio=13.9, module=2.0, types=(SetType.D,)),
+}
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_search(benchmark: Any, name: str) -> None:
+    benchmark.group = "search for tooth numbers"
+    result = benchmark.pedantic(search, (TASKS[name],), rounds=3, warmup_rounds=1)
+    assert result.considered > 1e5
+    assert len(result.found) == 20
+    assert benchmark.stats["median"] < MOST_SECONDS
+
+
+def test_nothing_found(benchmark: Any) -> None:
+    """Then the tolerance is widened until something is."""
+    benchmark.group = "search for tooth numbers"
+    result = benchmark.pedantic(search, (SearchTask(ratio=90.0, module=2.0, planets=(2, 6)),), rounds=3, warmup_rounds=1)
+    assert result.nearest
+    assert benchmark.stats["median"] < MOST_SECONDS

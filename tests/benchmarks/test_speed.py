@@ -1,25 +1,32 @@
-"""Timings, side by side with py_gearworks where it is installed (the `bench` extra).
+"""Timings of gears and commands, beside py_gearworks: `pytest -m benchmark_suite tests/benchmarks/test_speed.py`
 
-`pytest -m benchmark_suite tests/benchmarks --benchmark-group-by=group`
-
-Compare medians within one run; machines are shared and noisy.
+Large gears and commands: CPU seconds of one process, after a small gear has warmed it up. `-s` shows the shares.
+Compare medians within one run; machines are shared and noisy. `beside.py` compares two checkouts.
 """
 
 from __future__ import annotations
 
 import math
 import resource
+import statistics
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from beside import Run, run
 from OCP.BRepMesh import BRepMesh_IncrementalMesh
 
 from gearcad import BasicRack, Body, Gear
 from gearcad.solids import gear_solid, tessellate, write_step, write_stl
+from gearcad.solids.body_plan import STEEL
+from gearcad.solids.exact.kernel import kernel_solid
+from gearcad.solids.exact.solid import SolidProduct, gear_boundary
+from gearcad.solids.files.step import write_product
 
 pytestmark = pytest.mark.benchmark_suite
 
@@ -111,3 +118,83 @@ def test_peak_memory(benchmark: Any) -> None:
     benchmark.group = "memory"
     benchmark.pedantic(lambda: gear_solid(Gear(**GEARS["spur m1.5 z161"])), rounds=1)
     benchmark.extra_info["peak_MiB"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+TEETH = (75, 150, 300, 600)
+
+MOST = {0.0: 0.5, 15.0: 1.0}
+"""CPU seconds that the data and the STEP file of 300 teeth may take, by helix angle: a helicoid has four times the poles."""
+
+EXPONENT = 1.15
+"""Of time over the number of teeth."""
+
+
+def _gear(teeth: int, helix: float) -> Gear:
+    return Gear(teeth=teeth, normal_module=2, face_width=20, helix_angle=helix, body=Body(bore=20))
+
+
+def _least(action: Callable[[], object], rounds: int = 5) -> float:
+    action()
+    times = []
+    for _ in range(rounds):
+        start = time.process_time()
+        action()
+        times.append(time.process_time() - start)
+    return min(times)
+
+
+def _exponent(seconds: dict[int, float]) -> float:
+    return float(np.polyfit(np.log(list(seconds)), np.log(list(seconds.values())), 1)[0])
+
+
+@pytest.mark.parametrize("helix", MOST)
+def test_step_is_linear_in_teeth(helix: float, tmp_path: Path, record_property: Any) -> None:
+    def written(teeth: int) -> None:
+        write_product(SolidProduct("gear", gear_boundary(_gear(teeth, helix)), STEEL), tmp_path / "gear.step")
+
+    seconds = {teeth: _least(lambda teeth=teeth: written(teeth)) for teeth in TEETH}
+    record_property("seconds", seconds)
+    exponent = _exponent(seconds)
+    print(f"\n{seconds}, exponent {exponent:.2f}")
+    assert seconds[300] < MOST[helix]
+    assert exponent < EXPONENT
+
+
+def test_solid_of_the_kernel_is_linear_in_teeth(record_property: Any) -> None:
+    seconds = {teeth: _least(lambda teeth=teeth: kernel_solid(gear_boundary(_gear(teeth, 0.0)))) for teeth in TEETH}
+    record_property("seconds", seconds)
+    print(f"\n{seconds}, exponent {_exponent(seconds):.2f}")
+    assert _exponent(seconds) < EXPONENT
+
+
+ROOT = Path(__file__).parents[2]
+
+_RUNS = 5
+
+START_MOST = {
+    "data spur.toml": 0.15,
+    "data volvo-13-44.toml": 0.15,
+    "build spur.toml": 0.18,
+    "build volvo-13-44.toml": 0.26,
+    "build ring-22-70.toml": 0.26,
+    "build planetary-24-21-66.toml": 0.32,
+}
+"""Share of what `import cadquery` takes: half as much again as was measured on a busy machine."""
+
+
+def _median(*command: str) -> float:
+    found = [run([sys.executable, *command], ROOT, ROOT / "templates", 60.0, of_output=False) for _ in range(_RUNS + 1)][1:]
+    return statistics.median(each.seconds for each in found if isinstance(each, Run))
+
+
+@pytest.fixture(scope="module")
+def library() -> float:
+    """What the import takes (s)."""
+    return _median("-c", "import cadquery")
+
+
+@pytest.mark.parametrize("command", START_MOST)
+def test_a_command_takes_less_than_a_cad_kernel_does(command: str, library: float) -> None:
+    seconds = _median("-m", "gearcad", *command.split())
+    print(f"gearcad {command}: {seconds:.2f} s, {seconds / library:.3f} of import cadquery ({library:.2f} s)")
+    assert seconds < START_MOST[command] * library

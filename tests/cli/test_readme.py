@@ -1,13 +1,18 @@
-"""What the README shows works as shown."""
+"""What the README and docs/papers.md show works as shown."""
 
 from __future__ import annotations
 
+import os
 import re
+import shlex
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from click import Context
 from click.testing import CliRunner
+from support.paper_page import Section, given, sections
 
 from gearcad.cli import main
 
@@ -44,3 +49,62 @@ def test_commands_exist() -> None:
         found = main.get_command(context, command[1])
         options = {name for parameter in found.params for name in parameter.opts}
         assert {word for word in command[2:] if word.startswith("--")} <= options
+
+
+SECTIONS = {section.title: section for section in sections()}
+
+QUICK = [title for title in SECTIONS if "tables 2 and 3" in title]
+"""Sections whose commands take no second each, without their reports."""
+
+
+def wrong(section: Section, folder: Path) -> list[str]:
+    """Claims that do not hold."""
+    found = [(claim, given(folder, claim.where)) for claim in section.claims]
+    return [f"{claim.where}: {value}, on the page {claim.ours}" for claim, value in found if not claim.holds(value)]
+
+
+def test_the_page_says_of_every_number_where_it_comes_from() -> None:
+    assert len(SECTIONS) > 8 and len(QUICK) == 1
+    for section in SECTIONS.values():
+        assert section.commands[0].startswith("gearcad new ") and section.claims
+        words = [shlex.split(command) for command in section.commands]
+        folders = {line[line.index("-o") + 1] for line in words if line[:2] == ["gearcad", "dynamics"]}
+        assert {claim.where.partition("/")[0] for claim in section.claims} <= folders
+
+
+def test_a_number_that_is_off_is_found() -> None:
+    (claim, *_) = SECTIONS[QUICK[0]].claims
+    shown = float(claim.ours)
+    assert claim.holds(shown) and claim.holds(shown + 0.049) and not claim.holds(shown + 0.06)
+    assert not claim.holds(None)
+
+
+@pytest.mark.parametrize("title", QUICK)
+def test_quick_sections(title: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, path: path.touch())
+    monkeypatch.setattr("gearcad.dynamics.options._CHART", 20)  # what is asked of these is in no chart
+    for command in SECTIONS[title].commands:
+        if command.startswith("gearcad "):
+            result = CliRunner().invoke(main, shlex.split(command)[1:], prog_name="gearcad")
+            assert result.exit_code == 0, f"{command}: {result.output}"
+        else:
+            subprocess.run(command, shell=True, check=True)
+    assert not wrong(SECTIONS[title], tmp_path)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("title", SECTIONS)
+def test_all_sections_in_a_shell(title: str, tmp_path: Path) -> None:
+    """As a reader has them: in an empty folder, with all files."""
+    (tmp_path / "bin").mkdir()
+    shim = tmp_path / "bin" / "gearcad"
+    shim.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m gearcad "$@"\n')
+    shim.chmod(0o755)
+    folder = tmp_path / "empty"
+    folder.mkdir()
+    environment = os.environ | {"PATH": f"{shim.parent}{os.pathsep}{os.environ['PATH']}"}
+    script = "\n".join(SECTIONS[title].commands)
+    result = subprocess.run(["bash", "-e", "-c", script], cwd=folder, env=environment, capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    assert not wrong(SECTIONS[title], folder)

@@ -1,6 +1,9 @@
-"""The report of a check: complete, well-formed, self-contained, the same bytes every time, and deaf to nasty names."""
+"""Reports of plane and solid checks: complete, well-formed, self-contained, the same bytes every time."""
+
+from __future__ import annotations
 
 import base64
+import json
 import platform
 import re
 from dataclasses import replace
@@ -10,14 +13,14 @@ import lxml.etree
 import lxml.html
 import numpy as np
 import pytest
-from support.checks import NASTY_NAME, small_check
+from support.checks import NASTY_NAME, small_check, small_solid_check
 
 from gearcad import __version__
 from gearcad.check.comparison import ComparisonRole
 from gearcad.check.explanation import root_at_single_contact
 from gearcad.check.result import check_document, reported_document
 from gearcad.core.output import json_text
-from gearcad.core.records import PerGear
+from gearcad.core.records import PerGear, Role
 from gearcad.plots.paper import short
 from gearcad.report import report_html, write_report
 from gearcad.report.check import PlaneSections
@@ -192,3 +195,107 @@ def test_a_single_torque_shows_no_trend(monkeypatch):
     captions = report_html(replace(small_check(), sweep=small_check().sweep[:1]), "one")
     assert "Only 302 N·m was asked for" in captions
     assert "to the power" not in captions
+
+
+_FIGURES, _VIEWS, _PORTRAIT = 14, 2, 1
+
+
+@pytest.fixture(scope="module")
+def solid_text() -> str:
+    return report_html(small_solid_check(), NASTY_NAME)
+
+
+@pytest.fixture(scope="module")
+def solid_document(solid_text: str) -> lxml.html.HtmlElement:
+    return lxml.html.document_fromstring(solid_text)
+
+
+def test_is_well_formed_and_needs_nothing_from_elsewhere(solid_text: str, solid_document: lxml.html.HtmlElement) -> None:
+    root = lxml.etree.fromstring(solid_text.removeprefix("<!DOCTYPE html>").strip().encode())
+    ids = root.xpath("//@id")
+    assert len(ids) == len(set(ids)) == len(root.xpath("//figure | //h2"))
+    assert (
+        solid_document.xpath("//link | //iframe | //object | //embed | //a[not(starts-with(@href, '#'))] | //script/@src") == []
+    )
+    addresses = solid_document.xpath("//img/@src")
+    assert len(addresses) == len(root.xpath("//figure")) == _FIGURES + _VIEWS + _PORTRAIT
+    assert all(re.match(r"data:image/(svg\+xml|png);base64,", address) for address in addresses)
+    (code,) = solid_document.xpath("//script[not(@type)]")
+    assert not re.search(r"https?:|import|fetch|XMLHttpRequest|eval", code.text)
+    assert "@import" not in solid_text and "url(" not in solid_text
+
+
+def test_the_wheel_alone_scrolls_the_page(solid_document: lxml.html.HtmlElement) -> None:
+    (code,) = solid_document.xpath("//script[not(@type)]")
+    handler = code.text.partition('addEventListener("wheel"')[2]
+    condition, _, rest = handler.partition("event.preventDefault()")
+    assert "if (!event.ctrlKey && !event.metaKey) return;" in condition and rest
+
+
+def test_solid_nasty_names_stay_text(solid_document: lxml.html.HtmlElement, solid_text: str) -> None:
+    assert NASTY_NAME in solid_document.xpath("string(//h1)")
+    assert solid_document.xpath("//li[text()='a warning with <b>tags</b>']")
+    assert "<script>alert" not in solid_text
+
+
+def test_holds_every_comparison(solid_document: lxml.html.HtmlElement) -> None:
+    rows = [[cell.text_content() for cell in row] for row in solid_document.xpath("//tr[@class]")]
+    wanted = sorted(small_solid_check().comparisons, key=lambda each: each.role is not ComparisonRole.GATE)
+    assert [row[:4] for row in rows] == [
+        [each.quantity, short(each.computed), short(each.reference), each.unit] for each in wanted
+    ]
+    failed = [each.quantity for each in wanted if each.role is ComparisonRole.GATE and not each.passed]
+    tensions = small_solid_check().summary.root_tension._asdict()
+    overloaded = [f"root stress, {gear}" for gear, tension in tensions.items() if tension > 300.0]
+    # The pinion's bore of 28 mm leaves a rim of 1.1 tooth depths, which three teeth between held cuts do not bend.
+    assert failed == ["discretisation error, mean mesh stiffness", "tooth depth over rim, pinion", *overloaded]
+
+
+@pytest.mark.parametrize("role", Role)
+def test_a_view_holds_the_surface_of_the_tooth(solid_document: lxml.html.HtmlElement, role: Role) -> None:
+    figure = PerGear(*solid_document.xpath("//figure[@class='tooth']")).pick(role)
+    assert [child.tag for child in figure][:2] == ["canvas", "img"]  # where there is no WebGL the picture stays
+    data = json.loads(figure.xpath("./script[@type='application/json']")[0].text)
+    surface = small_solid_check().tooth_surfaces.pick(role)
+
+    def unpacked(name: str, kind: str) -> np.ndarray:
+        return np.frombuffer(base64.b64decode(data[name], validate=True), kind)
+
+    points = unpacked("points", "<f4").reshape(-1, 3)
+    assert points == pytest.approx(surface.points, abs=1e-5)
+    assert np.hypot(np.hypot(points[:, 0], points[:, 1]), points[:, 2]).max() == pytest.approx(data["size"], rel=1e-6)
+    triangles = unpacked("triangles", {2: "<u2", 4: "<u4"}[data["bytes"]]).reshape(-1, 3)
+    assert (triangles == surface.triangles).all()
+    stress = unpacked("stress", "u1") / 255 * surface.most
+    assert stress == pytest.approx(np.minimum(surface.von_mises, surface.most), abs=surface.most / 500)
+    colours = unpacked("colours", "u1").reshape(256, 3)
+    legend = re.findall(r"rgb\((\d+), (\d+), (\d+)\)", figure.xpath(".//div[@class='colours']/@style")[0])
+    assert [tuple(map(int, colour)) for colour in (legend[0], legend[-1])] == [tuple(colours[0]), tuple(colours[-1])]
+    assert figure.xpath(".//div[@class='numbers']/span")[-1].text_content() == f"{short(round(surface.most))} MPa and above"
+
+
+def test_reasons_tell_width_unevenness_and_the_rest(solid_document: lxml.html.HtmlElement) -> None:
+    result = small_solid_check()
+    items = solid_document.xpath("//h3[text()='Root stress']/following-sibling::ul[1]/li")
+    for gear, item in enumerate(items):
+        found, uneven = result.summary.root_tension[gear], result.summary.root_face_load_factor[gear]
+        mean, standard = found / uneven, result.rating.root_stresses[gear]
+        assert f"= {uneven:.3f} times the mean along the common width, {short(mean)} MPa" in item.text_content()
+        assert f"What remains, {100 * (mean / standard - 1):+.1f} %" in item.text_content()
+    (lines,) = solid_document.xpath("//h3[text()='Load along the lines of contact']/following-sibling::ul[1]")
+    # 10 µm of the mounting, less what 6 µm of the right-hand pinion's steeper helix turn the gap back.
+    assert "for Fβy = 4 µm" in lines.text_content()
+    assert f"KHβ = {result.summary.face_load_factor:.3f}" in lines.text_content()
+
+
+@pytest.mark.usefixtures("no_pictures")
+def test_backwards_and_without_a_finer_mesh(solid_text: str) -> None:
+    result = small_solid_check()
+    inside = tuple(each for each in result.comparisons if not each.quantity.startswith("change on"))
+    task = replace(result.task, load=replace(result.load, torque=-result.load.torque))
+    changed = report_html(replace(result, convergence=(), comparisons=inside, task=task), "plain")
+    report = lxml.html.document_fromstring(changed)
+    assert report.xpath("//h2[text()='Convergence']") == []
+    assert len(report.xpath("//figure")) == _FIGURES + _VIEWS + _PORTRAIT - 1
+    mirrored = "loads the right flanks: the model is the mirror image"
+    assert mirrored in changed and mirrored not in solid_text

@@ -1,14 +1,20 @@
-"""Who may ask the server of the page, and what browsers are told with every answer."""
+"""Who may ask the server of the page, and that texts of a browser are never files, paths or scripts."""
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import Any
 
 import pytest
 from support.awaited import awaited
 
-from gearcad.core.errors import ParameterError
+from gearcad.core.errors import ParameterError, SpecError
+from gearcad.core.runtime import PACKAGE
+from gearcad.designs.reader import starter_text
+from gearcad.page.run_process import design_of
 from gearcad.page.server import Access, SecurityHeaders, require_token
+from gearcad.page.workbench import Workbench
 
 HERE = "127.0.0.1:8765"
 TOKEN = "t" * 43
@@ -134,3 +140,63 @@ def test_no_path_is_taken_from_a_header() -> None:
 
 async def _none(*_: Any) -> Any:
     """Nothing is received, nothing sent."""
+
+
+PAIR = starter_text("fzg-c")[1]
+_HEAD, _, _REST = starter_text("train-pairs")[1].partition("# pair = ")
+TRAIN = f'{_HEAD}pair = "NAMED"\n\n[[train.mesh]]{_REST.partition("[[train.mesh]]")[2]}'
+MATING = "[pair]\nnormal_module = 2.0\nface_width = 24.0\n[pinion]\nteeth = 18\n[wheel]\nteeth = 54\n"
+REFUSED = "must be a file in the folder of the page"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "secret.toml").write_text(PAIR, encoding="utf-8")
+    inside = tmp_path / "inside"
+    inside.mkdir()
+    (inside / "led-out.toml").symlink_to(tmp_path / "secret.toml")
+    return inside
+
+
+@pytest.mark.parametrize("name", ["../secret.toml", "sub/../../secret.toml", "/etc/passwd", "led-out.toml", "../no"])
+def test_files_outside_are_refused_whether_they_are_there_or_not(folder: Path, name: str) -> None:
+    drawn = f'{PAIR}\n[drawing]\ntemplate = "{name}"\n'
+    with pytest.raises(SpecError, match=REFUSED) as told:
+        design_of(drawn, "mine", folder)
+    assert told.value.key == "drawing.template"
+    meshed = TRAIN.replace("NAMED", name)
+    with pytest.raises(SpecError, match=REFUSED):
+        design_of(meshed, "mine", folder)
+
+
+def test_files_inside_are_found_and_theirs_must_be_inside_too(folder: Path) -> None:
+    (folder / "fzg-c.toml").write_text(MATING, encoding="utf-8")
+    train = TRAIN.replace("NAMED", "fzg-c.toml")
+    assert len(design_of(train, "mine", folder).train.meshes) == 2  # type: ignore[attr-defined]
+    assert design_of(PAIR + '\n[drawing]\ntemplate = "mine.toml"\n', "mine", folder).drawing.template == str(
+        folder / "mine.toml"
+    )
+    bad = MATING + '\n[drawing]\ntemplate = "../secret.toml"\n'
+    (folder / "fzg-c.toml").write_text(bad, encoding="utf-8")
+    with pytest.raises(SpecError, match=REFUSED):
+        design_of(train, "mine", folder)
+
+
+def test_the_workbench_refuses_them_as_a_fault_and_keeps_the_last_design(folder: Path) -> None:
+    bench = Workbench(PAIR, "mine", folder)
+    design = bench.design
+    bench.write(PAIR + '\n[drawing]\ntemplate = "/etc/passwd"\n')
+    assert bench.fault is not None and REFUSED in bench.fault.line and bench.fault.key == "drawing.template"
+    assert bench.design is design
+
+
+_UNSAFE = re.compile(
+    r"v-html|innerHTML|outerHTML|insertAdjacentHTML|document\.write|\beval\(|new Function|javascript:"
+    r"|ui\.html|ui\.markdown|run_javascript|add_head_html|add_body_html|content_html"
+)
+
+
+def test_no_component_takes_a_text_for_html_or_script() -> None:
+    sources = [path for path in (PACKAGE / "page").rglob("*") if path.suffix in (".py", ".js")]
+    assert len(sources) > 30
+    assert [path.name for path in sources if _UNSAFE.search(path.read_text(encoding="utf-8"))] == []

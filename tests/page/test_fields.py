@@ -1,15 +1,21 @@
-"""What the page has of the inputs of every kind of spec: a field for each key, what is given and what is used."""
+"""Inputs of the page: fields of every kind of spec, text under change, a second design, and the shift diagram."""
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import tomlkit
 
+from gearcad.core.errors import GearcadError, ParameterError, SpecError
 from gearcad.core.runtime import templates
-from gearcad.page.fields import fields_of, given_texts, used_texts
-from gearcad.page.workbench import Workbench
+from gearcad.designs.reader import read_spec, starter_text
+from gearcad.page.fields import LimitMap, fields_of, given_texts, limit_map, used_texts
+from gearcad.page.workbench import BesideDesign, Fault, Workbench
+from gearcad.sizing.geometry import Free, LimitKind
 
 
 def _bench(name: str) -> Workbench:
@@ -67,3 +73,250 @@ def test_pairs_and_racks_have_distances_of_their_own() -> None:
 def test_a_train_is_edited_as_text() -> None:
     bench = Workbench((Path(templates()) / "train-1-stage.toml").read_text(encoding="utf-8"), "train", templates())
     assert fields_of(bench.design, bench.tables) == []
+
+
+GEAR = '[gear]\nname = "{name}"\nteeth = {teeth}\nnormal_module = 2.0\nface_width = 10.0\n'
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Workbench:
+    (tmp_path / "other.toml").write_text(GEAR.format(name="other", teeth=40), encoding="utf-8")
+    return Workbench(GEAR.format(name="trial", teeth=20), "trial", tmp_path)
+
+
+def teeth(design: object) -> int:
+    return int(design.gears["gear"].teeth)  # type: ignore[attr-defined]
+
+
+def test_the_kept_design_stays_while_the_other_changes(bench: Workbench) -> None:
+    beside = BesideDesign(bench)
+    assert beside.design is None
+    beside.keep()
+    bench.change({"gear.teeth": "25"})
+    assert (teeth(beside.design), teeth(bench.design)) == (20, 25)
+    beside.let_go()
+    assert beside.design is None
+
+
+def test_both_change_places_and_back(bench: Workbench) -> None:
+    beside = BesideDesign(bench)
+    beside.swap()
+    assert beside.design is None
+    beside.open("other.toml")
+    text = bench.text
+    beside.swap()
+    assert (bench.design.name, teeth(bench.design), teeth(beside.design)) == ("other", 40, 20)
+    assert bench.can_undo
+    beside.swap()
+    assert (bench.text, teeth(beside.design)) == (text, 40)
+
+
+def test_what_makes_no_gear_is_not_kept(bench: Workbench) -> None:
+    beside = BesideDesign(bench)
+    beside.open("other.toml")
+    bench.change({"gear.teeth": "2"})
+    for ask in (beside.keep, beside.swap):
+        with pytest.raises(GearcadError, match=r"gear\.teeth = 2: must be a whole number"):
+            ask()
+    assert teeth(beside.design) == 40
+
+
+@pytest.mark.parametrize("file", ["../other.toml", "/etc/passwd", "none.toml", ""])
+def test_only_specs_of_the_folder_are_opened(bench: Workbench, file: str) -> None:
+    with pytest.raises(ParameterError):
+        BesideDesign(bench).open(file)
+
+
+def _map(bench: Workbench) -> LimitMap:
+    found = limit_map(bench.design, bench.tables)
+    assert found is not None
+    return found
+
+
+def test_a_pair_at_a_centre_distance_has_shift_and_helix() -> None:
+    bench = _bench("fzg-c")
+    found = _map(bench)
+    assert [each.free for each in found.variables] == [Free.FIRST, Free.HELIX]
+    bench.change(found.across.typed(0.25) | found.up.typed(12.0))
+    assert (bench.fault, bench.design.gears["wheel"].helix_angle) == (None, -12)
+    assert bench.tables["pinion"]["profile_shift"] == 0.25
+
+
+def test_a_pair_without_has_both_shifts() -> None:
+    bench = _bench("fzg-c")
+    bench.change(
+        {"pair.centre_distance": "", "wheel.profile_shift": "-0.1", "pinion.helix_angle": "-10", "wheel.helix_angle": "10"}
+    )
+    found = _map(bench)
+    assert [each.free for each in found.variables] == [Free.FIRST, Free.SECOND, Free.HELIX]
+    assert found.others[0].value == 10
+    assert found.others[0].typed(15.0) == {"pinion.helix_angle": "-15.0", "wheel.helix_angle": "15.0"}
+
+
+def test_the_map_has_the_design_where_it_stands() -> None:
+    bench = _bench("reducer-21-43")
+    found, pair = _map(bench), bench.design.gears
+    ratio = next(each.values for each in found.map.limits if each.kind is LimitKind.CONTACT_RATIO)
+    column = np.interp(found.across.value, found.map.across.values, np.arange(ratio.shape[1]))
+    row = np.interp(found.up.value, found.map.up.values, np.arange(ratio.shape[0]))
+    exact = bench.design.to_dict()["pair"]["transverse_contact_ratio"]
+    assert ratio[round(row), round(column)] == pytest.approx(exact, abs=0.05)
+    assert found.across.value == pair["pinion"].profile_shift
+
+
+def test_a_gear_has_teeth_and_shift() -> None:
+    bench = _bench("spur")
+    found = _map(bench)
+    assert [each.free for each in found.variables] == [Free.TEETH, Free.FIRST, Free.HELIX]
+    assert found.across.typed(24.4) == {"gear.teeth": "24"}
+
+
+@pytest.mark.parametrize("name", ["ring-22-70", "planetary-24-21-66"])
+def test_others_have_none(name: str) -> None:
+    bench = _bench(name)
+    assert limit_map(bench.design, bench.tables) is None
+
+
+def test_a_rack_and_pinion_has_that_of_its_pinion() -> None:
+    bench = Workbench((Path(templates()) / "rack.toml").read_text(encoding="utf-8"), "rack", templates())
+    assert list(_map(bench).up.keys) == ["pinion.profile_shift"]
+
+
+SPEC = """\
+# a pair
+[pair]
+normal_module = 4.5  # mm
+face_width = 14.0
+
+[pinion]
+teeth = 16
+profile_shift = 0.1817
+
+[wheel]
+teeth = 24
+"""
+
+
+class Clock:
+    """Seconds that pass when a test says so."""
+
+    now = 0.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+@pytest.fixture
+def clock() -> Clock:
+    return Clock()
+
+
+@pytest.fixture
+def session(clock: Clock) -> Workbench:
+    return Workbench(SPEC, "pair", Path(), clock)
+
+
+def test_what_is_typed_without_a_pause_is_one_step(session: Workbench, clock: Clock) -> None:
+    for at, typed in enumerate(("1", "17", "170")):
+        clock.now = 0.9 * at
+        session.change({"pinion.teeth": typed})
+    assert session.tables["pinion"]["teeth"] == 170
+    assert session.former["pinion"]["teeth"] == 16
+    session.undo()
+    assert session.text == SPEC
+    assert not session.can_undo
+    session.redo()
+    assert session.tables["pinion"]["teeth"] == 170
+
+
+@pytest.mark.parametrize(("key", "seconds"), [("pinion.teeth", 1.1), ("wheel.teeth", 0.1)])
+def test_a_pause_or_another_field_begins_a_step(session: Workbench, clock: Clock, key: str, seconds: float) -> None:
+    session.change({"pinion.teeth": "17"})
+    clock.now = seconds
+    session.change({key: "25"})
+    session.undo()
+    assert (session.tables["pinion"]["teeth"], session.tables["wheel"]["teeth"]) == (17, 24)
+
+
+def test_numbered_steps_are_undone_as_they_were_typed(session: Workbench, clock: Clock) -> None:
+    """However late they come, or how soon one after the other."""
+    for step, seconds, typed in ((1, 0.0, "17"), (1, 5.0, "18"), (2, 5.1, "19")):
+        clock.now = seconds
+        session.change({"pinion.teeth": typed}, step)
+    session.undo()
+    assert session.tables["pinion"]["teeth"] == 18
+    session.undo()
+    assert session.text == SPEC
+
+
+def test_after_undo_typing_begins_a_step(session: Workbench) -> None:
+    session.change({"pinion.teeth": "17"})
+    session.undo()
+    session.change({"pinion.teeth": "18"})
+    assert session.can_undo
+    assert not session.can_redo
+    session.undo()
+    assert session.text == SPEC
+
+
+def test_comments_stay_and_a_key_goes(session: Workbench) -> None:
+    session.change({"pair.normal_module": "5,5"})
+    assert "normal_module = 5.5  # mm" in session.text
+    session.change({"pinion.profile_shift": ""})
+    assert "profile_shift" not in session.text
+    assert session.design.gears["pinion"].profile_shift == 0
+
+
+def test_a_fault_is_the_line_of_the_command_line_and_the_last_good_design_stays(session: Workbench, tmp_path: Path) -> None:
+    session.change({"pinion.teeth": "3"})
+    (spec := tmp_path / "pair.toml").write_text(session.text)
+    with pytest.raises(SpecError) as refused:
+        read_spec(spec)
+    assert session.fault is not None
+    assert str(refused.value) == f"{tmp_path}/{session.fault.line}"
+    assert session.fault.key == refused.value.key
+    assert session.design.gears["pinion"].teeth == 16
+    session.change({"pinion.teeth": "18"})
+    assert session.fault is None
+
+
+def test_text_that_is_no_toml_says_where(session: Workbench) -> None:
+    session.write(SPEC.replace("teeth = 24", "teeth = "), "text")
+    assert session.fault is not None
+    assert session.fault.line.startswith("pair.toml line 11")
+    assert session.tables["wheel"]["teeth"] == 24
+
+
+def test_what_cannot_be_written_is_no_step(session: Workbench) -> None:
+    assert not session.change({"pair.normal_module": "1.234,5"})
+    assert session.fault == Fault(
+        "pair.normal_module = '1.234,5': has a comma and a point; write it without a thousands separator",
+        "pair.normal_module",
+        written=False,
+    )
+    assert session.text == SPEC
+    assert not session.can_undo
+
+
+def test_what_a_named_file_names_must_be_in_the_folder_too(tmp_path: Path) -> None:
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    (tmp_path / "title.toml").write_text("", encoding="utf-8")
+    tables = tomllib.loads(starter_text("train-pairs")[1])
+    mesh = tables["train"]["mesh"][0]
+    inner = {"pair": mesh["pair"], "drawing": {"template": "../title.toml"}}
+    inner |= {role: inner["pair"].pop(role) for role in ("pinion", "wheel")}
+    (folder / "inner.toml").write_text(tomlkit.dumps(inner), encoding="utf-8")
+    mesh["pair"] = "inner.toml"
+    with pytest.raises(SpecError, match="must be a file in the folder of the page"):
+        Workbench(tomlkit.dumps(tables), "train", folder)
+
+
+def test_the_eldest_steps_go_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gearcad.page.workbench._MOST_STEPS", 3)
+    bench = Workbench(SPEC, "pair", Path())
+    for teeth in range(17, 22):
+        bench.write(SPEC.replace("teeth = 16", f"teeth = {teeth}"))
+    for _ in range(5):
+        bench.undo()
+    assert "teeth = 18\n" in bench.text

@@ -1,9 +1,10 @@
-"""The transverse section that the page draws: flanks touch where it says, with the numbers that the browser gets."""
+"""Section, bodies and load shares that the page shows: flanks touch where it says."""
 
 from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,11 @@ import pytest
 
 from gearcad.core.records import Floats
 from gearcad.core.runtime import templates
+from gearcad.designs.pair_designs import PairDesign
+from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.designs.reader import read_spec
-from gearcad.page.panels.drawn_data import plain, section_of
-from gearcad.page.panels.views import section_in
+from gearcad.page.panels.drawn_data import bodies_of, plain, section_of, surface_of
+from gearcad.page.panels.views import section_in, shares_of
 from gearcad.page.words import PageLanguage, PageWords
 
 CHORD = 2e-4
@@ -126,3 +129,52 @@ def test_gears_are_called_in_the_words_of_the_page(language: str, names: list[st
     shown = section_in(PageWords.of(PageLanguage(language)), found)
     assert [body["name"] for body in shown["bodies"]] == names
     assert shown["meshes"] == found["meshes"]
+
+
+def test_only_trains_with_planets_have_shares() -> None:
+    assert shares_of(read_spec(templates() / "spur.toml")) is None
+
+
+def test_shares_are_those_of_the_job() -> None:
+    found = shares_of(read_spec(templates() / "planetary-differential.toml"))
+    assert found is not None
+    assert len(found["shares"]) == 4
+    assert found["factor"] == max(greatest for _, _, greatest in found["shares"]) > 1
+
+
+def test_without_a_load_it_says_so() -> None:
+    design = read_spec(templates() / "planetary-differential.toml")
+    assert isinstance(design, PlanetaryDesign)
+    found = shares_of(replace(design, load=None))
+    assert found is not None
+    assert not found["shares"]
+    assert "load" in found["why_not"]
+
+
+def test_what_did_not_change_is_the_same_surface() -> None:
+    design = read_spec(templates() / "reducer-21-43.toml")
+    assert isinstance(design, PairDesign)
+    before = bodies_of(design)
+    wider = replace(design.pair, pinion=replace(design.pair.pinion, face_width=26.0))
+    after = bodies_of(replace(design, pair=wider))
+    assert before.bodies[1].surface == after.bodies[1].surface
+    assert before.bodies[0].surface != after.bodies[0].surface
+    assert set(after.surfaces) == {body.surface for body in after.bodies}
+
+
+def test_a_surface_is_what_the_browser_reads() -> None:
+    design = read_spec(templates() / "spur.toml")
+    (gear,) = design.gears.values()  # type: ignore[attr-defined]
+    content = surface_of(gear).content
+    vertices, triangles = np.frombuffer(content, "<u4", 2)
+    corners = np.frombuffer(content, "<u2", offset=8 + 12 * int(vertices))
+    assert len(corners) == 3 * triangles
+    assert corners.max() == vertices - 1
+    x, y, _ = np.frombuffer(content, "<f4", 3 * int(vertices), 8).reshape(-1, 3).T
+    assert np.hypot(x, y).max() == pytest.approx(gear.tip_diameter / 2, abs=1e-4)
+
+
+def test_why_there_are_no_bodies() -> None:
+    found = bodies_of(read_spec(templates() / "train-1-stage.toml"))
+    assert not found.bodies
+    assert "has no bodies" in found.why_not

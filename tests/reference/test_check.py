@@ -1,7 +1,4 @@
-"""The structural check against trials of another program, against laws of similarity, and against itself mirrored.
-
-The trials: z 18/161, m 1.5, b 10, 12.7 N·m, an earlier program of the same method, coarser, with sectors for bodies.
-"""
+"""The structural check against trials of another program, laws of similarity, and ISO 6336 with its load factors."""
 
 from __future__ import annotations
 
@@ -13,19 +10,23 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Load, Material, check
+from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Load, Material, check, read
 from gearcad.check.comparison import Comparison, ComparisonRole, Subject, verdict
 from gearcad.check.notices import _corners
 from gearcad.check.options import CheckOptions
 from gearcad.check.relief_start import relief_starts, start_comparisons, start_notice, start_notices
 from gearcad.check.result import check_document
+from gearcad.check.run import check_pair
 from gearcad.check.summary import PlaneSummary, summarise_plane
+from gearcad.check.task import check_task
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.plane.sector import Plane
 from gearcad.contact.shared.bodies import BodyModel, Cuts
 from gearcad.core.records import PerGear, Role, Verdict
+from gearcad.core.runtime import templates
 from gearcad.geometry import ReliefShape
+from gearcad.rating import RatingOptions
 
 TORQUE = 12.7
 TRIAL = 0.015
@@ -314,3 +315,25 @@ def test_a_root_relief_that_begins_below_the_path_of_contact_is_not_told() -> No
         notices = list(start_notice(pair))
         assert len(notices) == told
         assert all("root relief of the pinion" in notice.text for notice in notices)
+
+
+RATIOS = {"fzg-c": (0.906, 0.889), "reducer-21-43": (0.946, 0.929), "ring-22-70": (0.931, 0.697)}
+
+MESH = 0.005
+"""What the mesh of a check may do to a root stress, and rounding of the ratios."""
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", RATIOS)
+def test_root_stress_with_load_factors(name: str) -> None:
+    design = read(templates() / f"{name}.toml")
+    load = replace(design.load, speed=design.load.speed or 1500.0)
+    options = replace(design.check or CheckOptions(), model="2d", convergence="off")
+    rating = replace(design.rating or RatingOptions(), life=20000.0)
+    result = check_pair(check_task(design.pair, Material(name="Eh MQ"), load, options, design.mounting, rating))
+    ratios = [found.raised / found.rated.stress for found in result.safeties.root]
+    assert ratios == pytest.approx(RATIOS[name], abs=MESH)
+    nominal = [
+        tension / of.nominal_stress for tension, of in zip(result.summary.root_tension, result.rating.roots, strict=True)
+    ]
+    assert ratios == pytest.approx(nominal, rel=1e-9)

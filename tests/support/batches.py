@@ -8,8 +8,6 @@ import json
 from collections.abc import Iterable
 from pathlib import Path
 
-__all__ = ["GEARS", "MIXED", "PAIRS", "lies", "made_now", "read_results", "rows_of", "snapshot", "times", "write_table"]
-
 GEARS = ("name,teeth,normal_module,face_width,helix_angle", "spur,12,1,2,", "left,17,1,3,-15", "right,23,0.8,2.5,10")
 """Three gears that cost little in any format."""
 

@@ -16,8 +16,6 @@ from gearcad.contact.plane.sector import PlaneElasticity
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear
 
-__all__ = ["NodalCompliance", "nodal_compliance"]
-
 
 @dataclass(frozen=True)
 class NodalCompliance(PlaneCompliance):

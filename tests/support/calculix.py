@@ -9,8 +9,6 @@ from pathlib import Path
 
 import pytest
 
-__all__ = ["needs_ccx", "run_ccx"]
-
 _CCX = shutil.which("ccx")
 
 needs_ccx = pytest.mark.skipif(_CCX is None, reason="needs CalculiX (ccx)")

@@ -9,8 +9,6 @@ from typing import Any
 
 from gearcad import BasicRack, Gear, GearPair
 
-__all__ = ["FACE_WIDTHS", "case", "diameters", "half_unit", "profile_cases", "volvo_pair"]
-
 _FILE = Path(__file__).parent.parent / "data" / "geometry.json"
 _CASES: dict[str, dict[str, Any]] = {entry["id"]: entry for entry in json.loads(_FILE.read_text(encoding="utf-8"))}
 

@@ -20,8 +20,6 @@ from gearcad.core.records import Notice, PerGear
 from gearcad.geometry import FlankModification
 from support.coarse import coarse_model
 
-__all__ = ["NASTY_NAME", "small_check", "small_solid_check"]
-
 NASTY_NAME = "<script>alert('gear')</script> & \"$x_1$\""
 """A name that would break HTML, and mathtext."""
 

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 
 from gearcad.geometry import GearPair, ToothProfile
 
-__all__ = ["turn_to_touch"]
-
 Floats = NDArray[np.float64]
 
 GRID = 65

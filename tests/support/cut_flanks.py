@@ -12,8 +12,6 @@ from gearcad.core.records import Floats, Role
 from gearcad.geometry import Gear
 from gearcad.planetary import SetMesh
 
-__all__ = ["Contacts", "contacts"]
-
 
 @dataclass(frozen=True)
 class Contacts:

@@ -17,8 +17,6 @@ from numpy.typing import NDArray
 from gearcad import Gear, GearPair, Material
 from gearcad.geometry.profile import CurveKind
 
-__all__ = ["Found", "dense_contact"]
-
 Floats = NDArray[np.float64]
 
 _FINE, _FILLET, _COARSE, _BODY = 0.015, 0.03, 0.5, 2.0

@@ -14,8 +14,6 @@ from gearcad.dynamics.planetary.planar_model import SpringKind, TrainSprings, tr
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.planetary.power import power_flow
 
-__all__ = ["dense_sharing"]
-
 _HARD = 1e8
 """N/µm of pins that are rigid, so that they can have errors."""
 

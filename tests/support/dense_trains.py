@@ -18,8 +18,6 @@ from gearcad.core.records import Floats
 from gearcad.dynamics.trains.members import GROUND, Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.train import Train
 
-__all__ = ["DenseTrain", "dense_train", "isolated_rpm", "random_drive"]
-
 _PIECES = 24
 """Two-node elements of a shaft."""
 

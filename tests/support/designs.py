@@ -7,8 +7,6 @@ from pathlib import Path
 from gearcad.core.runtime import templates
 from gearcad.designs.reader import NO_DESIGNS, starters
 
-__all__ = ["starter_specs"]
-
 
 def starter_specs() -> list[Path]:
     """All that ship with gearcad, by name."""

@@ -15,8 +15,6 @@ from scipy.optimize import brentq
 from gearcad import Gear
 from gearcad.core.records import Floats
 
-__all__ = ["Cutter", "half_space_angle"]
-
 
 def _involute(angle: float) -> float:
     return math.tan(angle) - angle

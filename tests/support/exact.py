@@ -13,8 +13,6 @@ from scipy.spatial import cKDTree
 
 from gearcad import Gear
 
-__all__ = ["chamfered_volume", "distance_to_section", "section_area", "solid_volume", "toothed_volume"]
-
 Floats = NDArray[np.float64]
 
 

@@ -11,8 +11,6 @@ from gearcad.core.records import Complexes, Floats
 from gearcad.dynamics.trains.mesh_excitation import Excitation
 from gearcad.dynamics.trains.shaft_lines import System
 
-__all__ = ["floquet_multipliers", "monodromy"]
-
 _COARSE = 16
 """Steps over the period of the stiffness that the extrapolation begins with."""
 

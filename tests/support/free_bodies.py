@@ -16,8 +16,6 @@ from scipy.integrate import solve_ivp
 from gearcad.core.records import Floats
 from gearcad.dynamics.trains.pair_on_bearings import PairOnBearings
 
-__all__ = ["FreeBodies", "Period"]
-
 
 @dataclass(frozen=True)
 class Period:

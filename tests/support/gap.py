@@ -16,8 +16,6 @@ from scipy.optimize import minimize
 from gearcad import FlankModification, Gear, GearPair, Mounting, ReliefShape
 from support.modified import relieved
 
-__all__ = ["distance_in_space", "gap_along_action", "middle_height", "pinion_points", "taken_back", "wheel_points"]
-
 Floats = NDArray[np.float64]
 
 _SAMPLES = 40_001

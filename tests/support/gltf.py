@@ -10,8 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Glb"]
-
 Floats = NDArray[np.float64]
 
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942

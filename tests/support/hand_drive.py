@@ -18,8 +18,6 @@ from gearcad.core.records import Floats
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.stiffness.methods import METHODS
 
-__all__ = ["ByHand", "Drive"]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Drive:

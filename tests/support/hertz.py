@@ -7,8 +7,6 @@ import math
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
-__all__ = ["hertz_ellipse"]
-
 
 def hertz_ellipse(force: float, across: float, along: float, modulus: float) -> tuple[float, float, float]:
     """p_0 (MPa), greater and lesser half axis (mm) of an elliptical contact (Johnson, Contact Mechanics, 4.26 to 4.32)."""

@@ -20,8 +20,6 @@ from gearcad.designs.reader import starter_text
 from gearcad.designs.train_keys import PLANETARY
 from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 
-__all__ = ["CHEAP", "hostile_rows", "hostile_specs", "physical_specs", "put", "run_politely", "toml_text"]
-
 LONGEST_LINE = 1500
 """Characters of the longest message: one that lists every permitted key."""
 

@@ -14,25 +14,6 @@ from typing import Any, NoReturn
 from gearcad.batch import row
 from gearcad.batch.row import Record, Task, make_row
 
-__all__ = [
-    "die",
-    "echo",
-    "hold_the_interpreter",
-    "interrupt",
-    "killed_at",
-    "make_row_of_another_gearcad",
-    "make_row_or_die",
-    "own_process",
-    "print_everywhere",
-    "raise_it",
-    "raise_unsendable",
-    "repeat",
-    "unreadable",
-    "unsendable_answer",
-    "wait",
-    "work",
-]
-
 WRITES = ("os.mkdir", "os.rename", "os.remove", "os.rmdir", "shutil.rmtree")
 """Audit events before something changes on disk; opening a file to write is another."""
 

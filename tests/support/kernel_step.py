@@ -11,8 +11,6 @@ from OCP.TCollection import TCollection_ExtendedString
 from OCP.TDocStd import TDocStd_Document
 from OCP.XCAFApp import XCAFApp_Application
 
-__all__ = ["opened_document"]
-
 
 def opened_document(path: Path) -> Any:
     """A document (XCAF) of all that a file has, read by the kernel."""

@@ -16,19 +16,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = [
-    "BASE_PITCH",
-    "POSITIONS",
-    "Correction",
-    "Floats",
-    "base_pitch_mean",
-    "over_base_pitch",
-    "over_path",
-    "path",
-    "tian",
-    "weber",
-]
-
 Floats = NDArray[np.float64]
 
 

@@ -7,8 +7,6 @@ from typing import Any
 from gearcad.geometry import Body, Gear, GearPair
 from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim
 
-__all__ = ["alm_set", "pre_stage", "simple_set"]
-
 
 def alm_set(*, rim_diameter: float | None = 240.0, **changes: Any) -> PlanetaryTrain:
     """Two rings on a stepped planet: m 2.8 mm 22/-70 and m 2.6 mm 21/-72 at 69 mm (x of ring 5 is -1.6794)."""

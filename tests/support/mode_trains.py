@@ -18,8 +18,6 @@ from gearcad.dynamics.planetary.planar_model import (
 from gearcad.geometry import Gear
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
 
-__all__ = ["MASSES", "TRAINS", "lin_parker_train", "masses_of", "on_springs"]
-
 
 def _gear(teeth: int, module: float, shift: float, helix: float = 0.0) -> Gear:
     return Gear(teeth=teeth, normal_module=module, profile_shift=shift, face_width=20.0, helix_angle=helix)

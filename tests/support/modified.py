@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from gearcad import Gear
 
-__all__ = ["depth_off", "folded", "relieved", "removed_volume", "roll_ends", "specified", "transition", "unturned"]
-
 Floats = NDArray[np.float64]
 
 

@@ -13,8 +13,6 @@ from gearcad import BasicRack, Body, Gear, GeometryError
 from gearcad.geometry.modification import FlankModification
 from support.modified import roll_ends
 
-__all__ = ["AMOUNTS", "GEARS", "crossed", "modified", "random_gear"]
-
 _KEYED = {"bore": 12, "keyway_width": 4, "keyway_depth": 1.5, "hub_diameter": 20, "hub_length": 3, "hub_side": "both"}
 _PLAIN = {"teeth": 14, "normal_module": 2.0, "face_width": 12.2, "profile_shift": 0.2}
 

@@ -13,8 +13,6 @@ from scipy.integrate import solve_ivp
 from gearcad import Gear, GearPair
 from gearcad.dynamics.time_domain.contact_model import ContactModel, EngagedPairs, disc_inertia
 
-__all__ = ["THESIS_SPEEDS", "Witness", "thesis_model", "thesis_pair"]
-
 Floats = NDArray[np.float64]
 
 THESIS_SPEEDS = np.arange(0, 20001, 500.0)

@@ -6,8 +6,6 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 
-__all__ = ["CheckedText", "checked_text"]
-
 _TOKEN = re.compile(
     r"\s*(?:(?P<string>'(?:[^'\\\x00-\x1f\x7f-\U0010ffff]|''|\\\\|\\X\\[0-9A-F]{2}|\\X2\\(?:[0-9A-F]{4})+\\X0\\|\\X4\\(?:[0-9A-F]{8})+\\X0\\)*')"
     r"|(?P<reference>#[1-9][0-9]*)|(?P<real>[+-]?[0-9]+\.[0-9]*(?:E[+-]?[0-9]+)?)|(?P<integer>[+-]?[0-9]+)"

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-__all__ = ["leave_out_pictures"]
-
 _PICTURED = ("document", "check", "strength", "planetary", "dynamics")
 
 

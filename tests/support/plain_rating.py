@@ -11,8 +11,6 @@ from itertools import pairwise
 from math import acos, atan, cos, degrees, floor, hypot, log, pi, radians, sin, sqrt, tan
 from typing import Any
 
-__all__ = ["PlainGear", "PlainPair", "plain_rating"]
-
 D = (5, 20, 50, 125, 280, 560, 1000, 1600)
 M = (0.5, 2, 3.5, 6, 10, 16)
 B = (4, 10, 20, 40, 80, 160, 250, 400)

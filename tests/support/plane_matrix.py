@@ -11,8 +11,6 @@ from gearcad.contact.plane.sector import PlaneElasticity, element_stiffness, nod
 from gearcad.core.records import Floats, Wholes
 from gearcad.meshing.sector import SectorMesh
 
-__all__ = ["stiffness_matrix", "summed"]
-
 
 def stiffness_matrix(mesh: SectorMesh, elasticity: PlaneElasticity, elements: Wholes | None = None) -> Any:
     """Stiffness (scipy CSR, N/mm per mm of width) of the mesh or some elements; dof 2 n is node n in x, 2 n + 1 in y."""

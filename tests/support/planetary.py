@@ -15,8 +15,6 @@ from gearcad.planetary import Central, GearPlace, PairStage, PlanetaryTrain, Rim
 from gearcad.planetary.train_data import TrainData
 from support.ring_mesh import CHORD_ERROR, HalfTooth, RingMesh
 
-__all__ = ["MeshWitness", "clearance", "gear", "simple_train", "stage_clearance", "thesis_train", "train_clearance"]
-
 NEIGHBOURS = 4
 """Teeth on each side of the line of centres that are looked at."""
 

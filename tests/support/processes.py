@@ -13,18 +13,6 @@ from pathlib import Path
 
 import psutil
 
-__all__ = [
-    "PATIENCE",
-    "batch_command",
-    "below",
-    "hear_interrupts",
-    "run_batch",
-    "send_to_all",
-    "start_batch",
-    "wait_for_end",
-    "wait_until",
-]
-
 PATIENCE = 60.0
 """Seconds that anything may take on a busy machine before a test gives up."""
 

@@ -15,8 +15,6 @@ from typing import NamedTuple
 
 import pytest
 
-__all__ = ["PROPERTY", "Published", "Row", "published"]
-
 FILE = Path(__file__).parents[2] / "docs" / "validation.json"
 
 PROPERTY = "published"

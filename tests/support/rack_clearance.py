@@ -15,8 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearcad import RackPair
 
-__all__ = ["travel_to_touch"]
-
 Floats = NDArray[np.float64]
 
 GRID = 49

@@ -11,8 +11,6 @@ from scipy.integrate import quad
 
 from gearcad import Rack
 
-__all__ = ["rack_height", "rack_volume", "section_area"]
-
 Floats = NDArray[np.float64]
 
 

@@ -15,8 +15,6 @@ from gearcad.planetary import Central, PlanetaryTrain, Rim
 from gearcad.planetary.train import most_planets
 from gearcad.planetary.train_data import TrainData
 
-__all__ = ["build_train", "train_inputs"]
-
 POSITION = 70.0
 """Height (mm) of the second rim: clear of all widths that are drawn."""
 

@@ -10,8 +10,6 @@ from typing import Any
 from gearcad import BasicRack, Gear, GearPair, Load, Material
 from gearcad.rating import Edition, Rating, RatingOptions, rate
 
-__all__ = ["STEEL", "numbers", "pair_of", "rated", "rating_case", "rating_of", "sample_pair", "shortened", "swapped"]
-
 _FILE = Path(__file__).parent.parent / "data" / "rating.json"
 _CASES: dict[str, dict[str, Any]] = {entry["id"]: entry for entry in json.loads(_FILE.read_text(encoding="utf-8"))}
 

@@ -17,8 +17,6 @@ from numpy.typing import ArrayLike, NDArray
 from gearcad import Gear
 from gearcad.geometry import ToothProfile
 
-__all__ = ["RingMesh"]
-
 Floats = NDArray[np.float64]
 
 CHORD_ERROR = 5e-5

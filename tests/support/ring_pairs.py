@@ -14,8 +14,6 @@ from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.mating import tip_on_form_circle
 from gearcad.geometry.pair_data import PairData, shift_sum_limit
 
-__all__ = ["build_ring_pair", "ring_pair_inputs"]
-
 
 def _often(value: Any, rest: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
     return st.one_of(st.just(value), rest)

@@ -10,8 +10,6 @@ from gearcad import BasicRack, Body, FlankModification, Gear, GearcadError
 from gearcad.geometry import ShaperCutter
 from gearcad.geometry.gear_data import LEAST_RIM, least_rim_diameter
 
-__all__ = ["RINGS", "SHAPED", "random_ring"]
-
 _BOLTED = Body(rim_diameter=150.0, bolt_circle=138.0, bolt_holes=6, bolt_diameter=6.0)
 _RELIEF = FlankModification(tip_relief=20, tip_relief_length=2.0, root_relief=10, root_relief_length=1.5, lead_crowning=8)
 

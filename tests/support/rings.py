@@ -20,8 +20,6 @@ from scipy.optimize import brentq, minimize_scalar
 
 from gearcad import Gear
 
-__all__ = ["RingSection"]
-
 Floats = NDArray[np.float64]
 
 _NODES, _WEIGHTS = leggauss(80)

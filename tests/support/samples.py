@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from gearcad import ISO53_D, BasicRack, Body, Gear
 
-__all__ = ["SAMPLES"]
-
 SAMPLES: dict[str, Gear] = {
     "spur": Gear(teeth=30, normal_module=2.0, face_width=10),
     "helical": Gear(teeth=13, normal_module=2.5, face_width=18.3, helix_angle=28, profile_shift=0.107, tooth_thinning=0.08),

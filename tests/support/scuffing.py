@@ -11,8 +11,6 @@ from gearcad.material import MaterialGroup
 from gearcad.rating import RatingOptions
 from gearcad.rating.scuffing import Scuffing, scuffing
 
-__all__ = ["EH", "OIL", "Factors", "pair", "scuffed"]
-
 EH = PerGear(Material(group=MaterialGroup.CASE_HARDENED), Material(group=MaterialGroup.CASE_HARDENED))
 OIL: dict[str, Any] = {
     "oil_viscosity_40": 220.0,

@@ -8,8 +8,6 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.planetary import Central, PairStage, PlanetaryTrain, Rim
 from gearcad.planetary.train_data import TrainData
 
-__all__ = ["alm_train", "gear", "stage", "unchecked_set"]
-
 
 def gear(teeth: int, module: float = 1.0, shift: float = 0.0, helix: float = 0.0, width: float = 14.0) -> Gear:
     return Gear(teeth=teeth, normal_module=module, profile_shift=shift, helix_angle=helix, face_width=width)

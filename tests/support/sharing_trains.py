@@ -12,8 +12,6 @@ from gearcad.core.records import Floats
 from gearcad.geometry import BasicRack, Gear
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
 
-__all__ = ["SUN_FORCE", "Square", "Trapezoid", "output_torque", "sun_set"]
-
 SUN_FORCE = 60000.0
 """N: sum of what the planets press the sun with."""
 

@@ -12,8 +12,6 @@ from gearcad import SpecError
 from gearcad.designs import open_table
 from gearcad.designs.table import DesignRow
 
-__all__ = ["ERROR", "GEARS", "GOOD", "TEMPLATES", "faults_of", "refusal_of", "rows_of", "values_of", "workbook"]
-
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
 GEARS = "name,teeth,normal_module,face_width\n"

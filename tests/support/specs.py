@@ -11,8 +11,6 @@ from gearcad.designs import Design
 from gearcad.designs.reader import read_spec
 from gearcad.jobs.strength import Rate
 
-__all__ = ["figures", "rate_document", "read_tables", "spec_text"]
-
 Tables = Mapping[str, Mapping[str, Any]]
 
 

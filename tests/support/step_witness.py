@@ -21,8 +21,6 @@ from OCP.XCAFDoc import XCAFDoc_ColorGen, XCAFDoc_ColorSurf, XCAFDoc_ColorTool, 
 
 from support.kernel_step import opened_document
 
-__all__ = ["assert_same_solids", "product_tree"]
-
 SAME = 1e-9
 """Relative, and in mm: the kernel writes 13 digits."""
 

@@ -8,8 +8,6 @@ from typing import Any
 
 from gearcad import BasicRack, Body, Gear, GearPair, Load
 
-__all__ = ["THESIS_LOAD", "stiffness_case", "thesis_pair"]
-
 _FILE = Path(__file__).parent.parent / "data" / "stiffness.json"
 _CASES: dict[str, dict[str, Any]] = {entry["id"]: entry for entry in json.loads(_FILE.read_text(encoding="utf-8"))}
 

@@ -13,20 +13,6 @@ from gearcad.core.errors import InputError
 from gearcad.geometry import HubSide
 from support.modified import roll_ends
 
-__all__ = [
-    "MODIFICATIONS",
-    "build_gear",
-    "build_pair",
-    "build_rack",
-    "build_rack_pair",
-    "gear_inputs",
-    "modified",
-    "names_a_field",
-    "pair_inputs",
-    "rack_inputs",
-    "rack_pair_inputs",
-]
-
 MOST_TEETH = 300
 
 

@@ -18,8 +18,6 @@ from gearcad.planetary.tooth_numbers import SearchTask
 from gearcad.planetary.train_data import SetTeeth, fit_planets
 from support.sets import unchecked_set
 
-__all__ = ["loops"]
-
 A, B, C, D = SetType
 
 

@@ -13,8 +13,6 @@ from gearcad.planetary import Central, PairStage, PlanetaryTrain, Rim, SetMesh
 from gearcad.solids.exact.solid import gear_solid
 from gearcad.solids.train_plan import Standing, TrainLayout
 
-__all__ = ["TrainSolids", "alm_train", "sets", "simple_set", "small_train", "stepped_set"]
-
 _WIDTH, _THINNING = 10.0, 0.04
 
 

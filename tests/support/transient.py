@@ -18,9 +18,6 @@ from gearcad.dynamics.trains.mesh_excitation import Excitation
 from gearcad.dynamics.trains.shaft_lines import System
 from gearcad.dynamics.trains.steady_response import Driven, pressed, static_state
 
-__all__ = ["Transient", "integrate"]
-
-
 _MOST_PIECES = 1_000_000
 
 

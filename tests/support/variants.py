@@ -8,8 +8,6 @@ from collections.abc import Iterator
 from gearcad import SpecError
 from gearcad.designs.reader import design_from_tables
 
-__all__ = ["variants"]
-
 HEADING = "name,normal_module,helix_angle,pinion.teeth,pinion.profile_shift,pinion.face_width,pinion.body.bore,"
 HEADING += "wheel.teeth,wheel.profile_shift,wheel.face_width,wheel.body.bore"
 

@@ -23,8 +23,6 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath, text_to_path
 from numpy.typing import NDArray
 
-__all__ = ["WrittenSheet", "WrittenText", "read_sheet"]
-
 Floats = NDArray[np.float64]
 
 TOUCH = 0.02
