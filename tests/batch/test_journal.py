@@ -15,7 +15,7 @@ import psutil
 import pytest
 from click.testing import CliRunner
 from support.batches import PAIRS, write_table
-from support.designs import starter_specs
+from support.specs import starter_specs
 
 from gearcad.batch import run as run_module
 from gearcad.batch.row import Checked, Record, Status, Task, check_rows, inputs_hash, make_row, stages

@@ -18,8 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.batches import write_table
-from support.variants import variants
+from support.batches import variants, write_table
 
 from gearcad.batch.row import Task, make_row, stages
 from gearcad.designs.table import open_table

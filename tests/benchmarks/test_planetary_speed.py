@@ -14,11 +14,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.dense_sharing import dense_sharing
-from support.mode_trains import MASSES, TRAINS, on_springs
+from support.dense_trains import dense_sharing
 from support.planetary import thesis_train
-from support.sets import alm_train
-from support.sharing_trains import Trapezoid, output_torque, sun_set
+from support.planetary_trains import MASSES, TRAINS, Trapezoid, alm_train, on_springs, output_torque, sun_set
 
 from gearcad.dynamics.planetary.load_sharing import share_load
 from gearcad.dynamics.planetary.planar_model import train_springs

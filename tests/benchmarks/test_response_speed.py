@@ -14,9 +14,8 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from support.pairs import THESIS_SPEEDS, thesis_model
 from support.responses import VARIATION, cosine, oscillator, preloaded, two_stages
-from support.trains import one_stage
+from support.trains import THESIS_SPEEDS, one_stage, thesis_model
 
 from gearcad import Load, Material
 from gearcad.core.runtime import templates

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.coarse import PAIRS, TORQUES, coarse_model
+from support.checks import PAIRS, TORQUES, coarse_model
 from threadpoolctl import threadpool_limits
 
 from gearcad.contact.modification_search import start_search

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from support.coarse import TORQUES, coarse_pair
+from support.checks import TORQUES, coarse_pair
 from threadpoolctl import threadpool_limits
 
 import gearcad.check.convergence as convergence

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.awaited import awaited
+from support.page_server import awaited
 
 from gearcad.core.errors import ParameterError, SpecError
 from gearcad.core.runtime import PACKAGE

@@ -6,7 +6,7 @@ import os
 import sys
 
 import pytest
-from support.awaited import awaited
+from support.page_server import awaited
 
 from gearcad.core.errors import ParameterError
 from gearcad.core.runtime import templates

@@ -7,8 +7,8 @@ import zlib
 from pathlib import Path
 
 import pytest
-from support.awaited import awaited
-from support.designs import starter_specs
+from support.page_server import awaited
+from support.specs import starter_specs
 
 from gearcad.core.errors import GearcadError, ParameterError, SpecError
 from gearcad.core.runtime import templates

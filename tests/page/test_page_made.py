@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.awaited import awaited
+from support.page_server import awaited
 
 from gearcad.designs.reader import starter_text
 from gearcad.page.panels.runs import changes_between, figures_beside, verb_of

@@ -9,8 +9,7 @@ from itertools import product
 from typing import Any
 
 import pytest
-from support.loaded_trains import alm_set, pre_stage, simple_set
-from support.sets import alm_train
+from support.planetary_trains import alm_set, alm_train, pre_stage, simple_set
 
 from gearcad import Load, Material, check, dynamics, rate, stiffness
 from gearcad.check.comparison import ComparisonRole

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 from scipy.optimize import brentq
-from support.mode_trains import MASSES, TRAINS, lin_parker_train, masses_of, on_springs
 from support.planetary import thesis_train
+from support.planetary_trains import MASSES, TRAINS, lin_parker_train, masses_of, on_springs
 
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.dynamics.planetary.planar_model import MemberMass, PlanarTrain, TrainMasses, springs_of, train_springs

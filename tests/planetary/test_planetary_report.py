@@ -10,8 +10,8 @@ import lxml.etree
 import lxml.html
 import pytest
 from matplotlib.figure import Figure
-from support.mode_trains import TRAINS
 from support.planetary import simple_train
+from support.planetary_trains import TRAINS
 
 from gearcad.designs import PlanetaryDesign, read_spec
 from gearcad.dynamics.options import DynamicsOptions

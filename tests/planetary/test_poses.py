@@ -6,9 +6,9 @@ import math
 from dataclasses import replace
 
 import pytest
-from support.mode_trains import TRAINS
 from support.planetary import clearance, gear, simple_train, stage_clearance, thesis_train, train_clearance
-from support.ring_mesh import CHORD_ERROR
+from support.planetary_trains import TRAINS
+from support.ring_pairs import CHORD_ERROR
 
 from gearcad import BasicRack, Gear, GearPair
 from gearcad.geometry import DoubleHelix

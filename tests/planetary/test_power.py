@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.sets import alm_train, gear, stage, unchecked_set
+from support.planetary_trains import alm_train, gear, stage, unchecked_set
 
 from gearcad.core.errors import GeometryError, ParameterError, SolverError
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim, TrainLoad

@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
-from support.mode_trains import MASSES, TRAINS, masses_of, on_springs
 from support.planetary import simple_train
+from support.planetary_trains import MASSES, TRAINS, masses_of, on_springs
 
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import Complexes, Floats

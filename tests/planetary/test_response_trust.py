@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.mode_trains import MASSES, TRAINS, on_springs
+from support.planetary_trains import MASSES, TRAINS, on_springs
 from support.transient import integrate
 
 import gearcad

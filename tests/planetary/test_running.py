@@ -10,10 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from support.dense_sharing import dense_sharing
-from support.loaded_trains import simple_set
-from support.sets import alm_train
-from support.sharing_trains import Square, Trapezoid
+from support.dense_trains import dense_sharing
+from support.planetary_trains import Square, Trapezoid, alm_train, simple_set
 
 from gearcad import Material, read
 from gearcad.cli import main

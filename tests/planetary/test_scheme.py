@@ -10,8 +10,8 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 from matplotlib.path import Path
-from support.mode_trains import TRAINS
 from support.planetary import simple_train, thesis_train
+from support.planetary_trains import TRAINS
 
 from gearcad import Gear, GearPair
 from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad

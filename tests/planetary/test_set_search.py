@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.tooth_loops import loops
+from support.random_trains import loops
 
 from gearcad import Gear
 from gearcad.core.errors import ParameterError, SolverError

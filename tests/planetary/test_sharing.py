@@ -7,11 +7,8 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from support.dense_sharing import dense_sharing
-from support.loaded_trains import simple_set
-from support.mode_trains import TRAINS
-from support.sets import alm_train
-from support.sharing_trains import output_torque, sun_set
+from support.dense_trains import dense_sharing
+from support.planetary_trains import TRAINS, alm_train, output_torque, simple_set, sun_set
 
 from gearcad.core.errors import GeometryError, ParameterError, SolverError
 from gearcad.core.records import Bools, Floats

@@ -8,9 +8,8 @@ from functools import cache
 
 import numpy as np
 import pytest
-from support.cut_flanks import Contacts, contacts
-from support.loaded_trains import alm_set, simple_set
-from support.mode_trains import TRAINS, on_springs
+from support.planetary import Contacts, contacts
+from support.planetary_trains import TRAINS, alm_set, on_springs, simple_set
 
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import Floats, Role

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
-from support.mode_trains import MASSES, TRAINS, on_springs
 from support.planetary import simple_train
+from support.planetary_trains import MASSES, TRAINS, on_springs
 
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.planetary.load_sharing import share_load

@@ -11,9 +11,9 @@ from pathlib import Path
 import cadquery
 import numpy as np
 import pytest
-from support.exact import solid_volume
-from support.loaded_trains import alm_set
-from support.loaded_trains import simple_set as mass_simple_set
+from support.clearance import solid_volume
+from support.planetary_trains import alm_set
+from support.planetary_trains import simple_set as mass_simple_set
 from support.rings import RingSection
 from support.train_solids import TrainSolids, sets, simple_set, small_train
 

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.loaded_trains import alm_set, pre_stage, simple_set
-from support.sets import alm_train
+from support.planetary_trains import alm_set, alm_train, pre_stage, simple_set
 
 from gearcad.core.records import PerGear, Role, Verdict
 from gearcad.designs.reader import read_spec

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 from support.batches import read_results
-from support.loaded_trains import simple_set
+from support.planetary_trains import simple_set
 
 import gearcad
 from gearcad.cli import main

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 from hypothesis import event, given, settings
 from support.planetary import MeshWitness
+from support.planetary_trains import stage, unchecked_set
 from support.random_trains import build_train, train_inputs
-from support.ring_mesh import CHORD_ERROR
-from support.sets import stage, unchecked_set
+from support.ring_pairs import CHORD_ERROR
 
 from gearcad.core.errors import InputError, SolverError
 from gearcad.planetary import PlanetaryTrain, TrainLoad, TrainPose

@@ -10,10 +10,10 @@ import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from OCP.BRepCheck import BRepCheck_Analyzer
-from support.exact import distance_to_section, solid_volume
+from support.checks import COARSE
+from support.clearance import distance_to_section, solid_volume
 from support.modified import depth_off, folded, removed_volume, unturned
-from support.modifying import random_gear
-from support.sections import COARSE
+from support.samples import random_gear
 from support.strategies import MODIFICATIONS, build_gear, gear_inputs, modified, names_a_field
 
 from gearcad import Gear

@@ -14,8 +14,7 @@ from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from support.clearance import turn_to_touch
 from support.rack_clearance import travel_to_touch
-from support.ring_mesh import CHORD_ERROR, RingMesh
-from support.ring_pairs import build_ring_pair, ring_pair_inputs
+from support.ring_pairs import CHORD_ERROR, RingMesh, build_ring_pair, ring_pair_inputs
 from support.strategies import build_pair, build_rack_pair, pair_inputs, rack_pair_inputs
 
 from gearcad import GearPair, RackPair

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
-from support.exact import distance_to_section, section_area
+from support.checks import COARSE
+from support.clearance import distance_to_section, section_area
 from support.modified import depth_off, unturned
-from support.sections import COARSE
 from support.strategies import MODIFICATIONS, build_gear, gear_inputs, modified
 
 from gearcad import Gear

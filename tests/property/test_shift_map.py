@@ -12,7 +12,7 @@ import pytest
 from click.testing import CliRunner
 from hypothesis import event, given, settings
 from support.ring_pairs import build_ring_pair, ring_pair_inputs
-from support.ring_samples import random_ring
+from support.samples import random_ring
 from support.strategies import (
     build_gear,
     build_pair,

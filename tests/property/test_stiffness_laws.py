@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
-from support.stiffness import THESIS_LOAD, thesis_pair
+from support.cases import THESIS_LOAD, thesis_pair
 from support.strategies import build_pair, pair_inputs
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 from support.boxes import box
-from support.plane_matrix import stiffness_matrix
+from support.brute import stiffness_matrix
 
 from gearcad import Gear
 from gearcad.contact.plane.sector import Plane, PlaneElasticity

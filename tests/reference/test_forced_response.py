@@ -11,8 +11,17 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import mathieu_a, mathieu_b
-from support.floquet import floquet_multipliers, monodromy
-from support.responses import STIFFNESS, VARIATION, cosine, isolated, oscillator, preloaded, two_stages
+from support.responses import (
+    STIFFNESS,
+    VARIATION,
+    cosine,
+    floquet_multipliers,
+    isolated,
+    monodromy,
+    oscillator,
+    preloaded,
+    two_stages,
+)
 from support.trains import SHORT, one_stage
 
 from gearcad.core.runtime import templates

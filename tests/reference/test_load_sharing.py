@@ -8,8 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from support.sets import alm_train
-from support.sharing_trains import SUN_FORCE, Trapezoid, output_torque, sun_set
+from support.planetary_trains import SUN_FORCE, Trapezoid, alm_train, output_torque, sun_set
 
 from gearcad.core.records import Floats
 from gearcad.dynamics.planetary.load_sharing import LoadSharing, share_load

@@ -8,10 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from support.free_bodies import FreeBodies, Period
-from support.pairs import THESIS_SPEEDS, Witness, thesis_model, thesis_pair
 from support.published import Published
-from support.responses import cosine
+from support.responses import FreeBodies, Period, cosine
+from support.trains import THESIS_SPEEDS, Witness, thesis_model, thesis_pair
 
 from gearcad.core.records import Floats
 from gearcad.dynamics.response.kv_chart import KvChart, kv_chart

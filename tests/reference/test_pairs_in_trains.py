@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.hand_drive import ByHand, Drive
+from support.trains import ByHand, Drive
 
 from gearcad import Gear, GearPair
 from gearcad.core.errors import GeometryError

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import pytest
+from support.planetary_trains import alm_train, unchecked_set
 from support.published import Published
-from support.sets import alm_train, unchecked_set
 
 from gearcad.planetary import TrainLoad
 from gearcad.planetary.power import efficiency, forces, power_flow

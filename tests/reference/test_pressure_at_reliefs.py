@@ -15,8 +15,8 @@ import skfem
 from scipy.sparse.linalg import spsolve
 from scipy.spatial import cKDTree
 from skfem.models.elasticity import lame_parameters, linear_elasticity
-from support.modifying import modified
-from support.sections import COARSE
+from support.checks import COARSE
+from support.samples import modified
 
 import gearcad
 from gearcad import Gear

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.cases import half_unit
+from support.cases import half_unit, rating_case
 from support.published import Published
-from support.ratings import rating_case
 from support.specs import figures, rate_document
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material

@@ -7,8 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from support.cases import half_unit
-from support.ratings import pair_of, rated, rating_case
+from support.cases import half_unit, pair_of, rated, rating_case
 
 from gearcad import BasicRack, Body, Gear, GearPair, Load, Material, rate
 from gearcad.geometry import ShaperCutter

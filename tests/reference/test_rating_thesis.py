@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from support.cases import half_unit, volvo_pair
-from support.ratings import pair_of, rating_case, rating_of
+from support.cases import half_unit, pair_of, rating_case, rating_of, volvo_pair
 
 from gearcad import Load, Material
 from gearcad.rating import LineContact, contact_at, rate, reduced_modulus, reduced_radius

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.hertz import hertz_ellipse
+from support.gap import hertz_ellipse
 
 from gearcad import FlankModification, Gear, GearPair, Material, Mounting
 from gearcad.contact.plane.cycle import PlaneCycle

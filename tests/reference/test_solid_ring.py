@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.dense_contact import dense_contact
-from support.hertz import hertz_ellipse
+from support.gap import hertz_ellipse
 
 from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting
 from gearcad.contact.plane.cycle import PlaneCycle

@@ -29,8 +29,8 @@ from functools import cache, cached_property
 
 import numpy as np
 import pytest
+from support.cases import THESIS_LOAD, thesis_pair
 from support.published import Published
-from support.stiffness import THESIS_LOAD, thesis_pair
 
 from gearcad import Load, Material
 from gearcad.contact.plane.flank import PlaneCompliance

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from support.mode_trains import lin_parker_train, masses_of
+from support.planetary_trains import lin_parker_train, masses_of
 from support.published import Published
 from support.trains import SHORT, one_stage, two_stages
 

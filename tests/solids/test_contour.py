@@ -11,7 +11,7 @@ import ezdxf
 import numpy as np
 import pytest
 from ezdxf.document import Drawing
-from support.exact import distance_to_section, section_area
+from support.clearance import distance_to_section, section_area
 from support.samples import SAMPLES
 
 from gearcad import Body, Gear, ParameterError

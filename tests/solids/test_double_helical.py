@@ -14,7 +14,7 @@ from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.GeomAbs import GeomAbs_BSplineSurface
 from scipy.spatial import cKDTree
-from support.exact import chamfered_volume, distance_to_section, toothed_volume
+from support.clearance import chamfered_volume, distance_to_section, toothed_volume
 
 from gearcad import BasicRack, Body, FlankModification, Gear
 from gearcad.geometry.gear import halves

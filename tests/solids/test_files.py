@@ -17,9 +17,8 @@ import pytest
 import trimesh
 from OCP.Interface import Interface_Static
 from OCP.STEPCAFControl import STEPCAFControl_Controller
-from support.part21_text import checked_text
 from support.samples import SAMPLES
-from support.step_witness import product_tree
+from support.step_witness import checked_text, product_tree
 from trimesh.exchange.gltf import export_glb
 
 from gearcad import Body, Gear, GearPair, Rack, __version__

@@ -16,7 +16,7 @@ import pytest
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.GeomAbs import GeomAbs_BSplineSurface
-from support.exact import distance_to_section, solid_volume
+from support.clearance import distance_to_section, solid_volume
 
 from gearcad import BasicRack, Body, FlankModification, Gear, Rack
 from gearcad.geometry import DoubleHelix

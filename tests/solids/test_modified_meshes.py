@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from support.exact import distance_to_section
+from support.clearance import distance_to_section
 from support.modified import depth_off, removed_volume, unturned
-from support.modifying import AMOUNTS, GEARS, crossed, modified, random_gear
+from support.samples import AMOUNTS, GEARS, crossed, modified, random_gear
 
 from gearcad import BasicRack, Gear
 from gearcad.geometry.modification import FlankModification

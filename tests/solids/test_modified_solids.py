@@ -15,10 +15,10 @@ from OCP.BRepClass import BRepClass_FaceClassifier
 from OCP.GeomAbs import GeomAbs_BSplineSurface, GeomAbs_Cylinder
 from OCP.gp import gp_Pnt2d
 from OCP.TopAbs import TopAbs_IN
-from support.exact import distance_to_section
+from support.clearance import distance_to_section
 from support.modified import depth_off, folded, removed_volume, specified, unturned
-from support.modifying import AMOUNTS, GEARS, crossed, modified, random_gear
 from support.rings import RingSection
+from support.samples import AMOUNTS, GEARS, crossed, modified, random_gear
 
 from gearcad import BasicRack, Body, Gear, GeometryError
 from gearcad.geometry import ShaperCutter

@@ -16,7 +16,7 @@ from hypothesis import event, given, settings
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.GeomAbs import GeomAbs_Cylinder, GeomAbs_Plane
-from support.racks import rack_height, rack_volume, section_area
+from support.rack_clearance import rack_height, rack_volume, section_area
 from support.strategies import build_rack, rack_inputs
 
 from gearcad import BasicRack, Body, Gear, Rack, RackPair

@@ -9,11 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from support.exact import distance_to_section
+from support.clearance import distance_to_section
 from support.modified import depth_off, unturned
-from support.ring_samples import RINGS, SHAPED, random_ring
 from support.rings import RingSection
-from support.samples import SAMPLES
+from support.samples import RINGS, SAMPLES, SHAPED, random_ring
 
 from gearcad import Body, FlankModification, Gear, GearPair, GeometryError, ParameterError
 from gearcad.geometry import ShaperCutter

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from ezdxf.document import Drawing
 from scipy.integrate import quad
-from support.exact import distance_to_section
-from support.ring_samples import RINGS, SHAPED
+from support.clearance import distance_to_section
+from support.samples import RINGS, SHAPED
 
 from gearcad import Gear
 from gearcad.solids.files.dxf import gear_contour, write_dxf

@@ -13,7 +13,7 @@ import pytest
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.GeomAbs import GeomAbs_BSplineSurface, GeomAbs_Cylinder
-from support.exact import distance_to_section, solid_volume
+from support.clearance import distance_to_section, solid_volume
 from support.rings import RingSection
 
 from gearcad import BasicRack, Body, Gear, GeometryError

@@ -10,9 +10,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from OCP.Interface import Interface_Static
 from OCP.STEPCAFControl import STEPCAFControl_Controller
-from support.designs import starter_specs
-from support.part21_text import checked_text
-from support.step_witness import assert_same_solids, product_tree
+from support.specs import starter_specs
+from support.step_witness import assert_same_solids, checked_text, product_tree
 from support.strategies import build_gear, gear_inputs
 from support.train_solids import simple_set, small_train
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import trimesh
 from scipy.integrate import quad
-from support.exact import chamfered_volume, distance_to_section, section_area, toothed_volume
+from support.clearance import chamfered_volume, distance_to_section, section_area, toothed_volume
 from support.samples import SAMPLES
 
 from gearcad import BasicRack, Body, Gear, GearcadError, ParameterError

@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.exact import distance_to_section, solid_volume
+from support.clearance import distance_to_section, solid_volume
 from support.modified import depth_off, removed_volume, unturned
-from support.modifying import modified
+from support.samples import modified
 
 from gearcad import Body, Gear
 from gearcad.core.errors import ParameterError

@@ -1,12 +1,22 @@
-"""Small design tables, and what can be told of the folder that a batch has made of one."""
+"""Small design tables, tables of real variants, and what can be told of the folder that a batch has made of one."""
 
 from __future__ import annotations
 
 import csv
 import hashlib
 import json
-from collections.abc import Iterable
+import random
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import Any
+
+import openpyxl
+import pytest
+
+from gearcad import SpecError
+from gearcad.designs import open_table
+from gearcad.designs.reader import design_from_tables
+from gearcad.designs.table import DesignRow
 
 GEARS = ("name,teeth,normal_module,face_width,helix_angle", "spur,12,1,2,", "left,17,1,3,-15", "right,23,0.8,2.5,10")
 """Three gears that cost little in any format."""
@@ -101,3 +111,84 @@ def _faults(path: Path, size: int) -> list[str]:
         triangles = int.from_bytes(content[80:84], "little")
         return [] if len(content) == 84 + 50 * triangles else [f"{triangles} triangles in {len(content)} bytes"]
     return [] if content.endswith(_ENDS[path.suffix[1:]]) else ["torn"]
+
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+SHEET_GEARS = "name,teeth,normal_module,face_width\n"
+GOOD = "good,20,2,10\n"
+
+ERROR = "is an error of the spreadsheet; mend the formula and save again"
+"""What a message says of a cell such as #N/A."""
+
+
+def sheet_rows_of(content: str | bytes, name: str = "t.csv") -> list[DesignRow]:
+    """The rows of a file with this content."""
+    Path(name).write_bytes(content.encode() if isinstance(content, str) else content)
+    return list(open_table(name).rows())
+
+
+def values_of(content: str | bytes) -> list[Any]:
+    """The values of the rows, in the order of the columns, without their keys."""
+    return [list(row.values.values()) for row in sheet_rows_of(content)]
+
+
+def faults_of(content: str | bytes, name: str = "t.csv") -> list[str]:
+    """All faults of all rows."""
+    return [fault for row in sheet_rows_of(content, name) for fault in row.all_faults()]
+
+
+def refusal_of(content: str | bytes, name: str = "t.csv") -> str:
+    """Why the file is no table."""
+    with pytest.raises(SpecError) as caught:
+        sheet_rows_of(content, name)
+    return str(caught.value)
+
+
+def workbook(rows: list[list[Any]], name: str = "t.xlsx") -> Path:
+    """A workbook with these rows in its only sheet."""
+    book = openpyxl.Workbook()
+    sheet = book.active
+    assert sheet is not None
+    for row in rows:
+        sheet.append(row)
+    book.save(name)
+    return Path(name)
+
+
+HEADING = "name,normal_module,helix_angle,pinion.teeth,pinion.profile_shift,pinion.face_width,pinion.body.bore,"
+HEADING += "wheel.teeth,wheel.profile_shift,wheel.face_width,wheel.body.bore"
+
+
+def variants(count: int) -> list[str]:
+    """The lines of a table with `count` pairs that can be made; the same ones each time."""
+    chance = random.Random(1)
+    rows: list[str] = []
+    while len(rows) < count:
+        pair, pinion, wheel = _draw(chance)
+        try:
+            tables = {"pair": pair, "pinion": pinion, "wheel": wheel}
+            design_from_tables(tables, where=lambda _key: "", default_name="any")
+        except SpecError:
+            continue
+        cells = [f"v{len(rows) + 1:04d}", *_values(pair, pinion, wheel)]
+        rows.append(",".join(cells))
+    return [HEADING, *rows]
+
+
+def _draw(chance: random.Random) -> tuple[dict[str, float], ...]:
+    module = chance.choice([1.5, 2.5, 4.0])
+    pair = {"normal_module": module, "helix_angle": chance.choice([0.0, 10.0, 15.0, 20.0, 25.0, 30.0])}
+    smaller = chance.randint(12, 40)
+    teeth = (smaller, chance.randint(smaller, 60))
+    shifts = (round(chance.uniform(0.3 if smaller < 17 else 0.0, 0.6), 2), round(chance.uniform(-0.3, 0.3), 2))
+    gears = (
+        {"teeth": z, "profile_shift": x, "face_width": 8 * module, "body.bore": round(0.4 * module * z, 1)}
+        for z, x in zip(teeth, shifts, strict=True)
+    )
+    return (pair, *gears)
+
+
+def _values(*tables: dict[str, float]) -> Iterator[str]:
+    for table in tables:
+        yield from map(str, table.values())

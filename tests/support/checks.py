@@ -1,11 +1,14 @@
-"""Checks to draw and to report: true mesh cycles of few positions, and sweeps and convergence that are made up."""
+"""Checks to draw and to report, coarse solid pairs made once for all tests, and sizes of meshes that are made quickly."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import cache, lru_cache
+from pathlib import Path
 
-from gearcad import Body, Gear, GearPair, Load, Material, Mounting
+from threadpoolctl import threadpool_limits
+
+from gearcad import Body, Gear, GearPair, Load, Material, Mounting, ShaperCutter
 from gearcad.check.convergence import Convergence, SweepPoint
 from gearcad.check.gates import compare_plane, compare_solid
 from gearcad.check.options import CheckOptions
@@ -15,10 +18,13 @@ from gearcad.check.summary import PLANE, SOLID, summarise_plane, summarise_solid
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import plane_pair
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.core.records import Notice, PerGear
+from gearcad.designs import read_spec
 from gearcad.geometry import FlankModification
-from support.coarse import coarse_model
+from gearcad.meshing.outline import MeshSizes
 
 NASTY_NAME = "<script>alert('gear')</script> & \"$x_1$\""
 """A name that would break HTML, and mathtext."""
@@ -91,3 +97,38 @@ def small_solid_check() -> SolidCheck:
         comparisons=compare_solid(task, cycle, summary, convergence),
         notices=(Notice("test", "a warning with <b>tags</b>"),),
     )
+
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+PAIRS = ("FZG C", "helical")
+
+TORQUES = {"FZG C": 302.0, "helical": 60.0, "Alm": 12.7, "ring": 60.0}
+"""N·m on the pinion."""
+
+
+def coarse_pair(name: str) -> GearPair:
+    """FZG C, Alm 18/161, or one of module 2 with 20 and 30 teeth at 20 degrees, or inside a ring of 54."""
+    specs = {"FZG C": "fzg-c.toml", "Alm": "alm-18-161.toml"}
+    if name in specs:
+        pair = read_spec(TEMPLATES / specs[name]).pair
+        assert pair is not None
+        return pair
+    pinion = Gear(teeth=20, normal_module=2, face_width=10, helix_angle=20, tooth_thinning=0.05, body=Body(bore=28))
+    if name == "ring":
+        cutter = ShaperCutter(teeth=18, tip_radius=0.15)
+        ring = Gear(teeth=-54, normal_module=2, face_width=10, helix_angle=20, cutter=cutter)
+        return GearPair(pinion=pinion, wheel=ring)
+    wheel = Gear(teeth=30, normal_module=2, face_width=10, helix_angle=-20, tooth_thinning=0.05, body=Body(bore=48))
+    return GearPair(pinion=pinion, wheel=wheel)
+
+
+@cache
+def coarse_model(name: str) -> SolidPair:
+    """Three teeth of each gear, with half as many elements in their sections as usual."""
+    with threadpool_limits(1):
+        body, sizes = BodyModel(teeth=3), SolidSizes().refined(0.7)
+        return solid_pair(coarse_pair(name), Material(), body=body, sizes=sizes)
+
+
+COARSE = MeshSizes(flank=0.6, corner=0.5, fillet=0.4, outline=0.75, cut=0.75, rim=2.0, growth=0.5)

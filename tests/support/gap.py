@@ -1,9 +1,4 @@
-"""The gap between two modified, misaligned flanks, from points of both surfaces in space: a witness without the product's own.
-
-Space has its origin on the pinion's axis at z = 0 of the pinion; x points from there to the base point T1, y along the line
-of action, from T1 to T2 of external gears, z along the axes. The left flank of the pinion drives, and pushes the wheel towards
-+y. A ring has its axis on the pinion's side, and T2 at negative y; the pinion touches flanks with y < 0 of its teeth on +x.
-"""
+"""The gap between two modified, misaligned flanks from points of both surfaces, and Hertz's elliptical contact."""
 
 from __future__ import annotations
 
@@ -11,7 +6,8 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
+from scipy.optimize import brentq, minimize
+from scipy.special import ellipe, ellipk
 
 from gearcad import FlankModification, Gear, GearPair, Mounting, ReliefShape
 from support.modified import relieved
@@ -151,3 +147,16 @@ def distance_in_space(
     start = _whole(pair) - float(_contact(pair, roll_length, tooth, np.array(height)))
     best = minimize(squared, [start, height], method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-15, "maxiter": 4000})
     return math.sqrt(best.fun) / 1000
+
+
+def hertz_ellipse(force: float, across: float, along: float, modulus: float) -> tuple[float, float, float]:
+    """p_0 (MPa), greater and lesser half axis (mm) of an elliptical contact (Johnson, Contact Mechanics, 4.26 to 4.32)."""
+
+    def ratio(slim: float) -> float:
+        m = 1 - slim**2
+        return float((ellipe(m) / slim**2 - ellipk(m)) / (ellipk(m) - ellipe(m))) - along / across
+
+    slim = float(brentq(ratio, 1e-4, 1 - 1e-9))
+    m = 1 - slim**2
+    greater = (3 * force * (ellipk(m) - ellipe(m)) * along / (math.pi * m * modulus)) ** (1 / 3)
+    return 3 * force / (2 * math.pi * greater**2 * slim), greater, greater * slim

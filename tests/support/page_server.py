@@ -1,15 +1,17 @@
-"""A server of the page, a browser without a window, and a tab of it that minds what went wrong."""
+"""A server of the page, a browser without a window, a tab of it, and what a coroutine gives in a thread of its own."""
 
 from __future__ import annotations
 
+import asyncio
 import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 _ARGUMENTS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
@@ -111,3 +113,12 @@ class Tab:
             if self.field(key).input_value() != text:
                 self.give(key, text)
         self._before = {}
+
+
+Given = TypeVar("Given")
+
+
+def awaited(coroutine: Coroutine[Any, Any, Given]) -> Given:
+    """The result of a coroutine."""
+    with ThreadPoolExecutor(1) as other:
+        return other.submit(asyncio.run, coroutine).result()

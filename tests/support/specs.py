@@ -1,4 +1,4 @@
-"""Specs from tables of Python, and what the jobs say of them: the way of a user, who has a file and a document."""
+"""Specs from tables of Python, the starters, and what jobs say of a spec: the way of a user, who has a file and a document."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from gearcad.core.runtime import templates
 from gearcad.designs import Design
-from gearcad.designs.reader import read_spec
+from gearcad.designs.reader import NO_DESIGNS, read_spec, starters
 from gearcad.jobs.strength import Rate
 
 Tables = Mapping[str, Mapping[str, Any]]
@@ -51,3 +52,9 @@ def figures(document: Any, symbol: str) -> list[float]:
 
 def _values(value: Any) -> list[float]:
     return list(value.values()) if isinstance(value, dict) else [value]
+
+
+def starter_specs() -> list[Path]:
+    """All that ship with gearcad, by name."""
+    files = (templates() / f"{name}.toml" for name in sorted(starters()) if name not in NO_DESIGNS)
+    return sorted(path for path in files if path.is_file())

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.exact import distance_to_section
+from support.checks import COARSE
+from support.clearance import distance_to_section
 from support.modified import depth_off, unturned
-from support.modifying import GEARS, modified
-from support.sections import COARSE
+from support.samples import GEARS, modified
 
 from gearcad import Body, Gear, ParameterError
 from gearcad.meshing.bodies import Element, ElementMesh

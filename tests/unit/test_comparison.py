@@ -10,8 +10,7 @@ from functools import cache
 import lxml.html
 import numpy as np
 import pytest
-from support.checks import small_check, small_solid_check
-from support.coarse import coarse_model
+from support.checks import coarse_model, small_check, small_solid_check
 
 from gearcad import Load, Material, Mounting
 from gearcad.check.comparison import Comparison, ComparisonRole, Subject, agrees, at_most, beside, verdict

@@ -14,7 +14,7 @@ from gearcad.core.errors import GeometryError, InputError
 from gearcad.geometry.gear import halves
 from gearcad.geometry.gear_data import section_turn, twist
 from gearcad.geometry.gear_parts import DoubleHelix
-from gearcad.meshing.bodies.element_mesh import Element
+from gearcad.meshing.fem import Element
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.plan import plan_mesh
 from gearcad.meshing.result import run_mesh

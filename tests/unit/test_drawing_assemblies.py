@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.path import Path as Outline
-from support.sets import alm_train
+from support.planetary_trains import alm_train
 from support.written_sheet import read_sheet
 
 from gearcad import Body, Gear, GearPair, Rack, RackPair

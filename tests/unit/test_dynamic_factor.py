@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.cases import STEEL
 from support.published import Published
-from support.ratings import STEEL
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
 from gearcad.core.errors import ParameterError

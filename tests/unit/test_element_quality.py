@@ -15,8 +15,8 @@ from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 
 from gearcad import Body, FlankModification, Gear, GearcadError
 from gearcad.meshing.bodies import Element, ElementMesh, Faces
-from gearcad.meshing.bodies.element_mesh import local_places, shape_slopes, shape_values
 from gearcad.meshing.bodies.quality import Quality, quality, require_good
+from gearcad.meshing.fem import node_places, shape_slopes, shape_values
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.plan import plan_mesh
 from gearcad.meshing.result import JudgedMesh, _judged

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from support.coarse import coarse_model, coarse_pair
+from support.checks import coarse_model, coarse_pair
 
 from gearcad import FlankModification, Material, Mounting
 from gearcad.check.summary import PLANE, SOLID, STRESSES

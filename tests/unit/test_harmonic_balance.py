@@ -14,8 +14,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.integrate import quad, solve_ivp
 from scipy.linalg import expm
-from support.floquet import floquet_multipliers
-from support.responses import MOMENT, VARIATION, cosine, isolated, oscillator, two_stages
+from support.responses import MOMENT, VARIATION, cosine, floquet_multipliers, isolated, oscillator, two_stages
 from support.transient import integrate
 
 from gearcad.core.errors import GeometryError, ParameterError, SolverError

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.ring_mesh import RingMesh
-from support.sheets import TEMPLATES, faults_of
+from support.batches import TEMPLATES, faults_of
+from support.ring_pairs import RingMesh
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, ParameterError
 from gearcad.core.errors import SpecError

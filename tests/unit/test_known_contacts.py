@@ -8,8 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from support.checks import small_check
-from support.coarse import PAIRS, TORQUES, coarse_model
+from support.checks import PAIRS, TORQUES, coarse_model, small_check
 
 from gearcad import FlankModification, Gear, Mounting
 from gearcad.contact.modification_variants import Condition, FlankVariants, Outcomes, with_amounts

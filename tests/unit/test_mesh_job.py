@@ -14,8 +14,8 @@ from support.boxes import AREAS, box, two_boxes
 import gearcad
 from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Load, ParameterError
 from gearcad.meshing import Element, ElementMesh
-from gearcad.meshing.bodies.element_mesh import shape_slopes
 from gearcad.meshing.bodies.quality import measure_side
+from gearcad.meshing.fem import shape_slopes
 from gearcad.meshing.options import MeshOptions
 
 GEAR = Gear(teeth=20, normal_module=2, face_width=8, body=Body(bore=12))

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from support.modifying import AMOUNTS, modified
-from support.modifying import GEARS as EXACTNESS_GEARS
-from support.sections import COARSE
+from support.checks import COARSE
+from support.samples import AMOUNTS, modified
+from support.samples import GEARS as EXACTNESS_GEARS
 
 import gearcad
 from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, GeometryError, Load, Material
@@ -26,11 +26,12 @@ from gearcad.core.records import Floats
 from gearcad.jobs import mesh as mesh_job
 from gearcad.meshing import Faces, plan
 from gearcad.meshing.bodies.body_mesh import Amount, body_sizes, expected_amount, factor_for, mesh_body
-from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
+from gearcad.meshing.bodies.element_mesh import ElementMesh
 from gearcad.meshing.bodies.exactness import deviations, exact_area, exact_volume
 from gearcad.meshing.bodies.quality import measure_side, measure_whole
 from gearcad.meshing.bodies.section_mesh import mesh_section
 from gearcad.meshing.bodies.sectors import ContactRefinement
+from gearcad.meshing.fem import Element
 from gearcad.meshing.outline import MeshSizes
 from gearcad.solids.exact.inertia import mass_properties
 

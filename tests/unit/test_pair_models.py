@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.pairs import thesis_model
+from support.trains import thesis_model
 
 from gearcad import Gear, GearPair, GeometryError, ParameterError
 from gearcad.core.errors import SolverError

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import scipy.sparse
 import scipy.sparse.linalg
-from support.plane_matrix import stiffness_matrix, summed
+from support.brute import stiffness_matrix, summed
 
 from gearcad import Gear, Material
 from gearcad.contact.plane.ring import assemble

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import scipy.sparse
 import scipy.sparse.linalg
-from support.plane_matrix import stiffness_matrix
+from support.brute import stiffness_matrix
 
 from gearcad import Body, Gear, GearPair, Material
 from gearcad.contact.plane.flank import Fillets, PlaneCompliance, flank_compliance

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
-from support.coarse import coarse_pair
-from support.pairs import thesis_model
+from support.checks import coarse_pair
 from support.pictures import leave_out_pictures
 from support.responses import cosine, oscillator
+from support.trains import thesis_model
 from threadpoolctl import threadpool_limits
 
 from gearcad import Gear, GearPair, Load, Material

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.coarse import coarse_pair
+from support.checks import coarse_pair
 
 import gearcad
 from gearcad import (

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from hypothesis import event, given, settings
-from support.ratings import STEEL, numbers, sample_pair, shortened, swapped
+from support.cases import STEEL, numbers, sample_pair, shortened, swapped
 from support.strategies import build_pair, pair_inputs
 
 from gearcad import ISO53_D, BasicRack, Body, Gear, GearPair, GeometryError, Load, ParameterError

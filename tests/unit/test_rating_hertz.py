@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.ratings import STEEL, numbers, sample_pair, swapped
+from support.cases import STEEL, numbers, sample_pair, swapped
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, Load, Material, ParameterError
 from gearcad.core.records import Role

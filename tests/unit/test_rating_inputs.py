@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.ratings import STEEL, sample_pair
+from support.cases import STEEL, sample_pair
 
 from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, GeometryError, Load, ParameterError, RackPair
 from gearcad import rate as rack_rate

@@ -14,12 +14,12 @@ from gearcad.core.errors import GeometryError, InputError, ParameterError
 from gearcad.core.records import PerGear
 from gearcad.geometry import ShaperCutter
 from gearcad.meshing.bodies.body_mesh import body_sizes, contacts, expected_amount, posed
-from gearcad.meshing.bodies.element_mesh import Element
 from gearcad.meshing.bodies.exactness import deviations, side_deviations
 from gearcad.meshing.bodies.gear_faces import TetrahedronGrading
 from gearcad.meshing.bodies.quality import measure_whole, quality
 from gearcad.meshing.bodies.section_mesh import mesh_section
 from gearcad.meshing.bodies.tetrahedra import mesh_tetrahedra
+from gearcad.meshing.fem import Element
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.outline import MeshSizes, OutlineSide, SectorSides, held_radius
 from gearcad.meshing.plan import plan_mesh

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support.coarse import PAIRS, TORQUES, coarse_model, coarse_pair
+from support.checks import PAIRS, TORQUES, coarse_model, coarse_pair
 from threadpoolctl import threadpool_limits
 
 from gearcad import Mounting

@@ -7,17 +7,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.exact import distance_to_section
+from support.checks import COARSE
+from support.clearance import distance_to_section
 from support.modified import depth_off, unturned
-from support.modifying import GEARS, modified
-from support.sections import COARSE
+from support.samples import GEARS, modified
 
 from gearcad import BasicRack, Body, Gear
 from gearcad.core.errors import ParameterError
-from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
+from gearcad.meshing.bodies.element_mesh import ElementMesh
 from gearcad.meshing.bodies.quality import quality
 from gearcad.meshing.bodies.section_mesh import mesh_section, modification_turns
 from gearcad.meshing.bodies.sectors import ContactRefinement
+from gearcad.meshing.fem import Element
 from gearcad.meshing.outline import MeshSizes
 
 ROUNDING = 1e-12

@@ -15,7 +15,9 @@ import openpyxl
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from support.sheets import ERROR, GEARS, GOOD, refusal_of, rows_of, values_of, workbook
+from support.batches import ERROR, GOOD, refusal_of, values_of, workbook
+from support.batches import SHEET_GEARS as GEARS
+from support.batches import sheet_rows_of as rows_of
 
 from gearcad import SpecError
 from gearcad.designs import open_table

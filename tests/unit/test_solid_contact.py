@@ -8,8 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from support.gap import gap_along_action, middle_height
-from support.hertz import hertz_ellipse
+from support.gap import gap_along_action, hertz_ellipse, middle_height
 
 from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
 from gearcad.contact.shared.bodies import BodyModel

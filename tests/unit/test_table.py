@@ -11,7 +11,9 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support.sheets import ERROR, GEARS, TEMPLATES, faults_of, refusal_of, rows_of, values_of
+from support.batches import ERROR, TEMPLATES, faults_of, refusal_of, values_of
+from support.batches import SHEET_GEARS as GEARS
+from support.batches import sheet_rows_of as rows_of
 
 from gearcad import SpecError
 from gearcad.designs import design_from_tables, open_table, read_spec

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from support.cases import volvo_pair
-from support.ring_samples import RINGS, SHAPED
-from support.samples import SAMPLES
+from support.samples import RINGS, SAMPLES, SHAPED
 
 from gearcad import BasicRack, Body, Gear, GearPair, Rack, RackPair
 from gearcad.core.quantities import Derived

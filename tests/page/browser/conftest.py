@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.designs import starter_specs
 from support.page_server import CHROMIUM, DESK, SPARING, TOLD, Tab, launched, serve, without_token
+from support.specs import starter_specs
 
 
 @pytest.fixture(scope="session")
