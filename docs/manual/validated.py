@@ -15,7 +15,7 @@ FILE = Path(__file__).parents[1] / "validation.json"
 CHAPTERS = {
     "geometry": ("test_books.py", "test_ring_pairs.py", "test_volvo_pair.py"),
     "rating": ("test_printed_ratings.py", "test_dynamic_factor.py"),
-    "elements": ("test_calculix_pairs.py",),
+    "elements": ("test_calculix.py",),
     "stiffness": ("test_stiffness_table4.py", "test_stiffness.py"),
     "dynamics": ("test_train_modes.py", "test_pair_dynamics.py", "test_planetary_kinematics.py"),
 }

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import re
 import shlex
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 from click import Context
+from manual.blocks import blocks_of
+from manual.running import environment, run_command
 
 from gearcad.cli import main
 from gearcad.designs.reader import starter_text, starters
 
 ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "docs"))
 
-from manual.blocks import blocks_of  # noqa: E402
-from manual.running import environment, run_command  # noqa: E402
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 OVERVIEW = (ROOT / "docs" / "overview.md").read_text(encoding="utf-8")

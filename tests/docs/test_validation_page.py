@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import ast
 import json
-import sys
 from pathlib import Path
 
 import pytest
+from manual.validated import CHAPTERS, counts_text, rows, table_text
 from support.published import FILE, Row, found_text
 
 TESTS = Path(__file__).parents[1]
 DOCS = TESTS.parent / "docs"
-sys.path.insert(0, str(DOCS))
-
-from manual.validated import CHAPTERS, counts_text, rows, table_text  # noqa: E402
 
 
 def _judges() -> set[str]:

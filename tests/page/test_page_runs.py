@@ -1,4 +1,4 @@
-"""Runs of the page: their processes end as they should, whatever happens, and leave nothing."""
+"""Runs of the page: their processes end as they should, and they make what the command writes, byte by byte."""
 
 from __future__ import annotations
 
@@ -16,9 +16,11 @@ from click.testing import CliRunner
 
 from gearcad.cli import main
 from gearcad.core.errors import ParameterError
-from gearcad.designs.reader import starter_text
-from gearcad.page.run_process import _LARGEST_FILE
+from gearcad.designs.reader import read_spec, starter_text
+from gearcad.page.panels.runs import expected_of, figures_beside
+from gearcad.page.run_process import _LARGEST_FILE, RUNS, RunRequest
 from gearcad.page.runs import Run, RunLimits, RunPermits, Runs, RunState, _kill, close_all_runs
+from gearcad.page.words import PageLanguage, PageWords
 
 ENOUGH = 60.0
 PAIR = starter_text("fzg-c")[1]
@@ -214,3 +216,77 @@ def test_limits_are_those_of_all_sessions(monkeypatch: pytest.MonkeyPatch) -> No
     runs = Runs()
     runs.close()
     assert (runs.limits.seconds, runs.limits.memory) == (7.0, 3e9)
+
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+
+def test_what_would_not_begin_says_why() -> None:
+    found = expected_of(read_spec(TEMPLATES / "volvo-13-44.toml"))
+    assert found["check-2d"].why.startswith("pair.helix_angle = 28 deg: must be 0 for model 2d")
+    assert not found["check-2d"].told
+    assert not found["check-3d"].why
+    assert found["check-3d"].told.startswith("≈ ")
+    assert "about" not in found["check-3d"].told
+
+
+def test_verdicts_are_told_in_the_words_of_the_page() -> None:
+    asked = RunRequest(kind="rate", text="", name="trial", folder="", into="")
+    runs = [
+        Run(number, asked, {}, figures={"strength": said}) for number, said in enumerate(("passed", "failed", "not judged"))
+    ]
+    cells = {language: figures_beside(runs, PageWords.of(language))[0]["cells"] for language in PageLanguage}
+    assert cells[PageLanguage.GERMAN] == ["bestanden", "nicht bestanden", "nicht beurteilt"]
+    assert cells[PageLanguage.ENGLISH] == ["passed", "not passed", "not judged"]
+
+
+LONG = 900.0
+"""Seconds that a run may take."""
+
+COARSE = '\n[check]\npositions = 12\nrefinement = 0.25\nconvergence = "off"\n'
+
+COMMAND_PAIR = starter_text("fzg-c")[1] + COARSE
+RATED = starter_text("reducer")[1] + COARSE
+BY_BODIES = RATED.replace("\n[rating]", '\n[rating]\nface_load_factor = "fe"', 1)
+
+COMMANDS = {
+    "check-2d": (COMMAND_PAIR, "check --model 2d"),
+    "check-3d": (COMMAND_PAIR, "check --model 3d"),
+    "rate": (RATED, "rate"),
+    "rate-fe": (BY_BODIES, "rate"),
+    "stiffness": (COMMAND_PAIR, "stiffness"),
+    "dynamics": (COMMAND_PAIR, "dynamics"),
+    "planetary": (starter_text("planetary-24-21-66")[1], "planetary"),
+    "verify": (starter_text("fzg-c")[1], "verify"),
+    **{each: (RATED, f"build --format {each}") for each in ("step", "stl", "3mf", "glb", "dxf", "csv")},
+    **{f"drawing-{each}": (RATED, f"draw --format {each}") for each in ("pdf", "dxf", "svg")},
+    "data": (RATED, "data --json"),
+}
+"""Of each run of the page the spec and the command that does the same."""
+
+QUICK = ("data",)
+
+
+@pytest.mark.parametrize("kind", [kind if kind in QUICK else pytest.param(kind, marks=pytest.mark.long) for kind in RUNS])
+def test_a_run_makes_what_the_command_writes(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    text, command = COMMANDS[kind]
+    verb, *options = command.split()
+    spec, folder = tmp_path / "mine.toml", tmp_path / "out"
+    spec.write_text(text, encoding="utf-8")
+    if verb != "data":
+        options += ["-o", str(folder)]
+    told = CliRunner().invoke(main, [verb, str(spec), *options])
+    assert told.exit_code in (0, 1), told.output
+    written = (
+        {path.name: path.read_bytes() for path in folder.iterdir()} if folder.exists() else {"data.json": told.stdout_bytes}
+    )
+    runs = Runs()
+    try:
+        run = runs.start(kind, RATED if kind == "rate-fe" else text, "mine", tmp_path, {})
+        assert run.ended.wait(LONG)
+        assert run.state is RunState.DONE, run.line
+        assert written == {name: (run.folder / name).read_bytes() for name in run.files}
+    finally:
+        runs.close()
+        runs.join(10)

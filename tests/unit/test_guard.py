@@ -1,19 +1,22 @@
-"""Work that is minded: whatever ends it, in whatever call, nothing half made stays, and the exit status says what it was."""
+"""Guarded work leaves nothing half made, jobs work on one thread, and compiled code of an older version does no harm."""
 
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import subprocess
 import sys
 from collections.abc import Callable
+from io import BytesIO
 from pathlib import Path
 
 import psutil
 import pytest
 from support.processes import PATIENCE, hear_interrupts, wait_for_end, wait_until
+from threadpoolctl import ThreadpoolController
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
+from gearcad.core.runtime import one_thread
 
 WORK = """
 import sys
@@ -66,6 +69,7 @@ def to_worker(process: subprocess.Popen[str], number: signal.Signals) -> None:
     psutil.Process(process.pid).children()[0].send_signal(number)
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
 @pytest.mark.parametrize("send", [to_group, to_keeper])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_signal_ends_a_kernel_call_at_once_and_leaves_nothing(
@@ -80,6 +84,7 @@ def test_signal_ends_a_kernel_call_at_once_and_leaves_nothing(
     assert wait_for_end([worker], 1) == []
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_worker_to_whom_nobody_listens_goes_without_a_word(tmp_path: Path) -> None:
     """As behind `| head`, where a library has taken SIGPIPE from Python."""
     default = "import signal; signal.signal(signal.SIGPIPE, signal.SIG_DFL)"
@@ -89,6 +94,7 @@ def test_worker_to_whom_nobody_listens_goes_without_a_word(tmp_path: Path) -> No
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
 @pytest.mark.parametrize(
     ("number", "status", "said"),
     [
@@ -109,6 +115,7 @@ def test_worker_that_dies_is_buried_and_said_to_be_dead(tmp_path: Path, number: 
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_worker_dies_with_its_keeper_and_the_next_one_clears_up(tmp_path: Path) -> None:
     """Nobody is left to bury it, so the folder stays until somebody writes there; one that is in use stays longer."""
     if sys.platform != "linux":
@@ -138,6 +145,7 @@ def start_and_end(folder: Path) -> subprocess.Popen[str]:
     return subprocess.Popen([sys.executable, "-c", ends], cwd=folder, env=environment, text=True)
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_renames_that_belong_together_are_not_divided(tmp_path: Path) -> None:
     """Ctrl-C while files move in: all of them do, then the work ends."""
     slow = "import os, time; from gearcad.core import output; replace = Path.replace; "
@@ -151,6 +159,7 @@ def test_renames_that_belong_together_are_not_divided(tmp_path: Path) -> None:
     assert sorted(path.name for path in (tmp_path / "out" / "deep").iterdir()) == ["a", "b", "c", "half"]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_signal_that_the_caller_ignores_is_ignored(tmp_path: Path) -> None:
     """As for a program that a shell has started in the background."""
     command = [sys.executable, "-c", WORK.format(inside="__import__('time').sleep(1)", first="pass")]
@@ -166,3 +175,53 @@ def test_signal_that_the_caller_ignores_is_ignored(tmp_path: Path) -> None:
         os.killpg(process.pid, signal.SIGINT)
         assert process.wait(PATIENCE) == 3
     assert (tmp_path / "out" / "deep" / "half").is_file()
+
+
+LOADED_MEANWHILE = """
+from gearcad.core.runtime import one_thread
+from threadpoolctl import ThreadpoolController
+def threads():
+    return sorted(each.num_threads for each in ThreadpoolController().select(user_api="blas").lib_controllers)
+import numpy
+before = threads()
+with one_thread():
+    import scipy.linalg
+    print(threads() == [1] * len(threads()) and len(threads()) > len(before))
+print(set(threads()) == set(before))
+"""
+
+
+def test_libraries_that_are_loaded_meanwhile() -> None:
+    environment = os.environ | {"OPENBLAS_NUM_THREADS": "2"}
+    said = subprocess.run([sys.executable, "-c", LOADED_MEANWHILE], env=environment, capture_output=True, text=True, check=True)
+    assert said.stdout.split() == ["True", "True"]
+
+
+def test_the_environment_is_as_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    before = [each.num_threads for each in ThreadpoolController().lib_controllers]
+    with pytest.raises(KeyError), one_thread():
+        assert os.environ["OMP_NUM_THREADS"] == os.environ["OPENBLAS_NUM_THREADS"] == "1"
+        raise KeyError
+    assert os.environ["OPENBLAS_NUM_THREADS"] == "2" and "OMP_NUM_THREADS" not in os.environ
+    assert [each.num_threads for each in ThreadpoolController().lib_controllers] == before
+
+
+COMPILED_KERNEL = "from gearcad.core.runtime import compiled\n\n@compiled\ndef f(x):\n    return x + 1.0\n"
+
+
+def result(folder: Path) -> str:
+    paths = os.environ | {"PYTHONPATH": os.pathsep.join([str(folder), *sys.path]), "NUMBA_CACHE_DIR": str(folder / "kept")}
+    command = [sys.executable, "-c", "import kernel; print(kernel.f(2.0))"]
+    return subprocess.run(command, cwd=folder, env=paths, capture_output=True, text=True, check=True).stdout
+
+
+def test_a_cache_that_names_a_class_that_is_gone_is_made_anew(tmp_path: Path) -> None:
+    (tmp_path / "kernel.py").write_text(COMPILED_KERNEL)
+    assert result(tmp_path) == "3.0\n"
+    (index,) = tmp_path.rglob("kept/**/*.nbi")
+    version = pickle.load(BytesIO(index.read_bytes()))
+    index.write_bytes(pickle.dumps(version) + b"cgearcad.core.runtime\nClassOfBefore\n.")
+    assert result(tmp_path) == "3.0\n"
+    assert b"ClassOfBefore" not in index.read_bytes()

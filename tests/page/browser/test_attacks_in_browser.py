@@ -1,13 +1,22 @@
-"""What a hostile design, a hasty hand and other tabs do to a page: nothing."""
+"""What hostile designs, hasty hands, other tabs, programs and sites do to a page and may ask its server: nothing."""
 
 from __future__ import annotations
 
+import http.client
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
+from urllib.parse import parse_qs, urlsplit
 
 import psutil
 import pytest
 from support.page_server import DESK, TOLD, Tab, serve, without_token
+from support.processes import wait_until
 
 from gearcad.designs.reader import starter_text
 from gearcad.page.fields import fields_of
@@ -232,3 +241,223 @@ def test_memory_is_flat_over_a_thousand_changes(browser: Any, folder: Path) -> N
     assert server_after - server_before < GROWTH
     assert heap_after - heap_before < HEAP
     assert not tab.errors
+
+
+SOCKET = "/_nicegui_ws/socket.io/?EIO=4"
+UPGRADE = {
+    "Connection": "Upgrade",
+    "Upgrade": "websocket",
+    "Sec-WebSocket-Version": "13",
+    "Sec-WebSocket-Key": "x3JJHMbDL1EzLkh9GBhXDw==",
+}
+EVIL = "http://evil.example"
+ELSEWHERE = "127.0.0.2"
+"""An address of this machine that is not where the page is by itself."""
+
+
+TOO_BIG = 1009
+"""What a connection is closed with whose message is too large (RFC 6455, 7.4.1)."""
+
+LARGE = b"4" + b"x" * (1 << 21)
+
+
+def ask(address: str, path: str = "/", method: str = "GET", body: bytes | None = None, **headers: str) -> tuple[int, str, str]:
+    """Status, cookie and text of an answer; a keyword is a header. With the token of the address as a cookie, if it has one."""
+    connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=30)
+    sent = cookie_of(address) | {name.replace("_", "-"): value for name, value in headers.items()}
+    connection.request(method, path, body, sent)
+    answer = connection.getresponse()
+    text = "" if answer.status == 101 else answer.read().decode("utf-8", "replace")
+    connection.close()
+    return answer.status, answer.getheader("Set-Cookie", ""), text
+
+
+def cookie_of(address: str) -> dict[str, str]:
+    """The header by which a browser shows the token of an address."""
+    parts = urlsplit(address)
+    tokens = parse_qs(parts.query).get("token")
+    return {"Cookie": f"gearcad_{parts.port}={tokens[0]}"} if tokens else {}
+
+
+@pytest.mark.parametrize(
+    "headers", [{"Origin": EVIL}, {"Origin": "null"}, {"Host": "rebound.example:8765"}, {"Sec-Fetch-Site": "cross-site"}]
+)
+def test_other_sites_reach_neither_page_nor_connection(address: str, headers: dict[str, str]) -> None:
+    assert ask(address, **headers)[0] == 403
+    assert ask(address, f"{SOCKET}&transport=polling", **headers)[0] == 403
+    assert ask(address, f"{SOCKET}&transport=polling&sid=x", "POST", b"40", **headers)[0] == 403
+    assert ask(address, f"{SOCKET}&transport=websocket", **(UPGRADE | headers))[0] == 403
+
+
+@pytest.mark.parametrize("path", ["/", "/nothing", "/bodies/x/y", f"{SOCKET}&transport=polling"])
+def test_every_answer_says_what_may_be_done_with_it(address: str, path: str) -> None:
+    connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=30)
+    connection.request("GET", path, headers=cookie_of(address))
+    answer = connection.getresponse()
+    assert answer.getheader("X-Frame-Options") == "DENY" and answer.getheader("X-Content-Type-Options") == "nosniff"
+    assert "default-src 'none'" in answer.getheader("Content-Security-Policy", "")
+    connection.close()
+
+
+def test_no_message_over_the_connection_is_larger_than_permitted(address: str) -> None:
+    from websockets.exceptions import ConnectionClosed
+    from websockets.sync.client import connect
+
+    at = f"{without_token(address).replace('http', 'ws', 1).rstrip('/')}{SOCKET}&transport=websocket"
+    with connect(at, additional_headers=cookie_of(address)) as socket:
+        socket.send(LARGE)
+        with pytest.raises(ConnectionClosed) as closed:
+            while True:
+                socket.recv(timeout=20)
+    assert closed.value.rcvd is not None and closed.value.rcvd.code == TOO_BIG
+
+
+def test_the_page_itself_reaches_its_connection(address: str) -> None:
+    ours = {"Origin": without_token(address).rstrip("/")}
+    assert ask(address, f"{SOCKET}&transport=polling", **ours)[0] == 200
+    assert ask(address, f"{SOCKET}&transport=websocket", **(UPGRADE | ours))[0] == 101
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/../../etc/passwd",
+        "/bodies/x/../../../etc/passwd",
+        "/bodies/%2e%2e/%2fetc%2fpasswd",
+        "/made/x/0/..%2f..%2freducer-21-43.toml",
+        "/made/x/0/reducer-21-43.toml",
+        "/_nicegui/3.0.0/static/..%2f..%2f..%2fpyproject.toml",
+        "/_nicegui/3.0.0/components/..%2f..%2f/etc/passwd",
+        "/reducer-21-43.toml",
+        "/made/x/0/%252e%252e%252freducer-21-43.toml",
+        "/made/x/0/..%5c..%5creducer-21-43.toml",
+        "/made/x/99999999999999999999999999/reducer-21-43.toml",
+        "/bodies/x/reducer-21-43.toml%00.glb",
+        "/_nicegui/3.0.0/static/%252e%252e/%252e%252e/pyproject.toml",
+        "//etc/passwd",
+    ],
+)
+def test_no_path_leads_to_a_file(address: str, path: str) -> None:
+    status, _, text = ask(address, path)
+    assert status in (400, 404, 422)
+    assert "root:" not in text and "normal_module" not in text and "[project]" not in text
+
+
+def test_script_in_a_design_is_no_part_of_the_page(address: str) -> None:
+    text = starter_text("train-pairs")[1].replace('"motor"', f'"{SCRIPT}"').replace("motor = 40.0", f'"{SCRIPT}" = 40.0')
+    status, _, sent = ask(address, f"/?design={pack('hostile', text)}")
+    assert status == 200
+    assert not any(each in sent for each in ("onerror", "<script>alert", "helical stage"))  # texts come by the connection
+
+
+def test_what_is_too_large_is_refused_and_the_page_goes_on(address: str) -> None:
+    opened = ask(address, f"{SOCKET}&transport=polling")[2]
+    sid = opened.split('"sid":"')[1].split('"')[0]
+    with ThreadPoolExecutor(1) as polling:
+        polling.submit(ask, address, f"{SOCKET}&transport=polling&sid={sid}")  # who is refused is told so there, too
+        time.sleep(0.5)  # until it waits there
+        assert ask(address, f"{SOCKET}&transport=polling&sid={sid}", "POST", LARGE)[0] == 400
+    assert ask(address, "/given/nobody/spec?name=a.toml", "POST", LARGE)[0] == 404
+    assert ask(address, f"/?design={'A' * 20_000}")[0] == 200
+    assert ask(address)[0] == 200
+
+
+def test_who_has_no_token_reaches_nothing(address: str) -> None:
+    """Other accounts of the machine reach the port."""
+    bare = without_token(address)
+    for path in ("/", "/?token=wrong", "/?token=", "/nothing", "/_nicegui/3.0.0/static/a", f"{SOCKET}&transport=polling"):
+        assert ask(bare, path)[0] == 403
+    assert ask(bare, f"{SOCKET}&transport=websocket", **UPGRADE)[0] == 403
+    assert ask(bare, "/given/nobody/spec?name=a.toml", "POST", b"[gear]")[0] == 403
+
+
+def test_scripts_give_a_token_of_their_own(folder: Path) -> None:
+    server, printed = serve(folder / "spur.toml", "--token", "a-script-has-made-it")
+    try:
+        assert printed.endswith("/?token=a-script-has-made-it")
+        assert ask(printed)[0] == 200 and ask(without_token(printed))[0] == 403
+    finally:
+        server.terminate()
+        server.wait(20)
+
+
+def test_the_browser_is_started_with_an_address_for_one_use(folder: Path, tmp_path: Path) -> None:
+    started = tmp_path / "started"
+    started.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/new && mv {tmp_path}/new {tmp_path}/address\n')
+    started.chmod(0o700)
+    server, printed = serve(folder / "spur.toml", browser=f"{started} %s")
+    try:
+        wait_until((tmp_path / "address").exists, "the browser")
+        address, token = (tmp_path / "address").read_text().strip().split("?token=")
+        assert address == without_token(printed) and token not in printed
+        statuses = [ask(address, f"/?token={token}") for _ in range(2)]
+        assert [status for status, _, _ in statuses] == [200, 403]
+        assert statuses[0][1].split(";")[0] == cookie_of(printed)["Cookie"]
+    finally:
+        server.terminate()
+        server.wait(20)
+
+
+def test_others_need_the_token_and_ctrl_c_leaves_nothing(folder: Path, tmp_path: Path) -> None:
+    server, printed = serve(folder / "reducer-21-43.toml", "--host", ELSEWHERE, temporary=tmp_path)
+    try:
+        address, token = printed.split("?token=")
+        assert ask(address)[0] == ask(address, "/?token=wrong")[0] == ask(address, f"{SOCKET}&transport=polling")[0] == 403
+        status, cookie, text = ask(address, f"/?token={token}")
+        assert status == 200 and token not in text
+        assert ask(address, Cookie=cookie.split(";")[0])[0] == 200
+        assert ask(address, Cookie=cookie.split("=")[0] + "=" + "x" * len(token))[0] == 403
+        assert list(tmp_path.glob("gearcad-*"))
+    finally:
+        server.send_signal(signal.SIGINT)
+        status = server.wait(20)
+    assert status == 0
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.long
+def test_sigterm_ends_a_run_with_all_that_was_its_own(browser: object, folder: Path, tmp_path: Path) -> None:
+    server, address = serve(folder / "reducer-21-43.toml", temporary=tmp_path)
+    page = browser.new_page()  # type: ignore[attr-defined]
+    page.goto(address)
+    page.wait_for_selector(".scene[data-shown]")
+    page.click(".right >> text=Runs")
+    page.click(".run-kinds button:has-text('solid bodies')")
+    page.wait_for_function("() => /\\w/.test(document.querySelector('.run-list .step')?.textContent ?? '')", timeout=60_000)
+    children = _children(server.pid)
+    assert children
+    server.terminate()
+    assert server.wait(20) == 0
+    page.close()
+    deadline = time.monotonic() + 10
+    while time.monotonic() < deadline and any(map(_runs, children)):
+        time.sleep(0.1)
+    assert not any(map(_runs, children))
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.long
+def test_no_more_pages_than_the_server_has_room_for(folder: Path) -> None:
+    server, address = serve(folder / "spur.toml")
+    try:
+        statuses = [ask(address)[0] for _ in range(33)]
+    finally:
+        server.terminate()
+        server.wait(20)
+    assert statuses == [200] * 32 + [503]
+
+
+def _children(process: int) -> list[int]:
+    """Processes that it has started, and that these have."""
+    listed = subprocess.run(["ps", "-e", "-o", "pid=,ppid="], capture_output=True, text=True, check=True).stdout
+    parents = {int(line.split()[0]): int(line.split()[1]) for line in listed.splitlines()}
+    direct = [each for each, parent in parents.items() if parent == process]
+    return direct + [each for child in direct for each in _children(child)]
+
+
+def _runs(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return sys.platform != "linux" or "\nState:\tZ" not in Path(f"/proc/{process}/status").read_text(encoding="utf-8")
