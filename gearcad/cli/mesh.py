@@ -10,7 +10,7 @@ import click
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
 from gearcad.core.records import grouped
-from gearcad.meshing.bodies.element_mesh import Element
+from gearcad.meshing.fem import Element
 from gearcad.meshing.options import MeshFormat
 
 if TYPE_CHECKING:

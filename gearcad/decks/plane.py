@@ -23,8 +23,8 @@ from gearcad.meshing.bodies import Element, ElementMesh, Faces
 from gearcad.meshing.bodies.element_mesh import joined
 from gearcad.meshing.bodies.section_mesh import mesh_section
 from gearcad.meshing.bodies.sectors import ContactRefinement
+from gearcad.meshing.fem import quadrature, shape_slopes
 from gearcad.meshing.outline import MeshSizes
-from gearcad.meshing.quads import GAUSS, edge_slopes
 
 PLANE_SIZES = MeshSizes(flank=0.5, corner=0.2, fillet=0.05, outline=0.5, growth=0.4, fillet_turn=5.0)
 """Edges away from the contacts. Root stresses are then within 0.3 %; of a ring, whose fillets are tight, within 0.6 % of the
@@ -112,8 +112,8 @@ class PlaneDecks(PairDecks):
         It is taken at Gauss points from a tangent angle on.
         """
         gear, modulus = self.pair.gears.pick(role), self.cycle.model.bodies.pick(role).elasticity.modulus
-        edges = mesh.face_cells(self.side(role, tooth, "fillet"))[:, [0, 2, 1]]
-        slopes = edge_slopes(np.array([-GAUSS, GAUSS]))
+        edges = mesh.face_cells(self.side(role, tooth, "fillet"))
+        slopes = shape_slopes("line3", quadrature("line3", 3).places)[:, 0]
         along, stretched = (np.einsum("qa,eac->eqc", slopes, of[edges, :2]).reshape(-1, 2) for of in (mesh.points, moved))
         stress = (stretched * along).sum(-1) / (along**2).sum(-1) * modulus
         own = (along[:, 0] + 1j * along[:, 1]) * np.exp(-1j * (turn + 2 * math.pi * tooth / gear.tooth_count))

@@ -25,10 +25,10 @@ from gearcad.geometry.gear_data import twist
 from gearcad.material import Material
 from gearcad.meshing.bodies import Element, ElementMesh
 from gearcad.meshing.bodies.body_mesh import mesh_body
-from gearcad.meshing.bodies.element_mesh import joined, rises, shape_slopes, shape_values
+from gearcad.meshing.bodies.element_mesh import joined, rises
 from gearcad.meshing.bodies.sectors import ContactRefinement
+from gearcad.meshing.fem import quadrature, shape_slopes, shape_values
 from gearcad.meshing.outline import MeshSizes
-from gearcad.meshing.quads import GAUSS
 from gearcad.meshing.sector import layer_planes
 
 
@@ -53,7 +53,8 @@ def root_tension(fillet: FilletFace, moved: Floats, material: Material) -> float
     """
     nodes = fillet.mesh.face_cells(fillet.name)
     lowest = float(fillet.mesh.points[nodes, 2].min())
-    face, places = fillet.mesh.element.shape.face, np.array([[0.0, -GAUSS], [0.0, GAUSS]])
+    face, above = fillet.mesh.element.shape.face, quadrature("line3", 3).places
+    places = np.concatenate([np.full_like(above, 0.5), above], axis=1)
     heights = np.einsum("qa,na->qn", shape_values(face, places), fillet.mesh.points[nodes, 2]).ravel() - lowest
     by_place = shape_slopes(face, places)
     bases, slopes = (np.einsum("qda,nac->dqnc", by_place, of[nodes]).reshape(2, -1, 3) for of in (fillet.mesh.points, moved))
@@ -254,11 +255,11 @@ def _lay(forces: Floats, mesh: ElementMesh, flank: str, base_radius: float, plac
     corners = mesh.points[nodes[:, :4]]
     squares = roll_lengths(np.hypot(corners[..., 0], corners[..., 1]), base_radius) ** 2
     along, up = (places[0] ** 2)[:, None], places[1][:, None]
-    across = 2 * (along - squares[:, 0]) / (squares[:, 1] - squares[:, 0]) - 1
-    above = 2 * (up - corners[:, 0, 2]) / (corners[:, 3, 2] - corners[:, 0, 2]) - 1
-    face = np.argmin(np.maximum(np.abs(across), np.abs(above)), axis=1)
+    across = (along - squares[:, 0]) / (squares[:, 1] - squares[:, 0])
+    above = (up - corners[:, 0, 2]) / (corners[:, 3, 2] - corners[:, 0, 2])
+    face = np.argmin(np.maximum(np.abs(across - 0.5), np.abs(above - 0.5)), axis=1)
     every = np.arange(len(face))
-    local = np.clip(np.stack([across[every, face], above[every, face]], -1), -1, 1)
+    local = np.clip(np.stack([across[every, face], above[every, face]], -1), 0, 1)
     shares = shape_values(mesh.element.shape.face, local)
     np.add.at(forces, nodes[face], shares[:, :, None] * pressing[:, None])
 

@@ -20,8 +20,8 @@ from gearcad.jobs.job import Job, Writer, as_design
 from gearcad.load import Load
 from gearcad.material import Material, Materials
 from gearcad.meshing.bodies.body_mesh import contacts
-from gearcad.meshing.bodies.element_mesh import Element
 from gearcad.meshing.bodies.sectors import ContactRefinement
+from gearcad.meshing.fem import Element
 from gearcad.meshing.options import SUFFIXES, DeckKind, MeshOptions
 from gearcad.meshing.plan import MeshPlan, expected_mesh, plan_mesh, require_room
 from gearcad.meshing.result import Deck, MeshResult, mesh_document, run_mesh

@@ -14,7 +14,7 @@ from gearcad.core.errors import ParameterError, as_choice, require_name
 from gearcad.core.quantities import LENGTH, Choice, Range, Whole, Words, require_fields
 from gearcad.core.records import concise
 from gearcad.meshing.bodies import ElementMesh
-from gearcad.meshing.bodies.element_mesh import Element
+from gearcad.meshing.fem import Element
 
 
 class MeshFormat(Enum):

@@ -14,12 +14,13 @@ from gearcad.core.records import Notice, PerGear, grouped
 from gearcad.core.runtime import Expected, Share, machine_memory
 from gearcad.geometry import Gear, GearPair
 from gearcad.meshing.bodies.body_mesh import Amount, body_sizes, expected_amount, factor_for, mesh_body, swept_notices
-from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
+from gearcad.meshing.bodies.element_mesh import ElementMesh
 from gearcad.meshing.bodies.exactness import exact_area, exact_volume
 from gearcad.meshing.bodies.gear_faces import FILLET_ANGLE, Stage, TetrahedronGrading
 from gearcad.meshing.bodies.section_mesh import mesh_section
 from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.bodies.tetrahedra import mesh_tetrahedra
+from gearcad.meshing.fem import Element
 from gearcad.meshing.options import AUTO, Extent, MeshOptions, What
 from gearcad.meshing.outline import MeshSizes, held_radius
 from gearcad.solids.exact.inertia import mass_properties

@@ -26,6 +26,7 @@ from gearcad.core.errors import SolverError
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
 from gearcad.geometry.profile import Curve, CurveKind, Land
+from gearcad.meshing.fem import Element, node_places, scaled_jacobians, shape_slopes
 from gearcad.meshing.outline import (
     OTHER_SIDE,
     Grading,
@@ -38,50 +39,11 @@ from gearcad.meshing.outline import (
     require_fillet,
 )
 
-GAUSS = 1 / np.sqrt(3)
-"""Gauss's two places on an edge from -1 to 1: there strains of quadratic elements are most accurate."""
-
-_ROOT = np.sqrt(38 - 44 * np.sqrt(0.4))
-_INNER, _OUTER = (8 - np.sqrt(10) + _ROOT) / 18, (8 - np.sqrt(10) - _ROOT) / 18
-_SHARE = np.sqrt(213125 - 53320 * np.sqrt(10)) / 3720
-
-TRIANGLE_PLACES = np.array([[s, t] for a in (_INNER, _OUTER) for s, t in ((a, a), (1 - 2 * a, a), (a, 1 - 2 * a))])
-TRIANGLE_WEIGHTS = np.repeat([1 / 6 + _SHARE, 1 / 6 - _SHARE], 3)
-"""Six places in a triangle, and their shares, that integrate polynomials of degree 4 (Strang and Fix 1973; Dunavant 1985)."""
-
 
 def edges_of_chain(chain: Wholes) -> Wholes:
-    """End, middle, end of each edge, (n, 3), of a chain of nodes end, middle, end, middle ... end."""
-    return np.stack([chain[:-1:2], chain[1::2], chain[2::2]], -1)
+    """Return the nodes (n, 3) - end, end, middle - of each edge of a chain of nodes end, middle, end, middle ... end."""
+    return np.stack([chain[:-1:2], chain[2::2], chain[1::2]], -1)
 
-
-def edge_shapes(s: Floats) -> Floats:
-    """Values (n, 3) at places from -1 to 1 on an edge, of its end, middle and other end."""
-    return np.stack([s * (s - 1) / 2, 1 - s * s, s * (s + 1) / 2], -1)
-
-
-def edge_slopes(s: Floats) -> Floats:
-    """Return the derivatives (n, 3) of the edge's shape functions."""
-    return np.stack([s - 0.5, -2 * s, s + 0.5], -1)
-
-
-def triangle_shapes(local: Floats) -> Floats:
-    """Values (n, 6) at points (n, 2) of a triangle's own coordinates: of its vertices, and of the nodes 0-1, 1-2, 2-0."""
-    s, t = local.T
-    r = 1 - s - t
-    return np.stack([r * (2 * r - 1), s * (2 * s - 1), t * (2 * t - 1), 4 * r * s, 4 * s * t, 4 * t * r], -1)
-
-
-def triangle_slopes(local: Floats) -> Floats:
-    """Return the derivatives (n, 6, 2) of the triangle's shape functions."""
-    s, t = local.T
-    r, zero = 1 - s - t, np.zeros_like(s)
-    by_s = np.stack([1 - 4 * r, 4 * s - 1, zero, 4 * (r - s), 4 * t, -4 * t], -1)
-    by_t = np.stack([1 - 4 * r, zero, 4 * t - 1, -4 * s, 4 * s, 4 * (r - t)], -1)
-    return np.stack([by_s, by_t], -1)
-
-
-_CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
 
 LEAST_SCALED_JACOBIAN = 0.1
 """Least scaled Jacobian of usable quadrangles; below, the sharpest corner has less than 6 degrees."""
@@ -125,39 +87,10 @@ def mesh_quality(points: Floats, triangles: NDArray[np.int64]) -> MeshQuality:
 def _jacobians(nodes: Floats) -> Floats:
     """Determinant of the quadratic map at the three corners of each element (m, 6, 2)."""
     found = []
-    for slopes in triangle_slopes(_CORNERS):
-        along_s, along_t = np.ascontiguousarray(slopes.T)
+    for along_s, along_t in shape_slopes("tri6", node_places("tri6")[:3]):
         x, y = np.einsum("a,mac->cm", along_s, nodes), np.einsum("a,mac->cm", along_t, nodes)
         found.append(x[0] * y[1] - x[1] * y[0])
     return np.stack(found, -1)
-
-
-_QUAD_PLACES = np.array([[x, y] for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0)])
-"""Corners, middles of edges and centre of a quadrangle."""
-
-_QUAD_NODES = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [0, 1], [-1, 0]], float)
-
-
-def scaled_jacobians(nodes: Floats) -> Floats:
-    """Least scaled Jacobian (m,) of quadratic quadrangles with nodes at `nodes` (m, 8, 2).
-
-    The sine of the angle between the two directions of the map, at corners, middles and centre: 1 for a rectangle, 0 or less
-    where an element folds.
-    """
-    slopes = np.stack([_serendipity_slopes(*place) for place in _QUAD_PLACES])
-    first, second = np.einsum("pka,mac->kmpc", slopes, nodes)
-    area = first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0]
-    result: Floats = (area / np.linalg.norm(first, axis=-1) / np.linalg.norm(second, axis=-1)).min(axis=1)
-    return result
-
-
-def _serendipity_slopes(x: float, y: float) -> Floats:
-    """Slopes (2, 8) of the shape functions at a place."""
-    a, b = _QUAD_NODES.T
-    corner = a * b != 0
-    by_x = np.where(corner, a * (1 + b * y) * (2 * a * x + b * y) / 4, np.where(a == 0, -x * (1 + b * y), a * (1 - y * y) / 2))
-    by_y = np.where(corner, b * (1 + a * x) * (a * x + 2 * b * y) / 4, np.where(b == 0, -y * (1 + a * x), b * (1 - x * x) / 2))
-    return np.stack([by_x, by_y])
 
 
 def transfinite(lower: Floats, upper: Floats, left: Floats, right: Floats) -> Floats:
@@ -509,7 +442,7 @@ def mesh_quads(gear: Gear, held_radius: float, sizes: MeshSizes) -> QuadMesh:
 def fill_layout(layout: SectorLayout) -> QuadMesh:
     """The quadrangles of a layout. Raises SolverError where they would be too distorted."""
     mesh = _quadratic(_Blocks(layout))
-    worst = float(scaled_jacobians(mesh.points[mesh.quads]).min())
+    worst = float(scaled_jacobians(Element.QUAD8, mesh.points[mesh.quads]).min())
     if worst < LEAST_SCALED_JACOBIAN:
         raise SolverError(
             f"the section of the gear with {layout.gear.teeth} teeth gives a distorted mesh: least scaled Jacobian "

@@ -12,7 +12,7 @@ from gearcad.core.records import JsonObject, Notice, PerGear, Pictured, Role, na
 from gearcad.core.runtime import Agenda, Progress
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.body_mesh import posed
-from gearcad.meshing.bodies.element_mesh import Element, ElementMesh
+from gearcad.meshing.bodies.element_mesh import ElementMesh
 from gearcad.meshing.bodies.exactness import Deviations, SideDeviations, deviations, matched_distance, side_deviations
 from gearcad.meshing.bodies.quality import (
     LARGEST_ASPECT,
@@ -25,6 +25,7 @@ from gearcad.meshing.bodies.quality import (
     require_good,
     together,
 )
+from gearcad.meshing.fem import Element
 from gearcad.meshing.plan import GearPlan, MeshPlan
 from gearcad.version import __version__
 

@@ -278,8 +278,8 @@ class SweptMesh:
         return self._stack.elements(quads, layer)
 
     def side_faces(self, edges: Wholes, layer: int) -> Wholes:
-        """Faces (n, 8) of a layer over edges (n, 3) of the section - end, middle, end - seen with the sweep upwards."""
-        first, middle, second = edges.T
+        """Faces (n, 8) of a layer over edges (n, 3) of the section - end, end, middle - seen with the sweep upwards."""
+        first, second, middle = edges.T
         low, high, half = self._stack.plane(layer), self._stack.plane(layer + 1), self._stack.middle(layer)
         corners = [first + low, second + low, second + high, first + high]
         return np.stack([*corners, middle + low, second + half, middle + high, first + half], -1)

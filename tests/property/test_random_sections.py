@@ -24,8 +24,9 @@ from gearcad.meshing.bodies.exactness import deviations
 from gearcad.meshing.bodies.quality import measure_side, measure_whole, quality, require_good
 from gearcad.meshing.bodies.section_mesh import mesh_section
 from gearcad.meshing.bodies.sectors import ContactRefinement
+from gearcad.meshing.fem import scaled_jacobians
 from gearcad.meshing.outline import OutlineSide
-from gearcad.meshing.quads import QuadMesh, SectorLayout, mesh_quads, scaled_jacobians
+from gearcad.meshing.quads import QuadMesh, SectorLayout, mesh_quads
 
 SIZES = SolidSizes().section
 
@@ -52,7 +53,7 @@ def inner_radius(gear: Gear, rim: float | None) -> float:
 def check_section(gear: Gear, rim: float | None, factor: float) -> None:
     radius = inner_radius(gear, rim)
     mesh = mesh_quads(gear, radius, SIZES)
-    assert scaled_jacobians(mesh.points[mesh.quads]).min() > LEAST_JACOBIAN
+    assert scaled_jacobians(Element.QUAD8, mesh.points[mesh.quads]).min() > LEAST_JACOBIAN
     check_outline(gear, mesh, radius)
     other = SIZES.scaled(factor)
     # A body thinner than an element, or a fillet shorter than one, gets one all the same.

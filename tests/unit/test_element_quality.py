@@ -54,7 +54,7 @@ def is_(found: Quality, jacobian: float, aspect: float, angle: float) -> None:
 @pytest.mark.parametrize("kind", [*(each.value for each in KINDS), "line3", "quad4"])
 def test_shapes_interpolate(kind: str) -> None:
     """1 at their own node and 0 at others; sums are 1; linear fields have their slope."""
-    places = local_places(kind)
+    places = node_places(kind)
     assert shape_values(kind, places) == pytest.approx(np.eye(len(places)), abs=ROUNDING)
     inside = np.random.default_rng(1).uniform(0, 0.3, (7, places.shape[1]))
     assert shape_values(kind, inside).sum(axis=1) == pytest.approx(1, abs=ROUNDING)
@@ -69,7 +69,7 @@ def test_shapes_interpolate(kind: str) -> None:
 @pytest.mark.parametrize("element", KINDS)
 def test_regular_elements_are_perfect(element: Element) -> None:
     """Squares, cubes, equilateral triangles and tetrahedra."""
-    vertices = local_places(element.value)[: element.shape.vertices]
+    vertices = node_places(element.value)[: element.shape.vertices]
     if element is Element.TRI6:
         vertices = np.array([[0, 0], [1, 0], [0.5, math.sqrt(0.75)]])
     if element is Element.TET10:
@@ -80,7 +80,7 @@ def test_regular_elements_are_perfect(element: Element) -> None:
 @pytest.mark.parametrize("element", [Element.QUAD8, Element.HEX8, Element.HEX20])
 def test_sheared_elements(element: Element) -> None:
     """Leaning by 40 degrees: the cosine, and edges longer by its inverse."""
-    vertices = local_places(element.value)[: element.shape.vertices].copy()
+    vertices = node_places(element.value)[: element.shape.vertices].copy()
     vertices[:, 0] += math.tan(math.radians(40)) * vertices[:, -1]
     cosine = math.cos(math.radians(40))
     is_(measure(element, straight(element, vertices)), cosine, 1 / cosine, 50)
@@ -96,10 +96,10 @@ def test_flat_triangle() -> None:
 
 @pytest.mark.parametrize("element", [Element.QUAD8, Element.HEX20])
 def test_curved_edges_count(element: Element) -> None:
-    """A middle node d off its edge turns the ends by atan 2d; past the quarter of the edge, the element folds."""
-    places = local_places(element.value)
-    bottom = (np.abs(places[:, 0]) < 0.1) & (places[:, 1] < -0.9)
-    for axis, moved, expected in ((1, 0.3, 1 / math.hypot(1, 0.6)), (0, 0.6, -1.0)):
+    """A middle node d off its edge turns the ends of an edge of 1 by atan 4d; past the quarter of the edge, the element folds."""
+    places = node_places(element.value)
+    bottom = (places[:, 0] == 0.5) & (places[:, 1] == 0)
+    for axis, moved, expected in ((1, 0.15, 1 / math.hypot(1, 0.6)), (0, 0.3, -1.0)):
         nodes = places.copy()
         nodes[bottom, axis] += moved
         assert measure(element, nodes).least_jacobian == pytest.approx(expected, abs=ROUNDING)
@@ -107,7 +107,7 @@ def test_curved_edges_count(element: Element) -> None:
 
 @pytest.mark.parametrize("element", [Element.TRI6, Element.TET10])
 def test_curved_simplices_fold(element: Element) -> None:
-    places = local_places(element.value)
+    places = node_places(element.value)
     middle = np.flatnonzero(np.isclose(places[:, 0], 0.5) & (places[:, 1:] == 0).all(axis=1))
     for moved, folds in ((0.2, False), (0.3, True)):
         nodes = places.copy()
@@ -119,7 +119,7 @@ def test_curved_simplices_fold(element: Element) -> None:
 def test_scaled_jacobians_are_those_of_vtk(element: Element, kind: int) -> None:
     """Of distorted elements with straight edges, folded ones among them."""
     rng = np.random.default_rng(7)
-    vertices = local_places(element.value)[: element.shape.vertices] / (2 if kind == VTK_HEXAHEDRON else 1)
+    vertices = node_places(element.value)[: element.shape.vertices]
     drawn = vertices + rng.uniform(-0.45, 0.45, (200, *vertices.shape))
     grid, points = vtkUnstructuredGrid(), vtkPoints()
     points.SetData(numpy_to_vtk(drawn.reshape(-1, 3), deep=True))
@@ -144,7 +144,7 @@ def test_scaled_jacobians_are_those_of_vtk(element: Element, kind: int) -> None:
 
 def test_worst_elements_have_their_place() -> None:
     """The worst first, with the nearest side; the gate says so in a line."""
-    cube = local_places("hex8")
+    cube = node_places("hex8") - 0.5
     slopes = np.tan(np.radians([0, 88, 20]))
     leaning = [cube + [100 * k, 0, 0] + slope * cube[:, 2:] * [1, 0, 0] for k, slope in enumerate(slopes)]
     sides = {f"tip_{k}": Faces(np.array([k], np.int32), np.array([1], np.int8)) for k in range(3)}
@@ -158,7 +158,7 @@ def test_worst_elements_have_their_place() -> None:
 
 
 def test_an_element_as_good_as_flat_is_refused() -> None:
-    thin = local_places("hex20") * [1, 1, 1e-5]
+    thin = node_places("hex20") * [1, 1, 1e-5]
     found = measure(Element.HEX20, thin)
     assert found.least_jacobian == pytest.approx(1) and found.largest_aspect == pytest.approx(1e5)
     with pytest.raises(GearcadError, match=r"an edge is 1e\+05 times as long as another"):

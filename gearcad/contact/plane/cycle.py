@@ -26,8 +26,8 @@ from gearcad.contact.shared.local_contact import HollowContact, conformal_notice
 from gearcad.core.records import Floats, Notice, PerGear, Role, Wholes
 from gearcad.geometry import GearPair
 from gearcad.material import Materials, of_both
+from gearcad.meshing.fem import field_gradients, node_places, shape_values
 from gearcad.meshing.outline import OutlineSide
-from gearcad.meshing.quads import triangle_shapes, triangle_slopes
 from gearcad.rating.contact_stress import half_width_by_curvature
 
 _RESOLVED = 4
@@ -341,9 +341,6 @@ def greatest_von_mises(
     return float(mises[at]), float(depth[at])
 
 
-_CORNERS = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
-"""The nodes of a triangle in its own coordinates."""
-
 _INSIDE = (OutlineSide.AHEAD, OutlineSide.HELD, OutlineSide.BEHIND)
 """Sides of a sector that are no profile."""
 
@@ -395,7 +392,7 @@ def tooth_field(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: i
     points, stresses, triangles, count = [], [], [], 0
     for elements, parts in ((mesh.triangles[~finely], _COARSE), (mesh.triangles[finely], _FINE)):
         local, split = _lattice(parts)
-        shape = triangle_shapes(local)
+        shape = shape_values("tri6", local)
         points.append(np.einsum("qa,eac->eqc", shape, mesh.points[elements]).reshape(-1, 2))
         stresses.append(np.einsum("qa,eas->eqs", shape, smooth[elements]).reshape(-1, 3))
         triangles.append((count + len(local) * np.arange(len(elements))[:, None, None] + split).reshape(-1, 3))
@@ -467,9 +464,7 @@ def _at_length(body: PlaneCompliance, columns: Floats, length: float) -> Floats:
 def _element_stresses(body: PlaneCompliance, triangles: Wholes, moved: Floats) -> Floats:
     """Stresses (m, 6, 3) at the nodes of the elements by displacements of all nodes."""
     corners = body.ring.sector.mesh.points[triangles]
-    slopes = triangle_slopes(_CORNERS)
-    jacobian = np.einsum("qad,eac->eqdc", slopes, corners)
-    gradient = np.linalg.solve(jacobian, np.einsum("qad,eac->eqdc", slopes, moved.reshape(-1, 2)[triangles]))
+    gradient = field_gradients("tri6", corners, moved.reshape(-1, 2)[triangles], node_places("tri6"))
     lame, shear = body.elasticity.lame
     spread = lame * (gradient[..., 0, 0] + gradient[..., 1, 1])
     across, up = (spread + 2 * shear * gradient[..., axis, axis] for axis in (0, 1))

@@ -22,8 +22,9 @@ from gearcad.contact.shared.bodies import Hold
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, FlankCompliance, LoadedFlank, RootStress
 from gearcad.core.records import Floats, JsonObject, Wholes
 from gearcad.geometry import Gear
+from gearcad.meshing.fem import quadrature, shape_slopes, shape_values
 from gearcad.meshing.outline import OutlineSide
-from gearcad.meshing.quads import GAUSS, edge_shapes, edge_slopes, edges_of_chain, mesh_quality
+from gearcad.meshing.quads import edges_of_chain, mesh_quality
 from gearcad.meshing.sector import SectorMesh
 
 if TYPE_CHECKING:
@@ -72,11 +73,11 @@ def edge_displacement(distance: Floats, elasticity: PlaneElasticity) -> Floats:
     return result
 
 
-_GAUSS = 8
-"""Points on each edge for the tractions of Flamant's field."""
+_ALONG = 15
+"""Order of quadrature over each edge for the tractions of Flamant's field."""
 
-_ENDS_FIRST = [0, 2, 1]
-"""The nodes of an edge as triangles have them."""
+_AT_STRAINS = 3
+"""Order of the quadrature whose two places have the most accurate strains of quadratic elements."""
 
 Compliance = Callable[[Floats, Floats], Floats]
 """Normal displacements (n, m) in mm at roll lengths (n,) by 1 N per mm of width at roll lengths (m,)."""
@@ -315,8 +316,10 @@ def _boundary_edges(triangles: Wholes) -> Wholes:
 
 def _traction_forces(mesh: SectorMesh, edges: Wholes, loads_at: Floats, inward: Floats) -> Floats:
     """Nodal forces (2 n, m) of the tractions of Flamant's fields on the edges, each by the load at a point (m, 2)."""
-    s, weight = np.polynomial.legendre.leggauss(_GAUSS)
-    shape, slope = (np.ascontiguousarray(each[:, _ENDS_FIRST].T) for each in (edge_shapes(s), edge_slopes(s)))
+    places, weight = quadrature("line3", _ALONG)
+    shape, slope = (
+        np.ascontiguousarray(each.T) for each in (shape_values("line3", places), shape_slopes("line3", places)[:, 0])
+    )
     points = np.einsum("aq,eac->eqc", shape, mesh.points[edges])
     along = np.einsum("aq,eac->eqc", slope, mesh.points[edges])
     normals = np.stack([along[..., 1], -along[..., 0]], -1)  # outward, times the length per unit of s
@@ -398,14 +401,15 @@ class Fillets:
     def _geometry(self) -> dict[OutlineSide, tuple[Floats, Floats, SurfaceStresses]]:
         """Radius and tangent angle of the points of each side, and their stresses by displacements."""
         found = {}
-        points = self.body.ring.sector.mesh.points
+        points, places = self.body.ring.sector.mesh.points, quadrature("line3", _AT_STRAINS).places
+        shape, slope = shape_values("line3", places), shape_slopes("line3", places)[:, 0]
         for side in self._sides:
             edges = edges_of_chain(self.body.ring.sector.mesh.sides[side])
-            where = np.einsum("qa,eac->eqc", _SHAPE, points[edges]).reshape(-1, 2)
-            along = np.einsum("qa,eac->eqc", _SLOPE, points[edges]).reshape(-1, 2)
+            where = np.einsum("qa,eac->eqc", shape, points[edges]).reshape(-1, 2)
+            along = np.einsum("qa,eac->eqc", slope, points[edges]).reshape(-1, 2)
             angle = np.degrees(np.arctan2(along[:, 1], np.abs(along[:, 0])))
-            strain = np.tile(_SLOPE, (len(edges), 1))[:, :, None] * (along / (along**2).sum(-1, keepdims=True))[:, None]
-            dofs = node_dofs(np.repeat(edges, len(_SLOPE), axis=0))
+            strain = np.tile(slope, (len(edges), 1))[:, :, None] * (along / (along**2).sum(-1, keepdims=True))[:, None]
+            dofs = node_dofs(np.repeat(edges, len(slope), axis=0))
             stresses = SurfaceStresses(dofs, strain.reshape(len(where), -1) * self.body.elasticity.modulus)
             found[side] = (np.hypot(*where.T), angle, stresses)
         return found
@@ -462,6 +466,3 @@ def seen_from(own: int, loads: list[ToothLoad]) -> list[ToothLoad]:
 
 
 _ROOT = (OutlineSide.LEFT_FILLET, OutlineSide.LEFT_ROOT, OutlineSide.RIGHT_ROOT, OutlineSide.RIGHT_FILLET)
-
-_PLACES = np.array([-GAUSS, GAUSS])
-_SHAPE, _SLOPE = edge_shapes(_PLACES), edge_slopes(_PLACES)

@@ -26,20 +26,16 @@ from gearcad.contact.shared.bodies import Chain, Hold, Support
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.material import Material
+from gearcad.meshing.fem import mass_matrices, quadrature, shape_slopes, shape_values, stiffness_matrices
 from gearcad.meshing.outline import OutlineSide
-from gearcad.meshing.quads import (
-    TRIANGLE_PLACES,
-    TRIANGLE_WEIGHTS,
-    edge_shapes,
-    edge_slopes,
-    edges_of_chain,
-    triangle_shapes,
-    triangle_slopes,
-)
+from gearcad.meshing.quads import edges_of_chain
 from gearcad.meshing.sector import SectorMesh, with_shaft
 
 _FEW = 24
 """Elements of a part that is not divided further."""
+
+_ORDER = 4
+"""Order of quadrature over triangles: six places."""
 
 
 def node_dofs(nodes: Wholes) -> Wholes:
@@ -235,26 +231,12 @@ class PlaneElasticity:
 
 def element_stiffness(mesh: SectorMesh, elasticity: PlaneElasticity, elements: Wholes | None = None) -> Floats:
     """Stiffness (m, 12, 12) in N/mm per mm of width of all elements, or of some: x and y of each of its nodes in turn."""
-    gradients, weights = _integrated(mesh, elements)
-    slopes = gradients.reshape(len(gradients), 12, -1)
-    products = ((slopes * weights[:, None]) @ slopes.swapaxes(1, 2)).reshape(-1, 6, 2, 6, 2)
-    lame, shear = elasticity.lame
-    # Integrals of lambda div u div v + mu (grad u + grad u^T) : grad v.
-    local = lame * products + shear * products.swapaxes(2, 4)
-    along = products[:, :, 0, :, 0] + products[:, :, 1, :, 1]
-    for direction in (0, 1):
-        local[:, :, direction, :, direction] += shear * along
-    return local.reshape(-1, 12, 12)
+    return stiffness_matrices("tri6", _nodes(mesh, elements), elasticity.lame, _ORDER)
 
 
 def element_mass(mesh: SectorMesh, elements: Wholes | None = None) -> Floats:
     """Integrals of N^T N (m, 12, 12) in mm² over all elements, or some, by the same dofs."""
-    _, weights = _integrated(mesh, elements)
-    shapes = triangle_shapes(TRIANGLE_PLACES)
-    local = np.zeros((len(weights), 6, 2, 6, 2))
-    for direction in (0, 1):
-        local[:, :, direction, :, direction] = np.einsum("eq,qa,qb->eab", weights, shapes, shapes)
-    return local.reshape(-1, 12, 12)
+    return mass_matrices("tri6", _nodes(mesh, elements), _ORDER)
 
 
 def element_forces(triangles: Wholes, matrices: Floats, moved: Floats) -> Floats:
@@ -271,27 +253,14 @@ def element_forces(triangles: Wholes, matrices: Floats, moved: Floats) -> Floats
     return forces
 
 
-def _integrated(mesh: SectorMesh, elements: Wholes | None) -> tuple[Floats, Floats]:
-    """Return slopes (m, 6, 2, places) of the shape functions of elements, and weights (m, places) in mm², at the places of
-    integration.
-    """
-    corners = mesh.points[mesh.triangles if elements is None else mesh.triangles[elements]]
-    local = triangle_slopes(TRIANGLE_PLACES).transpose(2, 0, 1)
-    (x_s, y_s), (x_t, y_t) = (np.moveaxis(along @ corners, -1, 0) for along in local)
-    area = x_s * y_t - y_s * x_t
-    by_s, by_t = (along.T[None] for along in local)
-    gradients = np.stack(
-        [
-            by_s * (y_t / area)[:, None] - by_t * (y_s / area)[:, None],
-            by_t * (x_s / area)[:, None] - by_s * (x_t / area)[:, None],
-        ],
-        axis=2,
-    )
-    return gradients, np.abs(area) * TRIANGLE_WEIGHTS / 2
+def _nodes(mesh: SectorMesh, elements: Wholes | None) -> Floats:
+    """Return the nodes (m, 6, 2) in mm of all elements, or of some."""
+    nodes: Floats = mesh.points[mesh.triangles if elements is None else mesh.triangles[elements]]
+    return nodes
 
 
-_GAUSS = 4
-"""Points on a part of an edge for the tractions on the bore."""
+_ALONG = 7
+"""Order of quadrature over a part of an edge for the tractions on the bore."""
 
 _PARTS = 16
 """Parts of an edge, so that a keyway may end inside it."""
@@ -352,10 +321,10 @@ def rigid_motions(points: Floats) -> Floats:
 def _on_bore(mesh: SectorMesh, half: float) -> Floats:
     """Nodal forces (2 n, 3) by rigid motions' parts along the bore, as tractions up to `half` (rad) from its middle."""
     edges = edges_of_chain(mesh.sides[OutlineSide.HELD])
-    s, weight = np.polynomial.legendre.leggauss(_GAUSS)
-    s = (np.arange(_PARTS)[:, None] + (s + 1) / 2).ravel() * 2 / _PARTS - 1
+    part, weight = quadrature("line3", _ALONG)
+    s = (np.arange(_PARTS)[:, None] + part[:, 0]).reshape(-1, 1) / _PARTS
     weight = np.tile(weight / _PARTS, _PARTS)
-    shape, slope = edge_shapes(s), edge_slopes(s)
+    shape, slope = shape_values("line3", s), shape_slopes("line3", s)[:, 0]
     points = np.einsum("qa,eac->eqc", shape, mesh.points[edges])
     length = np.hypot(*np.moveaxis(np.einsum("qa,eac->eqc", slope, mesh.points[edges]), -1, 0)) * weight
     angle = np.arctan2(points[..., 1], points[..., 0])

@@ -15,14 +15,14 @@ import numpy as np
 
 from gearcad.contact.shared.loaded import FAIR, INTERIOR, TOOTH_ORDER, LoadedCycle, LoadedPosition, PairContact, RootStress
 from gearcad.contact.shared.local_contact import HollowContact, conformal_notices, onsets
-from gearcad.contact.solid.elements import PLACES, lame, slopes_at
+from gearcad.contact.solid.elements import lame
 from gearcad.contact.solid.flank import SolidCompliance, ToothForces
 from gearcad.contact.solid.line_contact import ContactLine, LineSolution, plain_widths, start_distances
 from gearcad.contact.solid.pair import SolidPair
 from gearcad.contact.solid.root import FilletState, SolidFillet
 from gearcad.core.records import Bools, Floats, Notice, PerGear, Role, Wholes
 from gearcad.material import Material
-from gearcad.meshing.quads import GAUSS
+from gearcad.meshing.fem import BY_LEVELS, SWEPT, field_gradients, node_places, quadrature, shape_values
 
 
 @dataclass(frozen=True)
@@ -305,11 +305,8 @@ def _hollow(contact: SolidPairContact) -> Iterator[HollowContact]:
     return map(HollowContact, contact.half_widths[contact.interior].tolist(), lengths[contact.interior].tolist())
 
 
-_GAUSS = GAUSS / 2
-"""Gauss points in the unit cube."""
-
-_VTK = [0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 12, 13, 14, 15, 16, 17, 18, 19]
-"""Our nodes of a hexahedron in VTK's order: corners below, corners above, then the middles below, above and between."""
+_AT_STRAINS = 3
+"""Order of the quadrature whose 2 x 2 x 2 places have the most accurate strains of quadratic hexahedra."""
 
 _OVER = 1.1
 """Range of stresses in pictures, in greatest von Mises stresses of the fillets."""
@@ -436,7 +433,7 @@ def write_vtu(field: SolidField, path: Path, most: float) -> None:
         "stress_MPa": field.stress,
         _DEFORMED: field.displacement,
     }
-    meshio.Mesh(field.points, [("hexahedron20", field.hexahedra[:, _VTK])], point_data=data).write(path)
+    meshio.Mesh(field.points, [("hexahedron20", field.hexahedra[:, BY_LEVELS])], point_data=data).write(path)
     # meshio does not say which of the fields are the ones to colour and to bend by.
     plain, active = b"<PointData>", f'<PointData Scalars="{_ROOT}" Vectors="{_DEFORMED}">'.encode("ascii")
     path.write_bytes(path.read_bytes().replace(plain, active, 1))
@@ -444,11 +441,8 @@ def write_vtu(field: SolidField, path: Path, most: float) -> None:
 
 def nodal_stress(points: Floats, hexahedra: Wholes, displacement: Floats, material: Material) -> Floats:
     """Stresses (n, 6) at the nodes: from 2 x 2 x 2 points of each element, outward, and the mean of all elements around."""
-    slopes, outward = _slopes(), _outward()
-    jacobian = np.einsum("qak,mai->mqik", slopes, points[hexahedra], optimize=True)
-    by_local = np.einsum("qak,mai->mqik", slopes, displacement[hexahedra], optimize=True)
-    gradient = by_local @ np.linalg.inv(jacobian)
-    at_nodes = np.einsum("aq,mqs->mas", outward, _stress(gradient, material), optimize=True)
+    gradient = field_gradients(SWEPT, points[hexahedra], displacement[hexahedra], quadrature(SWEPT, _AT_STRAINS).places)
+    at_nodes = np.einsum("aq,mqs->mas", _outward(), _stress(gradient, material), optimize=True)
     total, times = np.zeros((len(points), 6)), np.zeros(len(points))
     np.add.at(total, hexahedra, at_nodes)
     np.add.at(times, hexahedra, 1.0)
@@ -465,21 +459,11 @@ def _stress(gradient: Floats, material: Material) -> Floats:
 
 
 @cache
-def _gauss_points() -> Floats:
-    low, high = 0.5 - _GAUSS, 0.5 + _GAUSS
-    return np.array([[x, y, z] for z in (low, high) for y in (low, high) for x in (low, high)])
-
-
-@cache
-def _slopes() -> Floats:
-    """Slopes (8, 20, 3) of the shape functions at the points."""
-    return slopes_at(_gauss_points().T)
-
-
-@cache
 def _outward() -> Floats:
     """Weights (20, 8) with which values at the points, trilinear between them, give those at the nodes."""
-    signs = (_gauss_points() - 0.5) / _GAUSS
-    local = (PLACES - 0.5) / _GAUSS
-    result: Floats = np.prod(1 + signs[None] * local[:, None], axis=-1) / 8
-    return result
+    points = quadrature(SWEPT, _AT_STRAINS).places
+    low, high = points.min(), points.max()
+    order = [int(np.abs(low + (high - low) * corner - points).sum(axis=1).argmin()) for corner in node_places("hex8")]
+    weights = np.empty((20, 8))
+    weights[:, order] = shape_values("hex8", (node_places(SWEPT) - low) / (high - low))
+    return weights

@@ -10,74 +10,24 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from gearcad.core.records import Floats, Wholes
 from gearcad.material import Material
+from gearcad.meshing.fem import SWEPT, Element, quadrature, shape_slopes, shape_values, stiffness_matrices
 from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.sector import SweptMesh, turned
 
-_CORNERS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-_MIDDLES = np.array([[0.5, 0], [1, 0.5], [0.5, 1], [0, 0.5]])
-PLACES = np.array(
-    [
-        *([x, y, z] for z in (0.0, 1.0) for x, y in (*_CORNERS, *_MIDDLES)),
-        *([x, y, 0.5] for x, y in _CORNERS),
-    ]
-)
-"""Places of the nodes in the unit cube, in our order: lower face, upper face, half-way up."""
-
 _ORDER = 5
 """Order of quadrature: 3 x 3 x 3 points. Fewer leave hexahedra with zero-energy modes, more change nothing that shows."""
-
-
-class _Quadrature(NamedTuple):
-    slopes: Floats  # (points, 20, 3) of the shape functions
-    weights: Floats
-
-
-@cache
-def _hexahedra_rule() -> _Quadrature:
-    from skfem import ElementHexS2
-    from skfem.quadrature import get_quadrature
-
-    places, weights = get_quadrature(ElementHexS2.refdom, _ORDER)
-    return _Quadrature(slopes_at(places), weights)
-
-
-def slopes_at(places: Floats) -> Floats:
-    """Slopes (n, 20, 3) of the shape functions at places (3, n) in the unit cube."""
-    from skfem import ElementHexS2
-
-    element = ElementHexS2()
-    index = [int(np.argmin(np.abs(element.doflocs - place).sum(axis=1))) for place in PLACES]
-    slopes: Floats = np.stack([element.lbasis(places, k)[1] for k in index])
-    return slopes.transpose(2, 0, 1)
 
 
 def lame(material: Material) -> tuple[float, float]:
     """Lamé's constants lambda and mu (MPa)."""
     e, nu = material.youngs_modulus, material.poisson_ratio
     return e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))
-
-
-def stiffness_matrices(points: Floats, material: Material) -> Floats:
-    """Matrices (m, 60, 60) in N/mm of hexahedra with nodes at `points` (m, 20, 3), dof 3 a + i."""
-    rule, (first, second) = _hexahedra_rule(), lame(material)
-    jacobian = np.einsum("qak,mai->mqik", rule.slopes, points)
-    volume = np.linalg.det(jacobian) * rule.weights
-    slopes = np.einsum("qak,mqki->mqai", rule.slopes, np.linalg.inv(jacobian), optimize=True)
-    count = len(points)
-    flat = slopes.reshape(count, len(rule.weights), 60)
-    product = ((flat * volume[..., None]).transpose(0, 2, 1) @ flat).reshape(count, 20, 3, 20, 3)
-    trace = np.einsum("maibi->mab", product)
-    matrices = first * product + second * product.transpose(0, 1, 4, 3, 2)
-    for axis in range(3):
-        matrices[:, :, axis, :, axis] += second * trace
-    result: Floats = matrices.reshape(count, 60, 60)
-    return result
 
 
 def layer_matrices(mesh: SweptMesh, quads: Wholes, layer: int, material: Material) -> Floats:
@@ -92,7 +42,7 @@ def layer_matrices(mesh: SweptMesh, quads: Wholes, layer: int, material: Materia
     cosine, sine = np.cos(angles), np.sin(angles)
     x = 3 * np.arange(20)
     turn[x, x], turn[x, x + 1], turn[x + 1, x], turn[x + 1, x + 1], turn[x + 2, x + 2] = cosine, -sine, sine, cosine, 1
-    result: Floats = turn.T @ stiffness_matrices(points, material) @ turn
+    result: Floats = turn.T @ stiffness_matrices(SWEPT, points, lame(material), _ORDER) @ turn
     return result
 
 
@@ -106,14 +56,8 @@ _CLOSE = 1.5
 @cache
 def _rule(count: int) -> tuple[Floats, Floats, Floats]:
     """Shape functions (points, 8), their slopes (2, points, 8), and weights of `count` x `count` Gauss points."""
-    from skfem import ElementQuadS2
-
-    element = ElementQuadS2()
-    place, weight = np.polynomial.legendre.leggauss(count)
-    x, y = (np.ravel(each) for each in np.meshgrid((place + 1) / 2, (place + 1) / 2, indexing="ij"))
-    found = [element.lbasis(np.stack([x, y]), k) for k in range(8)]
-    values, slopes = np.stack([each[0] for each in found], -1), np.stack([each[1] for each in found], -1)
-    return values, slopes, np.outer(weight, weight).ravel() / 4
+    places, weights = quadrature("quad8", 2 * count - 1)
+    return shape_values("quad8", places), shape_slopes("quad8", places).swapaxes(0, 1), weights
 
 
 @dataclass(frozen=True)
@@ -190,8 +134,8 @@ def summing(nodes: Wholes) -> tuple[Wholes, Any]:
 def boundary_faces(mesh: SweptMesh, quads: Wholes) -> QuadraticFaces:
     """The faces around the hexahedra over some section quadrangles: sides of all layers, and both ends."""
     section = mesh.section.quads[quads]
-    edges = section[:, [[0, 4, 1], [1, 5, 2], [2, 6, 3], [3, 7, 0]]].reshape(-1, 3)
-    _, index, times = np.unique(edges[:, 1], return_index=True, return_counts=True)
+    edges = section[:, np.array(Element.QUAD8.shape.faces)].reshape(-1, 3)
+    _, index, times = np.unique(edges[:, 2], return_index=True, return_counts=True)
     once = edges[index[times == 1]]
     found = [mesh.side_faces(once, layer) for layer in range(mesh.layers)]
     top = section + mesh.plane(mesh.layers)

@@ -11,17 +11,15 @@ from numpy.typing import NDArray
 
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
 from gearcad.core.records import Floats, Wholes
+from gearcad.meshing.fem import quadrature, shape_slopes, shape_values
 from gearcad.meshing.outline import OutlineSide
-from gearcad.meshing.quads import GAUSS, edges_of_chain
+from gearcad.meshing.quads import edges_of_chain
 
 if TYPE_CHECKING:
     from gearcad.contact.solid.flank import SolidCompliance, ToothForces
 
 __all__ = ["FilletState", "SolidFillet", "SolidFillets", "solid_fillets"]
 
-
-_GAUSS = GAUSS / 2
-"""The same on a face that is 1 high."""
 
 _STEPS = 4
 """Steps from one point to the next in which the greatest stress is looked for."""
@@ -110,12 +108,9 @@ class SolidFillet:
 
         There the strain along the profile is the mean of the edge, whatever the shape of the elements behind it.
         """
-        from skfem import ElementQuadS2
-
-        element = ElementQuadS2()
-        places = np.array([[0.5, 0.5], [0.5 - _GAUSS, 0.5 + _GAUSS]])
-        found = [element.lbasis(places, k) for k in range(8)]
-        return np.stack([each[0] for each in found], -1), np.stack([each[1] for each in found], -1)
+        places = quadrature("line3", 3).places
+        places = np.concatenate([np.full_like(places, 0.5), places], axis=1)
+        return shape_values("quad8", places), shape_slopes("quad8", places).swapaxes(0, 1)
 
     def _at_points(self, values: Floats) -> Floats:
         """Values (layers, edges, 2 points, ...) as (heights, along the profile, ...)."""

@@ -20,9 +20,10 @@ from gearcad.core.records import Floats, Notice, PerGear, Role, Wholes
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.gear import Pose, halves
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
-from gearcad.meshing.bodies.element_mesh import Cells, Element, ElementMesh, Faces, joined
+from gearcad.meshing.bodies.element_mesh import Cells, ElementMesh, Faces, joined
 from gearcad.meshing.bodies.section_mesh import NO_CONTACTS, Turns, mesh_section, modification_turns, teeth_of
 from gearcad.meshing.bodies.sectors import ContactRefinement, Sectors, disc
+from gearcad.meshing.fem import Element
 from gearcad.meshing.outline import Grading, MeshSizes, graded
 from gearcad.meshing.sector import Stack
 

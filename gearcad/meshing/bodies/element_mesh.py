@@ -1,13 +1,12 @@
-"""ElementMesh: nodes, elements and named sides of a body, its shape functions, and conversion to other libraries."""
+"""ElementMesh: nodes, elements and named sides of a body, and conversion to other libraries."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from enum import Enum
-from functools import cache, cached_property, partial
-from itertools import groupby, product
+from functools import cached_property, partial
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -15,73 +14,7 @@ from numpy.typing import NDArray
 
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
-
-
-@dataclass(frozen=True)
-class ElementShape:
-    """An element: its vertices come first, then, if it is of second order, the nodes half-way along its edges.
-
-    `edges` are pairs of vertices, in the order of the nodes between them; `faces` the local nodes of each side, vertices
-    first, in an order in which its normal points out of the element. Of plane elements they are edges: end, end, middle.
-    Order of nodes and sides are those of Abaqus and CalculiX, so side k, counted from 1, is their S(k).
-    """
-
-    dimension: int
-    order: int
-    vertices: int
-    edges: tuple[tuple[int, int], ...]
-    faces: tuple[tuple[int, ...], ...]
-    face: str
-
-    @property
-    def nodes(self) -> int:
-        """Nodes of one element."""
-        return self.vertices + (len(self.edges) if self.order == 2 else 0)
-
-
-class Element(Enum):
-    """Element of a mesh; the value is the word of commands and files."""
-
-    TRI6 = "tri6"
-    QUAD8 = "quad8"
-    HEX8 = "hex8"
-    HEX20 = "hex20"
-    TET10 = "tet10"
-
-    @property
-    def shape(self) -> ElementShape:
-        """Nodes and sides of the element."""
-        return _SHAPES[self]
-
-
-_HEX_EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))
-_HEX_FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
-_TET_EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
-_TET_FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))
-
-
-def _with_middles(
-    faces: tuple[tuple[int, ...], ...], edges: tuple[tuple[int, int], ...], vertices: int
-) -> tuple[tuple[int, ...], ...]:
-    """Sides of an element of second order: after their vertices the nodes between those that follow each other."""
-    number = {frozenset(edge): vertices + k for k, edge in enumerate(edges)}
-    return tuple((*face, *(number[frozenset(pair)] for pair in zip(face, face[1:] + face[:1], strict=True))) for face in faces)
-
-
-def _plane(vertices: int) -> ElementShape:
-    """A triangle or quadrangle of second order."""
-    edges = tuple((k, (k + 1) % vertices) for k in range(vertices))
-    return ElementShape(2, 2, vertices, edges, tuple((*edge, vertices + k) for k, edge in enumerate(edges)), "line3")
-
-
-_SHAPES = {
-    Element.TRI6: _plane(3),
-    Element.QUAD8: _plane(4),
-    Element.HEX8: ElementShape(3, 1, 8, _HEX_EDGES, _HEX_FACES, "quad4"),
-    Element.HEX20: ElementShape(3, 2, 8, _HEX_EDGES, _with_middles(_HEX_FACES, _HEX_EDGES, 8), "quad8"),
-    Element.TET10: ElementShape(3, 2, 4, _TET_EDGES, _with_middles(_TET_FACES, _TET_EDGES, 4), "tri6"),
-}
-
+from gearcad.meshing.fem import Element, node_places, shape_values
 
 BORE = "bore"
 """The inner circle of an external gear, that is none where its section is a full disc."""
@@ -227,72 +160,6 @@ def part_numbers(mesh: ElementMesh) -> NDArray[np.uint8]:
     return numbers
 
 
-_QUAD = ((-1, -1), (1, -1), (1, 1), (-1, 1))
-_TRI = ((0, 0), (1, 0), (0, 1))
-
-_VERTICES: dict[str, tuple[tuple[int, ...], ...]] = {
-    "line3": ((-1,), (1,)),
-    "tri6": _TRI,
-    "quad4": _QUAD,
-    "quad8": _QUAD,
-    "hex8": (*((*place, -1) for place in _QUAD), *((*place, 1) for place in _QUAD)),
-    "tet10": ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)),
-}
-_VERTICES["hex20"] = _VERTICES["hex8"]
-
-_FACE_EDGES = {"line3": ((0, 1),), "quad4": ()}
-"""Pairs of vertices with a node between them, for faces that are not elements themselves."""
-
-_LINEAR = ("quad4", "hex8")
-_SIMPLICES = ("tri6", "tet10")
-
-
-@cache
-def local_places(kind: str) -> Floats:
-    """Places (n, dimension) of the nodes of an element or a face in its own coordinates: -1 to 1, or 0 to 1 in simplices."""
-    vertices = np.array(_VERTICES[kind], float)
-    shape = Element(kind).shape if kind not in _FACE_EDGES else None
-    pairs = _FACE_EDGES[kind] if shape is None else shape.edges[: shape.nodes - shape.vertices]
-    middles = vertices[np.array(pairs, int).reshape(-1, 2)].mean(axis=1)
-    return np.concatenate([vertices, middles])
-
-
-@cache
-def _powers(kind: str) -> Wholes:
-    """Return the exponents (n, dimension) of the monomials: up to second order in simplices, else with at most one square."""
-    every = np.array(list(product(range(3), repeat=len(_VERTICES[kind][0]))))
-    if kind in _SIMPLICES:
-        chosen = every.sum(axis=1) <= 2
-    else:
-        chosen = (every == 2).sum(axis=1) <= (0 if kind in _LINEAR else 1)
-    result: Wholes = every[chosen]
-    return result
-
-
-@cache
-def _coefficients(kind: str) -> Floats:
-    """Return the coefficients (n, n) of the monomials in the shape functions."""
-    result: Floats = np.linalg.inv(np.prod(local_places(kind)[:, None] ** _powers(kind), axis=-1))
-    return result
-
-
-def shape_values(kind: str, places: Floats) -> Floats:
-    """Values (p, n) at local places (p, dimension) of the shape functions of an element or a face ("quad8")."""
-    monomials = np.prod(places[:, None] ** _powers(kind), axis=-1)
-    result: Floats = monomials @ _coefficients(kind)
-    return result
-
-
-def shape_slopes(kind: str, places: Floats) -> Floats:
-    """Return the derivatives (p, dimension, n) of the shape functions along the local coordinates."""
-    powers = _powers(kind)
-    found = []
-    for axis in range(powers.shape[1]):
-        lower = np.maximum(powers - np.eye(powers.shape[1], dtype=int)[axis], 0)
-        found.append(np.prod(places[:, None] ** lower, axis=-1) * powers[:, axis] @ _coefficients(kind))
-    return np.stack(found, 1)
-
-
 MESHIO_WORDS = {
     "tri6": "triangle6",
     "quad8": "quad8",
@@ -428,14 +295,14 @@ def _with_face_nodes(mesh: ElementMesh) -> tuple[Floats, Cells]:
     """Points and elements (m, 26) of hexahedra with a node more in each face, in VTK's order."""
     faces = mesh.cells[:, np.array(mesh.element.shape.faces)[list(_VTK_FACES)]].reshape(-1, 8)
     _, first, number = np.unique(np.sort(faces[:, :4]), axis=0, return_index=True, return_inverse=True)
-    middles = shape_values("quad8", np.zeros((1, 2)))[0] @ mesh.points[faces[first]]
+    middles = shape_values("quad8", np.full((1, 2), 0.5))[0] @ mesh.points[faces[first]]
     cells = np.concatenate([mesh.cells, len(mesh.points) + number.reshape(-1, 6)], axis=1)
     return np.concatenate([mesh.points, middles]), cells.astype(np.int32)
 
 
 def _with_centres(points: Floats, cells: Cells, own: Wholes, kind: str) -> tuple[Floats, Cells]:
     """Points and elements with a node more in the middle of each, where the shape functions of this kind put it."""
-    middle = shape_values(kind, np.zeros((1, len(local_places(kind)[0]))))[0]
+    middle = shape_values(kind, np.full((1, node_places(kind).shape[1]), 0.5))[0]
     centres = middle @ points[cells[:, own]]
     numbers = np.arange(len(points), len(points) + len(cells), dtype=np.int32)
     return np.concatenate([points, centres]), np.c_[cells, numbers]

@@ -19,7 +19,8 @@ from gearcad.geometry import Gear
 from gearcad.geometry.gear import FlankCurve, flank_curves, middle_section
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
 from gearcad.geometry.profile import Chamfer, Curve, CurveKind, Fillet, Involute
-from gearcad.meshing.bodies.element_mesh import GAP, ElementMesh, body_side, rises, shape_values
+from gearcad.meshing.bodies.element_mesh import GAP, ElementMesh, body_side, rises
+from gearcad.meshing.fem import shape_values
 
 _DEGREE = 48
 """Degree of the polynomials that stand for a curve's radius and angle: they come within rounding of all of them."""
@@ -213,12 +214,11 @@ class _Surface:
 @cache
 def _places(face: str) -> Floats:
     """Local places (n, dimension) at which a face is looked at: on its edges and inside."""
-    line = np.array([-1.0, -_CUBIC, 0.0, _CUBIC, 1.0])
+    line = (1 + np.array([-1.0, -_CUBIC, 0.0, _CUBIC, 1.0])) / 2
     if face == "line3":
         return line[:, None]
     if face == "tri6":
-        share = (1 + line) / 2
-        return np.array([[a, b] for a in share for b in share if a + b <= 1 + 1e-12])
+        return np.array([[a, b] for a in line for b in line if a + b <= 1 + 1e-12])
     return np.array([[a, b] for a in line for b in line])
 
 

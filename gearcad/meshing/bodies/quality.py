@@ -6,14 +6,15 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
-from itertools import combinations, product
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Floats, JsonObject, Wholes
-from gearcad.meshing.bodies.element_mesh import Element, ElementMesh, local_places, shape_slopes, shape_values
+from gearcad.meshing.bodies.element_mesh import ElementMesh
+from gearcad.meshing.fem import Element, quadrature, scaled_jacobians, shape_slopes, shape_values
 
 LEAST_SCALED_JACOBIAN = {
     Element.TRI6: 0.1,
@@ -146,59 +147,6 @@ def _chunks(mesh: ElementMesh) -> Iterator[tuple[slice, Floats]]:
         yield chosen, mesh.points[mesh.cells[chosen], :dimension]
 
 
-# ---------------------------------------------------------------------- scaled Jacobians
-
-
-def scaled_jacobians(element: Element, nodes: Floats) -> Floats:
-    """Scaled Jacobians (m, places) of elements with nodes at (m, nodes, dimension): at the nodes and in the centre."""
-    dimension = element.shape.dimension
-    slopes = _slopes(element)
-    flat = np.moveaxis(nodes, 2, 1).reshape(-1, nodes.shape[1]) @ slopes
-    directions = flat.reshape(len(nodes), dimension, -1, dimension)  # of coordinates, at places, along axes of the element
-    tangents = [np.moveaxis(directions[..., axis], 1, 0) for axis in range(dimension)]
-    volume = _spanned(tangents)
-    if element in (Element.TRI6, Element.TET10):
-        volume *= 2 / math.sqrt(3) if dimension == 2 else math.sqrt(2)
-        longest = _longest_at_a_vertex(tangents)
-    else:
-        longest = np.prod([_length(tangent) for tangent in tangents], axis=0)
-    result: Floats = volume / np.maximum(longest, _NOTHING)
-    return result
-
-
-@cache
-def _slopes(element: Element) -> Floats:
-    """Return the derivatives (nodes, places * dimension) of the shape functions at the nodes and at the centre."""
-    places = local_places(element.value)
-    centre = places[: element.shape.vertices].mean(axis=0)
-    slopes = shape_slopes(element.value, np.concatenate([places, centre[None]]))
-    return np.ascontiguousarray(slopes.reshape(-1, slopes.shape[-1]).T)
-
-
-def _length(vectors: Floats) -> Floats:
-    result: Floats = np.sqrt((vectors**2).sum(axis=0))
-    return result
-
-
-def _spanned(tangents: list[Floats]) -> Floats:
-    """Volume, or area, that vectors (dimension, ...) span."""
-    if len(tangents) == 2:
-        (a, b), (c, d) = tangents
-        area: Floats = a * d - b * c
-        return area
-    (a, b, c), (d, e, f), (g, h, i) = tangents
-    volume: Floats = a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
-    return volume
-
-
-def _longest_at_a_vertex(tangents: list[Floats]) -> Floats:
-    """Greatest product of the lengths of the edges that meet at a vertex of the simplex that the directions span."""
-    corners = [np.zeros_like(tangents[0]), *tangents]
-    products = [np.prod([_length(a - b) for a in corners if a is not b], axis=0) for b in corners]
-    longest: Floats = np.maximum.reduce(products)
-    return longest
-
-
 # ---------------------------------------------------------------------- edges and angles
 
 
@@ -261,11 +209,8 @@ def _nearest_sides(mesh: ElementMesh, places: Floats) -> list[str]:
 _MEASURE_CHUNK = 100_000
 """Faces that are looked at together: what is kept of them meanwhile stays small beside the mesh."""
 
-_GAUSS = ((-math.sqrt(0.6), 5 / 9), (0.0, 8 / 9), (math.sqrt(0.6), 5 / 9))
-"""Places and weights that are exact up to the fifth power: that is what a curved face of second order needs."""
-
-_TRIANGLE = ((0.445948490915965, 0.223381589678011), (0.091576213509771, 0.109951743655322))
-"""The coordinate that two vertices share, and the weight of each of the three places: exact up to the fourth power."""
+_ORDERS = {"line3": 5, "tri6": 4, "quad4": 5, "quad8": 5}
+"""Orders of quadrature over faces: what a curved face of second order needs."""
 
 
 class Measure(NamedTuple):
@@ -315,7 +260,7 @@ def measure_whole(mesh: ElementMesh) -> float:
 
 def _measure(places: Floats, face: str) -> Measure:
     """Return the measure of faces together, with nodes at `places` (n, nodes, 3)."""
-    local, weights = _quadrature(face)
+    local, weights = quadrature(face, _ORDERS[face])
     size, outward, moments = 0.0, np.zeros(3), np.zeros(3)
     for values, slopes, weight in zip(shape_values(face, local), shape_slopes(face, local), weights, strict=True):
         at, along = np.einsum("a,nac->nc", values, places), np.einsum("da,nac->dnc", slopes, places)
@@ -324,21 +269,3 @@ def _measure(places: Floats, face: str) -> Measure:
         outward += weight * normal.sum(axis=0)
         moments += weight * (at * normal).sum(axis=0)
     return Measure(size, outward, moments)
-
-
-@cache
-def _quadrature(face: str) -> tuple[Floats, Floats]:
-    """Places (n, 1 or 2) in a face's own coordinates, and their weights (n,)."""
-    places, weights = zip(*(_of_triangles() if face == "tri6" else _of_products(1 if face == "line3" else 2)), strict=True)
-    return np.array(places), np.array(weights)
-
-
-def _of_products(dimension: int) -> Iterator[tuple[list[float], float]]:
-    for each in product(_GAUSS, repeat=dimension):
-        yield [place for place, _ in each], math.prod(weight for _, weight in each)
-
-
-def _of_triangles() -> Iterator[tuple[list[float], float]]:
-    for share, weight in _TRIANGLE:
-        for place in ([share, share], [1 - 2 * share, share], [share, 1 - 2 * share]):
-            yield place, weight / 2

@@ -17,8 +17,9 @@ from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.geometry import Gear
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.profile import CurveKind, Fillet
-from gearcad.meshing.bodies.element_mesh import Cells, Element, ElementMesh, Faces, body_side, rises
+from gearcad.meshing.bodies.element_mesh import Cells, ElementMesh, Faces, body_side, rises
 from gearcad.meshing.bodies.sectors import ContactRefinement, Sectors, filled
+from gearcad.meshing.fem import Element
 from gearcad.meshing.outline import OTHER_SIDE, MeshSizes, OutlineSide, SectorSides
 
 _NEGLIGIBLE = 1e-14

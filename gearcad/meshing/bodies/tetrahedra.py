@@ -19,7 +19,7 @@ from gearcad.core.records import Bools, Floats, Indices, Wholes
 from gearcad.geometry import Gear
 from gearcad.geometry.gear import FlankCurve, flank_curves, halves
 from gearcad.geometry.gear_data import height_in_half, section_turn
-from gearcad.meshing.bodies.element_mesh import Cells, Element, ElementMesh, Faces
+from gearcad.meshing.bodies.element_mesh import Cells, ElementMesh, Faces
 from gearcad.meshing.bodies.gear_faces import (
     ROOT,
     BrepFace,
@@ -34,7 +34,7 @@ from gearcad.meshing.bodies.gear_faces import (
     expected_tetrahedra,
     fill_brep,
 )
-from gearcad.meshing.bodies.quality import scaled_jacobians
+from gearcad.meshing.fem import Element, scaled_jacobians
 from gearcad.solids.body_plan import End, gear_ends
 from gearcad.solids.exact.kernel import kernel_solid
 from gearcad.solids.exact.solid import gear_boundary
