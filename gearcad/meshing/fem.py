@@ -221,6 +221,17 @@ def field_gradients(kind: str, nodes: Floats, values: Floats, places: Floats) ->
     return result
 
 
+def laplacian(points: Floats, cells: Wholes) -> Any:
+    """Return the matrix (scipy CSR, n x n) of Laplace's equation on points (n, 2) of linear triangles (m, 3) or quadrangles
+    (m, 4).
+    """
+    from skfem import Basis, ElementQuad1, ElementTriP1, MeshQuad1, MeshTri1
+    from skfem.models.poisson import laplace
+
+    mesh, element = (MeshQuad1, ElementQuad1) if cells.shape[1] == 4 else (MeshTri1, ElementTriP1)
+    return laplace.assemble(Basis(mesh(np.ascontiguousarray(points.T), np.ascontiguousarray(cells.T)), element()))
+
+
 # ---------------------------------------------------------------------- scaled Jacobians
 
 _NOTHING = 1e-300

@@ -19,7 +19,7 @@ from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.profile import CurveKind, Fillet
 from gearcad.meshing.bodies.element_mesh import Cells, ElementMesh, Faces, body_side, rises
 from gearcad.meshing.bodies.sectors import ContactRefinement, Sectors, filled
-from gearcad.meshing.fem import Element
+from gearcad.meshing.fem import Element, laplacian
 from gearcad.meshing.outline import OTHER_SIDE, MeshSizes, OutlineSide, SectorSides
 
 _NEGLIGIBLE = 1e-14
@@ -204,15 +204,9 @@ def _fill_inside(section: ElementMesh, known: Bools, fields: Floats) -> None:
 
 def _laplacian(section: ElementMesh) -> tuple[Cells, Any]:
     """The vertices (n,) of a section, and the matrix (n, n) of Laplace's equation on them."""
-    from skfem import Basis, ElementQuad1, ElementTriP1, MeshQuad1, MeshTri1
-    from skfem.models.poisson import laplace
-
     corners = section.cells[:, : section.element.shape.vertices]
     vertices, numbers = np.unique(corners, return_inverse=True)
-    mesh, element = (MeshQuad1, ElementQuad1) if section.element is Element.QUAD8 else (MeshTri1, ElementTriP1)
-    places, numbers = section.points[vertices, :2].T, numbers.reshape(corners.shape).T
-    basis = Basis(mesh(np.ascontiguousarray(places), np.ascontiguousarray(numbers)), element())
-    return vertices, laplace.assemble(basis)
+    return vertices, laplacian(section.points[vertices, :2], numbers.reshape(corners.shape))
 
 
 NO_CONTACTS: Mapping[int, ContactRefinement] = MappingProxyType({})
