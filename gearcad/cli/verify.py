@@ -14,7 +14,7 @@ from gearcad.cli.job import json_option, output_option, perform, quiet_option
 from gearcad.core.errors import ParameterError, as_choice
 
 if TYPE_CHECKING:
-    from gearcad.verification.baseline import Moved
+    from gearcad.verification.baseline import MovedFigure
     from gearcad.verification.result import Verification
 
 _TABLES = (".csv", ".xlsx")
@@ -66,9 +66,9 @@ def verify(
     failed, a required safety is not reached, or a figure moved from the baseline.
     """
     from gearcad.jobs.verification import Verify
-    from gearcad.verification.claims import Level
+    from gearcad.verification.claims import VerificationLevel
 
-    chosen = as_choice("level", level.lower(), Level)
+    chosen = as_choice("level", level.lower(), VerificationLevel)
     if not 0 <= tolerance < 1:
         raise ParameterError("tolerance", tolerance, "must be from 0 to below 1")
     before = _before(baseline)
@@ -212,7 +212,7 @@ def _figures(documents: Iterable[dict[str, Any]]) -> dict[str, Any]:
     return {str(document["name"]): figures_of(document) for document in documents}
 
 
-def _moved(before: Mapping[str, Any] | None, now: Mapping[str, Any], tolerance: float) -> list[Moved]:
+def _moved(before: Mapping[str, Any] | None, now: Mapping[str, Any], tolerance: float) -> list[MovedFigure]:
     """Return the quantities that differ from the baseline, the greatest change first."""
     if before is None:
         return []
@@ -221,7 +221,7 @@ def _moved(before: Mapping[str, Any] | None, now: Mapping[str, Any], tolerance: 
     return compare(before, now, tolerance)
 
 
-def _tell_moved(moved: list[Moved]) -> None:
+def _tell_moved(moved: list[MovedFigure]) -> None:
     """Print the figures that moved most."""
     for each in moved[:_MOST_MOVED]:
         click.echo(f"Moved: {each}", err=True)

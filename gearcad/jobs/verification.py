@@ -27,8 +27,8 @@ from gearcad.report.verification import heading, verification_html, write_verifi
 from gearcad.solids import FileOptions, Format
 from gearcad.verification.assemblies import PlacedMesh
 from gearcad.verification.calculix import calculix_version
-from gearcad.verification.claims import Claim, Judge, Level, timed
-from gearcad.verification.claims import Subject as About
+from gearcad.verification.claims import Claim, Judge, VerificationLevel, timed
+from gearcad.verification.claims import ClaimSubject as About
 from gearcad.verification.drawings import judge_section, judge_sections
 from gearcad.verification.exact_parts import ExactPart
 from gearcad.verification.facets import SUBJECTS, judge_facets
@@ -58,12 +58,12 @@ class Verify(Job[ToothedDesign, Verification]):
     accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "there are no teeth"
 
-    level: Level = Level.FILES
+    level: VerificationLevel = VerificationLevel.FILES
     folder: str = ""
     keep: bool = True
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "level", as_choice("level", self.level, Level))
+        object.__setattr__(self, "level", as_choice("level", self.level, VerificationLevel))
 
     @one_thread()
     def run(self, design: Design, progress: Progress | None = None) -> Verification:
@@ -107,15 +107,15 @@ class Verify(Job[ToothedDesign, Verification]):
         yield from _of_files(design, folder, parts, assembly, exact)
         of_parts = {name: exact[product.name] for name, product in parts.items()}
         yield _Stage("drawings", 1.0, partial(_of_sheets, design, folder, of_parts, drawn=not self.folder))
-        sections = _SECTIONS if self.level.includes(Level.FULL) else 1
+        sections = _SECTIONS if self.level.includes(VerificationLevel.FULL) else 1
         for name, product in parts.items():
             yield _Stage(f"geometry of {name}", 0.3, partial(_of_geometry, _part(product), name, sections))
         for mesh in _meshes(design, parts):
             where = f"{mesh.pinion} and {mesh.mate}"
             yield _Stage(f"geometry of {where}", 0.2, partial(judge_pair, mesh.pair, where))
-        if self.level.includes(Level.STRENGTH):
+        if self.level.includes(VerificationLevel.STRENGTH):
             yield _Stage("contact and strength", 20.0, partial(_of_strength, design))
-        if self.level.includes(Level.FULL):
+        if self.level.includes(VerificationLevel.FULL):
             yield _Stage("meshes", 10.0, partial(judge_meshes, design, folder, of_parts, made=not self.folder))
             yield _Stage("CalculiX", 60.0, partial(judge_by_calculix, design))
 
@@ -236,9 +236,9 @@ def _assembled(design: ToothedDesign, kind: Format) -> bool:
 
 
 def _of_file(path: Path, kind: Format, claims: Callable[[Path], Iterator[Claim]]) -> Iterator[Claim]:
-    """Claims about a file, or the claim that it is there."""
+    """Yield claims about a file, or the claim that it exists."""
     if not path.is_file():
-        yield Judge(_subject(kind), Level.FILES, path.name, "file system").holds(
+        yield Judge(_subject(kind), VerificationLevel.FILES, path.name, "file system").holds(
             "is there", False, place=f"no file {path.name}"
         )
         return
@@ -246,7 +246,7 @@ def _of_file(path: Path, kind: Format, claims: Callable[[Path], Iterator[Claim]]
         yield from claims(path)
     except Exception as error:  # what a broken file does to a reader or a measurement is not known beforehand
         said = f"{type(error).__name__}: {error}"
-        yield Judge(_subject(kind), Level.FILES, path.name, "gearcad").holds("can be judged", False, place=said)
+        yield Judge(_subject(kind), VerificationLevel.FILES, path.name, "gearcad").holds("can be judged", False, place=said)
 
 
 def _subject(kind: Format) -> About:
@@ -311,8 +311,8 @@ def _meshes(design: ToothedDesign, parts: Mapping[str, PartProduct]) -> list[Pla
 
 def _of_strength(design: ToothedDesign) -> Iterator[Claim]:
     """The claims of the structural check and of the rating, where the design is a pair or a train with a load."""
-    judge = Judge(About.CONTACT, Level.STRENGTH, design.name, "finite elements")
-    strength = Judge(About.STRENGTH, Level.STRENGTH, design.name, "rating")
+    judge = Judge(About.CONTACT, VerificationLevel.STRENGTH, design.name, "finite elements")
+    strength = Judge(About.STRENGTH, VerificationLevel.STRENGTH, design.name, "rating")
     if design.kind not in Check.accepts:
         yield judge.not_judged("contact, root stress, stiffness", f"the structural check takes no {design.kind.words}")
     elif getattr(design, "load", None) is None:
@@ -356,7 +356,7 @@ def verify(
     subject: Subject,
     load: Load | TrainLoad | None = None,
     *,
-    level: Level | str = Level.FILES,
+    level: VerificationLevel | str = VerificationLevel.FILES,
     progress: Progress | None = None,
     **inputs: Unpack[Inputs],
 ) -> Verification:
@@ -371,5 +371,5 @@ def verify(
 
     Raises ParameterError and GeometryError for wrong input.
     """
-    chosen = as_choice("level", level, Level) if isinstance(level, str) else level
+    chosen = as_choice("level", level, VerificationLevel) if isinstance(level, str) else level
     return Verify(level=chosen).run(as_design(subject, load, **inputs), progress)

@@ -14,7 +14,7 @@ from gearcad.drawing.sheet_template import SheetTemplate
 from gearcad.drawing.words import SheetWords, kind_of, titled
 from gearcad.geometry import Gear, Rack
 from gearcad.jobs.draw import ASSEMBLY, Draw, SheetFormat, drawn_assembly, drawn_gears
-from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.drawing_figures import gear_figures, material_words, pair_figures, train_figures
 from gearcad.verification.drawing_sheets import ExpectedSheet, judge_sheet
 from gearcad.verification.exact_parts import ExactPart
@@ -47,12 +47,12 @@ def judge_sheets(
     names = [*([] if assembly is None else [ASSEMBLY]), *(gear.role for gear in gears)]
     paths = {name: folder / ("drawing.dxf" if len(names) == 1 else f"drawing-{name}.dxf") for name in names}
     if reason or not any(path.is_file() for path in paths.values()):
-        judge = Judge(Subject.DRAWING, Level.FILES, design.name, "ezdxf")
+        judge = Judge(ClaimSubject.DRAWING, VerificationLevel.FILES, design.name, "ezdxf")
         yield judge.not_judged("drawings", reason or f"no file {next(iter(paths.values())).name} in the folder")
         return
     for name, path in paths.items():
         if not path.is_file():
-            judge = Judge(Subject.DRAWING, Level.FILES, path.name, "file system")
+            judge = Judge(ClaimSubject.DRAWING, VerificationLevel.FILES, path.name, "file system")
             yield judge.holds("is there", False, place=f"no file {path.name}")
             continue
         try:
@@ -60,7 +60,9 @@ def judge_sheets(
             yield from judge_sheet(path, expected)
         except Exception as error:  # what a broken file does to a reader is not known beforehand
             said = f"{type(error).__name__}: {error}"
-            yield Judge(Subject.DRAWING, Level.FILES, path.name, "gearcad").holds("can be judged", False, place=said)
+            yield Judge(ClaimSubject.DRAWING, VerificationLevel.FILES, path.name, "gearcad").holds(
+                "can be judged", False, place=said
+            )
 
 
 def _expected(

@@ -22,7 +22,7 @@ from gearcad.meshing.bodies.quality import LEAST_SCALED_JACOBIAN
 from gearcad.meshing.options import Extent, MeshOptions, What
 from gearcad.meshing.result import MeshResult
 from gearcad.verification.calculix import PLANE_PERMITTED, SOLID_PERMITTED, judge_calculix, missing
-from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.exact_parts import ExactPart
 from gearcad.verification.mesh_files import StatedMesh, judge_mesh
 
@@ -44,7 +44,7 @@ def judge_meshes(design: ToothedDesign, folder: Path, exact: Mapping[str, ExactP
     Unless they are to be `made`, nothing is judged: of other meshes nobody says what they have.
     """
     for name, part in exact.items():
-        judge = Judge(Subject.MESH, Level.FULL, name, "meshio")
+        judge = Judge(ClaimSubject.MESH, VerificationLevel.FULL, name, "meshio")
         if part.gear is None:
             yield judge.not_judged(_WHAT, "racks are not meshed")
             continue
@@ -101,7 +101,7 @@ _LAYERS = 2
 
 def judge_by_calculix(design: ToothedDesign) -> Iterator[Claim]:
     """Let CalculiX run the deck of a pair under its load, and judge our figures by its own."""
-    judge = Judge(Subject.CALCULIX, Level.FULL, design.name, "CalculiX")
+    judge = Judge(ClaimSubject.CALCULIX, VerificationLevel.FULL, design.name, "CalculiX")
     what = "transmission error, load share, root stress, pressure"
     reason = (
         f"decks are of pairs, this is a {design.kind.words}"

@@ -17,7 +17,7 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.geometry import Gear, GearPair
 from gearcad.plots.gears import pair_inches, plot_gear, plot_pair
 from gearcad.report.document import ReportFigure, page_html, picture_address
-from gearcad.verification.baseline import Moved
+from gearcad.verification.baseline import MovedFigure
 from gearcad.version import __version__
 
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ def _figure(value: float | str | None) -> str:
 # -------------------------------------------------------------------------------------------------- tables of designs
 
 
-def verification_index(name: str, documents: Sequence[Document], errors: Sequence[str], moved: Sequence[Moved]) -> str:
+def verification_index(name: str, documents: Sequence[Document], errors: Sequence[str], moved: Sequence[MovedFigure]) -> str:
     """Return the page of a table: a row for each design with its verdicts, which sorts and filters, and links to its page."""
     rows = []
     for document in documents:

@@ -23,7 +23,7 @@ Figures = Mapping[str, float | str | bool | None]
 
 
 @dataclass(frozen=True)
-class Moved:
+class MovedFigure:
     """A figure of a design that is not what it was: its values, and the relative change (infinite where there is none)."""
 
     design: str
@@ -126,7 +126,7 @@ def _cell(text: str | None, dialect: str) -> float | str | bool | None:
         return text
 
 
-def compare(before: Mapping[str, Figures], now: Mapping[str, Figures], tolerance: float) -> list[Moved]:
+def compare(before: Mapping[str, Figures], now: Mapping[str, Figures], tolerance: float) -> list[MovedFigure]:
     """Return what has moved by more than a relative `tolerance`, the greatest change first.
 
     Designs and figures that only one of both has have moved too.
@@ -134,11 +134,11 @@ def compare(before: Mapping[str, Figures], now: Mapping[str, Figures], tolerance
     moved = []
     for design in dict.fromkeys([*before, *now]):
         if design not in now or design not in before:
-            moved.append(Moved(design, "design", design if design in before else None, design if design in now else None))
+            moved.append(MovedFigure(design, "design", design if design in before else None, design if design in now else None))
             continue
         old, new = before[design], now[design]
         for figure in dict.fromkeys([*old, *new]):
-            each = Moved(design, figure, old.get(figure), new.get(figure))
+            each = MovedFigure(design, figure, old.get(figure), new.get(figure))
             if each.before != each.now and not abs(each.change) <= tolerance:
                 moved.append(each)
     return sorted(moved, key=lambda each: -abs(each.change))

@@ -10,20 +10,20 @@ from time import perf_counter
 from typing import Any
 
 
-class Level(Enum):
+class VerificationLevel(Enum):
     """Extent of a verification: each level includes those before it."""
 
     FILES = "files"
     STRENGTH = "strength"
     FULL = "full"
 
-    def includes(self, other: Level) -> bool:
+    def includes(self, other: VerificationLevel) -> bool:
         """Return whether a verification at this level has the claims of the other level."""
-        levels = list(Level)
+        levels = list(VerificationLevel)
         return levels.index(other) <= levels.index(self)
 
 
-class Subject(Enum):
+class ClaimSubject(Enum):
     """Subject of a claim; the value is its name in verify.json."""
 
     STEP = "STEP"
@@ -49,8 +49,8 @@ class Claim:
     that failed at which place. `judge` names the program or the method that judged; `seconds` is how long it took.
     """
 
-    subject: Subject
-    level: Level
+    subject: ClaimSubject
+    level: VerificationLevel
     where: str
     quantity: str
     judge: str
@@ -101,8 +101,8 @@ def _finite(value: float | None) -> float | None:
 class Judge:
     """Maker of the claims that one judge decides: on a `subject`, at a `level`, about one part or file `where`."""
 
-    subject: Subject
-    level: Level
+    subject: ClaimSubject
+    level: VerificationLevel
     where: str
     name: str
 
@@ -139,7 +139,7 @@ class Judge:
         return self._claim(quantity, None, None, None, None, "", bool(true), place)
 
     def not_judged(self, quantity: str, reason: str) -> Claim:
-        """Return the claim that nothing was judged, and why."""
+        """Return the claim that nothing was judged, with the reason."""
         return Claim(
             subject=self.subject,
             level=self.level,

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.drawing_figures import TableFigure
 from gearcad.verification.drawings import read_dxf
 
@@ -126,7 +126,7 @@ class _Sheet:
 
 def judge_sheet(path: Path, expected: ExpectedSheet) -> Iterator[Claim]:
     """Judge a sheet: readable, title, every row of its table, dimensions that tell what they measure, sizes, and mass."""
-    judge = Judge(Subject.DRAWING, Level.FILES, path.name, "ezdxf")
+    judge = Judge(ClaimSubject.DRAWING, VerificationLevel.FILES, path.name, "ezdxf")
     document, claims = read_dxf(path, judge)
     yield from claims
     if document is None:

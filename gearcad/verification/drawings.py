@@ -12,7 +12,7 @@ import numpy as np
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear, Rack
 from gearcad.geometry.gear_data import section_turn
-from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.exact_parts import ExactPart
 
 _ACCURACY = 0.0005
@@ -44,7 +44,7 @@ def read_dxf(path: Path, judge: Judge) -> tuple[Any, list[Claim]]:
 
 def judge_section(path: Path, part: ExactPart) -> Iterator[Claim]:
     """Judge the section of a gear or a rack: readable, one closed contour, on the exact section, with all its teeth."""
-    judge = Judge(Subject.DXF, Level.FILES, path.name, "ezdxf")
+    judge = Judge(ClaimSubject.DXF, VerificationLevel.FILES, path.name, "ezdxf")
     document, claims = read_dxf(path, judge)
     yield from claims
     if document is None:
@@ -57,7 +57,7 @@ def judge_section(path: Path, part: ExactPart) -> Iterator[Claim]:
 
 def judge_sections(path: Path, counts: Mapping[str, int]) -> Iterator[Claim]:
     """Judge the sections of parts in mesh: closed contours on each layer, as many as there are parts of its name."""
-    judge = Judge(Subject.DXF, Level.FILES, path.name, "ezdxf")
+    judge = Judge(ClaimSubject.DXF, VerificationLevel.FILES, path.name, "ezdxf")
     document, claims = read_dxf(path, judge)
     yield from claims
     if document is None:

@@ -11,13 +11,13 @@ import numpy as np
 
 from gearcad.core.records import Floats, Wholes
 from gearcad.verification.assemblies import OUTLINES, PlacedMesh, PlacedPart, judge_places
-from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.exact_parts import ExactPart
 
 if TYPE_CHECKING:
     from trimesh import Trimesh
 
-SUBJECTS = {"stl": Subject.STL, "3mf": Subject.THREE_MF, "glb": Subject.GLB}
+SUBJECTS = {"stl": ClaimSubject.STL, "3mf": ClaimSubject.THREE_MF, "glb": ClaimSubject.GLB}
 """Subjects of the claims by the endings of the files."""
 
 _ROUNDING = {"stl": 2.0**-24, "glb": 2.0**-24, "3mf": 0.0}
@@ -78,7 +78,7 @@ def judge_facets(
     `chord_error` (mm) bounds how far facets may be off. `names`: whether the file has the names of its parts (STL has not).
     """
     ending = path.suffix[1:]
-    judge = Judge(SUBJECTS[ending], Level.FILES, path.name, "trimesh")
+    judge = Judge(SUBJECTS[ending], VerificationLevel.FILES, path.name, "trimesh")
     try:
         found = read_facets(path)
     except Exception as error:  # a reader may raise anything for a broken file

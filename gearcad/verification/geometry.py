@@ -17,7 +17,7 @@ from gearcad.core.quantities import is_given
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.gear_data import section_turn
-from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.outline_gauges import OutlineGauges, fine_chord
 from gearcad.verification.rolled_outlines import RolledPair, rack_points
 from gearcad.verification.tool_sweep import Hob, Shaper, swept_distance, tool_of
@@ -48,7 +48,7 @@ _SWEEP, _ROLLED, _GAUGED = "sweep of the tool", "rolled outlines", "gauges on th
 
 
 def _judge(where: str, name: str) -> Judge:
-    return Judge(Subject.GEOMETRY, Level.FILES, where, name)
+    return Judge(ClaimSubject.GEOMETRY, VerificationLevel.FILES, where, name)
 
 
 def _scale(module: float) -> float:

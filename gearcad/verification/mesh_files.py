@@ -12,7 +12,7 @@ import numpy as np
 
 from gearcad.core.records import Floats
 from gearcad.geometry.gear_data import section_turn
-from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.exact_parts import ExactPart, toothed_size
 
 _ON_SURFACE = 1e-6
@@ -50,7 +50,7 @@ class StatedMesh:
 def judge_mesh(folder: Path, name: str, stated: StatedMesh) -> Iterator[Claim]:
     """Judge the files NAME.vtu, NAME.inp and NAME.msh of the mesh of one gear, in the gear's own coordinates."""
     for path, names in ((folder / f"{name}.vtu", _sides_of_vtu), (folder / f"{name}.inp", _sides_of_inp)):
-        judge = Judge(Subject.MESH, Level.FULL, path.name, "meshio")
+        judge = Judge(ClaimSubject.MESH, VerificationLevel.FULL, path.name, "meshio")
         try:
             yield from _by_meshio(path, names, judge, stated)
         except Exception as error:  # a reader may raise anything for a broken file
@@ -121,7 +121,7 @@ def _in_space(points: Floats, stated: StatedMesh) -> Floats:
 
 def _by_gmsh(path: Path, stated: StatedMesh) -> Iterator[Claim]:
     """Judge what gmsh reads: counts, groups, Jacobians, and the area or volume against the exact one."""
-    judge = Judge(Subject.MESH, Level.FULL, path.name, "gmsh")
+    judge = Judge(ClaimSubject.MESH, VerificationLevel.FULL, path.name, "gmsh")
     try:
         import gmsh
     except (ImportError, OSError) as error:

@@ -52,7 +52,8 @@ def _on_flank(gear: Gear, outline: Complexes) -> Complexes:
     slack, radii = 1e-9 * ends[1], np.abs(outline)
     flank: Complexes = outline[(radii >= ends[0] - slack) & (radii <= ends[1] + slack)]
     on_land = np.r_[False, np.abs(np.diff(np.abs(flank))) < slack]  # the tip land has the radius of the flank's end
-    return flank[~on_land]
+    kept: Complexes = flank[~on_land]
+    return kept
 
 
 def _least_by_golden_section(function: Callable[[float], float], low: float, high: float, rounds: int = 44) -> float:

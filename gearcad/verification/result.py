@@ -9,7 +9,7 @@ from typing import Any
 
 from gearcad.core.records import Notice, texts
 from gearcad.geometry import Gear, GearPair
-from gearcad.verification.claims import Claim, Level, Subject, counted, passed
+from gearcad.verification.claims import Claim, ClaimSubject, VerificationLevel, counted, passed
 
 Content = Mapping[str, Any]
 """Part of a JSON document."""
@@ -25,7 +25,7 @@ class Verification:
     """
 
     name: str
-    level: Level
+    level: VerificationLevel
     claims: Sequence[Claim]
     contents: Mapping[str, bytes]
     spec: Content
@@ -38,7 +38,7 @@ class Verification:
     @property
     def passed(self) -> bool | None:
         """Verdict on all claims but those on strength, which have their own: None if nothing was judged."""
-        return passed(claim for claim in self.claims if claim.subject is not Subject.STRENGTH)
+        return passed(claim for claim in self.claims if claim.subject is not ClaimSubject.STRENGTH)
 
     @property
     def failed(self) -> list[Claim]:

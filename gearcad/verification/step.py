@@ -16,7 +16,7 @@ from gearcad.solids.exact.inertia import moments
 from gearcad.solids.exact.solid import AssembledProduct, Product, SolidProduct
 from gearcad.solids.exact.tooth_layout import accuracy_for
 from gearcad.verification.assemblies import OUTLINES, PlacedMesh, PlacedPart, judge_places
-from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.exact_parts import ExactPart
 from gearcad.verification.surfaces import ExactSurface
 
@@ -120,7 +120,7 @@ def judge_step(
 
     `meshes` are those of an assembly, whose gears must be in their places.
     """
-    judge = Judge(Subject.STEP, Level.FILES, path.name, "Open CASCADE")
+    judge = Judge(ClaimSubject.STEP, VerificationLevel.FILES, path.name, "Open CASCADE")
     try:
         nodes = read_step(path)
     except Exception as error:  # the kernel may raise anything for a broken file

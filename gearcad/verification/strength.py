@@ -10,7 +10,7 @@ from gearcad.check.result import CheckResult
 from gearcad.core.records import Verdict
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 from gearcad.rating.strength import PartStrength, StrengthRating
-from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 
 INFORMATION = "outside the band of the standard, which is information and decides nothing"
 """Reason of a comparison with a standard that is outside its band, as the check has it."""
@@ -24,18 +24,18 @@ def judge_check(result: CheckResult, where: str) -> Iterator[Claim]:
     for each in result.comparisons:
         if each.subject is CheckSubject.STRENGTH:
             continue  # safeties are the rating's
-        judge = Judge(_subject(each), Level.STRENGTH, where, each.source.partition(":")[0])
+        judge = Judge(_subject(each), VerificationLevel.STRENGTH, where, each.source.partition(":")[0])
         gate = each.role is ComparisonRole.GATE
         passed = each.passed if gate else (each.passed or None)
         reason = each.reason or ("" if each.passed else each.note if gate else INFORMATION)
         yield _claim(judge, each, passed=passed, reason=reason)
 
 
-def _subject(each: Comparison) -> Subject:
+def _subject(each: Comparison) -> ClaimSubject:
     """Return the subject of a comparison of the check."""
     if "stiffness" in each.quantity:
-        return Subject.STIFFNESS
-    return Subject.ROOT if "root" in each.quantity else Subject.CONTACT
+        return ClaimSubject.STIFFNESS
+    return ClaimSubject.ROOT if "root" in each.quantity else ClaimSubject.CONTACT
 
 
 def _claim(judge: Judge, each: Comparison, *, passed: bool | None, reason: str) -> Claim:
@@ -70,12 +70,12 @@ def judge_rating(rating: StrengthRating | TrainStrength, where: str) -> Iterator
     for name, mesh in rating.meshes.items():
         yield from _judge_mesh(mesh, name)
     for name, reason in rating.unrated.items():
-        yield Judge(Subject.STRENGTH, Level.STRENGTH, name, "rating").not_judged("safeties", reason)
+        yield Judge(ClaimSubject.STRENGTH, VerificationLevel.STRENGTH, name, "rating").not_judged("safeties", reason)
 
 
 def _judge_mesh(rating: StrengthRating, where: str) -> Iterator[Claim]:
     """The safeties of one pair: of each flank and root, and against scuffing."""
-    judge = Judge(Subject.STRENGTH, Level.STRENGTH, where, f"rating by {rating.options.standard.value}")
+    judge = Judge(ClaimSubject.STRENGTH, VerificationLevel.STRENGTH, where, f"rating by {rating.options.standard.value}")
     if not rating.asked:
         yield judge.not_judged("safeties", rating.verdict)
         return

@@ -232,7 +232,7 @@ def swept_distance(tool: Hob | Shaper, points: Complexes, module: float, height:
     values = distance(everything, turns)
     inner = values[:, 1:-1]
     minima = np.where((inner <= values[:, :-2]) & (inner <= values[:, 2:]), inner, np.inf)
-    best = values.min(axis=1)
+    best: Floats = values.min(axis=1)
     places = np.argpartition(minima, _MINIMA, axis=1)[:, :_MINIMA] + 1
     which, at = np.repeat(everything, _MINIMA), places.ravel()
     real = np.isfinite(minima[which, at - 1])

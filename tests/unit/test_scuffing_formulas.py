@@ -103,7 +103,12 @@ def test_printed_factors() -> None:
     assert thermo_elastic_factor(EH) == pytest.approx(50.0, abs=0.1)
     for helix, printed in ((0.0, 0.978), (20.0, 0.966)):
         across = math.degrees(math.atan(math.tan(math.radians(20)) / math.cos(math.radians(helix))))
-        mesh = replace(SlidingMesh.of(SPUR, SPUR.total_contact_ratio), helix_angle=helix, working_pressure_angle=20.0, transverse_pressure_angle=across)
+        mesh = replace(
+            SlidingMesh.of(SPUR, SPUR.total_contact_ratio),
+            helix_angle=helix,
+            working_pressure_angle=20.0,
+            transverse_pressure_angle=across,
+        )
         assert mesh.angle_factor == pytest.approx(printed, abs=6e-4)
 
 

@@ -17,7 +17,7 @@ from gearcad.meshing.bodies.quality import LEAST_SCALED_JACOBIAN
 from gearcad.meshing.options import MeshOptions
 from gearcad.verification import calculix
 from gearcad.verification.calculix import PLANE_PERMITTED, compare
-from gearcad.verification.claims import Claim, Judge, Level, Subject
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.exact_parts import ExactPart
 from gearcad.verification.mesh_files import StatedMesh, judge_mesh
 
@@ -107,7 +107,7 @@ def test_figures_that_are_too_good_are_noticed(meshed: tuple[Path, StatedMesh]) 
 
 # ---------------------------------------------------------------------- CalculiX
 
-JUDGE = Judge(Subject.CALCULIX, Level.FULL, "pair", "CalculiX")
+JUDGE = Judge(ClaimSubject.CALCULIX, VerificationLevel.FULL, "pair", "CalculiX")
 
 
 def figures(**changes: float) -> dict[str, object]:

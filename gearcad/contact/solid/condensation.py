@@ -340,7 +340,7 @@ def condense(
     matrix, orbits, applied = elimination.on_all_cores(halves.half), _orbits(turn, halves, cut), np.ones(1)
     given = []
     for parity in (0, 1):
-        blocks = Blocks(store.zeros(between, between), store.zeros(between, ends), np.zeros((ends, ends), order="F"))
+        blocks = Blocks(store.zeros(between, between), store.zeros(ends, between).T, np.zeros((ends, ends), order="F"))
         signs = orbits.signs(parity)
         here = signs[node_dofs(halves.half.aside)]
         matrix *= (here * applied)[:, None]

@@ -1,11 +1,10 @@
-"""Multifrontal Cholesky of a tooth sector, with dense factors by BLAS and LAPACK, and equal sectors in a row.
+"""Multifrontal Cholesky of a tooth sector, with dense factors by numpy, and equal sectors in a row.
 
-Matrices of doubles lie column by column, as a whole; of symmetric ones, and of factors, the lower triangle is there. A factor L
-has the inverses of the blocks on its diagonal in their place: all that it solves is then products of matrices, which are up to
-twice as fast as BLAS's own solutions with a triangle.
+Of symmetric matrices, and of factors, the lower triangle is there. A factor L has the inverses of the blocks on its diagonal in
+their place: all that it solves is then products of matrices. Products let other threads run, and are made a block at a time, so
+that little memory is needed beside the matrices.
 
-Fronts are dense, and BLAS works in place: matrices lie column by column, of symmetric ones the lower triangle, loads row by
-row.
+Fronts are dense. Symmetric matrices lie column by column, loads and what is across row by row.
 
 The turn about the middle of a row changes its ends (see `half_turn`), so the cut behind tells all: F u are the forces there
 where the cut ahead moves by the same u, turned, or by its opposite. A row is doubled, or goes on both sides of another one: any
@@ -14,12 +13,11 @@ number of sectors is a few steps away, and a cut between two equal rows is solve
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cached_property
 from threading import Lock
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,130 +26,60 @@ from gearcad.core.errors import SolverError
 from gearcad.core.records import Floats, Wholes
 from gearcad.core.runtime import on_all_cores
 
-_BLOCK = 128
+_BLOCK = 192
 """Rows of a block on the diagonal of a factor."""
-
-_BYTES = 8
-"""Size (bytes) of a double."""
 
 
 def factorise(matrix: Floats) -> int:
-    """Make L with L L.T of a matrix (n, n); else which of its leading minors is not positive."""
-    failed, whole = ctypes.c_int(0), _Part.of(matrix)
-    _routine("lapack", "dpotrf", 5)(b"L", _size(whole.rows), whole.at, _size(whole.step), ctypes.byref(failed))
-    if not failed.value:
-        for first, last in _blocks(whole.rows):
-            block = whole.some(first, last, first, last)
-            arguments = (_size(block.rows), block.at, _size(block.step), ctypes.byref(failed))
-            _routine("lapack", "dtrtri", 6)(b"L", b"N", *arguments)
-    return failed.value
+    """Make L with L L.T of a matrix (n, n) that lies column by column; else return which leading minor is not positive."""
+    from scipy.linalg.lapack import dpotrf, dtrtri
+
+    upper = matrix.T
+    for first, last in _blocks(len(matrix)):
+        upper[first:last, first:] -= upper[:first, first:last].T @ upper[:first, first:]
+        lower, failed = dpotrf(matrix[first:last, first:last], lower=True)
+        if failed:
+            return first + int(failed)
+        inverse = dtrtri(lower, lower=True)[0]
+        matrix[first:last, first:last] = inverse
+        upper[first:last, last:] = inverse @ upper[first:last, last:]
+    return 0
 
 
-def solve_above(lower: Floats, right: Floats) -> None:
+def solve_lower(lower: Floats, right: Floats) -> None:
     """Make L^-1 R of R (n, m)."""
-    given, result = _Part.of(lower), _Part.of(right)
-    for first, last in _blocks(given.rows):
-        rows = result.some(first, last, 0, result.columns)
-        _subtract(rows, given.some(first, last, 0, first), result.some(0, first, 0, result.columns))
-        _multiply(given.some(first, last, first, last), rows, side=b"L")
+    for first, last in _blocks(len(lower)):
+        right[first:last] -= lower[first:last, :first] @ right[:first]
+        right[first:last] = lower[first:last, first:last] @ right[first:last]
 
 
-def solve_aside(lower: Floats, right: Floats, *, transposed: bool) -> None:
-    """Make R L^-1, or R L^-T, of R (m, n)."""
-    given, result = _Part.of(lower), _Part.of(right)
-    blocks = _blocks(given.rows)
-    for first, last in blocks if transposed else blocks[::-1]:
-        columns, own = result.some(0, result.rows, first, last), given.some(first, last, first, last)
-        if transposed:
-            _subtract(columns, result.some(0, result.rows, 0, first), given.some(first, last, 0, first), turned=b"T")
-            _multiply(own, columns, side=b"R", turned=b"T")
-        else:
-            known, across = result.some(0, result.rows, last, given.rows), given.some(last, given.rows, first, last)
-            _subtract(columns, known, across)
-            _multiply(own, columns, side=b"R")
+def solve_upper(lower: Floats, right: Floats) -> None:
+    """Make L^-T R of R (n, m)."""
+    for first, last in reversed(_blocks(len(lower))):
+        right[first:last] -= lower[last:, first:last].T @ right[last:]
+        right[first:last] = lower[first:last, first:last].T @ right[first:last]
 
 
 def solved_rows(lower: Floats, right: Floats) -> Floats:
     """Return (L L.T)^-1 R of R (n, m), row by row."""
     result = np.array(right, order="C")
-    solve_aside(lower, result.T, transposed=True)  # rows of C are columns of Fortran
-    solve_aside(lower, result.T, transposed=False)
+    solve_lower(lower, result)
+    solve_upper(lower, result)
     return result
 
 
-def subtract_product(result: Floats, first: Floats, second: Floats, *, transposed: bool) -> None:
-    """Make C - A B, or C - A B.T, of C."""
-    _subtract(_Part.of(result), _Part.of(first), _Part.of(second), turned=b"T" if transposed else b"N")
-
-
 def subtract_square(across: Floats, rest: Floats) -> None:
-    """Make C - A.T A of C (m, m) and A (n, m)."""
-    given, result = _Part.of(across), _Part.of(rest)
-    sizes = (_size(given.columns), _size(given.rows))
-    arguments = (_number(-1.0), given.at, _size(given.step), _number(1.0), result.at, _size(result.step))
-    _routine("blas", "dsyrk", 10)(b"L", b"T", *sizes, *arguments)
-
-
-class _Part(NamedTuple):
-    """A block of a matrix: index of its first number, its rows and columns, and the step from column to column."""
-
-    at: int
-    rows: int
-    columns: int
-    step: int
-
-    @classmethod
-    def of(cls, matrix: Floats) -> _Part:
-        """Return all of a matrix as a part."""
-        assert matrix.flags.f_contiguous and matrix.dtype == float
-        rows, columns = matrix.shape
-        return cls(matrix.ctypes.data, rows, columns, max(rows, 1))
-
-    def some(self, first_row: int, last_row: int, first: int, last: int) -> _Part:
-        """Rows and columns from the first one to before the last one."""
-        at = self.at + _BYTES * (first_row + first * self.step)
-        return _Part(at, last_row - first_row, last - first, self.step)
+    """Make C - A.T A of C (m, m), which lies column by column, and A (n, m)."""
+    upper = rest.T
+    for first, last in _blocks(len(rest)):
+        block = across[:, first:last].T
+        upper[first:last, first:last] -= block @ block.T
+        upper[first:last, last:] -= block @ across[:, last:]
 
 
 def _blocks(rows: int) -> list[tuple[int, int]]:
-    """First row, and the one after the last, of each block on the diagonal."""
+    """Return the first row, and the one after the last, of each block on the diagonal."""
     return [(first, min(first + _BLOCK, rows)) for first in range(0, rows, _BLOCK)]
-
-
-def _subtract(result: _Part, first: _Part, second: _Part, *, turned: bytes = b"N") -> None:
-    """Make C - A B, or C - A B.T, of C."""
-    if not result.rows or not result.columns or not first.columns:
-        return
-    sizes = (_size(result.rows), _size(result.columns), _size(first.columns))
-    factors = (_number(-1.0), first.at, _size(first.step), second.at, _size(second.step), _number(1.0))
-    _routine("blas", "dgemm", 13)(b"N", turned, *sizes, *factors, result.at, _size(result.step))
-
-
-def _multiply(triangle: _Part, result: _Part, *, side: bytes, turned: bytes = b"N") -> None:
-    """Make A B, or with `side` R B A or B A.T, of B, with a lower triangle A."""
-    if not result.rows or not result.columns:
-        return
-    sizes = (_size(result.rows), _size(result.columns), _number(1.0))
-    _routine("blas", "dtrmm", 11)(
-        side, b"L", turned, b"N", *sizes, triangle.at, _size(triangle.step), result.at, _size(result.step)
-    )
-
-
-@cache
-def _routine(library: str, name: str, arguments: int) -> Callable[..., None]:
-    from numba.extending import get_cython_function_address
-
-    address = get_cython_function_address(f"scipy.linalg.cython_{library}", name)
-    routine: Callable[..., None] = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * arguments)(address)
-    return routine
-
-
-def _size(value: int) -> Any:
-    return ctypes.byref(ctypes.c_int(value))
-
-
-def _number(value: float) -> Any:
-    return ctypes.byref(ctypes.c_double(value))
 
 
 _APART = 0.5
@@ -177,15 +105,15 @@ class EliminationStep:
 
     def forward(self, loads: Floats) -> None:
         """Make L^-1 times the loads of its own nodes, and what is left of them for the others, of loads (n, m)."""
-        solved, left = np.split(loads.T, [3 * len(self.own)], axis=1)  # rows of C are columns of Fortran
-        solve_aside(self.lower, solved, transposed=True)
-        subtract_product(left, solved, self.across, transposed=False)
+        solved, left = np.split(loads, [3 * len(self.own)])
+        solve_lower(self.lower, solved)
+        left -= self.across.T @ solved
 
     def backward(self, moved: Floats) -> None:
         """Make displacements of its own nodes of what `forward` made there - 0 where there is no load - and of the others'."""
-        solved, aside = np.split(moved.T, [3 * len(self.own)], axis=1)
-        subtract_product(solved, aside, self.across, transposed=True)
-        solve_aside(self.lower, solved, transposed=False)
+        solved, aside = np.split(moved, [3 * len(self.own)])
+        solved -= self.across @ aside
+        solve_upper(self.lower, solved)
 
 
 class Blocks(NamedTuple):
@@ -196,7 +124,7 @@ class Blocks(NamedTuple):
     rest: Floats
 
     def eliminated(self) -> Blocks:
-        """L (see `dense`), L^-1 across, and the matrix on the others, all in place.
+        """L (see `factorise`), L^-1 across, and the matrix on the others, all in place.
 
         Raises SolverError if it is not positive definite.
         """
@@ -205,7 +133,7 @@ class Blocks(NamedTuple):
         if failed := factorise(self.own):
             raise SolverError(f"the stiffness matrix of a gear body could not be factorised (its minor {failed})")
         if len(self.rest):
-            solve_above(self.own, self.across)
+            solve_lower(self.own, self.across)
             subtract_square(self.across, self.rest)
         return self
 
@@ -305,7 +233,7 @@ class Elimination:
 
         given = [(each, self.eliminated(each, known)) for each in part.parts]
         own, rest = 3 * len(part.own), 3 * len(part.aside)
-        blocks = Blocks(self.store.zeros(own, own), self.store.zeros(own, rest), self._room.zeros(rest))
+        blocks = Blocks(self.store.zeros(own, own), self.store.zeros(rest, own).T, self._room.zeros(rest))
         every = np.r_[part.own, part.aside]
         self._places[every] = np.arange(len(every))
         while given:
@@ -447,8 +375,8 @@ class ToothSpan:
 class Inside:
     """Response of the first cut inside a row that begins with `side` to the row's ends; `aside` teeth is the row's middle.
 
-    `lower` are L (see `dense`) with L L.T the matrices of that cut, even and odd, `hub` (n, hub) what else is between it and
-    the hub; None where the row has only `side` twice, and `lower` are of the even and the odd part of the cut.
+    `lower` are L (see `factorise`) with L L.T the matrices of that cut, even and odd, `hub` (n, hub) what else is between it
+    and the hub; None where the row has only `side` twice, and `lower` are of the even and the odd part of the cut.
     """
 
     side: ToothSpan
@@ -494,12 +422,12 @@ def joined(side: ToothSpan, middle: ToothSpan | None) -> tuple[ToothSpan, Inside
 
 
 def eliminated(inner: Floats, across: Floats, ends: Floats) -> tuple[Floats, Floats]:
-    """L (see `dense`) of a symmetric matrix (n, n), and the one (m, m) at the `ends` without its dofs.
+    """L (see `factorise`) of a symmetric matrix (n, n), and the one (m, m) at the `ends` without its dofs.
 
     `across` (n, m) is between both.
     """
     from gearcad.contact.solid.kernels import fill_upper
 
-    blocks = Blocks(*(np.asfortranarray(each) for each in (inner.T, across, ends.T))).eliminated()
+    blocks = Blocks(np.asfortranarray(inner.T), np.array(across), np.asfortranarray(ends.T)).eliminated()
     fill_upper(blocks.rest)
     return blocks.own, blocks.rest
