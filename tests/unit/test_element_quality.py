@@ -96,7 +96,7 @@ def test_flat_triangle() -> None:
 
 @pytest.mark.parametrize("element", [Element.QUAD8, Element.HEX20])
 def test_curved_edges_count(element: Element) -> None:
-    """A middle node d off its edge turns the ends of an edge of 1 by atan 4d; past the quarter of the edge, the element folds."""
+    """A middle node d off its edge turns the ends of an edge of 1 by atan 4d; past a quarter of the edge the element folds."""
     places = node_places(element.value)
     bottom = (places[:, 0] == 0.5) & (places[:, 1] == 0)
     for axis, moved, expected in ((1, 0.15, 1 / math.hypot(1, 0.6)), (0, 0.3, -1.0)):
