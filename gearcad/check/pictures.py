@@ -28,7 +28,7 @@ from gearcad.contact.solid.cycle import (
     SolidPosition,
     shown_stress,
     worst_field,
-    write_vtu,
+    write_field,
 )
 from gearcad.core.records import Bools, Floats, JsonObject, PerGear, Role, Wholes
 from gearcad.geometry import Gear
@@ -173,7 +173,7 @@ class ToothStress(NamedTuple):
 
     def write(self, path: Path) -> None:
         """Write the field as a .vtu file."""
-        write_vtu(self.field, path, self.end)
+        write_field(self.field, path, self.end)
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from gearcad.core.errors import ParameterError, SolverError
 from gearcad.core.records import Bools, Floats, Indices
 from gearcad.meshing.bodies import Element, ElementMesh, Faces
-from gearcad.meshing.bodies.element_mesh import Cells, part_numbers, vtk_grid
+from gearcad.meshing.bodies.element_mesh import Cells, part_numbers
 from gearcad.meshing.sector import load_gmsh
 
 Letters = NDArray[np.uint8]
@@ -430,12 +430,12 @@ def _write_elements(file: BinaryIO, mesh: ElementMesh) -> None:
     file.write(b"\n$EndElements\n")
 
 
-def write_vtu(mesh: ElementMesh, path: Path) -> None:
-    """Binary and compressed, with the fields that `vtk_grid` has. Raises OSError for a place that cannot be written."""
+def write_vtu(grid: Any, path: Path) -> None:
+    """Write a vtkUnstructuredGrid, binary and compressed. Raises OSError for a place that cannot be written."""
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
     writer = vtkXMLUnstructuredGridWriter()
-    writer.SetInputData(vtk_grid(mesh))
+    writer.SetInputData(grid)
     writer.SetFileName(str(path))
     # Raw data behind the XML would be a quarter less and a third quicker, but meshio confuses the arrays of such files.
     writer.SetDataModeToBinary()

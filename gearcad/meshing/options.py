@@ -74,9 +74,10 @@ def _with_gmsh(mesh: ElementMesh, path: Path) -> None:
 
 
 def _vtu(mesh: ElementMesh, path: Path) -> None:
+    from gearcad.meshing.bodies.element_mesh import vtk_grid
     from gearcad.meshing.files import write_vtu
 
-    write_vtu(mesh, path)
+    write_vtu(vtk_grid(mesh), path)
 
 
 def _inp(mesh: ElementMesh, path: Path) -> None:

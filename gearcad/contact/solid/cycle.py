@@ -22,7 +22,9 @@ from gearcad.contact.solid.pair import SolidPair
 from gearcad.contact.solid.root import FilletState, SolidFillet
 from gearcad.core.records import Bools, Floats, Notice, PerGear, Role, Wholes
 from gearcad.material import Material
-from gearcad.meshing.fem import BY_LEVELS, SWEPT, field_gradients, node_places, quadrature, shape_values
+from gearcad.meshing.bodies.element_mesh import vtk_elements
+from gearcad.meshing.fem import BY_LEVELS, SWEPT, Element, field_gradients, node_places, quadrature, shape_values
+from gearcad.meshing.files import write_vtu
 
 
 @dataclass(frozen=True)
@@ -419,24 +421,22 @@ def shown_stress(cycle: SolidCycle, role: Role, field: SolidField) -> float:
     return _OVER * float(max(found))
 
 
-def write_vtu(field: SolidField, path: Path, most: float) -> None:
+def write_field(field: SolidField, path: Path, most: float) -> None:
     """Write a field for ParaView, units in the names; stress as VTK has it, xx, yy, zz, xy, yz, zx.
 
     `von_mises_root_MPa` ends at `most` (MPa), so that its colours show the root; it is what a viewer shows first.
     """
-    import meshio
-
     stress = field.von_mises
-    data = {
+    fields = {
         _ROOT: np.minimum(stress, most),
         "von_mises_MPa": stress,
         "stress_MPa": field.stress,
         _DEFORMED: field.displacement,
     }
-    meshio.Mesh(field.points, [("hexahedron20", field.hexahedra[:, BY_LEVELS])], point_data=data).write(path)
-    # meshio does not say which of the fields are the ones to colour and to bend by.
-    plain, active = b"<PointData>", f'<PointData Scalars="{_ROOT}" Vectors="{_DEFORMED}">'.encode("ascii")
-    path.write_bytes(path.read_bytes().replace(plain, active, 1))
+    grid = vtk_elements(Element.HEX20, field.points, field.hexahedra[:, BY_LEVELS], fields)
+    grid.GetPointData().SetActiveScalars(_ROOT)
+    grid.GetPointData().SetActiveVectors(_DEFORMED)
+    write_vtu(grid, path)
 
 
 def nodal_stress(points: Floats, hexahedra: Wholes, displacement: Floats, material: Material) -> Floats:

@@ -188,33 +188,43 @@ _VTK_KINDS = {Element.TRI6: 22, Element.QUAD8: 23, Element.HEX8: 12, Element.HEX
 
 
 def vtk_grid(mesh: ElementMesh) -> Any:
-    """A vtkUnstructuredGrid that shares nodes and elements with the mesh.
+    """Return a vtkUnstructuredGrid that shares nodes and elements with the mesh.
 
     Fields of its nodes are the kinds of sides (see `side_fields`), of its elements "part", which counts from 1; of the whole
     it is "matched_cut", nodes (k, 2), where there is a cyclic cut.
     """
-    from vtkmodules.util.numpy_support import numpy_to_vtk
+    grid = vtk_elements(mesh.element, mesh.points, mesh.cells)
+    for name, values in side_fields(mesh):
+        grid.GetPointData().AddArray(_vtk_array(values, name))
+    grid.GetCellData().AddArray(_vtk_array(part_numbers(mesh), "part"))
+    for cut, pairs in mesh.matched.items():
+        grid.GetFieldData().AddArray(_vtk_array(pairs.astype(np.int32), f"matched_{cut}"))
+    return grid
+
+
+def vtk_elements(element: Element, points: Floats, cells: NDArray[Any], fields: Mapping[str, Floats] | None = None) -> Any:
+    """Return a vtkUnstructuredGrid of elements with nodes `cells` (m, n) at `points` (k, 3) and fields of the nodes."""
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 
-    def array(values: Any, name: str) -> Any:
-        made = numpy_to_vtk(np.ascontiguousarray(values))
-        made.SetName(name)
-        return made
-
-    grid, points, cells = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
-    points.SetData(array(mesh.points, "points"))
-    grid.SetPoints(points)
-    nodes = mesh.element.shape.nodes
-    offsets = np.arange(0, mesh.cells.size + 1, nodes, dtype=np.int32 if mesh.cells.size < 2**31 else np.int64)
-    cells.SetData(array(offsets, "offsets"), array(mesh.cells.ravel().astype(offsets.dtype, copy=False), "nodes"))
-    grid.SetCells(_VTK_KINDS[mesh.element], cells)
-    for name, values in side_fields(mesh):
-        grid.GetPointData().AddArray(array(values, name))
-    grid.GetCellData().AddArray(array(part_numbers(mesh), "part"))
-    for cut, pairs in mesh.matched.items():
-        grid.GetFieldData().AddArray(array(pairs.astype(np.int32), f"matched_{cut}"))
+    grid, places, nodes = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
+    places.SetData(_vtk_array(points, "points"))
+    grid.SetPoints(places)
+    whole = np.int32 if cells.size < 2**31 else np.int64
+    offsets = np.arange(0, cells.size + 1, cells.shape[1], dtype=whole)
+    nodes.SetData(_vtk_array(offsets, "offsets"), _vtk_array(cells.ravel().astype(whole, copy=False), "nodes"))
+    grid.SetCells(_VTK_KINDS[element], nodes)
+    for name, values in (fields or {}).items():
+        grid.GetPointData().AddArray(_vtk_array(values, name))
     return grid
+
+
+def _vtk_array(values: NDArray[Any], name: str) -> Any:
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+
+    made = numpy_to_vtk(np.ascontiguousarray(values))
+    made.SetName(name)
+    return made
 
 
 def pyvista_grid(mesh: ElementMesh) -> Any:
