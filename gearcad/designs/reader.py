@@ -122,7 +122,8 @@ def starter_text(kind: str) -> tuple[str, str]:
     asked = _ALIASES.get(kind, kind)
     matches = [asked] if asked in files else [name for name in files if name.startswith(asked)]
     if len(matches) != 1:
-        raise ParameterError("kind", kind, f"must be one of {', '.join(files)} (or {', '.join(_ALIASES)})")
+        named, short = ([name for name in names if not name.startswith("ci")] for names in (files, _ALIASES))  # designs
+        raise ParameterError("kind", kind, f"must be one of {', '.join(named)} (or {', '.join(short)})")
     path = files[matches[0]]
     return path.name, path.read_text(encoding="utf-8")
 

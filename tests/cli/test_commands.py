@@ -20,7 +20,8 @@ PAIRS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "ring-22-70", "
 STARTERS = [*PAIRS, *PLANETARY, "rack", "spur"]
 TRAINS = ["train-1-stage", "train-2-stage", "train-pairs"]
 TABLES = ["gears", "pairs", "planetary-sets", "rings"]
-LISTED = sorted([*STARTERS, *TRAINS, *TABLES, "drawing_title", "measured"])
+NAMED = sorted([*STARTERS, *TRAINS, *TABLES, "drawing_title", "measured"])
+LISTED = sorted([*NAMED, "ci-github", "ci-gitlab"])
 
 RATIO = 1e-9
 """Absolute, for contact ratios of about 1: what the references promise."""
@@ -82,7 +83,7 @@ def test_new_refuses_to_overwrite_unless_forced() -> None:
 def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
     assert (
-        result.stderr == f"Error: kind = 'bevel': must be one of {', '.join(LISTED)} (or gear, pair, ring, planetary, uhlir)\n"
+        result.stderr == f"Error: kind = 'bevel': must be one of {', '.join(NAMED)} (or gear, pair, ring, planetary, uhlir)\n"
     )
 
 

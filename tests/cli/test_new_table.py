@@ -50,6 +50,8 @@ def test_new_lists_tables_beside_specs() -> None:
     lines = run("new").stdout.splitlines()
     assert [line.split()[0] for line in lines] == [
         "alm-18-161",
+        "ci-github",
+        "ci-gitlab",
         "double-23-81",
         "drawing_title",
         "fzg-c",
@@ -73,7 +75,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "uhlir-19-23-simple",
         "volvo-13-44",
     ]
-    assert [lines[4], lines[6]] == [
+    assert [lines[6], lines[8]] == [
         "gears                   A design table of single gears: each row below the heading is one gear",
         "pairs                   A design table of gear pairs: each row below the heading is one pair",
     ]
