@@ -1,6 +1,6 @@
 """Quadratic hexahedra of a solid body: stiffness, faces with tractions, and a hub that follows a free bore.
 
-As `contact.plane.support` in the plane, with six dofs for three: torque, forces along x, y and z, and moments about x and y
+As `contact.plane.sector` in the plane, with six dofs for three: torque, forces along x, y and z, and moments about x and y
 through the middle of the face width.
 """
 
