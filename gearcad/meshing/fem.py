@@ -180,6 +180,8 @@ def mapped(kind: str, nodes: Floats, rule: Rule) -> Mapped:
     """Map elements with nodes at `nodes` (m, n, dimension) in mm, each for itself."""
     from skfem import CellBasis
 
+    if not len(nodes):  # the library has no mesh without elements
+        return Mapped(np.zeros((*nodes.shape, len(rule.weights))), np.zeros((0, len(rule.weights))))
     element, mesh, numbers = _library(kind)
     own = np.empty((nodes.shape[1], len(nodes)), int)
     own[numbers] = np.arange(nodes.shape[0] * nodes.shape[1]).reshape(len(nodes), -1).T
