@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields, replace
 from enum import Enum
@@ -48,6 +49,9 @@ _OFFERED = {"rack": tuple(NAMED_RACKS), "material": _GRADES, "profile_shift": (A
 
 _DIGITS, _USED_DIGITS = 15, 7
 """Significant digits of numbers: all that were typed, and of those that follow what one reads."""
+
+_INTERNAL, _EXTERNAL = ("ring",), ("pinion", "sun", "planet")
+"""Gears that have internal, or external teeth in every spec."""
 
 _MEMBERS = ("planetary.input", "planetary.output", "planetary.fixed")
 
@@ -109,19 +113,25 @@ def _tables(design: Design, tables: Mapping[str, Any], members: tuple[str, ...])
 
 
 def _groups(table: str, fields: Mapping[str, FieldSchema], members: tuple[str, ...]) -> Iterator[dict[str, Any]]:
-    """The fields of a table, those of its parts together, each with the titles of its part."""
+    """The fields of a table, those of its parts together, each with the titles of its part.
+
+    A part that has parts of its own is a family with them.
+    """
     groups: dict[str, list[dict[str, Any]]] = {"": []}
     for key, field in fields.items():
         groups.setdefault(key.rpartition(".")[0], []).append(_field(f"{table}.{key}", field, members))
+    firsts = Counter(part.partition(".")[0] for part in groups)
     for part, of_part in groups.items():
-        titles = [part_title(each) for each in part.split(".") if each]
-        yield {"part": part, "titles": titles, "fields": of_part}
+        names = part.split(".") if part else []
+        family = names.pop(0) if names and firsts[names[0]] > 1 else ""
+        titles = [part_title(each) for each in names]
+        yield {"part": part, "family": family and part_title(family), "titles": titles, "fields": of_part}
 
 
 def _field(key: str, field: FieldSchema, members: tuple[str, ...]) -> dict[str, Any]:
     """Return the description of one field for the browser. Numbers are typed as text, so that unfinished input is not lost."""
     symbol = field.symbol
-    least, most = _bounds(field)
+    least, most, negative = _bounds(key, field)
     return {
         "key": key,
         "words": words_of(key, field),
@@ -134,17 +144,27 @@ def _field(key: str, field: FieldSchema, members: tuple[str, ...]) -> dict[str, 
         "whole": field.whole,
         "least": least,
         "most": most,
+        "negative": negative,
+        "signed": isinstance(field.permitted, Range) and field.permitted.signed and bool(field.permitted.least),
     }
 
 
-def _bounds(field: FieldSchema) -> tuple[float | None, float | None]:
-    """Return the least and the greatest value of a number, as far as one range gives them; None for no bound."""
+def _bounds(key: str, field: FieldSchema) -> tuple[float | None, float | None, int | None]:
+    """Return the least and the greatest value of a number, or of its size where it has a least size; None for no bound.
+
+    The third is the greatest negative value of a number of teeth that may be an internal gear's too.
+    """
     permitted = field.permitted
     if isinstance(permitted, Range):
-        return (None if permitted.most is None else -permitted.most) if permitted.signed else permitted.least, permitted.most
+        if permitted.signed and not permitted.least:
+            return None if permitted.most is None else -permitted.most, permitted.most, None
+        return permitted.least, permitted.most, None
     if isinstance(permitted, Whole):
-        return (-permitted.most if permitted.negative else permitted.least), permitted.most
-    return None, None
+        gear, highest = key.split(".")[-2].partition("_")[0], permitted.negative and permitted.negative[0]
+        if highest is not None and gear in _INTERNAL:
+            return -permitted.most, highest, None
+        return permitted.least, permitted.most, None if gear in _EXTERNAL else highest
+    return None, None, None
 
 
 def _offered(key: str) -> tuple[str, ...]:

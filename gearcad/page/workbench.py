@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import binascii
+import copy
 import re
 import time
 import zlib
@@ -21,6 +22,9 @@ from gearcad.page.run_process import design_of
 
 _MOST_STEPS = 1000
 """Steps back that are kept: the eldest go first."""
+
+_MOST_FAULTS = 20
+"""Largest number of faults that are counted."""
 
 _PAUSE = 1.0
 """Time (s) after which further typing into the same field is another step."""
@@ -61,12 +65,29 @@ class Workbench:
         self.text = text
         self.fault: Fault | None = None
         self.tables, where = self._tables()
-        self.former = self.tables
+        self._where: Where | None = where
+        self.former = self._good = self.tables
         self.design = self._design(self.tables, where)
         self._back: list[str] = []
         self._forth: list[str] = []
         self._place, self._typed = "", 0.0
         self._step: int | None = None
+
+    def faults(self) -> tuple[Fault, ...]:
+        """Return the fault and those that remain once each key at fault has the value of the last good design."""
+        if self.fault is None or (where := self._where) is None:
+            return () if self.fault is None else (self.fault,)
+        found, tables = {self.fault.line: self.fault}, copy.deepcopy(self.tables)
+        for _ in range(_MOST_FAULTS):
+            try:
+                self._design(tables, where)
+                break
+            except GearcadError as error:
+                key = error.key if isinstance(error, SpecError) else ""
+                found.setdefault(str(error), Fault(str(error), key))
+                if not _restore(tables, key, self._good):
+                    break
+        return tuple(found.values())
 
     @property
     def can_undo(self) -> bool:
@@ -132,9 +153,12 @@ class Workbench:
 
     def _take(self, text: str) -> None:
         self.text, self.fault = text, None
+        self._where = None
         try:
             self.tables, where = self._tables()
+            self._where = where
             self.design = self._design(self.tables, where)
+            self._good = self.tables
         except SpecError as error:
             self.fault = Fault(str(error), error.key)
         except GearcadError as error:
@@ -147,6 +171,20 @@ class Workbench:
     def _design(self, tables: dict[str, Any], where: Where) -> Design:
         with files_only_in(self.folder):
             return design_from_tables(tables, where=where, default_name=self.name)
+
+
+def _restore(tables: dict[str, Any], key: str, good: Mapping[str, Any]) -> bool:
+    """Give a dotted key of nested tables its value in other ones, or remove it; return whether that changes the tables."""
+    *parents, name = key.split(".")
+    for parent in parents:
+        own, other = tables.get(parent), good.get(parent, {})
+        if not isinstance(own, dict) or not isinstance(other, Mapping):
+            return False
+        tables, good = own, other
+    former = tables.pop(name, None)
+    if name in good:
+        tables[name] = copy.deepcopy(good[name])
+    return former != tables.get(name)
 
 
 def _value(key: str, typed: str) -> Cell | None:

@@ -15,20 +15,20 @@ const SheetRow = {
     <tbody>
       <tr :data-row="row.key" :title="hint" :tabindex="stop ? 0 : -1" @focus="sheet.at = place" @dblclick="sheet.pin(row.key)">
         <th scope="row">{{ row.words }}</th><td class="symbol">{{ row.symbol }}</td><td class="unit">{{ row.unit }}</td>
-        <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former }" :colspan="span">
-          <del v-if="cell.former">{{ cell.former }}</del><span class="whole">{{ split(cell.text)[0] }}</span
-          ><span class="rest" :style="{ minWidth: rest + 'ch' }" v-if="split(cell.text)[1] !== null">{{ split(cell.text)[1] }}</span>
+        <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former }" :colspan="span" :data-column="row.cells.length > 1 ? columns[number] : null">
+          <del v-if="cell.former" :class="{ number: split(cell.former)[1] !== null }">{{ cell.former }}</del> <span :class="{ number: split(cell.text)[1] !== null }"><span class="whole">{{ split(cell.text)[0] }}</span
+          ><span class="rest" :style="{ minWidth: rest + 'ch' }" v-if="split(cell.text)[1] !== null">{{ split(cell.text)[1] }}</span></span>
         </td>
       </tr>
       <tr v-if="row.cells.some((cell) => cell.kept)" class="kept">
         <th scope="row" colspan="3">{{ sheet.words.kept }} <small>({{ sheet.words.difference }})</small></th>
-        <td v-for="(cell, number) in row.cells" :key="number" class="value" :colspan="span">
-          <small v-if="cell.difference">({{ cell.difference }})</small><span class="whole">{{ split(cell.kept ?? "")[0] }}</span
-          ><span class="rest" :style="{ minWidth: rest + 'ch' }" v-if="split(cell.kept ?? '')[1] !== null">{{ split(cell.kept)[1] }}</span>
+        <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ none: !cell.kept }" :colspan="span" :data-column="row.cells.length > 1 ? columns[number] : null">
+          <small v-if="cell.difference" class="number">({{ cell.difference }})</small> <span :class="{ number: split(cell.kept ?? '')[1] !== null }"><span class="whole">{{ split(cell.kept ?? "")[0] }}</span
+          ><span class="rest" :style="{ minWidth: rest + 'ch' }" v-if="split(cell.kept ?? '')[1] !== null">{{ split(cell.kept)[1] }}</span></span>
         </td>
       </tr>
     </tbody>`,
-  props: { sheet: Object, row: Object, place: String, hint: String, stop: Boolean, span: Number, rest: Number },
+  props: { sheet: Object, row: Object, place: String, hint: String, stop: Boolean, columns: Array, span: Number, rest: Number },
   methods: { split },
 };
 
@@ -52,10 +52,10 @@ export default {
       </details>
       <details v-for="block in blocks" :key="block.id" :open="block.open" @toggle="fold(block, $event.target.open)">
         <summary>{{ block.title }}</summary>
-        <table v-for="table in block.tables" :key="table.columns.join()">
+        <table v-for="table in block.tables" :key="table.columns.join()" :class="{ many: table.columns.length > 2 }">
           <thead v-if="table.columns.length"><tr><th colspan="3"></th><th v-for="name in table.columns" :key="name" scope="col">{{ name }}</th></tr></thead>
           <sheet-row v-for="row in table.rows" :key="row.key" :sheet="me" :row="row" :place="block.id + row.key" :hint="hint(row)"
-                     :stop="row === stops[block.id]" :span="span(table, row)" :rest="table.rest" />
+                     :stop="row === stops[block.id]" :columns="table.columns" :span="span(table, row)" :rest="table.rest" />
         </table>
       </details>
     </section>`,

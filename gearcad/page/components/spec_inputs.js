@@ -12,7 +12,7 @@ const SpecField = {
     <div :data-key="field.key" class="field" :class="{ changed, wrong: !!fault, given: given !== undefined }">
       <label :for="'in-' + field.key" :title="field.words"><span>{{ field.words }}</span><i v-if="field.symbol">{{ field.symbol }}</i></label>
       <select v-if="field.choices.length" :id="'in-' + field.key" :value="draft ?? given ?? ''" :disabled="readonly"
-              :aria-invalid="!!fault" @focus="form.focused = field" @change="form.type(field.key, $event.target.value)" @blur="form.leave(field.key)">
+              :aria-invalid="!!fault" @focus="form.focused = field" @change="form.type(field.key, $event.target.value)" @blur="form.leave(field.key)" @keydown="form.choose($event)">
         <option value="">{{ used ?? "" }}</option>
         <option v-if="given && !field.choices.includes(given)">{{ given }}</option>
         <option v-for="word in field.choices" :key="word" :value="word">{{ word }}</option>
@@ -36,26 +36,30 @@ export default {
   components: { SpecField },
   template: `
     <form class="inputs" @submit.prevent autocomplete="off" :aria-label="words.inputs">
-      <div class="find">
+      <div class="find" ref="find">
         <input class="search" type="search" ref="search" v-model="wanted" :placeholder="words.search + '  /'" :aria-label="words.search"
                @keydown.esc="wanted = ''; $event.target.blur()" @keydown.enter.prevent="next($event)" />
+        <p v-if="faults.length" class="faults" role="status">{{ faults.length }} {{ faults.length === 1 ? words.fault : words.faults }}</p>
         <button v-if="faultAbove" type="button" class="fault" role="alert" @click="go(fault.key)"><b v-if="fault.said">{{ fault.said }} – </b><span lang="en">{{ fault.line }}</span></button>
       </div>
       <p v-if="!shownTables.length" class="none">{{ tables.length ? words.nothing : words.textOnly }}</p>
       <details v-for="table in shownTables" :key="table.table" :open="wanted !== '' || !table.folded" class="table">
         <summary>{{ table.title }}<b v-if="count(table)">{{ count(table) }}</b></summary>
-        <component v-for="group in table.groups" :key="group.part" :is="group.part && !wanted ? 'details' : 'div'" class="group">
-          <summary v-if="group.part && !wanted" :class="{ changed: group.fields.some(isChanged) }">{{ group.title }}<b v-if="countIn(group)">{{ countIn(group) }}</b></summary>
+        <component v-for="family in families(table)" :key="family.part" :is="family.title && !wanted ? 'details' : 'div'" class="family">
+        <summary v-if="family.title && !wanted" :class="{ changed: family.groups.some((group) => group.fields.some(isChanged)) }">{{ family.title }}<b v-if="count(family)">{{ count(family) }}</b></summary>
+        <component v-for="group in family.groups" :key="group.part" :is="group.title && !wanted ? 'details' : 'div'" class="group">
+          <summary v-if="group.title && !wanted" :class="{ changed: group.fields.some(isChanged) }">{{ group.title }}<b v-if="countIn(group)">{{ countIn(group) }}</b></summary>
           <spec-field v-for="field in group.fields" :key="field.key" :form="me" :field="field" :given="given[field.key]" :used="used[field.key]"
-                      :draft="drafts[field.key]" :changed="isChanged(field)" :fault="isWrong(field) ? fault.line : ''" :said="isWrong(field) ? fault.said : ''" :readonly="readonly" />
+                      :draft="drafts[field.key]" :changed="isChanged(field)" :fault="faultAt(field.key)?.line ?? ''" :said="faultAt(field.key)?.said ?? ''" :readonly="readonly" />
+        </component>
         </component>
       </details>
-      <div class="hint" role="status">{{ hint }}</div>
+      <div class="hint" ref="hint" role="status">{{ hint }}</div>
     </form>`,
   props: { tables: Array, words: Object },
   emits: ["typed", "step"],
   data() {
-    return { wanted: "", drafts: {}, given: {}, used: {}, changed: [], fault: null, focused: null, readonly: false };
+    return { wanted: "", drafts: {}, given: {}, used: {}, changed: [], faults: [], focused: null, readonly: false };
   },
   computed: {
     me() {
@@ -72,7 +76,7 @@ export default {
       const parts = this.wanted.trim().toLowerCase().split(/\s+/);
       if (!parts[0]) return this.ownTables;
       const fits = (table, group) => (field) => {
-        const said = `${field.key} ${field.words} ${field.symbol} ${table.title} ${group.title}`.replaceAll("\u00ad", "").toLowerCase();
+        const said = `${field.key} ${field.words} ${field.symbol} ${table.title} ${group.family} ${group.title}`.replaceAll("\u00ad", "").toLowerCase();
         return parts.every((part) => said.includes(part));
       };
       return this.ownTables
@@ -84,6 +88,10 @@ export default {
         }))
         .filter((table) => table.groups.length);
     },
+    // The fault that the command line tells.
+    fault() {
+      return this.faults[0] ?? null;
+    },
     // A fault that no field can show, or whose field is not the one that is being typed into.
     faultAbove() {
       return this.fault && !(this.keys.has(this.fault.key) && this.focused?.key === this.fault.key);
@@ -93,9 +101,9 @@ export default {
       if (!field) return "";
       const said = [field.key];
       if (field.least !== null || field.most !== null)
-        said.push(`${field.least ?? "−∞"} … ${field.most ?? "∞"} ${field.unit}`.trim());
+        said.push(this.range(field));
       if (field.offered.length && field.offered.length < 8) said.push(field.offered.join(", "));
-      if (field.source) said.push(field.source);
+      if (field.source) said.push(/^\d/.test(field.source) ? `ISO 21771, ${this.words.clause} ${field.source}` : field.source);
       const shared = `pair.${field.key.slice(field.key.indexOf(".") + 1)}`;
       if (!(field.key in this.given) && field.key !== shared && shared in this.given) said.push(`${this.words.shared} ${shared}`);
       return said.join(" · ");
@@ -124,27 +132,42 @@ export default {
   },
   methods: {
     show({ reveal, heard, ...state }) {
-      const former = this.fault?.key;
+      const former = this.faults.map((fault) => fault.line).join();
       for (const each of Object.values(state)) Object.freeze(each); // so that Vue does not watch everything in it
       Object.assign(this, state);
       this.hear(heard);
       for (const key of Object.keys(this.drafts))
         if (!this.pending(key) && (reveal || (this.left.has(key) && this.focused?.key !== key))) this.forget(key, reveal);
       if (!this.undoing()) for (const step of this.later.splice(0)) step();
-      const key = this.fault?.key && this.fault.key !== former ? this.fault.key : reveal ? this.changed[0] : null;
-      if (key) this.$nextTick(() => this.reveal(key, !this.focused));
+      const wrong = this.faults.map((fault) => fault.line).join() !== former && (this.faultAt(this.focused?.key) ?? this.fault);
+      const key = (wrong && wrong.key) || (reveal ? this.changed[0] : null);
+      if (key) this.$nextTick(() => this.reveal(key, !this.focused || this.focused.key === key));
     },
     isChanged(field) {
       return this.changed.includes(field.key);
     },
-    isWrong(field) {
-      return this.fault?.key === field.key;
+    faultAt(key) {
+      return this.faults.find((fault) => fault.key === key);
     },
     countIn(group) {
       return group.fields.filter((field) => field.key in this.given).length;
     },
+    // Groups of a part and of its own parts stand together.
+    families({ groups }) {
+      const found = [];
+      for (const group of groups)
+        if (group.family && found.at(-1)?.title === group.family) found.at(-1).groups.push(group);
+        else found.push({ part: group.part, title: group.family, groups: [group] });
+      return found;
+    },
     count(table) {
       return table.groups.reduce((sum, group) => sum + this.countIn(group), 0);
+    },
+    // The permitted range, such as "3 … 2000 or −2000 … −3".
+    range({ least, most, negative, signed, unit }) {
+      const between = (from, to) => `${from ?? "−∞"} … ${to ?? "∞"} ${unit}`.trim();
+      if (signed) return `|${this.words.size}| ${between(least, most)}`;
+      return between(least, most) + (negative === null ? "" : ` ${this.words.or} ${between(-most, negative)}`);
     },
     place(key) {
       return [...this.$el.querySelectorAll(".field")].find((each) => each.dataset.key === key);
@@ -152,8 +175,17 @@ export default {
     reveal(key, scroll = true) {
       const place = this.place(key);
       for (let around = place?.closest("details"); around; around = around.parentElement.closest("details")) around.open = true;
-      if (scroll) place?.scrollIntoView({ block: "nearest" });
+      if (scroll && place) {
+        this.bring(place);
+        requestAnimationFrame(() => this.bring(place)); // once what comes into sight has its height
+      }
       return place;
+    },
+    // Scroll as far as needed: the field is below the search and above the hint.
+    bring(place) {
+      const [find, hint] = [this.$refs.find, this.$refs.hint].map((each) => each.offsetHeight + 2);
+      place.style.scrollMargin = `${find}px 0 ${hint}px`;
+      place.scrollIntoView({ block: "nearest" });
     },
     // What is told elsewhere leads to the field that it is about.
     led(event) {
@@ -177,7 +209,7 @@ export default {
     // Let go of what was typed, but for what could not be written into the spec: that is only here.
     forget(key, all = false) {
       this.left.delete(key);
-      if (all || !(this.fault?.key === key && !this.fault.written)) delete this.drafts[key];
+      if (all || (this.faultAt(key)?.written ?? true)) delete this.drafts[key];
     },
     out(key) {
       delete this.drafts[key];
@@ -194,6 +226,14 @@ export default {
         const step = () => this.step(field, (event.key === "ArrowUp" ? 1 : -1) * (event.shiftKey ? 10 : 1));
         this.undoing() ? this.later.push(step) : step();
       }
+    },
+    // Of an open list Enter and Escape choose and close.
+    choose(event) {
+      if (CSS.supports("selector(select:open)") && event.target.matches(":open")) return;
+      if (event.key === "Enter") {
+        event.preventDefault();
+        this.next(event);
+      } else if (event.key === "Escape") event.target.blur();
     },
     next(event) {
       const all = [...this.$el.querySelectorAll("input, select")].filter((each) => each.offsetParent);

@@ -43,6 +43,11 @@ class InputsPanel:
             "textOnly": words["This kind of spec is edited as text."],
             "out": words["leave out of the spec"],
             "shared": words["as in"],
+            "fault": words["fault"],
+            "faults": words["faults"],
+            "or": words["or"],
+            "size": words["size"],
+            "clause": words["clause"],
         }
         self._view = InputsView(changed, step, own)
         self._layout: Any = None
@@ -57,11 +62,11 @@ class InputsPanel:
         if layout != self._layout:
             self._layout = layout
             self._have(fields_of(bench.design, bench.tables))
-        fault = None if bench.fault is None else bench.fault._asdict() | {"said": self._words.said(bench.fault.line)}
+        faults = [each._asdict() | {"said": self._words.said(each.line)} for each in bench.faults()]
         given, former = given_texts(bench.tables), given_texts(bench.former)
         used = {key: text for key, text in used_texts(bench.design, bench.tables).items() if key in self._keys}
         changed = sorted(key for key in given.keys() | former.keys() if given.get(key) != former.get(key))
-        self._view.show({"given": given, "used": used, "fault": fault, "changed": changed, "reveal": reveal})
+        self._view.show({"given": given, "used": used, "faults": faults, "changed": changed, "reveal": reveal})
 
     def _have(self, tables: list[dict[str, Any]]) -> None:
         """Make the fields, in the language of the page."""
@@ -70,6 +75,7 @@ class InputsPanel:
         for table in tables:
             table["title"] = words[table["title"]]
             for group in table["groups"]:
+                group["family"] = words[group["family"]] if group["family"] else ""
                 group["title"] = ": ".join(words[title] for title in group.pop("titles"))
                 for field in group["fields"]:
                     field["words"] = words.divided(words[field["words"]])
