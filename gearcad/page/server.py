@@ -400,7 +400,7 @@ def serve(
 
     @ui.page("/")
     def page() -> Response | None:
-        if len(Session.open) >= _MOST_SESSIONS:
+        if len(Session.open) >= _MOST_SESSIONS and not Session.drop_abandoned():
             return Response(f"{_MOST_SESSIONS} pages are open: close one\n", 503, media_type="text/plain")
         ui.add_css(Path(__file__).parent / "page.css")
         Session.of(text, name, folder)

@@ -25,7 +25,7 @@ from gearcad.page.panels.views import BodiesPanel, RollPanel, SectionPanel, Shar
 from gearcad.page.run_process import result_in_process
 from gearcad.page.runs import Runs
 from gearcad.page.words import PageLanguage, PageWords, language_of
-from gearcad.page.workbench import DESIGN, TEXT, BesideDesign, linked_bench
+from gearcad.page.workbench import DESIGN, TAB, TEXT, BesideDesign, linked_bench
 
 _SECONDS = 60.0
 """Seconds until an unclaimed handover is dropped."""
@@ -54,6 +54,27 @@ def hand_over(handed: SessionHandover) -> str:
 def take_over(key: str) -> SessionHandover | None:
     """Return the handover that was left under a key, once; None if there is none."""
     return _HANDOVERS.pop(key, None)
+
+
+_RECENT: dict[str, BesideDesign] = {}
+"""Workbenches of the latest pages by the keys of their sessions, for pages that are loaded again."""
+
+_MOST_RECENT = 64
+
+
+def remember(key: str, beside: BesideDesign) -> None:
+    """Keep the workbench of a session for a page that is loaded again; the eldest of too many goes."""
+    _RECENT[key] = beside
+    while len(_RECENT) > _MOST_RECENT:
+        del _RECENT[next(iter(_RECENT))]
+
+
+def resumed(key: str, linked: BesideDesign | None) -> BesideDesign | None:
+    """Return a copy of the workbench that a session had, with its steps, unless a link has another text; otherwise None."""
+    former = _RECENT.get(key)
+    if former is None or (linked is not None and former.bench.text != linked.bench.text):
+        return None
+    return former.copied()
 
 
 def _drop(key: str) -> None:
@@ -221,6 +242,9 @@ class Session:
         self.bench, self.beside, self.words = beside.bench, beside, words
         bench = self.bench
         self.key = secrets.token_urlsafe(12)
+        remember(self.key, beside)
+        self._client, self._has_browser = ui.context.client, False
+        self._client.on_connect(self._connect)
         following = self._following = Following(lambda: bench.design, words["failed, and the page goes on"])
         ui.query("html").props(f"lang={words.language.value}")
         with ui.element("header").classes("bar"):
@@ -272,7 +296,20 @@ class Session:
         words = PageWords.of(language_of(query.get("lang"), headers.get("accept-language", "")))
         if (found := take_over(query.get("from", ""))) is not None:
             return cls(found.beside, words, found.runs)
-        return cls(BesideDesign(linked_bench(query.get(DESIGN, ""), text, name, folder)), words)
+        linked = BesideDesign(linked_bench(query.get(DESIGN, ""), text, name, folder))
+        return cls(resumed(query.get(TAB, ""), linked if DESIGN in query else None) or linked, words)
+
+    @classmethod
+    def drop_abandoned(cls) -> bool:
+        """Close the eldest page that was sent and to which no browser has connected; return whether there was one."""
+        abandoned = [each for each in cls.open if not each._has_browser]
+        if abandoned:
+            min(abandoned, key=lambda each: each._client.created)._client.delete()
+        return bool(abandoned)
+
+    def _connect(self) -> None:
+        """Note that a browser shows this page."""
+        self._has_browser = True
 
     def speak(self, language: PageLanguage) -> None:
         """Open the page in another language, with this workbench."""

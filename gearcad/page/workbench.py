@@ -137,6 +137,12 @@ class Workbench:
         """Tell what could not be taken at all; text and design stay."""
         self.fault = Fault(line, written=False)
 
+    def copied(self) -> Workbench:
+        """Return a workbench of its own with the same text and steps."""
+        other = copy.copy(self)
+        other._back, other._forth = [*self._back], [*self._forth]
+        return other
+
     def undo(self) -> None:
         """Go a step back, if there is one."""
         self._go(self._back, self._forth)
@@ -184,7 +190,7 @@ def _restore(tables: dict[str, Any], key: str, good: Mapping[str, Any]) -> bool:
     former = tables.pop(name, None)
     if name in good:
         tables[name] = copy.deepcopy(good[name])
-    return former != tables.get(name)
+    return bool(former != tables.get(name))
 
 
 def _value(key: str, typed: str) -> Cell | None:
@@ -194,6 +200,9 @@ def _value(key: str, typed: str) -> Cell | None:
 
 DESIGN = "design"
 """Name of the design's parameter in the address."""
+
+TAB = "tab"
+"""Name of the parameter that finds the steps of a page that is loaded again."""
 
 LONGEST = 8000
 """Characters of a link: what browsers, servers and mails let through."""
@@ -368,6 +377,12 @@ class BesideDesign:
         if (kept := self.kept) is not None:
             self.kept = self._present()
             self.bench.open(kept.text, kept.name)
+
+    def copied(self) -> BesideDesign:
+        """Return one of its own with a copy of the workbench."""
+        other = BesideDesign(self.bench.copied())
+        other.kept = self.kept
+        return other
 
     def let_go(self) -> None:
         """Let the kept design go."""

@@ -59,11 +59,14 @@ class BodiesView(Element, component="gear_bodies.js", esm={"gear-surfaces": "sur
 
 
 class FilesView(Element, component="gear_files.js"):
-    """Calls `asked(what, told)`; files that are opened go to `address`. `words` are the page's own."""
+    """Calls `asked(what, told)`; files that are opened go to `address`. `words` are the page's own.
 
-    def __init__(self, asked: Callable[[str, Mapping[str, Any]], None], address: str, words: dict[str, str]) -> None:
+    The address of the page has `tab`, by which the server finds the steps of a page that is loaded again.
+    """
+
+    def __init__(self, asked: Callable[[str, Mapping[str, Any]], None], address: str, tab: str, words: dict[str, str]) -> None:
         super().__init__()
-        self._props["words"], self._props["address"] = words, address
+        self._props["words"], self._props["address"], self._props["tab"] = words, address, tab
         self.on("asked", lambda event: asked(str(event.args.get("what")), event.args))
 
     def show(self, **state: Any) -> None:

@@ -35,7 +35,7 @@ export default {
         <p v-if="line" class="fault" role="alert" lang="en">{{ line }}</p>
       </div>
     </details>`,
-  props: { words: Object, address: String },
+  props: { tab: String, words: Object, address: String },
   emits: ["asked"],
   data() {
     return {
@@ -67,7 +67,8 @@ export default {
       const query = kept.toString();
       this.link = link ? `${window.location.origin}${window.location.pathname}?${query}` : "";
       this.copied = false;
-      window.history.replaceState(window.history.state, "", window.location.pathname + (query ? `?${query}` : ""));
+      kept.set("tab", this.tab); // not in the link: the steps of this tab are its own
+      window.history.replaceState(window.history.state, "", window.location.pathname + `?${kept}`);
     },
     close() {
       this.$refs.menu.open = false;

@@ -163,7 +163,7 @@ class FilesPanel:
     def __init__(self, key: str, bench: Workbench, words: PageWords, opened: Opened, tabled: Opened) -> None:
         self._key, self._bench, self._words, self._opened, self._tabled = key, bench, words, opened, tabled
         self._folder, self._runs = Folder(bench.folder), Runs()
-        self._view = FilesView(self._asked, f"/given/{key}", _words(words))
+        self._view = FilesView(self._asked, f"/given/{key}", key, _words(words))
         self._names = _names(words)
         self._run: Run | None = None
         self._timer = ui.timer(_LOOK, self._look, active=False)

@@ -9,7 +9,9 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
@@ -20,6 +22,7 @@ from support.processes import wait_until
 
 from gearcad.designs.reader import starter_text
 from gearcad.page.fields import fields_of
+from gearcad.page.session import Session
 from gearcad.page.workbench import Workbench, pack
 
 SCRIPT = "<img src=x onerror=alert(1)><script>alert(1)</script>"
@@ -437,14 +440,36 @@ def test_sigterm_ends_a_run_with_all_that_was_its_own(browser: object, folder: P
 
 
 @pytest.mark.long
-def test_no_more_pages_than_the_server_has_room_for(folder: Path) -> None:
+def test_pages_that_no_browser_shows_keep_nobody_out(browser: Any, folder: Path) -> None:
     server, address = serve(folder / "spur.toml")
     try:
-        statuses = [ask(address)[0] for _ in range(33)]
+        context = browser.new_context()
+        tab = Tab(context.new_page(), address)
+        tab.page.goto(address)
+        tab.page.wait_for_selector(".scene[data-shown]")
+        statuses = [ask(address)[0] for _ in range(40)]
+        tab.give("gear.teeth", "31")
+        other = context.new_page()
+        other.goto(without_token(address))
+        other.wait_for_selector(".scene[data-shown]")
+        context.close()
     finally:
         server.terminate()
         server.wait(20)
-    assert statuses == [200] * 32 + [503]
+    assert statuses == [200] * 40
+
+
+def test_pages_that_browsers_show_are_not_dropped(monkeypatch: pytest.MonkeyPatch) -> None:
+    dropped: list[float] = []
+    pages = [
+        SimpleNamespace(_has_browser=shown, _client=SimpleNamespace(created=created, delete=partial(dropped.append, created)))
+        for created, shown in ((1.0, True), (3.0, False), (2.0, False))
+    ]
+    monkeypatch.setattr(Session, "open", pages)
+    assert Session.drop_abandoned()
+    assert dropped == [2.0]
+    monkeypatch.setattr(Session, "open", pages[:1])
+    assert not Session.drop_abandoned()
 
 
 def _children(process: int) -> list[int]:

@@ -237,3 +237,19 @@ def test_wrong_input_is_told_at_its_field_and_the_last_good_design_stays(tab: An
     assert "pinion.teeth = 2: must be a whole number from 3 to 2000" in line
     outline = tab.page.get_attribute(".gear-section", "data-teeth")
     assert outline and tab.shown() == before
+
+
+def test_steps_survive_a_reload(tab: Any) -> None:
+    was = tab.field(SHIFT).input_value()
+    tab.field(SHIFT).fill("0.31")
+    tab.page.wait_for_timeout(PAUSE)
+    tab.field(SHIFT).fill("0.32")
+    tab.page.wait_for_function("window.location.search.includes('tab=')")
+    tab.page.wait_for_timeout(PAUSE)  # until the address has the design
+    tab.page.reload()
+    tab.page.wait_for_selector(".scene[data-shown]")
+    for value in ("0.31", was):
+        tab.page.get_by_role("button", name="undo").click()
+        _has(tab, SHIFT, value)
+    tab.page.get_by_role("button", name="redo").click()
+    _has(tab, SHIFT, "0.31")

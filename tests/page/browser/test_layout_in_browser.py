@@ -73,8 +73,9 @@ WRONG = {
     },
     **{f"wheel.{key}": "-9999" for key in ("normal_module", "face_width", "profile_shift", "tooth_thinning", "accuracy_grade")},
     **{f"pair.{key}": "-9999" for key in ("centre_distance", "face_width", "flank_roughness")},
-    **{f"load.{key}": "-9999" for key in ("application_factor",)},
-    **{f"rating.{key}": "-9999" for key in ("dynamic_factor", "face_load_factor", "shaft_diameter", "bearing_span", "scuffing_stage")},
+    "load.application_factor": "-9999",
+    **{f"rating.{key}": "-9999" for key in ("dynamic_factor", "face_load_factor", "shaft_diameter", "bearing_span")},
+    "rating.scuffing_stage": "-9999",
 }
 """What no design has, at 20 fields of a pair."""
 
@@ -91,12 +92,17 @@ def _keep_and_change(tab: Any) -> None:
     tab.page.get_by_role("button", name="Beside").click()
     tab.page.get_by_text("keep this design").click()
     tab.page.wait_for_selector(".beside-kept")
-    for table in ("pair", "gear", "planet", "pinion"):
-        field = tab.page.locator(f'[data-key="{table}.normal_module"] input')
-        if field.count() and (value := field.input_value()):
-            field.fill(str(round(float(value) * 1.03, 4)))
-            tab.page.wait_for_selector(".gear-sheet tr.kept", state="attached")
-            return
+    for name, factor in (("normal_module", 1.03), ("face_width", 1.1)):
+        for table in ("pair", "gear", "planet", "pinion"):
+            field = tab.page.locator(f'[data-key="{table}.{name}"] input')
+            if field.count() and (value := field.input_value()):
+                field.fill(str(round(float(value) * factor, 4)))
+                tab.page.wait_for_selector(".gear-sheet tr.kept, .inputs .fault", state="attached")
+                if tab.page.locator(".inputs .fault").count() == 0:
+                    return
+                field.fill(value)
+                tab.page.wait_for_selector(".inputs .fault", state="detached")
+                break
 
 
 def _cut(tab: Any) -> dict[int, list[str]]:
