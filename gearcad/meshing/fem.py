@@ -197,14 +197,14 @@ def stiffness_matrices(kind: str, nodes: Floats, lame: tuple[float, float], orde
     The integral of lambda div u div v + mu (grad u + grad u^T) : grad v, in N/mm, of plane elements per mm of width.
     """
     gradients, weights = mapped(kind, nodes, quadrature(kind, order))
-    count, size, dimension, _ = gradients.shape
-    flat = gradients.reshape(count, size * dimension, -1)
+    count, size, dimension, places = gradients.shape
+    flat = gradients.reshape(count, size * dimension, places)
     products = ((flat * weights[:, None]) @ flat.swapaxes(1, 2)).reshape(count, size, dimension, size, dimension)
     trace = np.einsum("maibi->mab", products)
     matrices = lame[0] * products + lame[1] * products.swapaxes(2, 4)
     for direction in range(dimension):
         matrices[:, :, direction, :, direction] += lame[1] * trace
-    return matrices.reshape(count, size * dimension, -1)
+    return matrices.reshape(count, size * dimension, size * dimension)
 
 
 def mass_matrices(kind: str, nodes: Floats, order: int) -> Floats:

@@ -16,7 +16,15 @@ from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 from gearcad import Body, FlankModification, Gear, GearcadError
 from gearcad.meshing.bodies import Element, ElementMesh, Faces
 from gearcad.meshing.bodies.quality import Quality, quality, require_good
-from gearcad.meshing.fem import node_places, shape_slopes, shape_values
+from gearcad.meshing.fem import (
+    SWEPT,
+    field_gradients,
+    mass_matrices,
+    node_places,
+    shape_slopes,
+    shape_values,
+    stiffness_matrices,
+)
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.plan import plan_mesh
 from gearcad.meshing.result import JudgedMesh, _judged
@@ -51,7 +59,7 @@ def is_(found: Quality, jacobian: float, aspect: float, angle: float) -> None:
     assert found.least_angle == pytest.approx(angle, abs=1e-6)
 
 
-@pytest.mark.parametrize("kind", [*(each.value for each in KINDS), "line3", "quad4"])
+@pytest.mark.parametrize("kind", [*(each.value for each in KINDS), "line3", "quad4", SWEPT])
 def test_shapes_interpolate(kind: str) -> None:
     """1 at their own node and 0 at others; sums are 1; linear fields have their slope."""
     places = node_places(kind)
@@ -64,6 +72,14 @@ def test_shapes_interpolate(kind: str) -> None:
     for axis, shift in enumerate(step * np.eye(places.shape[1])):
         measured = (shape_values(kind, inside + shift) - shape_values(kind, inside - shift)) / (2 * step)
         assert shape_slopes(kind, inside)[:, axis] == pytest.approx(measured, abs=1e-8)
+
+
+@pytest.mark.parametrize("kind", ["tri6", SWEPT])
+def test_no_elements_have_no_matrices(kind: str) -> None:
+    places = node_places(kind)
+    size, none = places.size, np.empty((0, *places.shape))
+    assert stiffness_matrices(kind, none, (1.0, 1.0), 4).shape == mass_matrices(kind, none, 4).shape == (0, size, size)
+    assert field_gradients(kind, none, none, places).shape == (0, len(places), places.shape[1], places.shape[1])
 
 
 @pytest.mark.parametrize("element", KINDS)
