@@ -169,7 +169,7 @@ def stages(wanted: Sequence[Job[Any, Any]]) -> tuple[Job[Any, Any], ...]:
 
 def make_parts(job: Job[Any, Any], design: Design, parts: Sequence[str], folder: Path) -> None:
     """Make some of a job's parts in an empty folder."""
-    maker = job.for_row(design, parts)
+    maker = job.for_row(design, parts).headed(design)
     for name, write in maker.files(maker.run(design)).items():
         if job.part_of(name):
             write(folder / name)
@@ -321,7 +321,7 @@ def _update(task: Task, folder: Path, job: Job[Any, Any]) -> _Update:
         design = task.design(inputs)
         with _staging(task, folder) as staging:
             make_parts(job, design, missing, staging)
-            made = _parts_in(staging, job)
+            made = {name: RowPart(wanted[name], {}) for name in missing} | _parts_in(staging, job)
             publish(staging, folder, Manifest(inputs, kept | made), before)
         kept |= made
     return _Update(bool(missing), [kept[name] for name in wanted])

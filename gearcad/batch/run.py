@@ -49,6 +49,11 @@ class BatchSummary:
     errors: tuple[str, ...]
     stopped: str = ""
 
+    @property
+    def passed(self) -> bool:
+        """Whether every row was made, and no check, rating or verification falls short."""
+        return not (self.failed or self.not_run or self.short or self.stopped)
+
 
 class InterruptedRunError(KeyboardInterrupt):
     """Ctrl-C, and how far the run was: a row that is not finished counts as not run."""
@@ -378,8 +383,8 @@ class _Run:
 
 
 def falls_short(values: Mapping[str, Any]) -> bool:
-    """Return whether a check or a rating of a row ends its command with exit status 1."""
-    if values.get("check.passed") is False:
+    """Return whether a check, a rating or a verification of a row ends its command with exit status 1."""
+    if any(values.get(key) is False for key in ("check.passed", "verify.passed", "verify.strength")):
         return True
     return values.get("rate.passed", True) is not True and values.get("rate.strength") != Verdict.NOT_ASKED.value
 

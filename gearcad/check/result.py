@@ -339,6 +339,7 @@ def check_document(result: CheckResult) -> JsonObject:
         "explanations": result.explanations.to_dict(),
         "warnings": list(result.warnings),
         "notices": [notice.to_dict() for notice in result.notices],
+        "not_judged": dict(result.safeties.rating.not_judged),
         "numerics": result.numerics.value,
         "strength": result.strength.value,
         "passed": result.passed,

@@ -256,7 +256,7 @@ def data(spec: Path, as_json: bool) -> None:
     job = Data()
     design = job.run(read_spec(spec))
     if as_json:
-        click.echo(json_text(job.document(design)), nl=False)
+        click.echo(json_text(job.complete_document(design)), nl=False)
         return
 
     if not shows_styles(sys.stdout):

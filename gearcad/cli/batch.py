@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -19,6 +19,7 @@ from gearcad.version import __version__
 if TYPE_CHECKING:
     from gearcad.batch import BatchSummary
     from gearcad.batch.study import Sample, Study
+    from gearcad.jobs.job import Job
 
 
 @click.command(short_help="Make every row of a design table, in parallel.")
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 @click.option("--do", "steps", default="build", show_default=True, help=f"Comma-separated list of {', '.join(job_commands())}.")
 @format_option
 @files_options
+@click.option("--no-report", is_flag=True, help="Leave out the reports (HTML), which take time and 0.1 to 3 MB a row.")
 @click.option("--time-limit", default=600.0, show_default=True, metavar="S", help="Longest time for one row, in seconds.")
 @click.option("--fresh", is_flag=True, help="Make everything again, also what is there and unchanged.")
 @click.option("--keep-going", is_flag=True, help="Make the good rows of a table that has faults.")
@@ -45,6 +47,7 @@ def batch(
     steps: str,
     formats: str,
     options: FileOptions,
+    no_report: bool,
     time_limit: float,
     fresh: bool,
     keep_going: bool,
@@ -55,7 +58,8 @@ def batch(
 ) -> None:
     """Make every row of TABLE (CSV or xlsx) in a folder of its own, and results.csv with all derived numbers.
 
-    columns.csv beside it has symbol and unit of each number.
+    columns.csv beside it has symbol and unit of each number. check, rate, stiffness, dynamics and planetary write their reports
+    into the folder of each row.
     All rows are checked before anything is made. Run it again after a change, a crash or a Ctrl-C: it makes only what is
     missing or changed. `gearcad new pairs` writes a commented table to begin with.
     """
@@ -63,7 +67,7 @@ def batch(
     from gearcad.jobs.build import Build
 
     build = Build(formats=parse_choices("format", formats, Format), options=options)
-    wanted = [build if verb == build.verb else job_of(verb)() for verb in _verbs(steps)]
+    wanted = [build if verb == build.verb else _job(verb, report=not no_report) for verb in _verbs(steps)]
     chosen = as_choice("decimal", decimal.lower(), Decimal)
     folder = output if output is not None else Path("output") / table.stem
     began = time.perf_counter()
@@ -86,8 +90,16 @@ def batch(
             click.echo(f"{_counts(error.summary)}; the same command makes the rest", err=True)
         raise
     report_summary(summary, time.perf_counter() - began, as_json=as_json, quiet=quiet)
-    if summary.failed or summary.not_run or summary.short or summary.stopped:
+    if not summary.passed:
         click.get_current_context().exit(1)
+
+
+def _job(verb: str, *, report: bool) -> Job[Any, Any]:
+    """Return the job of a verb with its usual options, with or without a report where it has one."""
+    from gearcad.jobs.job import ReportedJob
+
+    found = job_of(verb)
+    return found(report=report) if issubclass(found, ReportedJob) else found()
 
 
 def _verbs(text: str) -> list[str]:
@@ -101,6 +113,7 @@ def _verbs(text: str) -> list[str]:
 
 def report_summary(summary: BatchSummary, seconds: float, *, as_json: bool, quiet: bool) -> None:
     from gearcad.core.output import json_text
+    from gearcad.jobs.job import with_summary
 
     results = [str(path) for path in summary.results]
     if as_json:
@@ -111,8 +124,9 @@ def report_summary(summary: BatchSummary, seconds: float, *, as_json: bool, quie
             "results": results,
             **counts,
             "errors": list(summary.errors),
+            "passed": summary.passed,
         }
-        click.echo(json_text(document), nl=False)
+        click.echo(json_text(with_summary(document)), nl=False)
     else:
         click.echo("".join(f"{path}\n" for path in results), nl=False)
     for line in (*summary.errors, *filter(None, [summary.stopped])):

@@ -70,6 +70,7 @@ def build(spec: Path, output: Path | None, formats: str, options: FileOptions, a
     from gearcad.core.output import json_text
     from gearcad.designs.reader import read_spec
     from gearcad.jobs.build import Build
+    from gearcad.jobs.job import with_summary
 
     job = Build(formats=parse_choices("format", formats, Format), options=options)
     design = job.run(read_spec(spec))
@@ -78,7 +79,7 @@ def build(spec: Path, output: Path | None, formats: str, options: FileOptions, a
         files = job.write(design, folder, progress)
     if as_json:
         found = {"output": str(folder), "files": [str(file) for file in files], "warnings": list(design.warnings)}
-        click.echo(json_text(job.document(design) | found), nl=False)
+        click.echo(json_text(with_summary(job.document(design) | found)), nl=False)
     else:
         click.echo("".join(f"{file}\n" for file in files), nl=False)
     if not quiet:
@@ -213,7 +214,7 @@ def picture(
         with file_progress(shown=not quiet) as progress:
             files = job.write(result, folder_of(output, design.name), progress)
     if as_json:
-        click.echo(json_text(job.document(result)), nl=False)
+        click.echo(json_text(job.complete_document(result)), nl=False)
     else:
         click.echo("".join(f"{file}\n" for file in files), nl=False)
     if not quiet:

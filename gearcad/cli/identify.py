@@ -191,6 +191,7 @@ def identify(
     gearcad identify --teeth 30 --tip-diameter 81.2+-0.2 --centre-distance 101.6 --mate-teeth 50
     """
     from gearcad.core.output import json_text
+    from gearcad.jobs.job import with_summary
     from gearcad.jobs.searches import identify_measured
 
     if write is not None:
@@ -202,7 +203,7 @@ def identify(
     if write is not None:
         _write(found, chosen, write)
     if as_json:
-        click.echo(json_text(found.to_dict()), nl=False)
+        click.echo(json_text(with_summary(found.to_dict())), nl=False)
     else:
         click.echo("\n".join(identification_lines(found)))
         if write is not None:

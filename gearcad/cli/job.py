@@ -230,7 +230,7 @@ def perform_on(
     with job_progress(shown=not quiet, expected=None if quiet else job.expected(design)) as progress:
         result = job.run(design, progress)
     with file_progress(shown=not quiet and job.writes_long) as progress:
-        files = job.write(result, folder_of(output, design.name), progress)
+        files = job.headed(design).write(result, folder_of(output, design.name), progress)
     if as_json:
         click.echo(next(file for file in files if file.name == f"{job.verb}.json").read_text(encoding="utf-8"), nl=False)
     else:

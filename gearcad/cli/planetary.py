@@ -76,6 +76,7 @@ def search_sets(given: Mapping[str, Any], output: Path | None, *, force: bool, a
     """
     from gearcad.core.output import json_text
     from gearcad.designs.spec_writers import write_found
+    from gearcad.jobs.job import with_summary
     from gearcad.planetary.search import search
 
     task, count = _task(given), _COUNT if given["count"] is None else given["count"]
@@ -89,7 +90,7 @@ def search_sets(given: Mapping[str, Any], output: Path | None, *, force: bool, a
     if output is not None and result.found:
         write_found(result, output)
     if as_json:
-        click.echo(json_text(result.to_dict()), nl=False)
+        click.echo(json_text(with_summary(result.to_dict())), nl=False)
     elif result.found:
         click.echo("\n".join(_table(result)))
     if not result.found:

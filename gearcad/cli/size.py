@@ -205,7 +205,7 @@ def require_no_sets(given: Mapping[str, Any]) -> None:
 def size_planetary(given: Mapping[str, Any], count: int, output: Path | None, *, as_json: bool, quiet: bool) -> None:
     """Size sets for what options ask for, write the files and show the table; ends with status 1 where none holds."""
     from gearcad.core.output import json_text
-    from gearcad.jobs.searches import write_set_sizes
+    from gearcad.jobs.searches import size_document, write_set_sizes
     from gearcad.sizing.planetary_sets import expected, size_sets
 
     task = _task(given)
@@ -217,7 +217,7 @@ def size_planetary(given: Mapping[str, Any], count: int, output: Path | None, *,
         click.get_current_context().exit(1)
     files = write_set_sizes(result, Path("output/size") if output is None else output)
     if as_json:
-        click.echo(json_text(result.to_dict()), nl=False)
+        click.echo(json_text(size_document(result)), nl=False)
         return
     click.echo("\n".join(_table(result)))
     if not quiet:
@@ -377,7 +377,7 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
     gearcad size --planetary --input-torque 300 --speed 1500 --ratio 5.2 --life 20000 --material "Eh MQ"
     """
     from gearcad.core.output import json_text
-    from gearcad.jobs.searches import write_sizing
+    from gearcad.jobs.searches import size_document, write_sizing
     from gearcad.sizing import search_pairs
     from gearcad.sizing.proposals import expected
 
@@ -395,7 +395,7 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
         result = search_pairs(task, count=number, errors=wanted, progress=progress)
     files = write_sizing(result, Path("output/size") if output is None else output)
     if as_json:
-        click.echo(json_text(result.to_dict()), nl=False)
+        click.echo(json_text(size_document(result)), nl=False)
     elif result.found:
         click.echo("\n".join(table_lines(result)))
     if not result.found:

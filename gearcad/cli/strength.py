@@ -440,7 +440,7 @@ def modify(
         (staging / path.name).write_text(text, encoding="utf-8", newline="")
     if as_json:
         head = {"kind": "modify", "name": proposal.name, "gearcad": __version__, "output": str(path)}
-        click.echo(json_text(head | job.document(proposal)), nl=False)
+        click.echo(json_text(head | job.complete_document(proposal)), nl=False)
     else:
         click.echo("\n".join([*_lines(proposal), str(path)]))
     if not quiet:

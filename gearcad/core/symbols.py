@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 __all__ = [
     "CHECK",
+    "CHECK_COLUMNS",
     "COURSES",
     "DRAW",
     "DRIVE",
@@ -500,6 +501,34 @@ CHECK = {
     "face_load_factor": Symbol("K_Hβ", "", "", "face load factor of contact"),
     "root_face_load_factor": Symbol("K_Fβ", "", "", "face load factor of the root"),
 }
+
+CHECK_COLUMNS = {
+    "strength_fe": Symbol("", "", "", "verdict of the safeties by finite elements, for information"),
+    "gates_failed": Symbol("", "", "", "comparisons that decide and are not passed"),
+    "hertz_pressure_deviation": Symbol("", "%", "", "peak pressures from Hertz's, at the worst"),
+    "hertz_half_width_deviation": Symbol("", "%", "", "half widths of contact from Hertz's, at the worst"),
+    "torque_deviation": Symbol("", "%", "", "torque that the body bears from the applied one, at the worst"),
+    "discretisation_error_mesh_stiffness": Symbol("", "%", "", "estimated error of the mean mesh stiffness"),
+    "discretisation_error_root_tension": Symbol("", "%", "", "estimated error of the root tension"),
+    "sampling_error_root_tension": Symbol("", "%", "", "error that the positions may leave in root stresses"),
+    "sampling_error_contact_pressure": Symbol("", "%", "", "error that the positions may leave in the contact pressure"),
+    "root_stress_deviation": Symbol("", "%", "", "root tension from σ_F0 of the standard"),
+    "mesh_stiffness_deviation": Symbol("", "%", "", "mean mesh stiffness from c_γα of the standard"),
+    "single_stiffness_deviation": Symbol("", "%", "", "stiffness of one pair of teeth from c' of the standard"),
+    "contact_pressure_deviation": Symbol("", "%", "", "greatest pressure from the standard's contact stress"),
+    "contact_pressure_pitch_point_deviation": Symbol("", "%", "", "pressure at the pitch point from σ_H0 of the standard"),
+    "contact_length_deviation": Symbol("", "%", "", "mean length of the lines that carry from the geometric one"),
+    "line_load_deviation": Symbol("", "%", "", "greatest line load from the even one"),
+    "face_load_factor_deviation": Symbol("", "%", "", "K_Hβ from Method C"),
+    "root_face_load_factor_deviation": Symbol("", "%", "", "K_Fβ from Method C"),
+    "S_H": Symbol("S_H", "", "ISO 6336-2, 5", "safety of the flank by the rating"),
+    "S_H_fe": Symbol("S_H", "", "", "safety of the flank by finite elements"),
+    "S_H_required": Symbol("S_Hmin", "", "", "safety that is required of flanks"),
+    "S_F": Symbol("S_F", "", "ISO 6336-3, 5", "safety of the root by the rating"),
+    "S_F_fe": Symbol("S_F", "", "", "safety of the root by finite elements"),
+    "S_F_required": Symbol("S_Fmin", "", "", "safety that is required of roots"),
+}
+"""Symbols of a check in tables of results, beside those of its summary."""
 
 STIFFNESS = {
     "mean": Symbol("", "N/µm", "", "mean secant mesh stiffness"),

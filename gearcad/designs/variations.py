@@ -74,7 +74,7 @@ _COMPUTED = {
     "rack": symbols.RACK,
     "pair": symbols.PAIR | symbols.RACK_PAIR,
     "drive": symbols.DRIVE,
-    "check": symbols.CHECK,
+    "check": symbols.CHECK | symbols.CHECK_COLUMNS,
     "check.rating": symbols.RATING,
     "check.rating.pinion": symbols.GEAR_RATING,
     "check.rating.wheel": symbols.GEAR_RATING,

@@ -34,7 +34,7 @@ from gearcad.dynamics.trains.train import Train
 from gearcad.dynamics.variant_comparison import SideBySide
 from gearcad.geometry import GearPair
 from gearcad.geometry.gear import refuse_halves
-from gearcad.jobs.job import Job, Writer, as_design
+from gearcad.jobs.job import ReportedJob, Writer, as_design
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
@@ -166,7 +166,7 @@ _TABLES = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class Dynamics(Job[PairDesign | TrainDesign, Study]):
+class Dynamics(ReportedJob[PairDesign | TrainDesign, Study]):
     """The study for which [dynamics] of a design asks."""
 
     verb = "dynamics"
@@ -207,7 +207,7 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
     def files(self, result: Study) -> dict[str, Writer]:
         """The report, the document, the arrays, the tables, and the specs of a train's pairs."""
         return {
-            "dynamics.html": partial(_write_report, result),
+            **({"dynamics.html": partial(_write_report, result, self.head)} if self.report else {}),
             "dynamics.json": partial(self.write_document, result),
             "dynamics.npz": partial(_write_arrays, result),
             **table_files(self.verb, result.tables()),
@@ -228,10 +228,10 @@ def _write_text(text: str, path: Path) -> None:
     path.write_text(text, encoding="utf-8")
 
 
-def _write_report(study: Study, path: Path) -> None:
+def _write_report(study: Study, head: Mapping[str, str], path: Path) -> None:
     from gearcad.report import write_dynamics_report
 
-    write_dynamics_report(study, study.name, path)
+    write_dynamics_report(study, study.name, path, head)
 
 
 def _write_arrays(study: Study, path: Path) -> None:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeAlias, TypeVar, Unpack, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeAlias, TypeVar, Unpack, cast
 
 from gearcad.core.errors import ParameterError, as_path
 from gearcad.core.output import json_text, staged_files
-from gearcad.core.records import JsonObject, Notice, PerGear
+from gearcad.core.records import JsonObject, Notice, PerGear, texts
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
@@ -31,6 +31,16 @@ Result = TypeVar("Result")
 
 Writer = Callable[[Path], object]
 """Writes one file at the path it is given."""
+
+
+def with_summary(document: Mapping[str, Any], warnings: Iterable[str] = ()) -> JsonObject:
+    """Return a document with `passed`, `strength`, `not_judged` and `warnings` at its top, whatever command it is of.
+
+    Keys that it has are kept. The others are null where nothing is judged, [] where nothing is unjudged; the warnings are those
+    that are given.
+    """
+    absent = {"passed": None, "strength": None, "not_judged": [], "warnings": list(warnings)}
+    return {**document, **{key: value for key, value in absent.items() if key not in document}}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +86,11 @@ class Job(ABC, Generic[Accepted, Result]):
 
     @abstractmethod
     def document(self, result: Result) -> JsonObject:
-        """Return the content of VERB.json, which `--json` prints."""
+        """Return the content of VERB.json, without the keys of `with_summary` that this job has no values for."""
+
+    def complete_document(self, result: Result) -> JsonObject:
+        """Return the document with the keys that every document has; see `with_summary`."""
+        return with_summary(self.document(result), texts(self.notices(result)))
 
     def notices(self, _result: Result) -> Sequence[Notice]:
         """Return the notices that the user should know before trusting a result."""
@@ -92,7 +106,7 @@ class Job(ABC, Generic[Accepted, Result]):
 
     def write_document(self, result: Result, path: Path) -> None:
         """Write what VERB.json holds."""
-        path.write_text(json_text(self.document(result)), encoding="utf-8")
+        path.write_text(json_text(self.complete_document(result)), encoding="utf-8")
 
     def write(self, result: Result, folder: Path | str, progress: Progress | None = None) -> list[Path]:
         """Write all files of a result into `folder`, or none, and return their paths. Raises OutputError."""
@@ -104,6 +118,10 @@ class Job(ABC, Generic[Accepted, Result]):
                 agenda(name)
                 write(staging / name)
         return [folder / name for name in files]
+
+    def headed(self, _design: Design) -> Self:
+        """Return the job whose report has the heading that the design's [drawing] gives."""
+        return self
 
     # ------------------------------------------------------------------ rows of a table
 
@@ -127,6 +145,34 @@ class Job(ABC, Generic[Accepted, Result]):
     def figures(self, _document: JsonObject) -> JsonObject:
         """Return the figures of a document for a table of results; their columns begin with the verb."""
         return {}
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReportedJob(Job[Accepted, Result]):
+    """A job with a report, an HTML page of its result, which is left out without `report`."""
+
+    report: bool = True
+    head: Mapping[str, str] = field(default_factory=dict, compare=False)
+    """Company, project, author and the like above the report's title, by their words: those of the design that it is of."""
+
+    def headed(self, design: Design) -> Self:
+        from gearcad.report.document import heading
+
+        return replace(self, head=heading(getattr(design, "drawing", None))) if self.report else self
+
+    @property
+    def parts(self) -> dict[str, dict[str, Any]]:
+        """The document, and the report as a part of its own: rows that lack one are made again where reports are asked for."""
+        ((verb, options),) = super().parts.items()
+        options = {name: value for name, value in options.items() if name not in ("report", "head")}
+        return {verb: options, **({self._report_part: options} if self.report else {})}
+
+    def part_of(self, file: str) -> str:
+        return self._report_part if self.report and file.endswith(".html") else super().part_of(file)
+
+    @property
+    def _report_part(self) -> str:
+        return f"{self.verb} report"
 
 
 def _require_progress(progress: object) -> None:
@@ -215,4 +261,4 @@ def data(subject: Subject | Train, load: Load | None = None, **inputs: Unpack[In
     from gearcad.dynamics.trains.train import Train
 
     job, design = Data(), TrainDesign(name=subject.name, train=subject) if isinstance(subject, Train) else subject
-    return job.document(job.run(as_design(design, load, **inputs)))
+    return job.complete_document(job.run(as_design(design, load, **inputs)))

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import NamedTuple, Unpack
 
 from gearcad.core.errors import ParameterError, require_switch
-from gearcad.core.output import json_text
 from gearcad.core.quantities import with_assumed
 from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Progress, one_thread
@@ -17,7 +16,7 @@ from gearcad.designs import Design, DesignKind, Inputs, PlanetaryDesign
 from gearcad.designs.spec_writers import MeshPairs
 from gearcad.dynamics.planetary.planetary_result import PlanetaryStudy, study_document
 from gearcad.dynamics.planetary.planetary_study import study_planetary
-from gearcad.jobs.job import Job, Writer, as_design
+from gearcad.jobs.job import Data, ReportedJob, Writer, as_design
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.version import __version__
 
@@ -38,7 +37,7 @@ class Studied(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Planetary(Job[PlanetaryDesign, Studied]):
+class Planetary(ReportedJob[PlanetaryDesign, Studied]):
     """The study of a planetary train, with the specs of its meshes for all that takes pairs; its `response` if asked for."""
 
     verb = "planetary"
@@ -93,17 +92,17 @@ class Planetary(Job[PlanetaryDesign, Studied]):
     def files(self, result: Studied) -> dict[str, Writer]:
         """The report, both documents, and the specs of the meshes."""
         return {
-            "planetary.html": partial(_write_report, result),
-            "data.json": partial(_write_text, json_text(result.design.to_dict())),
+            **({"planetary.html": partial(_write_report, result, self.head)} if self.report else {}),
+            "data.json": partial(Data().write_document, result.design),
             "planetary.json": partial(self.write_document, result),
             **dict(_specs(result)),
         }
 
 
-def _write_report(result: Studied, path: Path) -> None:
+def _write_report(result: Studied, head: Mapping[str, str], path: Path) -> None:
     from gearcad.report import write_planetary_report
 
-    write_planetary_report(result.study, result.design.name, path)
+    write_planetary_report(result.study, result.design.name, path, head)
 
 
 def _specs(result: Studied) -> Iterator[tuple[str, Writer]]:

@@ -7,15 +7,25 @@ from pathlib import Path
 
 from gearcad.core.errors import require_whole
 from gearcad.core.output import json_text, staged_files
+from gearcad.core.records import JsonObject, texts
 from gearcad.designs.spec_writers import write_front, write_pair, write_pairs, write_sized_set, write_sized_sets
 from gearcad.identify.candidates import Identification
 from gearcad.identify.measurements import Measurements, Value
 from gearcad.identify.search import identify_gear
+from gearcad.jobs.job import with_summary
 from gearcad.plots.ratings import save_front
 from gearcad.rating.strength import RatedPart
 from gearcad.sizing import SizedPair, Sizing
 from gearcad.sizing.planetary_sets import SizedSet, SizedSets
 from gearcad.sizing.proposals import unjudged_scuffing
+
+
+def size_document(result: Sizing | SizedSets) -> JsonObject:
+    """Return the content of size.json; its warnings are those about the ratings of what was found, behind its name."""
+    rated = ((each.name, each.strength) for each in result.found)
+    notices = [notice.within(name) for name, strength in rated if strength is not None for notice in strength.notices]
+    return with_summary(result.to_dict(), texts(notices))
+
 
 _TABLE, _BEST, _FRONT, _PICTURE, _DOCUMENT = _EVERY = ["pairs.csv", "best.toml", "front.csv", "front.png", "size.json"]
 
@@ -29,7 +39,7 @@ def write_sizing(result: Sizing, folder: Path) -> list[Path]:
             write_pair(best, list(_comments(best)), staging / _BEST)
             write_front(result, staging / _FRONT)
             save_front(result, staging / _PICTURE)
-        (staging / _DOCUMENT).write_text(json_text(result.to_dict()), encoding="utf-8")
+        (staging / _DOCUMENT).write_text(json_text(size_document(result)), encoding="utf-8")
     return [folder / name for name in names]
 
 
@@ -57,7 +67,7 @@ def write_set_sizes(result: SizedSets, folder: Path) -> list[Path]:
         best = result.found[0]
         write_sized_sets(result, staging / _SET_SIZES_TABLE)
         write_sized_set(best, list(_set_sizes_comments(result, best)), staging / _SET_SIZES_BEST)
-        (staging / _SET_SIZES_DOCUMENT).write_text(json_text(result.to_dict()), encoding="utf-8")
+        (staging / _SET_SIZES_DOCUMENT).write_text(json_text(size_document(result)), encoding="utf-8")
     return [folder / name for name in (_SET_SIZES_TABLE, _SET_SIZES_BEST, _SET_SIZES_DOCUMENT)]
 
 

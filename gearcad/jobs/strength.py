@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypedDict, Unpack
 
+from gearcad.check.columns import check_columns
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult, check_document, reported_document
 from gearcad.check.run import check_pair, expected_check
@@ -20,7 +21,7 @@ from gearcad.core.symbols import STIFFNESS, STRENGTH_FACTORS, STRENGTH_FIGURES
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 from gearcad.geometry import GearPair
-from gearcad.jobs.job import Job, Subject, Writer, as_design
+from gearcad.jobs.job import ReportedJob, Subject, Writer, as_design
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.planetary import TrainLoad
@@ -38,7 +39,7 @@ _NO_LOAD = "without it there is no stress"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Check(Job[PairDesign, CheckResult]):
+class Check(ReportedJob[PairDesign, CheckResult]):
     """The structural check of a pair; `model` ("2d" or "3d") wins over that of the design's own [check].
 
     Without `report` there is check.json alone, and nothing is solved for the report only.
@@ -50,7 +51,6 @@ class Check(Job[PairDesign, CheckResult]):
     sometimes: ClassVar[tuple[str, ...]] = ("stress_pinion.vtu", "stress_wheel.vtu")
 
     model: str | None = None
-    report: bool = True
 
     @one_thread()
     def run(self, design: Design, progress: Progress | None = None) -> CheckResult:
@@ -75,9 +75,6 @@ class Check(Job[PairDesign, CheckResult]):
         """
         return reported_document(result) if self.report else check_document(result)
 
-    def for_row(self, _design: Design, _parts: Collection[str]) -> Check:
-        return replace(self, report=False)
-
     def notices(self, result: CheckResult) -> Sequence[Notice]:
         return result.all_notices
 
@@ -85,22 +82,21 @@ class Check(Job[PairDesign, CheckResult]):
         return f"{name} at {result.torque:g} N·m: {result.verdict}"
 
     def figures(self, document: JsonObject) -> JsonObject:
-        """The verdict, the summary and the rating."""
-        verdict = {name: document[name] for name in ("passed", "numerics", "strength")}
-        return {**verdict, **document["summary"], "rating": document["rating"], "warnings": document["warnings"]}
+        """Return verdicts, deviations, errors, summary, safeties and rating for one line of a table."""
+        return check_columns(document)
 
     def files(self, result: CheckResult) -> dict[str, Writer]:
         """check.json, the report, and of solid bodies the stresses in the most stressed tooth of each gear."""
         document: dict[str, Writer] = {"check.json": partial(self.write_document, result)}
         if not self.report:
             return document
-        return {**document, "report.html": partial(_check_write_report, result), **result.stress_files}
+        return {**document, "report.html": partial(_check_write_report, result, self.head), **result.stress_files}
 
 
-def _check_write_report(result: CheckResult, path: Path) -> None:
+def _check_write_report(result: CheckResult, head: Mapping[str, str], path: Path) -> None:
     from gearcad.report import write_report
 
-    write_report(result, result.pair.name, path)
+    write_report(result, result.pair.name, path, head)
 
 
 def check(
@@ -203,7 +199,7 @@ KEYS = {"torque": "load.torque", "hardness": "material.hardness"}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | TrainStrength]):
+class Rate(ReportedJob[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | TrainStrength]):
     """The rating of a pair as mounted, or of the meshes of a planetary train, by the standard that its [rating] names.
 
     Without `report` there is rate.json alone.
@@ -212,8 +208,6 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
     verb = "rate"
     accepts = (DesignKind.PAIR, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "a single gear carries nothing"
-
-    report: bool = True
 
     @one_thread()
     def run(self, design: Design, progress: Progress | None = None) -> StrengthRating | TrainStrength:
@@ -229,9 +223,6 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
     def document(self, result: StrengthRating | TrainStrength) -> JsonObject:
         """Values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.STRENGTH` has the words."""
         return {"kind": self.verb, "name": result.name, "gearcad": __version__, **result.to_dict()}
-
-    def for_row(self, _design: Design, _parts: Collection[str]) -> Rate:
-        return replace(self, report=False)
 
     def notices(self, result: StrengthRating | TrainStrength) -> Sequence[Notice]:
         return result.notices
@@ -250,9 +241,10 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
         if not self.report:
             return found
         if isinstance(result, StrengthRating):
-            return {**found, "rate.html": partial(_write_report, result, result.name)}
+            return {**found, "rate.html": partial(_write_report, result, result.name, self.head)}
         reports = {
-            f"rate-{name}.html": partial(_write_report, each, f"{result.name}, {name}") for name, each in result.meshes.items()
+            f"rate-{name}.html": partial(_write_report, each, f"{result.name}, {name}", self.head)
+            for name, each in result.meshes.items()
         }
         return {**found, **reports}
 
@@ -293,10 +285,10 @@ def strength_in_study(design: PlanetaryDesign, study: PlanetaryStudy) -> TrainSt
     return study.rating.strength
 
 
-def _write_report(result: StrengthRating, name: str, path: Path) -> None:
+def _write_report(result: StrengthRating, name: str, head: Mapping[str, str], path: Path) -> None:
     from gearcad.report import write_rate_report
 
-    write_rate_report(result, name, path)
+    write_rate_report(result, name, path, head)
 
 
 def rate(subject: Subject, load: Load | TrainLoad | None = None, **inputs: Unpack[Inputs]) -> StrengthRating | TrainStrength:
@@ -325,7 +317,7 @@ _STIFFNESS_NO_LOAD = "stiffness depends on it"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stiffness(Job[PairDesign, StiffnessComparison]):
+class Stiffness(ReportedJob[PairDesign, StiffnessComparison]):
     """Mesh stiffness by `methods`, at so many `positions` over one base pitch (0: those of each method).
 
     `fourier` says how many harmonics of each curve the document has.
@@ -391,15 +383,15 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
         """The curves as CSV, the report, the document."""
         return {
             "stiffness.csv": partial(_write_curves, result),
-            "stiffness.html": partial(_stiffness_write_report, result),
+            **({"stiffness.html": partial(_stiffness_write_report, result, self.head)} if self.report else {}),
             "stiffness.json": partial(self.write_document, result),
         }
 
 
-def _stiffness_write_report(comparison: StiffnessComparison, path: Path) -> None:
+def _stiffness_write_report(comparison: StiffnessComparison, head: Mapping[str, str], path: Path) -> None:
     from gearcad.report import write_stiffness_report
 
-    write_stiffness_report(comparison, comparison.pair.name, path)
+    write_stiffness_report(comparison, comparison.pair.name, path, head)
 
 
 def _write_curves(comparison: StiffnessComparison, path: Path) -> None:

@@ -17,13 +17,15 @@ from gearcad.core.runtime import Agenda, Progress, one_thread
 from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import DesignKind
+from gearcad.drawing.options import DrawingOptions
 from gearcad.geometry import Gear, GearPair, Rack
 from gearcad.jobs.build import AssemblyProduct, Build, PartProduct, products_of
 from gearcad.jobs.job import Data, Job, Subject, Writer, as_design
 from gearcad.jobs.strength import Check, Rate
 from gearcad.jobs.verification_sheets import judge_sheets, make_sheets
 from gearcad.jobs.verification_solvers import MESH_FORMATS, judge_by_calculix, judge_meshes
-from gearcad.report.verification import heading, verification_html, write_verification_pdf
+from gearcad.report.document import heading
+from gearcad.report.verification import verification_html, write_verification_pdf
 from gearcad.solids import FileOptions, Format
 from gearcad.verification.assemblies import PlacedMesh
 from gearcad.verification.calculix import calculix_version
@@ -87,7 +89,7 @@ class Verify(Job[ToothedDesign, Verification]):
             judges=_versions(claims),
             strength=_strength(claims),
             notices=design.notices,
-            heading=heading(design.drawing),
+            heading=heading(design.drawing or DrawingOptions()),
             pictured=_pictured(design),
         )
 

@@ -261,7 +261,7 @@ def _run(asked: RunRequest, tell: _Teller) -> dict[str, Any]:
     if expected is not None:
         tell(expected={"seconds": expected.seconds, "memory": expected.memory})
     result = job.run(design, tell.progress)
-    files = job.write(result, Path(asked.into), tell.progress)
+    files = job.headed(design).write(result, Path(asked.into), tell.progress)
     return {
         "name": design.name,
         "conclusion": job.conclusion(design.name, result),

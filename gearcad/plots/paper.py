@@ -121,13 +121,23 @@ def draw_limit(axes: Axes, limit: float | tuple[float, float] | None) -> None:
     axes.set_ylim(top=max(axes.get_ylim()[1], 1.08 * highest))
 
 
-def short(value: float) -> str:
-    """Return a number with four significant digits, or as many as it has, with thousands separated, without an exponent if
-    possible.
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def short(value: float, digits: int = 4) -> str:
+    """Return a number with so many significant digits, or as many as it has, with thousands separated.
+
+    Below 0.0001 and from 1e15 on it has a power of ten.
+
+    >>> short(623.8), short(0.00012345), short(1.74e-7)
+    ('623.8', '0.0001234', '1.74·10⁻⁷')
     """
-    if not 1e-4 <= abs(value) < 1e9:
-        return f"{value:.4g}"
-    places = 3 - math.floor(math.log10(abs(value)))
+    if not value or not math.isfinite(value):
+        return f"{value:g}"
+    if not 1e-4 <= abs(value) < 1e15:
+        mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+        return f"{float(mantissa):g}·10{str(int(exponent)).translate(_SUPERSCRIPTS)}"
+    places = digits - 1 - math.floor(math.log10(abs(value)))
     text = f"{round(value, places):.{max(places, 0)}f}"
     if "." in text and math.isclose(float(text), value, rel_tol=1e-12):
         text = text.rstrip("0").rstrip(".")

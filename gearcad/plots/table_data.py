@@ -144,7 +144,7 @@ def _hint(asked: str, headings: Sequence[str]) -> str:
     if near := _near(asked, headings):
         return f"did you mean {' or '.join(near[:_MOST_SUGGESTED])}?"
     checked = any(heading.startswith("check.") for heading in headings)
-    if not checked and _near(asked, [f"check.{key}" for key in (*KEYS["check"], *symbols.CHECK)]):
+    if not checked and _near(asked, [f"check.{key}" for key in (*KEYS["check"], *symbols.CHECK, *symbols.CHECK_COLUMNS)]):
         return "figures of a check are there after `gearcad batch --do check`"
     return "columns.csv beside the file explains them all"
 

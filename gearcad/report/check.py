@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial, singledispatch
 from pathlib import Path
@@ -97,16 +97,19 @@ class StiffnessSection(NamedTuple):
     left_out: list[tuple[str, str]]
 
 
-def write_stiffness_report(comparison: StiffnessComparison, design_name: str, path: Path) -> None:
+def write_stiffness_report(
+    comparison: StiffnessComparison, design_name: str, path: Path, head: Mapping[str, str] | None = None
+) -> None:
     """Write the report of a comparison of the design's pair to `path`; the same comparison gives the same bytes."""
-    path.write_text(stiffness_html(comparison, design_name), encoding="utf-8")
+    path.write_text(stiffness_html(comparison, design_name, head), encoding="utf-8")
 
 
-def stiffness_html(comparison: StiffnessComparison, design_name: str) -> str:
+def stiffness_html(comparison: StiffnessComparison, design_name: str, head: Mapping[str, str] | None = None) -> str:
     """The report as one HTML document without links."""
     return page_html(
         "stiffness.html",
         design_name,
+        head,
         of=comparison,
         stiffness=_section(comparison),
         figures=_figures(comparison),
@@ -518,15 +521,15 @@ class SolidSections(CheckSections[SolidCheck]):
         return [tooth_view(surface, role, self.caption("tooth_view", role)) for role, surface in surfaces.items()]
 
 
-def write_report(result: CheckResult, design_name: str, path: Path) -> None:
+def write_report(result: CheckResult, design_name: str, path: Path, head: Mapping[str, str] | None = None) -> None:
     """Write the report of a check of the design to `path`; the same result gives the same bytes."""
-    path.write_text(report_html(result, design_name), encoding="utf-8")
+    path.write_text(report_html(result, design_name, head), encoding="utf-8")
 
 
-def report_html(result: CheckResult, design_name: str) -> str:
+def report_html(result: CheckResult, design_name: str, head: Mapping[str, str] | None = None) -> str:
     """The report as one HTML document without links: pictures and styles are inside."""
     sections = _sections(result)
-    return page_html(sections.template, design_name, result=result, of=sections)
+    return page_html(sections.template, design_name, head, result=result, of=sections)
 
 
 @singledispatch

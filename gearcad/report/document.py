@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearcad.check.result import CheckResult
+    from gearcad.drawing.options import DrawingOptions
 
 
 _KNOWN = {
@@ -42,12 +43,22 @@ _KNOWN = {
     for table in (symbols.SCUFFING, symbols.GEAR_RATING, symbols.RATING, symbols.STRENGTH)
     for key, of in table.items()
     if "_" in key and of.symbol
-} | {"K_Bgamma": "K_Bγ", "F_beta_y": "F_βy", "q_prime": "q'"}
+} | {
+    "K_Bgamma": "K_Bγ",
+    "F_beta_y": "F_βy",
+    "q_prime": "q'",
+    "epsilon_alpha": "ε_α",
+    "beta_b": "β_b",
+    "theta_f": "θ_f",
+}
 """Symbols by the names that documents have."""
 
 _NAME = re.compile(r"(?<!\w)[A-Za-z]+(?:_[A-Za-z0-9]+)+(?!\w)")
 
-_KEY_OR_INDEX = re.compile(r"(?<![\w.])((?:[a-z]+\.)*[a-z]{2,}[a-z0-9]*(?:_[a-z0-9]+)+)(?!\w)|_([^\s*/,;)]*[^\s*/,;).:])")
+_KEY_OR_INDEX = re.compile(
+    r"(?<![\w.])((?:[a-z]+\.)*[a-z]{2,}[a-z0-9]*(?:_[a-z0-9]+)+)(?!\w)"
+    r"|_((?:[^\s*/,;)]|,(?=[^\W\d_]))*[^\s*/,;).:])"
+)
 
 
 def written(text: str) -> str:
@@ -63,6 +74,32 @@ def indexed(text: str) -> Markup:
         return f"<code>{found[1]}</code>" if found[1] else f"<sub>{found[2]}</sub>"
 
     return Markup(_KEY_OR_INDEX.sub(set_off, str(escape(text))))
+
+
+@cache
+def _indexed_symbols() -> re.Pattern[str]:
+    """Return the pattern of all symbols that have an index, such as K_γ and σ_H0."""
+    every = {*_KNOWN.values()}
+    tables = [each for each in vars(symbols).values() if isinstance(each, dict)]
+    while tables:
+        for each in tables.pop().values():
+            if isinstance(each, Symbol):
+                every.add(each.symbol)
+            elif isinstance(each, dict):
+                tables.append(each)
+    known = {name.rstrip("*") for symbol in every for name in re.split(r"[ /]", symbol) if "_" in name}
+    return re.compile(rf"(?<![\w.])({'|'.join(map(re.escape, sorted(known, key=len, reverse=True)))})(?![\w])")
+
+
+def symbolic(text: str) -> Markup:
+    """Set the known symbols of a text with their indices lowered, and nothing else: it may hold names that a user gave."""
+    from markupsafe import Markup, escape
+
+    def lowered(found: re.Match[str]) -> str:
+        body, _, index = found[1].partition("_")
+        return f"{body}<sub>{index}</sub>"
+
+    return Markup(_indexed_symbols().sub(lowered, str(escape(written(text)))))
 
 
 def listed(names: Iterable[str]) -> str:
@@ -109,17 +146,43 @@ _LIBRARIES = ("numpy", "scipy", "scikit-fem", "gmsh", "matplotlib")
 _HEADING = re.compile(r"<h2>(.*?)</h2>")
 
 
-def page_html(template: str, design_name: str, **values: Any) -> str:
-    """The page without links to elsewhere: pictures and styles are inside. Its date is that of `source_date`, or today."""
+_HEADING_FIELDS = (
+    ("company", "owner"),
+    ("department", "department"),
+    ("project", "technical_reference"),
+    ("number", "number"),
+    ("author", "creator"),
+    ("approved by", "approver"),
+    ("revision", "index"),
+)
+"""Words of the heading and the attributes of [drawing] that they show."""
+
+
+def heading(drawing: DrawingOptions | None) -> dict[str, str]:
+    """Return company, project, author, revision and date of a design's [drawing] by their words, without empty ones.
+
+    A design without [drawing] has none.
+    """
+    if drawing is None:
+        return {}
+    found = {words: str(getattr(drawing, name)) for words, name in _HEADING_FIELDS}
+    return {words: value for words, value in found.items() if value} | {"date": drawing.issued}
+
+
+def page_html(template: str, design_name: str, head: Mapping[str, str] | None = None, **values: Any) -> str:
+    """The page without links to elsewhere: pictures and styles are inside. Its date is that of `source_date`, or today.
+
+    `head` is the `heading` of the design; it stands above the title.
+    """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     loader = FileSystemLoader(templates())
     environment = Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined)
     environment.filters |= {"short": short, "finished": _finished}
-    environment.filters |= {"written": written, "indexed": indexed, "listed": listed}
+    environment.filters |= {"written": written, "indexed": indexed, "symbolic": symbolic, "listed": listed}
     fixed = source_date()
     made = {"version": __version__, "versions": _versions(), "date": (fixed.date() if fixed else date.today()).isoformat()}
-    return environment.get_template(template).render(name=design_name, **made, **values)
+    return environment.get_template(template).render(name=design_name, head=head or {}, **made, **values)
 
 
 def _versions() -> list[str]:
@@ -266,8 +329,13 @@ def _text(value: Any) -> str:
     if isinstance(value, bool) or not isinstance(value, int | float):
         text = "-" if value is None else str(value)
     else:
-        text = f"{value:.6g}" if abs(value) > _ROUNDING else "0"
+        text = _plain_number(value) if abs(value) > _ROUNDING else "0"
     return f"{text} (assumed)" if is_assumed(value) else text
+
+
+def _plain_number(value: float) -> str:
+    """Return a number with six significant digits; great and small ones as `short` has them."""
+    return f"{value:.6g}" if 1e-4 <= abs(value) < 1e4 else short(value, 6)
 
 
 def _flat(document: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial, singledispatch
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -264,23 +264,27 @@ _TALL = (6.6, 5.2)
 
 
 def write_dynamics_report(
-    study: TrainStudy | ModalStudy | SideBySide | PairStudy | ContactStudy, name: str, path: Path
+    study: TrainStudy | ModalStudy | SideBySide | PairStudy | ContactStudy,
+    name: str,
+    path: Path,
+    head: Mapping[str, str] | None = None,
 ) -> None:
     """Write the report of a study of the design `name` to `path`; the same study gives the same bytes."""
-    path.write_text(dynamics_html(study, name), encoding="utf-8")
+    path.write_text(dynamics_html(study, name, head), encoding="utf-8")
 
 
 @singledispatch
-def dynamics_html(study: object, name: str) -> str:
+def dynamics_html(study: object, name: str, head: Mapping[str, str] | None = None) -> str:
     """The report of a study as one HTML document without links."""
     raise TypeError(f"a {type(study).__name__} of {name} has no report of dynamics")
 
 
 @dynamics_html.register
-def _modes_html(study: ModalStudy, name: str) -> str:
+def _modes_html(study: ModalStudy, name: str, head: Mapping[str, str] | None = None) -> str:
     return page_html(
         "dynamics_modes.html",
         name,
+        head,
         of=study,
         parts=[inertia_table(study), *([shaft_table(study)] if study.train.shafts else [])],
         modes=mode_table(study.modes),
@@ -307,10 +311,11 @@ def _shape_figures(study: TrainStudy | ModalStudy) -> list[ReportFigure]:
 
 
 @dynamics_html.register
-def _train_html(study: TrainStudy, name: str) -> str:
+def _train_html(study: TrainStudy, name: str, head: Mapping[str, str] | None = None) -> str:
     return page_html(
         "dynamics_train.html",
         name,
+        head,
         of=study,
         parts=_parts(study),
         greatest=_said("greatest", study),
@@ -346,16 +351,17 @@ def _pair_figures(study: TrainStudy) -> list[ReportFigure]:
 
 
 @dynamics_html.register
-def _side_by_side_html(study: SideBySide, name: str) -> str:
-    return page_html("dynamics_side_by_side.html", name, **_beside(study))
+def _side_by_side_html(study: SideBySide, name: str, head: Mapping[str, str] | None = None) -> str:
+    return page_html("dynamics_side_by_side.html", name, head, **_beside(study))
 
 
 @dynamics_html.register
-def _levels_html(study: LevelStudy, name: str) -> str:
+def _levels_html(study: LevelStudy, name: str, head: Mapping[str, str] | None = None) -> str:
     first = study.studies[study.reference]
     return page_html(
         "dynamics_levels.html",
         name,
+        head,
         **_beside(study),
         verdicts=verdict_table(study),
         level_resonances=level_resonance_table(study),
@@ -383,12 +389,13 @@ def _beside(study: SideBySide) -> dict[str, Any]:
 
 
 @dynamics_html.register
-def _pair_html(study: PairStudy, name: str) -> str:
+def _pair_html(study: PairStudy, name: str, head: Mapping[str, str] | None = None) -> str:
     of = study.study
     curve = picture_address(partial(plot_cycle, study.cycle), "svg")
     return page_html(
         "dynamics_pair.html",
         name,
+        head,
         of=of,
         on_bearings=study.bearings is not None,
         greatest=_said("greatest", of),
@@ -411,13 +418,14 @@ def _pair_html(study: PairStudy, name: str) -> str:
 
 
 @dynamics_html.register
-def _contact_html(study: ContactStudy, name: str) -> str:
+def _contact_html(study: ContactStudy, name: str, head: Mapping[str, str] | None = None) -> str:
     highest, history = study.study.frequency[-1] / 2, study.history
     diagram = picture_address(partial(plot_campbell, study.study, highest=highest), "svg", _TALL)
     spectrum = picture_address(partial(plot_spectrum, history, highest=highest), "svg")
     return page_html(
         "dynamics_contact.html",
         name,
+        head,
         of=study,
         pair_picture=pair_picture(study.pair),
         gear_rows=gear_rows(study.pair, _GEAR),

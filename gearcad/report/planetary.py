@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from itertools import chain, count
 from pathlib import Path
@@ -504,12 +504,12 @@ _MISSING = "not-computed"
 """Code of the notices of parts that are missing; they have a section of their own."""
 
 
-def write_planetary_report(study: PlanetaryStudy, name: str, path: Path) -> None:
+def write_planetary_report(study: PlanetaryStudy, name: str, path: Path, head: Mapping[str, str] | None = None) -> None:
     """Write the report of a study of the design `name` to `path`; the same study gives the same bytes."""
-    path.write_text(planetary_html(study, name), encoding="utf-8")
+    path.write_text(planetary_html(study, name, head), encoding="utf-8")
 
 
-def planetary_html(study: PlanetaryStudy, name: str) -> str:
+def planetary_html(study: PlanetaryStudy, name: str, head: Mapping[str, str] | None = None) -> str:
     """The report as one HTML document without links."""
     parts = (sections_of_build, sections_of_load, sections_of_bending, sections_of_vibration)
     sections = list(chain.from_iterable(part(study) for part in parts))
@@ -519,6 +519,7 @@ def planetary_html(study: PlanetaryStudy, name: str) -> str:
     return page_html(
         "planetary.html",
         name,
+        head,
         of=study,
         train=study.train,
         methods=_methods(study),

@@ -182,18 +182,19 @@ def _text(value: Any) -> str:
     return f"{text} (assumed)" if is_assumed(value) else text
 
 
-def write_rate_report(rating: StrengthRating, design_name: str, path: Path) -> None:
+def write_rate_report(rating: StrengthRating, design_name: str, path: Path, head: Mapping[str, str] | None = None) -> None:
     """Write the report of the rating of a design's pair to `path`; the same rating gives the same bytes."""
-    path.write_text(rate_html(rating, design_name), encoding="utf-8")
+    path.write_text(rate_html(rating, design_name, head), encoding="utf-8")
 
 
-def rate_html(rating: StrengthRating, design_name: str) -> str:
+def rate_html(rating: StrengthRating, design_name: str, head: Mapping[str, str] | None = None) -> str:
     """The report as one HTML document without links."""
     document = rating.to_dict()
     pair = rating.pair if isinstance(rating.pair, GearPair) else None
     return page_html(
         "rate.html",
         design_name,
+        head,
         of=rating,
         names=list(rating.gear_names),
         pair_picture=None if pair is None else pair_picture(pair),

@@ -13,7 +13,6 @@ from xml.etree import ElementTree
 from xml.sax.saxutils import escape
 
 from gearcad.core.output import source_date
-from gearcad.drawing.options import DrawingOptions
 from gearcad.geometry import Gear, GearPair
 from gearcad.plots.gears import pair_inches, plot_gear, plot_pair
 from gearcad.report.document import ReportFigure, page_html, picture_address
@@ -33,25 +32,6 @@ _WORDS = {True: "passed", False: "FAILED", None: "not judged"}
 def _strength(document: Document) -> str:
     """Return the verdict on strength in words; at level files no claim needs it."""
     return "not part of level files" if document["level"] == "files" else _WORDS[document["strength"]]
-
-
-_HEADING = (
-    ("company", "owner"),
-    ("department", "department"),
-    ("project", "technical_reference"),
-    ("number", "number"),
-    ("author", "creator"),
-    ("approved by", "approver"),
-    ("revision", "revision"),
-)
-"""Words of the heading and the fields of [drawing] that they show."""
-
-
-def heading(drawing: DrawingOptions | None) -> dict[str, str]:
-    """Return company, project, author, revision and date of a design's [drawing], by their words; empty ones left out."""
-    options = drawing or DrawingOptions()
-    found = {words: str(getattr(options, name)) for words, name in _HEADING} | {"revision": options.index}
-    return {words: value for words, value in found.items() if value} | {"date": options.issued}
 
 
 def verification_html(document: Document, head: Mapping[str, str], subject: Gear | GearPair | None = None) -> str:

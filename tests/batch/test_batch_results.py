@@ -126,7 +126,7 @@ def test_paths_of_the_files_are_those_that_are_there(mixed: Path) -> None:
 
 def test_data_json_is_that_of_the_spec(mixed: Path, tmp_path: Path) -> None:
     row = rows_of(MIXED)[0]
-    expected = json.dumps(read_spec(spec_of(row, tmp_path / "spec.toml")).to_dict(), indent=2) + "\n"
+    expected = json.dumps(Data().complete_document(read_spec(spec_of(row, tmp_path / "spec.toml"))), indent=2) + "\n"
     assert (mixed / "out" / "zeta" / "data.json").read_text() == expected
 
 

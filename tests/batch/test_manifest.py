@@ -218,6 +218,25 @@ def test_parts_are_kept_while_their_options_are(made: Path) -> None:
     assert lies(made) == []
 
 
+def test_rows_without_a_report_get_one_where_it_is_asked_for(tmp_path: Path) -> None:
+    row = tmp_path / "out" / "good"
+    make(tmp_path, Stiffness(methods=["iso6336"], report=False))
+    assert sorted(path.name for path in row.iterdir()) == ["data.json", "manifest.json", "stiffness.json"]
+    assert "files.stiffness.html" not in read_results(tmp_path / "out")[0]
+    without = (row / "stiffness.json").read_bytes()
+    make(tmp_path, Stiffness(methods=["iso6336"]))
+    assert "good" in made_now(tmp_path / "out")
+    assert (row / "stiffness.json").read_bytes() == without
+    assert read_results(tmp_path / "out")[0]["files.stiffness.html"] == "good/stiffness.html"
+    for report in (False, True):  # one that is there stays, and costs nothing again
+        make(tmp_path, Stiffness(methods=["iso6336"], report=report))
+        assert "good" not in made_now(tmp_path / "out")
+    (row / "stiffness.html").unlink()
+    make(tmp_path, Stiffness(methods=["iso6336"]))
+    assert "good" in made_now(tmp_path / "out")
+    assert lies(tmp_path / "out") == []
+
+
 def test_every_job_with_a_document_of_its_own_is_a_part() -> None:
     """`build` has parts by their formats, and the document of `data`."""
     own = [verb for verb in VERBS if verb in job_of(verb)().parts]

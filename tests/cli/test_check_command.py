@@ -278,6 +278,7 @@ def test_the_written_spec_does_what_the_proposal_says(modify_here: Path) -> None
     assert (result.exit_code, result.stderr) == (0, "")
     document = json.loads(result.stdout)
     assert (document["kind"], document["name"], document["output"]) == ("modify", "pair-modified", "pair-modified.toml")
+    assert {"passed", "strength", "not_judged", "warnings"} <= document.keys()
     assert document["torque"] == 50.0
     before, after = document["before"], document["after"]
     assert after["transmission_error_peak_to_peak"] < 0.8 * before["transmission_error_peak_to_peak"]

@@ -57,7 +57,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def no_report(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its pictures take longer than all that is asked here; tests of reports have them."""
-    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, path: path.touch())
+    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, _head, path: path.touch())
 
 
 def spec(text: str) -> str:

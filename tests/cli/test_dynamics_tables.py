@@ -43,7 +43,7 @@ def numbers(cells: list[str]) -> list[float]:
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty folder, and no pictures: they take most of the time."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, path: path.touch())
+    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, _head, path: path.touch())
     return tmp_path
 
 
@@ -325,7 +325,7 @@ def spec(text: str) -> str:
 
 @pytest.mark.parametrize(("text", "folder"), [(TIME_TRAIN, "train-1-stage"), (PAIR, "it")])
 def test_runs_and_spectra_are_in_all_files(text: str, folder: str, time_here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, path: path.touch())
+    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, _head, path: path.touch())
     result = time_run("dynamics", spec(text + SPECTRA + RUN))
     assert result.exit_code == 0, result.output
     assert "in time: 9000 to 12000 rpm, 0.05 s by" in result.stdout
@@ -405,6 +405,6 @@ def test_runs_and_spectra_are_in_the_report() -> None:
 
 
 def test_a_run_can_be_varied(time_here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, path: path.touch())
+    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, _head, path: path.touch())
     result = time_run("dynamics", spec(TIME_TRAIN + RUN), "--quiet", "--vary", "dynamics.transient.duration=0.02,0.05")
     assert result.exit_code == 0, result.output

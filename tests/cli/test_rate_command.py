@@ -24,7 +24,7 @@ REDUCER = (templates() / "reducer-21-43.toml").read_text(encoding="utf-8")
 @pytest.fixture(autouse=True)
 def _no_reports(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures take longer than all else."""
-    monkeypatch.setattr("gearcad.jobs.strength._write_report", lambda _result, _name, path: path.write_text(""))
+    monkeypatch.setattr("gearcad.jobs.strength._write_report", lambda _result, _name, _head, path: path.write_text(""))
 
 
 def run(spec: Path, *options: str) -> Result:

@@ -82,7 +82,7 @@ def test_a_number_that_is_off_is_found() -> None:
 @pytest.mark.parametrize("title", QUICK)
 def test_quick_sections(title: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, path: path.touch())
+    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, _head, path: path.touch())
     monkeypatch.setattr("gearcad.dynamics.options._CHART", 20)  # what is asked of these is in no chart
     for command in SECTIONS[title].commands:
         if command.startswith("gearcad "):

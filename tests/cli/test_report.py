@@ -21,9 +21,11 @@ from gearcad.check.explanation import root_at_single_contact
 from gearcad.check.result import check_document, reported_document
 from gearcad.core.output import json_text
 from gearcad.core.records import PerGear, Role
+from gearcad.drawing.options import DrawingOptions
 from gearcad.plots.paper import short
 from gearcad.report import report_html, write_report
 from gearcad.report.check import PlaneSections
+from gearcad.report.document import heading, symbolic
 
 _PICTURES = 14
 
@@ -65,6 +67,49 @@ def test_narrow_screens_scroll_tables_and_not_the_page(document, text):
     assert ".scroll { overflow-x: auto; }" in text and "prefers-color-scheme: dark" in text
 
 
+def said(text):
+    """The text as a page shows it: symbols with their letters, their indices lowered."""
+    return symbolic(text).striptags()
+
+
+def test_symbols_have_lowered_indices_and_names_have_none():
+    assert symbolic("S_H of the pinion, sigma_H0 <") == "S<sub>H</sub> of the pinion, σ<sub>H0</sub> &lt;"
+    assert symbolic("my_gear, sun_1 and [rating] required_safety_flank") == "my_gear, sun_1 and [rating] required_safety_flank"
+
+
+def test_heading_of_a_drawing_stands_above_the_title(monkeypatch):
+    monkeypatch.setattr(PlaneSections, "stiffness", "not wanted here")
+    monkeypatch.setattr(PlaneSections, "figures", [])
+    drawing = DrawingOptions(
+        owner="Gears & <Sons>", technical_reference="Aurora", creator="A. Smith", revision="C", date="2026-01-31"
+    )
+    head = heading(drawing)
+    assert head == {
+        "company": "Gears & <Sons>",
+        "project": "Aurora",
+        "author": "A. Smith",
+        "revision": "C",
+        "date": "2026-01-31",
+    }
+    document = lxml.html.document_fromstring(report_html(small_check(), "headed", head))
+    spans = [span.text_content() for span in document.xpath("//header/span")]
+    assert spans == ["Gears & <Sons>", "project Aurora", "author A. Smith", "revision C", "date 2026-01-31"]
+    assert heading(None) == {}
+    assert not lxml.html.document_fromstring(report_html(small_check(), "plain")).xpath("//header")
+
+
+def test_great_and_small_numbers_are_written_alike():
+    numbers = {
+        623_800_000: "623 800 000",
+        1.74e9: "1 740 000 000",
+        1234.5: "1234",
+        4.2e-5: "4.2·10⁻⁵",
+        3e18: "3·10¹⁸",
+        0.0: "0",
+    }
+    assert {value: short(value).replace("\u202f", " ") for value in numbers} == numbers
+
+
 def test_says_when_and_with_what_it_was_made(monkeypatch):
     monkeypatch.setattr(PlaneSections, "stiffness", "not wanted here")
     monkeypatch.setattr(PlaneSections, "figures", [])
@@ -93,12 +138,12 @@ def test_nasty_names_stay_text(document, text):
 def test_holds_every_comparison_with_its_verdict_in_words(document):
     rows = [[cell.text_content() for cell in row] for row in document.xpath("//tr[@class]")]
     wanted = sorted(small_check().comparisons, key=lambda each: each.role is not ComparisonRole.GATE)
-    assert [row[0] for row in rows] == [each.quantity for each in wanted]
+    assert [row[0] for row in rows] == [said(each.quantity) for each in wanted]
     for row, each in zip(rows, wanted, strict=True):
         assert row[1:4] == [short(each.computed), short(each.reference), each.unit]
         words = ("passed", "NOT PASSED") if each.role is ComparisonRole.GATE else ("in the band", "outside the band")
         assert row[6] == words[not each.passed]
-        assert row[7].startswith(each.source) and row[7].endswith(each.note)
+        assert row[7].startswith(said(each.source)) and row[7].endswith(said(each.note))
 
 
 def test_verdict_comes_first_and_names_what_failed(document):
@@ -118,7 +163,7 @@ def test_passes_where_every_gate_does(monkeypatch):
     document = lxml.html.document_fromstring(report_html(replace(small_check(), comparisons=inside), "unjudged"))
     verdict = document.xpath("//div")[0]
     assert verdict.get("class") == "verdict bad"  # local limits replace no endurance limit
-    assert verdict.text_content().strip().startswith("Numerics passed; strength not judged: sigma_Hlim is not known")
+    assert verdict.text_content().strip().startswith("Numerics passed; strength not judged: σHlim is not known")
     assert "gates are passed at" in verdict.text_content()
     # Other methods can fail where the check does not.
     assert document.xpath("//p[text()='There are none for this pair: pairs like <this> have none']")
@@ -242,7 +287,7 @@ def test_holds_every_comparison(solid_document: lxml.html.HtmlElement) -> None:
     rows = [[cell.text_content() for cell in row] for row in solid_document.xpath("//tr[@class]")]
     wanted = sorted(small_solid_check().comparisons, key=lambda each: each.role is not ComparisonRole.GATE)
     assert [row[:4] for row in rows] == [
-        [each.quantity, short(each.computed), short(each.reference), each.unit] for each in wanted
+        [said(each.quantity), short(each.computed), short(each.reference), each.unit] for each in wanted
     ]
     failed = [each.quantity for each in wanted if each.role is ComparisonRole.GATE and not each.passed]
     tensions = small_solid_check().summary.root_tension._asdict()

@@ -47,7 +47,7 @@ FIGURE_5 = 'tooth_errors = "on"\naccuracy_grade = 9\npremature_engagement = "on"
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty folder, and no pictures: they take most of the time."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, path: path.touch())
+    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, _head, path: path.touch())
     return tmp_path
 
 

@@ -88,7 +88,7 @@ def times(folder: Path) -> dict[str, int]:
     return {path.relative_to(folder).as_posix(): path.stat().st_mtime_ns for path in folder.glob("*/*")}
 
 
-_ENDS = {"step": b"END-ISO-10303-21;\n", "dxf": b"EOF\n", "json": b"}\n", "csv": b"\n"}
+_ENDS = {"step": b"END-ISO-10303-21;\n", "dxf": b"EOF\n", "json": b"}\n", "csv": b"\n", "html": b"</html>"}
 
 
 def lies(folder: Path) -> list[str]:
