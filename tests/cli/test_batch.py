@@ -79,6 +79,10 @@ def test_json_is_one_document() -> None:
         "not_run": 0,
         "short": 0,
         "errors": BAD_LINES,
+        "passed": False,
+        "strength": None,
+        "not_judged": [],
+        "warnings": [],
     }
 
 

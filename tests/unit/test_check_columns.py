@@ -1,10 +1,11 @@
 """What a table of results has of a check: verdicts, deviations, errors and safeties, each with a symbol."""
 
 import pytest
-from support.checks import small_check
+from support.checks import small_check, small_solid_check
 
 from gearcad.batch.row import flat_document
 from gearcad.check.columns import check_columns
+from gearcad.check.comparison import Subject
 from gearcad.check.result import check_document
 from gearcad.core import symbols
 from gearcad.core.records import Role, Verdict
@@ -32,6 +33,24 @@ def test_columns_are_what_the_report_judges() -> None:
             assert columns[f"check.S_{part.index}_fe.{role.value}"] == found.safety
             assert columns[f"check.S_{part.index}.{role.value}"] == found.rated.safety
         assert columns[f"check.S_{part.index}_required"] == both.pinion.rated.required
+    assert [heading for heading in columns if column_symbol(heading) is None] == []
+
+
+def test_every_comparison_of_solid_bodies_but_strength_has_a_column_with_a_symbol() -> None:
+    result = small_solid_check()
+    columns = dict(flat_document({"check": check_columns(check_document(result))}))
+    compared = [
+        each
+        for each in result.comparisons
+        if each.subject is not Subject.STRENGTH and "over rim" not in each.quantity  # of the model, in gates_failed
+    ]
+    told = [
+        heading for heading in columns if "_deviation" in heading or ("_error_" in heading and "transmission" not in heading)
+    ]
+    assert len(told) == len(compared) > 10
+    assert columns["check.face_load_factor_deviation"] == pytest.approx(
+        100 * next(each.deviation for each in compared if each.quantity == "face load factor K_Hbeta"), rel=1e-12
+    )
     assert [heading for heading in columns if column_symbol(heading) is None] == []
 
 
