@@ -2,6 +2,9 @@
 // kept design has in lines below. Rows are walked by the arrow keys; Enter puts one on top, or takes it from there.
 const NUMBER = /^([^\p{L}\d]*\d+)([.]\d+)?(e[+-]?\d+)?$/u;
 const FEW = 3;
+const LONG = 6; // characters of a unit
+const DECIMALS = 6; // characters behind a decimal point for which two columns have room everywhere
+const WORDS = 280, COLUMN = 100; // pixels that words with symbol and unit, and a value, need
 
 // The part of a number before its point and the rest, to be put in line; null for what is no number.
 function split(text) {
@@ -14,7 +17,7 @@ const SheetRow = {
   template: `
     <tbody>
       <tr :data-row="row.key" :title="hint" :tabindex="stop ? 0 : -1" @focus="sheet.at = place" @dblclick="sheet.pin(row.key)">
-        <th scope="row">{{ row.words }}</th><td class="symbol">{{ row.symbol }}</td><td class="unit">{{ row.unit }}</td>
+        <th scope="row">{{ row.words }}</th><td class="symbol">{{ row.symbol }}</td><td class="unit">{{ divided(row.unit) }}</td>
         <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former }" :colspan="span" :data-column="row.cells.length > 1 ? columns[number] : null">
           <del v-if="cell.former" :class="{ number: split(cell.former)[1] !== null }">{{ cell.former }}</del> <span :class="{ number: split(cell.text)[1] !== null }"><span class="whole">{{ split(cell.text)[0] }}</span
           ><span class="rest" :style="{ minWidth: rest + 'ch' }" v-if="split(cell.text)[1] !== null">{{ split(cell.text)[1] }}</span></span>
@@ -29,7 +32,13 @@ const SheetRow = {
       </tr>
     </tbody>`,
   props: { sheet: Object, row: Object, place: String, hint: String, stop: Boolean, columns: Array, span: Number, rest: Number },
-  methods: { split },
+  methods: {
+    split,
+    // A long unit may go on in the next line.
+    divided(unit) {
+      return unit.length > LONG ? unit.replace("/", "\u200b/") : unit;
+    },
+  },
 };
 
 export default {
@@ -52,7 +61,7 @@ export default {
       </details>
       <details v-for="block in blocks" :key="block.id" :open="block.open" @toggle="fold(block, $event.target.open)">
         <summary>{{ block.title }}</summary>
-        <table v-for="table in block.tables" :key="table.columns.join()" :class="{ many: table.columns.length > 2 }">
+        <table v-for="table in block.tables" :key="table.columns.join()" :class="{ stacked: isStacked(table) }">
           <thead v-if="table.columns.length"><tr><th colspan="3"></th><th v-for="name in table.columns" :key="name" scope="col">{{ name }}</th></tr></thead>
           <sheet-row v-for="row in table.rows" :key="row.key" :sheet="me" :row="row" :place="block.id + row.key" :hint="hint(row)"
                      :stop="row === stops[block.id]" :columns="table.columns" :span="span(table, row)" :rest="table.rest" />
@@ -69,10 +78,18 @@ export default {
       pins: kept.pins ?? {},
       wanted: "",
       at: "",
+      width: 0,
     };
   },
   created() {
     this.said = new Map(); // rows by all that they say
+  },
+  mounted() {
+    this.observer = new ResizeObserver(() => (this.width = this.$el.clientWidth));
+    this.observer.observe(this.$el);
+  },
+  unmounted() {
+    this.observer.disconnect();
   },
   computed: {
     // Few are read, many are opened by who wants them.
@@ -141,6 +158,10 @@ export default {
         else tables.push({ key, columns, rows: [row] });
       }
       return tables.map(({ columns, rows }) => this.table(columns, rows));
+    },
+    // Whether there is no room for the columns beside the words of a quantity.
+    isStacked({ columns, rest }) {
+      return (columns.length > 2 || rest > DECIMALS) && this.width < WORDS + COLUMN * columns.length;
     },
     pinned(key) {
       return this.pins[key] ?? this.content.pins.includes(key);
