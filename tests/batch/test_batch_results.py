@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from support import jobs
 from support.batches import GEARS, MIXED, PAIRS, read_results, rows_of, write_table
+from support.commands import read_json
 
 from gearcad.batch import BatchSummary, Decimal, run_table
 from gearcad.batch import run as run_module
@@ -132,7 +133,7 @@ def test_data_json_is_that_of_the_spec(mixed: Path, tmp_path: Path) -> None:
 
 def test_what_was_derived_stands_in_the_place_of_auto(mixed: Path) -> None:
     line = read_results(mixed / "out")[0]
-    document = json.loads((mixed / "out" / "zeta" / "data.json").read_text())
+    document = read_json(mixed / "out" / "zeta" / "data.json")
     assert float(line["wheel.profile_shift"]) == document["wheel"]["profile_shift"] != 0.0
 
 
@@ -359,7 +360,9 @@ def test_options_are_checked_first(tmp_path: Path) -> None:
         assert str(caught.value).startswith(message)
     with pytest.raises(ParameterError, match=r"^do = '': must be one or more of data, build"):
         run_table(write_table(tmp_path / "table.csv", GEARS), tmp_path / "out", ())
-    with pytest.raises(ParameterError, match=r"^format = '': must be one or more of step, stl, 3mf, glb, png, dxf, csv$"):
+    with pytest.raises(
+        ParameterError, match=f"^format = '': must be one or more of {', '.join(kind.value for kind in Format)}$"
+    ):
         Build(formats=())
     assert not (tmp_path / "out").exists()
 

@@ -1,7 +1,5 @@
 """On a Dask cluster the same rows give the same files, and what goes wrong there is told in one line."""
 
-from __future__ import annotations
-
 import http.client
 import os
 import signal

@@ -1,7 +1,5 @@
 """Whatever is killed whenever: no finished row is lost, no file is torn, and the next run ends as if nothing had happened."""
 
-from __future__ import annotations
-
 import random
 import shutil
 import signal

@@ -1,7 +1,5 @@
 """Ctrl-C is not lost, even where it is pressed while Python throws an object away."""
 
-from __future__ import annotations
-
 import signal
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """The journal of a run, checked rows on their way to workers, and what an interrupted run tells."""
 
-from __future__ import annotations
-
 import csv
 import os
 import pickle
@@ -13,14 +11,13 @@ from pathlib import Path
 
 import psutil
 import pytest
-from click.testing import CliRunner
 from support.batches import PAIRS, write_table
+from support.commands import run
 from support.specs import starter_specs
 
 from gearcad.batch import run as run_module
 from gearcad.batch.row import Checked, Record, Status, Task, check_rows, inputs_hash, make_row, stages
 from gearcad.batch.run import Journal
-from gearcad.cli import main
 from gearcad.designs import read_spec
 from gearcad.designs.table import DesignRow, open_table
 from gearcad.jobs.job import Data
@@ -149,8 +146,7 @@ def test_ctrl_c_tells_how_many_rows_are_left(tmp_path: Path, monkeypatch: pytest
 
     monkeypatch.setattr(run_module._Run, "tell", pressed)
     words = ["batch", str(table), "-o", str(tmp_path / "out"), "--do", "data", "-j", "1"]
-    stopped = CliRunner().invoke(main, words)
-    assert stopped.exit_code == 130
+    stopped = run(*words, status=130)
     assert stopped.stderr.splitlines()[-2:] == ["2 rows ok, 0 failed, 3 not run; the same command makes the rest", "Aborted!"]
     with (tmp_path / "out" / "results.csv").open(encoding="utf-8") as file:
         assert [row["status"] for row in csv.DictReader(file)].count("not run") == 3

@@ -1,7 +1,5 @@
 """What stands in a manifest, jobs of rows beside data, build and check, and names that become folders."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os
@@ -14,6 +12,7 @@ from typing import Any
 
 import pytest
 from support.batches import GEARS, lies, made_now, read_results, snapshot, write_table
+from support.commands import read_json
 
 import gearcad
 from gearcad import SpecError
@@ -34,7 +33,7 @@ POINTS = (Build(formats=(Format.CSV,)),)
 def test_manifest_names_gearcad_the_parts_and_every_file_with_its_size(tmp_path: Path) -> None:
     run_table(write_table(tmp_path / "table.csv", GEARS[:2]), tmp_path / "out", POINTS, jobs=1)
     folder = tmp_path / "out" / "spur"
-    document = json.loads((folder / "manifest.json").read_text())
+    document = read_json(folder / "manifest.json")
     assert len(document.pop("inputs")) == 64
     assert document == {
         "gearcad": gearcad.__version__,
@@ -153,7 +152,7 @@ def test_manifest_that_cannot_be_believed_does_no_harm(tmp_path: Path) -> None:
         path.write_text("kept")
     for name, lie in rows.items():
         manifest = tmp_path / "out" / name / "manifest.json"
-        told = LIES[lie](json.loads(manifest.read_text()))
+        told = LIES[lie](read_json(manifest))
         manifest.write_bytes(told if isinstance(told, bytes) else told.encode("utf-8", "surrogatepass"))
     assert run_table(table, tmp_path / "out", POINTS, jobs=1).errors == ()
     assert [lie for name, lie in rows.items() if name not in made_now(tmp_path / "out")] == []
@@ -195,7 +194,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_columns_are_the_figures_of_the_document(made: Path) -> None:
     line = read_results(made)[0]
-    document = json.loads((made / "good" / "stiffness.json").read_text(encoding="utf-8"))
+    document = read_json(made / "good" / "stiffness.json")
     assert (line["files.data.json"], line["files.stiffness.json"]) == ("good/data.json", "good/stiffness.json")
     for method in METHODS:
         assert float(line[f"stiffness.{method}.mean"]) == document["methods"][method]["mean"]
@@ -208,7 +207,7 @@ def test_columns_are_the_figures_of_the_document(made: Path) -> None:
 
 
 def test_parts_are_kept_while_their_options_are(made: Path) -> None:
-    parts = json.loads((made / "good" / "manifest.json").read_text(encoding="utf-8"))["parts"]
+    parts = read_json(made / "good" / "manifest.json")["parts"]
     assert parts["stiffness"]["options"] == {"methods": list(METHODS)}
     assert list(parts["stiffness"]["files"]) == ["stiffness.json"]
     make(made.parent, Stiffness(methods=METHODS))

@@ -1,6 +1,5 @@
 """A second run makes what is missing or changed, and nothing else; what it finds there is believed only if it is whole."""
 
-import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -9,6 +8,7 @@ from typing import Any
 import pytest
 from support import jobs
 from support.batches import GEARS, PAIRS, lies, made_now, read_results, snapshot, times, write_table
+from support.commands import read_json
 
 from gearcad.batch import BatchSummary, run_table
 from gearcad.batch import run as run_module
@@ -110,7 +110,7 @@ def test_folder_with_another_name_is_not_taken_for_the_row(made: Path) -> None:
     (made / "out" / "spur").rename(made / "out" / "other")
     make(made, (GEARS[0], GEARS[1].replace("spur", "other")))
     assert made_now(made / "out") == ["other"]
-    assert json.loads((made / "out" / "other" / "data.json").read_text())["name"] == "other"
+    assert read_json(made / "out" / "other" / "data.json")["name"] == "other"
 
 
 # ---------------------------------------------------------------------- damage

@@ -1,7 +1,5 @@
 """A target that cannot be written: one clear line, no traceback, what is finished stays, and the next run ends the work."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import signal

@@ -8,8 +8,6 @@ of the largest process (MB), new over old, and the exponent of growth, fitted to
 Machines are shared and noisy: compare ratios of one run. What takes longer than `--limit` seconds of a clock is stopped.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

@@ -1,7 +1,5 @@
 """What `beside.py` runs: commands from start to end, and series of which it tells how they grow. An entry of a table each."""
 
-from __future__ import annotations
-
 import random
 from typing import NamedTuple
 

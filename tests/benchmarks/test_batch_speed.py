@@ -5,8 +5,6 @@
 The figures stand in `extra_info` and are printed; machines are shared and noisy.
 """
 
-from __future__ import annotations
-
 import cProfile
 import json
 import os

@@ -6,8 +6,6 @@ gmsh fills the same section with quadrangles of its own, twists it up in layers 
 modified flanks and puts no node on an exact one.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess
@@ -16,6 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
+from gearcad.meshing.options import MeshFormat
 
 pytestmark = pytest.mark.benchmark_suite
 
@@ -68,7 +68,7 @@ seconds = time.perf_counter() - began
 print(json.dumps({"seconds": seconds, "GB": peak() / 1e9, "GB_of_mesh": mesh.nbytes / 1e9, "GB_before": before / 1e9}))
 """
 
-SUFFIXES = ("vtu", "inp", "msh", "bdf", "med", "unv", "xdmf")
+SUFFIXES = [kind.value for kind in MeshFormat]
 THEIRS = ("vtu", "inp", "msh", "med", "xdmf")
 """What meshio writes too; its .bdf does not take these numbers."""
 

@@ -7,24 +7,21 @@ section, the bodies, the data sheet, the rating. That of a planetary train begin
 Beside them the processor time of the server, which a loaded machine changes little. Chromium draws without a graphics card.
 """
 
-from __future__ import annotations
-
 import os
 import statistics
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import psutil
 import pytest
 from support.page_server import CHROMIUM, launched, serve
+from support.specs import TEMPLATES
 
 pytestmark = [
     pytest.mark.benchmark_suite,
     pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium: apt-get install chromium"),
 ]
 
-TEMPLATES = Path(__file__).parents[2] / "templates"
 THINNED = (
     *("spur", "volvo-13-44", "reducer-21-43", "fzg-c", "uhlir-19-23", "uhlir-19-23-simple", "ring-22-70", "rack"),
     *("double-23-81", "alm-18-161"),

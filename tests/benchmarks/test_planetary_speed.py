@@ -3,8 +3,6 @@
 Solids are made in a process of its own, which tells its peak memory; times are after imports.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

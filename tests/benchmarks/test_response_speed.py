@@ -4,17 +4,15 @@ K_v charts, branches of sweeps, runs in time, levels, the Campbell study of Uhli
 of solve_ivp, and drawn tooth errors (processor time of all threads). Kernels are compiled before, or read from disk.
 """
 
-from __future__ import annotations
-
 import math
 import time
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from support.responses import VARIATION, cosine, oscillator, preloaded, two_stages
+from support.specs import TEMPLATES
 from support.trains import THESIS_SPEEDS, one_stage, thesis_model
 
 from gearcad import Load, Material
@@ -67,8 +65,6 @@ def test_branch_with_jump(benchmark: Any) -> None:
     found = benchmark.pedantic(trace, (oscillator(0.05), excitation, np.linspace(0.2, 2.5, 231)), rounds=3)
     assert found.run.max() == 2
 
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 STEPS = 200_000
 

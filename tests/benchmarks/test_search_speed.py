@@ -1,7 +1,5 @@
 """Timings of searches: `pytest -m benchmark_suite tests/benchmarks/test_search_speed.py`"""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

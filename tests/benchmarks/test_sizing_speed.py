@@ -3,8 +3,6 @@
 `pytest -m benchmark_suite tests/benchmarks/test_sizing_speed.py`
 """
 
-from __future__ import annotations
-
 import tracemalloc
 from typing import Any
 

@@ -4,8 +4,6 @@ Solid pairs, and the check with brute force beside it. Each case runs in a proce
 times are after imports. Compare within one run.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

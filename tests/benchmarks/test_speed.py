@@ -4,8 +4,6 @@ Large gears and commands: CPU seconds of one process, after a small gear has war
 Compare medians within one run; machines are shared and noisy. `beside.py` compares two checkouts.
 """
 
-from __future__ import annotations
-
 import math
 import resource
 import statistics

@@ -5,8 +5,6 @@
 Times are after imports, on one core, from the gears' own data on: their profiles are part of them. Compare within one run.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable

@@ -10,16 +10,15 @@ import sys
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 from support.batches import GEARS, read_results, write_table
+from support.commands import invoke, run
 from support.processes import PATIENCE, batch_command, run_batch
+from support.specs import TEMPLATES
 
 import gearcad
-from gearcad.cli import main
 
 pytestmark = pytest.mark.usefixtures("kept_workers")
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 BAD = (*GEARS[:2], "flat,2,1,2,", "steep,17,1,3,95")
 BAD_LINES = [
@@ -38,8 +37,7 @@ def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
 
 def batch(*arguments: str, status: int = 0) -> Result:
     """Run in-process in the current folder; checks the exit status and that no traceback shows."""
-    result = CliRunner().invoke(main, ["batch", *arguments], prog_name="gearcad")
-    assert result.exit_code == status, result.stderr
+    result = run("batch", *arguments, status=status)
     assert "Traceback" not in result.output
     return result
 
@@ -252,8 +250,8 @@ def test_workbook_gives_what_the_csv_gives() -> None:
 
 
 def test_help_names_the_command_among_the_others() -> None:
-    text = CliRunner().invoke(main, ["--help"]).stdout
+    text = invoke("--help").stdout
     assert text.index("  build ") < text.index("  batch ")
-    text = CliRunner().invoke(main, ["batch", "--help"]).stdout
+    text = invoke("batch", "--help").stdout
     for word in ("TABLE", "--jobs", "--do", "--format", "--time-limit", "--fresh", "--keep-going", "--cluster", "--json"):
         assert word in text

@@ -1,7 +1,5 @@
 """`gearcad build` of gears, pairs and planetary trains: which files appear, whole or not at all; what is refused."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess
@@ -11,17 +9,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
+from support.commands import invoke, run
+from support.specs import FACETED_OR_FLAT, TEMPLATES, WITHOUT_ASSEMBLY
 
 from gearcad import GeometryError, ParameterError, SolverError
-from gearcad.cli import main
 from gearcad.designs import read_spec
 from gearcad.designs.design import Design
 from gearcad.jobs.build import Build, build
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files import products
 
-TEMPLATES = Path(__file__).parents[2] / "templates"
 PAIR = ["pinion", "wheel"]
 
 
@@ -85,7 +83,7 @@ def test_pair_gives_both_gears_and_the_assembly_where_the_format_has_one(
     kind: Format, pair: Design, stand_ins: list[str], tmp_path: Path
 ) -> None:
     build(pair, tmp_path / "out", [kind])
-    parts = PAIR if kind in (Format.STL, Format.DXF, Format.CSV) else [*PAIR, "assembly"]
+    parts = PAIR if kind in WITHOUT_ASSEMBLY else [*PAIR, "assembly"]
     assert names(tmp_path / "out") == {"data.json", *(f"{part}.{kind.value}" for part in parts)}
 
 
@@ -121,7 +119,7 @@ def test_failure_at_the_last_file_leaves_no_file_at_all(
 
 def test_data_json_is_what_the_data_command_prints(pair: Design, stand_ins: list[str], tmp_path: Path) -> None:
     build(pair, tmp_path, [Format.DXF])
-    printed = CliRunner().invoke(main, ["data", str(TEMPLATES / "volvo-13-44.toml"), "--json"]).stdout
+    printed = invoke("data", str(TEMPLATES / "volvo-13-44.toml"), "--json").stdout
     assert (tmp_path / "data.json").read_text() == printed
 
 
@@ -130,14 +128,14 @@ def test_command_reports_files_on_stdout_and_the_rest_on_stderr(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     spec = str(TEMPLATES / "volvo-13-44.toml")
-    plain = CliRunner().invoke(main, ["build", spec, "--format", " DXF , stl,dxf"])
+    plain = invoke("build", spec, "--format", " DXF , stl,dxf")
     files = [f"output/volvo-13-44/{name}" for name in ("data.json", "pinion.dxf", "wheel.dxf", "pinion.stl", "wheel.stl")]
     assert (plain.exit_code, plain.stdout.splitlines()) == (0, files)
     assert all(Path(file).is_file() for file in files)
     assert plain.stderr.startswith("[1/5] data.json\n[2/5] pinion.dxf\n")
     assert "Warning: pair: fillet interference" in plain.stderr
 
-    quiet = CliRunner().invoke(main, ["build", spec, "--quiet", "--json", "-o", "elsewhere", "--format", "csv"])
+    quiet = invoke("build", spec, "--quiet", "--json", "-o", "elsewhere", "--format", "csv")
     assert (quiet.exit_code, quiet.stderr) == (0, "")
     document = json.loads(quiet.stdout)
     assert document["files"] == [f"elsewhere/{name}" for name in ("data.json", "pinion.csv", "wheel.csv")]
@@ -151,7 +149,7 @@ def test_kernel_failure_is_status_1(stand_ins: list[str], tmp_path: Path, monkey
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(products, "gear_boundary", fail)
-    result = CliRunner().invoke(main, ["build", str(TEMPLATES / "spur.toml"), "--quiet"])
+    result = invoke("build", str(TEMPLATES / "spur.toml"), "--quiet")
     assert (result.exit_code, result.stderr) == (1, "Error: the CAD kernel could not write it\n")
     assert list(tmp_path.iterdir()) == []
 
@@ -182,8 +180,8 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_every_file_of_the_reference_pair_is_there(built: Path) -> None:
-    meshes = {f"{part}.{suffix}" for part in [*PAIR, "assembly"] for suffix in ("step", "3mf", "glb", "png")}
-    assert names(built) == {"data.json", *meshes, *(f"{part}.{suffix}" for part in PAIR for suffix in ("stl", "dxf", "csv"))}
+    assemblies = {f"assembly.{kind.value}" for kind in Format if kind not in WITHOUT_ASSEMBLY}
+    assert names(built) == {"data.json", *assemblies, *(f"{part}.{kind.value}" for part in PAIR for kind in Format)}
 
 
 def test_equal_input_gives_equal_bytes(built: Path, tmp_path: Path) -> None:
@@ -261,18 +259,16 @@ body.end_chamfer = 0.8
 def test_a_ring_is_built_in_every_faceted_and_flat_format(tmp_path: Path) -> None:
     spec, target = tmp_path / "ring.toml", tmp_path / "files"
     spec.write_text(f"{RING}body.rim_diameter = 150.0\n")
-    result = CliRunner().invoke(main, ["build", str(spec), "-o", str(target), "--format", "stl,3mf,glb,dxf,csv", "--circles"])
-    assert result.exit_code == 0, result.output
-    assert names(target) == {"data.json", *(f"gear.{suffix}" for suffix in ("stl", "3mf", "glb", "dxf", "csv"))}
+    run("build", str(spec), "-o", str(target), "--format", ",".join(FACETED_OR_FLAT), "--circles")
+    assert names(target) == {"data.json", *(f"gear.{suffix}" for suffix in FACETED_OR_FLAT)}
 
 
 def test_a_ring_without_a_rim_is_drawn_but_has_no_body(tmp_path: Path) -> None:
     spec = tmp_path / "ring.toml"
     spec.write_text(RING)
-    drawn = CliRunner().invoke(main, ["build", str(spec), "-o", str(tmp_path / "flat"), "--format", "dxf,csv"])
-    assert drawn.exit_code == 0, drawn.output
+    run("build", str(spec), "-o", str(tmp_path / "flat"), "--format", "dxf,csv")
     for kind in ("stl", "step"):
-        result = CliRunner().invoke(main, ["build", str(spec), "-o", str(tmp_path / kind), "--format", kind])
+        result = invoke("build", str(spec), "-o", str(tmp_path / kind), "--format", kind)
         assert result.exit_code != 0
         (line,) = (line for line in result.output.splitlines() if line.startswith("Error"))
         assert "gear.body.rim_diameter is missing: must be given, at least 129.634 mm" in line
@@ -296,8 +292,7 @@ ALM = TEMPLATES / "planetary-alm.toml"
 
 
 def train_build(*arguments: object, status: int = 0) -> Result:
-    result = CliRunner().invoke(main, ["build", *map(str, arguments), "--quiet"])
-    assert result.exit_code == status, result.stderr
+    result = run("build", *map(str, arguments), "--quiet", status=status)
     return result
 
 

@@ -1,7 +1,5 @@
 """`gearcad check` and `gearcad modify` as a user meets them."""
 
-from __future__ import annotations
-
 import json
 from functools import partial
 from importlib import import_module
@@ -9,15 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
+from support.commands import invoke, read_json, run, spec_file
 
-from gearcad.cli import main
 from gearcad.contact.modification_search import _Sampling
 from gearcad.core.records import NOT_ASKED_WORDS
 from gearcad.designs import read_spec
 from gearcad.jobs.strength import Check
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 SPUR = """
 [pair]
@@ -46,35 +41,19 @@ QUICK = SPUR.replace("torques = [25.0, 50.0]", 'convergence = "off"')
 """One torque, one mesh, for what does not ask for more."""
 
 
-def run(*arguments: str) -> Result:
-    return CliRunner().invoke(main, list(arguments))
-
-
-@pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 @pytest.fixture
 def no_report(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is solved and drawn for it, which takes longer than all that is asked here; tests of reports have it."""
     monkeypatch.setattr(import_module("gearcad.jobs.strength"), "Check", partial(Check, report=False))
 
 
-def spec(text: str) -> str:
-    Path("pair.toml").write_text(text, encoding="utf-8")
-    return "pair.toml"
-
-
 @pytest.mark.usefixtures("no_pictures")
 def test_check_prints_the_verdict_and_writes_both_files(here: Path) -> None:
-    result = run("check", spec(SPUR))
-    assert result.exit_code == 0, result.output
+    result = run("check", spec_file(SPUR))
     assert f"pair at 50 N·m: numerics passed; strength {NOT_ASKED_WORDS}\n" in result.stdout
     assert result.stdout.splitlines()[-2:] == ["output/pair/check.json", "output/pair/report.html"]
     assert sorted(path.name for path in (here / "output/pair").iterdir()) == ["check.json", "report.html"]
-    document = json.loads((here / "output/pair/check.json").read_text(encoding="utf-8"))
+    document = read_json(here / "output/pair/check.json")
     assert document["kind"] == "check"
     assert (document["passed"], document["numerics"], document["strength"]) == (True, "passed", "not asked for")
     assert [point["torque"] for point in document["torque_sweep"]] == [25.0, 50.0]
@@ -102,7 +81,7 @@ def test_check_prints_the_verdict_and_writes_both_files(here: Path) -> None:
 @pytest.mark.usefixtures("no_report")
 def test_limits_that_are_passed_over_are_exit_status_1_and_json_is_one_document(here: Path) -> None:
     limits = "[material]\nname = 'tin'\ncontact_limit = [500, 900]\nroot_limit = 900\nyield_strength = 2000\n"
-    result = run("check", spec(QUICK + limits), "--quiet", "--json")
+    result = invoke("check", spec_file(QUICK + limits), "--quiet", "--json")
     assert (result.exit_code, result.stderr) == (1, "")
     document = json.loads(result.stdout)
     assert (document["passed"], document["numerics"], document["strength"]) == (False, "passed", "failed")
@@ -170,21 +149,20 @@ def test_limits_that_are_passed_over_are_exit_status_1_and_json_is_one_document(
     ],
 )
 def test_what_cannot_be_checked_is_one_line(here: Path, text: str, message: str) -> None:
-    result = run("check", spec(text), "--quiet")
+    result = invoke("check", spec_file(text), "--quiet")
     assert (result.exit_code, result.stderr) == (2, f"Error: {message}\n")
     assert not Path("output").exists()
 
 
 @pytest.mark.usefixtures("no_report")
 def test_absurd_load_and_thin_rim_are_warnings_with_their_numbers(here: Path) -> None:
-    result = run("check", spec(QUICK.replace("torque = 50.0", "torque = 50000.0")), "--quiet")
+    result = invoke("check", spec_file(QUICK.replace("torque = 50.0", "torque = 50000.0")), "--quiet")
     assert "of the modulus: linear elasticity means little there" in result.stdout
     thin = QUICK.replace("bore = 12.0", "bore = 32.0")
-    result = run("check", spec(thin), "--quiet")
+    result = invoke("check", spec_file(thin), "--quiet")
     assert "the pinion's rim (1.5 mm, 0.333 tooth depths) bends: its bore is free, but for shear, on 32 mm;" in result.stdout
     held = QUICK.replace("positions = 12", "positions = 12\npinion_inner_diameter = 32")
-    result = run("check", spec(held), "--quiet")
-    assert result.exit_code == 0
+    result = run("check", spec_file(held), "--quiet")
     assert "the pinion's rim (1.5 mm, 0.333 tooth depths) is held rigidly" in result.stdout
 
 
@@ -194,16 +172,15 @@ def test_modified_and_misaligned_gears_are_checked_as_far_as_a_plane_goes(here: 
     changes = "pinion_pitch_error = 4\ncentre_distance_change = 0.05\nmisalignment = 10\n"
     crowned = "modification.tip_relief = 15\nmodification.tip_relief_length = 1\nmodification.lead_crowning = 5\n[wheel]"
     text = QUICK.replace("[wheel]", crowned) + f"[mounting]\n{changes}"
-    result = run("check", spec(text), "--quiet")
-    assert result.exit_code == 0, result.output
+    result = run("check", spec_file(text), "--quiet")
     left_out = "the plane model leaves out the pinion's modifications along the face width and the misalignment"
     assert f"Warning: {left_out}; --model 3d has them" in result.stdout
-    document = json.loads((here / "output/pair/check.json").read_text(encoding="utf-8"))
+    document = read_json(here / "output/pair/check.json")
     report = (here / "output/pair/report.html").read_text(encoding="utf-8")
     assert document["mounting"]["pinion_pitch_error"] == 4.0
     # The middle pair stands proud: unloaded it would be 4 µm ahead, and loaded it is still less behind than without.
     request.getfixturevalue("no_report")
-    plain = run("check", spec(QUICK), "--quiet", "--json")
+    plain = invoke("check", spec_file(QUICK), "--quiet", "--json")
     errors = [max(each["mesh_cycle"]["transmission_error"]) for each in (document, json.loads(plain.stdout))]
     assert errors[0] < errors[1]
     for shown in ("tip relief, length of roll", "lead crowning", "change of the centre distance", "50.05"):
@@ -212,8 +189,7 @@ def test_modified_and_misaligned_gears_are_checked_as_far_as_a_plane_goes(here: 
 
 
 def test_a_centre_distance_that_parts_the_teeth_is_refused(here: Path) -> None:
-    result = run("check", spec(SPUR + "[mounting]\ncentre_distance_change = 5\n"), "--quiet")
-    assert result.exit_code == 2
+    result = run("check", spec_file(SPUR + "[mounting]\ncentre_distance_change = 5\n"), "--quiet", status=2)
     assert result.stderr.startswith(
         "Error: mounting.centre_distance_change = 5 mm: makes a centre distance of 55 mm, but must be below "
     )
@@ -226,7 +202,7 @@ def test_solver_failure_leaves_nothing_half_written(here: Path, monkeypatch: pyt
         raise RuntimeError("no mesh today")
 
     monkeypatch.setattr(gmsh.model.mesh, "generate", fail)
-    result = run("check", spec(SPUR), "--quiet")
+    result = invoke("check", spec_file(SPUR), "--quiet")
     assert (result.exit_code, result.stderr) == (1, "Error: gmsh could not mesh the section: no mesh today\n")
     assert not Path("output").exists()
 
@@ -274,7 +250,7 @@ def modify_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_written_spec_does_what_the_proposal_says(modify_here: Path) -> None:
-    result = run("modify", spec(SPEC), "--json", "--quiet", "--shape", "parabolic")
+    result = invoke("modify", spec_file(SPEC), "--json", "--quiet", "--shape", "parabolic")
     assert (result.exit_code, result.stderr) == (0, "")
     document = json.loads(result.stdout)
     assert (document["kind"], document["name"], document["output"]) == ("modify", "pair-modified", "pair-modified.toml")
@@ -306,8 +282,8 @@ def test_the_written_spec_does_what_the_proposal_says(modify_here: Path) -> None
 
 def told(figures: dict[str, Any], name: str) -> None:
     """The figures are those of a check of the spec, extremes between its positions included."""
-    assert run("check", name, "-o", "checked", "--quiet").exit_code in (0, 1)
-    summary = json.loads(Path("checked/check.json").read_text(encoding="utf-8"))["summary"]
+    assert invoke("check", name, "-o", "checked", "--quiet").exit_code in (0, 1)
+    summary = read_json("checked/check.json")["summary"]
     summary["edge_positions"] = summary["corner_positions"]
     assert figures.pop("transmission_error_harmonics") == pytest.approx(summary["transmission_error_harmonics"][:3], rel=SAME)
     assert figures == pytest.approx({key: summary[key] for key in figures}, rel=SAME)
@@ -315,8 +291,7 @@ def told(figures: dict[str, Any], name: str) -> None:
 
 def test_it_prints_before_and_after_and_warns(modify_here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("gearcad.contact.modification_search._GENERATIONS", 1)
-    result = run("modify", spec(SPEC), "-o", "other.toml", "--torque", "-30", "--pressure", "150", "--shape", "linear")
-    assert result.exit_code == 0, result.output
+    result = run("modify", spec_file(SPEC), "-o", "other.toml", "--torque", "-30", "--pressure", "150", "--shape", "linear")
     lines = result.stdout.splitlines()
     assert lines[0].startswith("pair at -30 N·m, ")
     assert lines[-1] == "other.toml"
@@ -358,8 +333,7 @@ def test_it_prints_before_and_after_and_warns(modify_here: Path, monkeypatch: py
     ],
 )
 def test_wrong_input_is_one_line(modify_here: Path, text: str, arguments: tuple[str, ...], message: str) -> None:
-    result = run("modify", spec(text), "--quiet", *arguments)
-    assert result.exit_code == 2
+    result = run("modify", spec_file(text), "--quiet", *arguments, status=2)
     assert message in result.stderr
     assert result.stderr.count("\n") == 1
     assert [path.name for path in modify_here.iterdir()] == ["pair.toml"]

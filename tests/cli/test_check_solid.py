@@ -1,7 +1,5 @@
 """`gearcad check` of solid bodies as a user meets it: coarse bodies of three teeth, so that it takes seconds."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math
@@ -14,13 +12,12 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from support.commands import invoke, read_json, run
 from support.pictures import leave_out_pictures
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from gearcad import FlankModification, Gear, GearPair
-from gearcad.cli import main
 from gearcad.contact.shared.line_of_action import loaded_left
 from gearcad.core.records import NOT_ASKED_WORDS
 from gearcad.jobs.strength import Check
@@ -66,10 +63,6 @@ _EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4)
 """Corners between which nodes 8 to 19 of VTK's quadratic hexahedron lie."""
 
 
-def run(*arguments: str) -> Result:
-    return CliRunner().invoke(main, list(arguments))
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """What the command leaves behind."""
@@ -79,7 +72,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         Path("pair.toml").write_text(HELICAL, encoding="utf-8")
         with pytest.MonkeyPatch.context() as patch:
             leave_out_pictures(patch)
-            result = run("check", "pair.toml", "--quiet")
+            result = invoke("check", "pair.toml", "--quiet")
     finally:
         os.chdir(before)
     # Elements twice as long as usual are honest about it: the estimate of their error is a gate.
@@ -93,7 +86,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def document(folder: Path) -> dict:
-    return json.loads((folder / "check.json").read_text(encoding="utf-8"))
+    return read_json(folder / "check.json")
 
 
 @pytest.fixture(scope="module")
@@ -238,9 +231,9 @@ def test_spur_gears_as_solids_carry_as_in_the_plane(tmp_path: Path, monkeypatch:
     changed = HELICAL.replace("helix_angle = 20.0\n", "").replace("torque = 80.0", "torque = -80.0")
     plain = "\n".join(line for line in changed.splitlines() if not line.startswith(("modification", "misalignment")))
     Path("spur.toml").write_text(f"{plain}\nconvergence = 'off'\n", encoding="utf-8")
-    solid = json.loads(run("check", "spur.toml", "--quiet", "--json", "--model", "3d").stdout)
+    solid = json.loads(invoke("check", "spur.toml", "--quiet", "--json", "--model", "3d").stdout)
     monkeypatch.setattr(import_module("gearcad.jobs.strength"), "Check", partial(Check, report=False))
-    plane = json.loads(run("check", "spur.toml", "--quiet", "--json").stdout)
+    plane = json.loads(invoke("check", "spur.toml", "--quiet", "--json").stdout)
     assert (solid["model"], plane["model"]) == ("3d", "2d")
     assert solid["convergence"] == plane["convergence"] == []
     # Free ends make solid teeth a little softer than plane strain.
@@ -269,8 +262,7 @@ def test_helical_rows_of_a_table_are_checked(tmp_path: Path, monkeypatch: pytest
     }
     with Path("table.csv").open("w", encoding="utf-8", newline="") as file:
         csv.writer(file).writerows([keys.keys(), keys.values()])
-    result = run("batch", "table.csv", "--do", "check", "--quiet", "-j", "1")
-    assert result.exit_code == 0, result.output
+    run("batch", "table.csv", "--do", "check", "--quiet", "-j", "1")
     with Path("output/table/results.csv").open(encoding="utf-8") as file:
         (row,) = csv.DictReader(file)
     assert row["check.passed"].lower() == "true"

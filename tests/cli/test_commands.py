@@ -7,10 +7,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from support.commands import invoke, read_json, run
 
 import gearcad
-from gearcad.cli import main
 from gearcad.designs import read_spec
 from gearcad.designs.reader import starters
 
@@ -27,14 +26,6 @@ RATIO = 1e-9
 """Absolute, for contact ratios of about 1: what the references promise."""
 
 
-def run(*arguments: str, status: int = 0) -> Result:
-    """Run in-process in the current folder; checks the exit status and that no traceback shows."""
-    result = CliRunner().invoke(main, list(arguments), prog_name="gearcad")
-    assert result.exit_code == status, result.stderr
-    assert "Traceback" not in result.output
-    return result
-
-
 def starter(folder: Path, kind: str = VOLVO, *changes: tuple[str, str]) -> Path:
     """A starter spec with texts replaced, each of which must be there."""
     text = run("new", kind, "-o", "-").stdout
@@ -46,9 +37,7 @@ def starter(folder: Path, kind: str = VOLVO, *changes: tuple[str, str]) -> Path:
     return path
 
 
-@pytest.fixture(autouse=True)
-def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("here")
 
 
 # ---------------------------------------------------------------------- new
@@ -317,7 +306,7 @@ def test_fault_of_ours_is_one_line_with_status_1_and_a_traceback_only_on_demand(
     assert result.stderr.startswith("Error: unexpected ZeroDivisionError: two lines (")
     assert "--debug" in result.stderr and result.stderr.count("\n") == 1
     for arguments in (["--debug", "data", "x.toml"], ["data", "x.toml", "--debug"]):
-        assert isinstance(CliRunner().invoke(main, arguments).exception, ZeroDivisionError)
+        assert isinstance(invoke(*arguments).exception, ZeroDivisionError)
 
 
 # ---------------------------------------------------------------------- as a process
@@ -396,7 +385,7 @@ def test_name_that_the_locale_cannot_write_is_one_line(tmp_path: Path) -> None:
     assert not Path("output").exists()
     again = subprocess.run([*whole, "-o", "out"], env=os.environ | OLD_LOCALE, capture_output=True, encoding="utf-8")
     assert (again.returncode, again.stderr) == (0, "")
-    assert json.loads(Path("out/data.json").read_text())["name"] == "rad-ä"
+    assert read_json("out/data.json")["name"] == "rad-ä"
 
 
 def test_control_characters_never_reach_the_terminal(tmp_path: Path) -> None:
@@ -444,16 +433,14 @@ def test_identify_survives_fits_that_are_far_off(tmp_path: Path, monkeypatch: py
     """One of the fits had a thinning beyond any float."""
     monkeypatch.chdir(tmp_path)
     readings = "--teeth 24 --over-pins 4.5:0.004 --tip-diameter 66.58 --span 3:19.77 --span 4:27.16 --centre-distance 89.5"
-    done = CliRunner().invoke(main, ["identify", *readings.split(), *"--mate-teeth 47 --mate-tip-diameter 122.5".split()])
+    done = invoke("identify", *readings.split(), *"--mate-teeth 47 --mate-tip-diameter 122.5".split())
     assert "unexpected" not in done.output
-    done = CliRunner().invoke(
-        main, ["identify", *readings.split(), *"--mate-teeth 47 --mate-tip-diameter 122.5 --helix-angle 0".split()]
-    )
+    done = invoke("identify", *readings.split(), *"--mate-teeth 47 --mate-tip-diameter 122.5 --helix-angle 0".split())
     assert "unexpected" not in done.output and done.exit_code in (0, 2), done.output
 
 
 def test_time_where_a_text_is_expected_is_a_wrong_value(tmp_path: Path) -> None:
     spec = "[gear]\nteeth = 20\nnormal_module = 2\nface_width = 5\n[mesh]\nrefined_teeth = 12:00:00\n"
     (tmp_path / "it.toml").write_text(spec)
-    done = CliRunner().invoke(main, ["mesh", str(tmp_path / "it.toml")])
+    done = invoke("mesh", str(tmp_path / "it.toml"))
     assert done.exit_code == 2 and "refined_teeth" in done.stderr and "unexpected" not in done.stderr

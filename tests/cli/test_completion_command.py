@@ -1,7 +1,5 @@
 """Completion in shells: bash asks as it would when Tab is pressed; the others get scripts that ask the same way."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
@@ -10,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from click.shell_completion import ShellComplete
-from click.testing import CliRunner
+from support.commands import invoke
 
 from gearcad.cli import main
 from gearcad.cli.basics import VARIABLE
@@ -31,7 +29,7 @@ def test_commands_options_starters_and_files_are_completed() -> None:
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="no bash")
 def test_bash_completes_a_command(tmp_path: Path) -> None:
-    script = CliRunner().invoke(main, ["completion", "bash"]).output
+    script = invoke("completion", "bash").output
     command = tmp_path / "gearcad"
     command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m gearcad "$@"\n')
     command.chmod(0o755)
@@ -43,6 +41,6 @@ def test_bash_completes_a_command(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("shell", "asks"), [("zsh", "zsh_complete"), ("fish", "fish_complete")])
 def test_other_shells_get_a_script_that_asks_as_they_do(shell: str, asks: str) -> None:
-    done = CliRunner().invoke(main, ["completion", shell])
+    done = invoke("completion", shell)
     assert done.exit_code == 0 and f"{VARIABLE}={asks}" in done.output
-    assert CliRunner().invoke(main, ["completion", "tcsh"]).exit_code == 2
+    assert invoke("completion", "tcsh").exit_code == 2

@@ -1,10 +1,10 @@
 """The sheet shows everything that the data hold."""
 
 import io
-from pathlib import Path
 
 import pytest
 from rich.console import Console
+from support.specs import TEMPLATES
 
 from gearcad import Body, Gear, Rack
 from gearcad.cli.basics import plain_datasheet, print_datasheet
@@ -14,8 +14,6 @@ from gearcad.designs import GearDesign, read_spec
 from gearcad.designs.design import Design
 from gearcad.geometry import ShaperCutter
 from gearcad.sheet import blocks
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 
 def sheet(design: Design, width: int = 80) -> str:

@@ -1,18 +1,17 @@
 """`gearcad draw` and `gearcad picture`: sheets and images as files, with what the screen and documents say of them."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 from PIL import Image
+from support.commands import invoke, read_json
+from support.specs import TEMPLATES
 from support.written_sheet import read_sheet
 
 import gearcad
 from gearcad import Gear, ParameterError
-from gearcad.cli import main
 from gearcad.designs import read_spec
 from gearcad.designs.reader import starter_text
 from gearcad.jobs.draw import Draw
@@ -30,7 +29,7 @@ def _spec(name: str, folder: Path) -> Path:
 
 
 def _draw(spec: Path, *options: str) -> Result:
-    return CliRunner().invoke(main, ["draw", str(spec), "-o", str(spec.parent / "out"), *options])
+    return invoke("draw", str(spec), "-o", str(spec.parent / "out"), *options)
 
 
 def test_a_gear_is_drawn(tmp_path: Path) -> None:
@@ -45,7 +44,7 @@ def test_a_gear_is_drawn(tmp_path: Path) -> None:
     lines = result.stdout.splitlines()
     assert lines[0].split()[:3] == ["gear", "A3", "2:1"]
     assert [Path(line).name for line in lines[-4:]] == names
-    document = json.loads((tmp_path / "out" / "draw.json").read_text(encoding="utf-8"))
+    document = read_json(tmp_path / "out" / "draw.json")
     (of_gear,) = document["sheets"]
     assert (document["kind"], of_gear["number"], of_gear["size"], of_gear["files"]) == ("draw", "GC-7", "A3", names[:3])
     sheet = read_sheet(tmp_path / "out" / "drawing.dxf")
@@ -102,7 +101,7 @@ def test_a_train_has_a_sheet_for_each_gear_that_differs(tmp_path: Path) -> None:
 def test_rows_of_tables_are_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("table.csv").write_text("name,teeth,normal_module,face_width,drawing.number\none,20,2,20,GC-9\n", encoding="utf-8")
-    result = CliRunner().invoke(main, ["batch", "table.csv", "--do", "draw", "-j", "1"])
+    result = invoke("batch", "table.csv", "--do", "draw", "-j", "1")
     assert result.exit_code == 0, result.output
     folder = tmp_path / "output" / "table" / "one"
     assert {"drawing.dxf", "drawing.svg", "drawing.pdf", "draw.json"} <= {file.name for file in folder.iterdir()}
@@ -125,20 +124,19 @@ def test_python_draws_too() -> None:
     assert (sheet.name, sheet.scale) == ("gear", 1.0)
 
 
-TEMPLATES = Path(__file__).parents[2] / "templates"
 PAIR = str(TEMPLATES / "volvo-13-44.toml")
 SMALL = ("--size", "64x48", "--quiet")
 
 
 def run(*arguments: str) -> Result:
-    return CliRunner().invoke(main, ["picture", *arguments], prog_name="gearcad")
+    return invoke("picture", *arguments)
 
 
 def test_an_image_and_what_is_on_it_are_written(tmp_path: Path) -> None:
     result = run(PAIR, "--turning", "--view", "mesh", "--json", "-o", str(tmp_path), *SMALL)
     assert result.exit_code == 0, result.output
     document = json.loads(result.stdout)
-    assert document == json.loads((tmp_path / "picture.json").read_text())
+    assert document == read_json(tmp_path / "picture.json")
     assert (document["file"], document["view"], document["size"]) == ("picture.gif", "mesh", [64, 48])
     turning = document["turning"]
     assert (turning["frames"], turning["pitches"], turning["closes"]) == (24, 1.0, True)

@@ -1,7 +1,5 @@
 """`gearcad dynamics` as a user meets it."""
 
-from __future__ import annotations
-
 import json
 import math
 import re
@@ -9,11 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
-
-from gearcad.cli import main
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
+from support.commands import invoke, read_json, run
+from support.specs import TEMPLATES
 
 PAIR = """
 [pair]
@@ -44,16 +39,6 @@ FILES = [
 ]
 
 
-def run(*arguments: str) -> Result:
-    return CliRunner().invoke(main, list(arguments))
-
-
-@pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 @pytest.fixture
 def no_report(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its pictures take longer than all that is asked here; tests of reports have them."""
@@ -69,9 +54,8 @@ def spec(text: str) -> str:
 def test_a_train(here: Path) -> None:
     """Osinski's one stage: component modes of the paper, and the peak that an isolated pair does not have."""
     result = run("dynamics", spec(TRAIN), "--quiet")
-    assert result.exit_code == 0, result.output
     assert result.stdout.splitlines()[-10:] == [f"output/train-1-stage/{file}" for file in FILES]
-    document = json.loads(Path("output/train-1-stage/dynamics.json").read_text(encoding="utf-8"))
+    document = read_json("output/train-1-stage/dynamics.json")
     assert (document["kind"], document["model"]) == ("dynamics", "modes")
     assert document["modes"]["circular"] == pytest.approx([1641.941, 12752.092, 19861.483], abs=1e-3)
     peaks = document["chart"]["peaks"]["mesh"]
@@ -90,8 +74,8 @@ def test_a_train(here: Path) -> None:
 def test_the_greatest_factor_where_the_machine_runs_stands_first(here: Path) -> None:
     """A resonance beyond the operating range is none of its headline, nor is the course that is drawn."""
     text = PAIR.replace("speed = 6000.0\n", "") + "operating_from = 600.0\noperating_to = 2900.0\n"
-    result = run("dynamics", spec(text), "--quiet")
-    document = json.loads(Path("output/it/dynamics.json").read_text(encoding="utf-8"))
+    result = invoke("dynamics", spec(text), "--quiet")
+    document = read_json("output/it/dynamics.json")
     operation, speed = document["operation"], np.array(document["speed"])
     inside = (speed >= 600.0) & (speed <= 2900.0)
     most = np.array(document["chart"]["kv"]["mesh"])[inside].max()
@@ -105,9 +89,9 @@ def test_the_greatest_factor_where_the_machine_runs_stands_first(here: Path) -> 
 
 @pytest.mark.usefixtures("no_report")
 def test_a_new_train_is_sent_to_its_command(here: Path) -> None:
-    result = run("new", "train-2")
+    result = invoke("new", "train-2")
     assert result.stderr == "Next: gearcad dynamics train-2-stage.toml\n"
-    assert run("dynamics", "train-2-stage.toml", "--quiet").exit_code == 0
+    assert invoke("dynamics", "train-2-stage.toml", "--quiet").exit_code == 0
 
 
 @pytest.mark.usefixtures("no_report")
@@ -115,7 +99,6 @@ def test_one_word_changes_the_model(here: Path) -> None:
     found = {}
     for model in ("isolated", "massless", "elements", "exact"):
         result = run("dynamics", spec(TRAIN.replace('model = "modes"', f'model = "{model}"')), "--quiet", "--json")
-        assert result.exit_code == 0, result.output
         found[model] = json.loads(result.stdout)["modes"]["circular"]
     assert found["isolated"][-1] == pytest.approx(19245.076, abs=1e-3)
     assert found["massless"] == pytest.approx([1681.679, 19656.795], abs=1e-3)
@@ -129,8 +112,7 @@ def test_one_word_changes_the_model(here: Path) -> None:
 def test_a_pair_without_further_data(here: Path) -> None:
     """Inertias of its own solids, FE contact, K_v of ISO 6336 beside its own; at rest the load is the static one."""
     result = run("dynamics", spec(PAIR.partition("[dynamics]")[0]), "--quiet")
-    assert result.exit_code == 0, result.output
-    document = json.loads(Path("output/it/dynamics.json").read_text(encoding="utf-8"))
+    document = read_json("output/it/dynamics.json")
     radii = (20 * math.cos(math.radians(20)), 30 * math.cos(math.radians(20)))
     inertias = (document["pinion_inertia"], document["wheel_inertia"])
     # Steel discs of the reference diameters, less their bores, within what teeth make of them.
@@ -153,9 +135,8 @@ def test_a_small_pair_has_dynamics_without_the_standard(here: Path) -> None:
         "normal_module = 2.0\nface_width = 20.0\ntooth_thinning = 0.05", "normal_module = 0.3\nface_width = 3.0"
     )
     small = small.replace("body.bore = 12.0\n", "").replace("body.bore = 20.0\n", "").replace("torque = 50.0", "torque = 0.05")
-    result = run("dynamics", spec(small + "pinion_inertia = 3e-10\nwheel_inertia = 1.5e-9\n"), "--quiet")
-    assert result.exit_code == 0, result.output
-    document = json.loads(Path("output/it/dynamics.json").read_text(encoding="utf-8"))
+    run("dynamics", spec(small + "pinion_inertia = 3e-10\nwheel_inertia = 1.5e-9\n"), "--quiet")
+    document = read_json("output/it/dynamics.json")
     assert max(document["chart"]["kv"]["mesh"]) > 1.5
     assert document["chart"]["kv_iso6336"] is None and document["resonance_speed_iso6336"] is None
     assert any("reference_diameter" in each or "normal_module" in each for each in document["warnings"])
@@ -166,9 +147,8 @@ def test_a_train_without_teeth(here: Path) -> None:
     discs = "".join(f'[[train.inertia]]\nname = "{name}"\ninertia = 0.02\n' for name in "ab")
     shaft = '[[train.shaft]]\nname = "s"\nstart = "a"\nend = "b"\ntorsional_stiffness = 4e4\n'
     result = run("dynamics", spec(f'[train]\nname = "two"\n{discs}{shaft}'), "--quiet")
-    assert result.exit_code == 0, result.output
     assert f"{math.sqrt(2 * 4e4 / 0.02):.6g}" in result.stdout and "K_v" not in result.stdout
-    document = json.loads(Path("output/two/dynamics.json").read_text(encoding="utf-8"))
+    document = read_json("output/two/dynamics.json")
     assert document["modes"]["circular"] == pytest.approx([0, 2000], abs=1e-6) and "chart" not in document
     page = Path("output/two/dynamics.html").read_text(encoding="utf-8")
     assert "Natural modes" in page and "Without teeth in mesh nothing shakes the train" in page
@@ -182,13 +162,12 @@ def test_a_pair_on_bearings(here: Path, request: pytest.FixtureRequest) -> None:
         bearings = f"speeds = 40\npinion_bearing_stiffness = {stiffness}\nwheel_bearing_stiffness = {stiffness}"
         bearings += "\nbearing_damping = 1000.0"
         result = run("dynamics", spec(PAIR.replace("speeds = 40", bearings)), "--quiet", "--json")
-        assert result.exit_code == 0, result.output
         found[stiffness] = json.loads(result.stdout)
         request.getfixturevalue("no_report")  # one is enough
     stiff, soft = found["1e7"], found["100.0"]
     assert stiff["frequencies_on_bearings"][1] == pytest.approx(stiff["modes"]["frequency"][1], rel=1e-4)
     assert soft["frequencies_on_bearings"][1] < 0.7 * soft["modes"]["frequency"][1]
-    alone = json.loads(run("dynamics", spec(PAIR), "--quiet", "--json").stdout)
+    alone = json.loads(invoke("dynamics", spec(PAIR), "--quiet", "--json").stdout)
     # Maxima find speeds of their own: compared at those that were asked for.
     asked = np.intersect1d(stiff["speed"], np.intersect1d(soft["speed"], alone["speed"]))
     at_asked = [np.array(each["chart"]["kv"]["mesh"])[np.isin(each["speed"], asked)] for each in (stiff, soft, alone)]
@@ -210,7 +189,6 @@ def test_pitch_deviations_given_or_drawn(here: Path) -> None:
         else:
             text = text.replace("[dynamics]", f"{more}[dynamics]")
         result = run("dynamics", spec(text), "--quiet", "--json")
-        assert result.exit_code == 0, result.output
         found.append(json.loads(result.stdout)["chart"]["kv"]["mesh"])
     assert max(found[0]) > max(found[1]) + 0.05
     assert found[2] == found[3] != found[4]
@@ -225,7 +203,6 @@ def test_a_chart_that_begins_where_flanks_part_is_integrated_in_time(here: Path)
     result = run(
         "dynamics", spec(wild.replace("speed_to = 16000.0", "speed_from = 9900.0\nspeed_to = 12000.0")), "--quiet", "--json"
     )
-    assert result.exit_code == 0, result.output
     document = json.loads(result.stdout)
     assert 2 < max(document["chart"]["kv"]["mesh"]) < max(document["chart_down"]["kv"]["mesh"]) < 5
     assert "integrated-in-time" in [each["code"] for each in document["notices"]]
@@ -235,7 +212,6 @@ def test_a_chart_that_begins_where_flanks_part_is_integrated_in_time(here: Path)
 def test_tooth_errors_and_flanks_that_part_are_integrated_in_time(here: Path) -> None:
     text = PAIR.replace("speeds = 40", "speeds = 5\nspeed_to = 30000.0\ntooth_errors = 'on'")
     result = run("dynamics", spec(text), "--quiet")
-    assert result.exit_code == 0, result.output
     assert re.search(r"Warning: flanks part at tooth frequencies .* are integrated in time", result.stdout)
 
 
@@ -244,8 +220,7 @@ def test_the_contact_model_of_the_thesis(here: Path) -> None:
     text = (TEMPLATES / "uhlir-19-23.toml").read_text(encoding="utf-8")
     short = text.replace("speeds = 41", "speeds = 3").replace("duration = 1.0", "duration = 0.2")
     result = run("dynamics", spec(short), "--quiet")
-    assert result.exit_code == 0, result.output
-    document = json.loads(Path("output/uhlir-19-23/dynamics.json").read_text(encoding="utf-8"))
+    document = read_json("output/uhlir-19-23/dynamics.json")
     assert document["natural_frequency"] == pytest.approx(488.98723, abs=1e-3)
     assert document["damping_ratio"] == pytest.approx(0.01536199, rel=1e-6)
     assert document["campbell"]["speeds"] == [0.0, 10000.0, 20000.0]
@@ -255,14 +230,13 @@ def test_the_contact_model_of_the_thesis(here: Path) -> None:
 @pytest.mark.usefixtures("no_report")
 def test_the_simple_model_of_the_thesis(here: Path) -> None:
     """One spring that does not vary: a vibration that dies away, in closed form, in the angles of both gears."""
-    assert run("new", "uhlir-19-23-simple").exit_code == 0
+    assert invoke("new", "uhlir-19-23-simple").exit_code == 0
     text = Path("uhlir-19-23-simple.toml").read_text(encoding="utf-8")
     short = text.replace("speeds = 41", "speeds = 2").replace("duration = 1.0", "duration = 0.2")
     result = run("dynamics", spec(short), "--quiet")
-    assert result.exit_code == 0, result.output
     assert "489 Hz" in result.stdout.replace("488.987", "489") and "612" not in result.stdout
     folder = Path("output/uhlir-19-23-simple")
-    document = json.loads((folder / "dynamics.json").read_text(encoding="utf-8"))
+    document = read_json(folder / "dynamics.json")
     assert (document["zone"], document["contact_ratio"]) == ("one pair", 1.0)
     assert [peaks[0][0] for peaks in document["campbell"]["peaks"]] == [490.0, 490.0]  # 5 Hz apart
     zeta, omega = document["damping_ratio"], 2 * math.pi * document["natural_frequency"]
@@ -319,8 +293,7 @@ def test_the_simple_model_of_the_thesis(here: Path) -> None:
     ],
 )
 def test_what_makes_no_dynamics(here: Path, text: str, message: str) -> None:
-    result = run("dynamics", spec(text))
-    assert result.exit_code == 2, result.output
+    result = run("dynamics", spec(text), status=2)
     last = result.stderr.splitlines()[-1]
     assert last.startswith("Error: ") and message in last
     assert not Path("output").exists()
@@ -328,8 +301,7 @@ def test_what_makes_no_dynamics(here: Path, text: str, message: str) -> None:
 
 @pytest.mark.parametrize("command", ["build", "check", "stiffness", "modify"])
 def test_other_commands_send_a_train_here(here: Path, command: str) -> None:
-    result = run(command, spec(TRAIN))
-    assert result.exit_code == 2
+    result = run(command, spec(TRAIN), status=2)
     permitted = "a gear, a pair, a rack, a rack and pinion or a planetary train" if command == "build" else "a pair"
     said = f"Error: kind = 'train': must be {permitted}: a train is for `gearcad dynamics` and `gearcad data`\n"
     assert result.stderr == said
@@ -348,7 +320,6 @@ def test_one_accuracy_grade_for_the_standard(here: Path) -> None:
             + f"[rating]\naccuracy_grade = {grade}\n[material]\ngroup = 'Eh'\n"
         )
         result = run("dynamics", spec(text), "--quiet", "--json")
-        assert result.exit_code == 0, result.output
         charts.append(json.loads(result.stdout))
     assert charts[0] == charts[1]
     assert not any("K_v of ISO 6336-1" in warning for warning in charts[0]["warnings"])
@@ -357,7 +328,6 @@ def test_one_accuracy_grade_for_the_standard(here: Path) -> None:
 @pytest.mark.usefixtures("no_report")
 def test_why_the_standard_has_no_factor(here: Path) -> None:
     result = run("dynamics", spec(PAIR + "[material]\ngroup = 'V'\n"), "--quiet")
-    assert result.exit_code == 0, result.output
     assert "Warning: no K_v of ISO 6336-1: material.contact_endurance_limit is missing: must be given for material group V" in (
         result.stdout
     )

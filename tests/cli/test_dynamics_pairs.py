@@ -1,16 +1,13 @@
 """Trains of real pairs as a user writes them: in a file beside, in tables of their own, and what is wrong with them."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from support.commands import read_json, run
 
-from gearcad.cli import main
 from gearcad.core.errors import SolverError
 from gearcad.core.records import PerGear
 from gearcad.designs import PairDesign, TrainDesign, read_spec
@@ -95,10 +92,6 @@ harmonics = 4
 {last}"""
 
 
-def run(*arguments: str) -> Result:
-    return CliRunner().invoke(main, list(arguments))
-
-
 @pytest.fixture(autouse=True)
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with a pair in `specs/parts`, and another one to work in."""
@@ -139,12 +132,11 @@ def test_pairs_of_files_and_of_tables() -> None:
 def test_what_comes_of_it() -> None:
     """Forces by hand, pairs and their specs, which read as pairs under these loads."""
     result = run("dynamics", spec(train()))
-    assert result.exit_code == 0, result.output
     names = [f"output/drive/stage {number}.toml" for number in (1, 2)]
     assert result.stdout.splitlines()[-2:] == names
     assert result.stderr.splitlines()[-1] == f"Next: gearcad check '{names[0]}'"
     assert "stage 1: the train gives its pinion 60 N·m at 1000 rpm, not 7 N·m of the pair's own load" in result.stdout
-    document = json.loads(Path("output/drive/dynamics.json").read_text(encoding="utf-8"))
+    document = read_json("output/drive/dynamics.json")
     static = document["chart"]["static_force"]
     radius = 20 * math.cos(math.radians(20))
     assert static == pytest.approx({"stage 1": 60e3 / radius, "stage 2": 90e3 / (1.25 * radius)}, rel=1e-9)
@@ -159,7 +151,6 @@ def test_what_comes_of_it() -> None:
         stiffness="potential-energy", damping_ratio=0.1, pinion_inertia=0.003, wheel_inertia=0.004
     )
     again = run("stiffness", names[0], "--method", "potential-energy", "--json", "--quiet")
-    assert again.exit_code == 0, again.output
     alone = json.loads(again.stdout)["methods"]["potential-energy"]
     assert alone["tangent_mean"] == pytest.approx(document["pairs"]["stage 1"]["mesh_stiffness_tangent_mean"] * 1.0, rel=0.02)
     page = Path("output/drive/dynamics.html").read_text(encoding="utf-8")
@@ -168,8 +159,7 @@ def test_what_comes_of_it() -> None:
 
 def test_other_commands_are_told_where_the_pairs_are() -> None:
     for command in ("check", "build", "stiffness", "mesh"):
-        result = run(command, spec(train()))
-        assert result.exit_code == 2
+        result = run(command, spec(train()), status=2)
         assert result.stderr.startswith("Error: kind = 'train': must be a ")
         assert "pair" in result.stderr.partition(": `gearcad dynamics` writes the specs")[0]
 
@@ -219,8 +209,7 @@ def test_wrong_input_gets_one_line(text: str, message: str) -> None:
     (parts / "spur.toml").write_text("[gear]\nteeth = 20\nnormal_module = 1.0\nface_width = 5.0\n", encoding="utf-8")
     (parts / "broken.toml").write_text("[pair]\nteeht = 2\n[pinion]\nteeth = 20\n[wheel]\nteeth = 20\n", encoding="utf-8")
     (parts / "double.toml").write_text(DOUBLE, encoding="utf-8")
-    result = run("dynamics", spec(text), "--quiet")
-    assert result.exit_code == 2, result.output
+    result = run("dynamics", spec(text), "--quiet", status=2)
     assert result.stderr.startswith("Error: ") and message in result.stderr and len(result.stderr.splitlines()) == 1
     assert not Path("output").exists()
 

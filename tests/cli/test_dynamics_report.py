@@ -1,7 +1,5 @@
 """Reports and pictures of dynamics: they hold the numbers of the studies, and need nothing from elsewhere."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import lxml.etree

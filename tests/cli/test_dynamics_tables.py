@@ -1,9 +1,6 @@
 """Charts of dynamics as CSV, lists of models in a spec, [dynamics.transient] and campbell."""
 
-from __future__ import annotations
-
 import csv
-import json
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -11,9 +8,10 @@ from pathlib import Path
 import lxml.html
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
+from support.commands import invoke, read_json
+from support.specs import TEMPLATES
 
-from gearcad.cli import main
 from gearcad.core.errors import ParameterError
 from gearcad.designs import TrainDesign, read_spec
 from gearcad.dynamics.options import DynamicsOptions
@@ -24,8 +22,6 @@ from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.jobs.dynamics import Dynamics, table_files
 from gearcad.report.dynamics import dynamics_html
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 
 def read(path: Path) -> dict[str, list[str]]:
@@ -50,7 +46,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def run(text: str, *options: str) -> Path:
     """Study a spec; the folder."""
     Path("it.toml").write_text(text, encoding="utf-8")
-    result = CliRunner().invoke(main, ["dynamics", "it.toml", "--quiet", "-o", "out", *options])
+    result = invoke("dynamics", "it.toml", "--quiet", "-o", "out", *options)
     assert result.exit_code == 0, result.output
     return Path("out")
 
@@ -58,7 +54,7 @@ def run(text: str, *options: str) -> Path:
 def test_tables_of_a_train_are_its_document(here: Path) -> None:
     text = (TEMPLATES / "train-2-stage.toml").read_text(encoding="utf-8") + "speeds = 20\nspeed_from = 8000.0\n"
     folder = run(text)
-    document = json.loads((folder / "dynamics.json").read_text(encoding="utf-8"))
+    document = read_json(folder / "dynamics.json")
     chart, of = read(folder / "dynamics-chart.csv"), document["chart"]
     assert numbers(chart["speed (rpm)"]) == document["speed"]
     assert numbers(chart["tooth_frequency (1/s)"]) == of["frequency"]
@@ -90,7 +86,7 @@ def test_tables_of_the_contact_model_and_none_of_another(here: Path) -> None:
     text = (TEMPLATES / "uhlir-19-23.toml").read_text(encoding="utf-8")
     text = text.replace("speeds = 41", "speeds = 3").replace("duration = 1.0", "duration = 0.3")
     folder = run(text)
-    document = json.loads((folder / "dynamics.json").read_text(encoding="utf-8"))["campbell"]
+    document = read_json(folder / "dynamics.json")["campbell"]
     campbell, history = read(folder / "dynamics-campbell.csv"), read(folder / "dynamics-history.csv")
     assert numbers(campbell["greatest_approach (µm)"]) == document["greatest_approach"]
     assert numbers(campbell["peak_2 (Hz)"]) == [peaks[1][0] for peaks in document["peaks"]]
@@ -174,7 +170,7 @@ diameter = 40.0
 
 def level_run(text: str, *arguments: str) -> Result:
     Path("it.toml").write_text(text, encoding="utf-8")
-    return CliRunner().invoke(main, ["dynamics", "it.toml", "--quiet", *arguments])
+    return invoke("dynamics", "it.toml", "--quiet", *arguments)
 
 
 def with_models(models: str, text: str = TRAIN) -> str:
@@ -203,7 +199,7 @@ def test_a_list(level_here: Path) -> None:
     """The order of the list is that of tables and charts."""
     result = level_run(with_models('["exact", "isolated"]') + "operating_to = 12000.0\n")
     assert result.exit_code == 0, result.output
-    document = json.loads(Path("output/train-1-stage/dynamics.json").read_text(encoding="utf-8"))
+    document = read_json("output/train-1-stage/dynamics.json")
     assert document["labels"] == ["exact", "isolated"] and document["reference"] == "exact" and document["enough"] is None
     assert document["operating_range"] == {"first": 16.0, "last": 12000.0, "source": "operating range"}
     (verdict,) = document["verdicts"]
@@ -309,7 +305,7 @@ SPECTRA = 'campbell = "on"\nduration = 0.02\nsampling = 100000\n'
 
 
 def time_run(*arguments: str) -> Result:
-    return CliRunner().invoke(main, list(arguments))
+    return invoke(*arguments)
 
 
 @pytest.fixture
@@ -333,7 +329,7 @@ def test_runs_and_spectra_are_in_all_files(text: str, folder: str, time_here: Pa
     assert "spectra at 4 speeds" in result.stdout or "spectra at 3 speeds" in result.stdout
     assert "] transient" in result.stderr and "] campbell" in result.stderr
     output = Path("output") / folder
-    document = json.loads((output / "dynamics.json").read_text(encoding="utf-8"))
+    document = read_json(output / "dynamics.json")
     transient, campbell = document["transient"], document["campbell"]
     assert (transient["speed_from"], transient["speed_to"]) == (9000.0, pytest.approx(12000.0))
     (greatest,) = transient["greatest"]

@@ -1,8 +1,5 @@
 """`gearcad dynamics --vary`: the same train or pair with other values, and several side by side."""
 
-from __future__ import annotations
-
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,9 +7,10 @@ from typing import Any
 import lxml.html
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
+from support.commands import invoke, read_json
+from support.specs import TEMPLATES
 
-from gearcad.cli import main
 from gearcad.cli.dynamics import _lines, beside_lines
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Floats, Notice
@@ -60,14 +58,8 @@ OF_GRID = 0.0015
 """A chart that is refined at its maxima is above one of that grid, by so much at most."""
 
 
-@pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 def run(*arguments: str) -> Result:
-    return CliRunner().invoke(main, ["dynamics", *arguments])
+    return invoke("dynamics", *arguments)
 
 
 def study(text: str, *variations: str) -> tuple[dict[str, Any], dict[str, Floats]]:
@@ -164,7 +156,7 @@ def test_the_command_writes_all_over_each_other(here: Path) -> None:
     done = run("spec.toml", "--vary", "mesh.*.damping_ratio=0.05,0.1", "-o", "out")
     assert done.exit_code == 0, done.output
     assert "  0.05 " in done.stdout and "out/dynamics.html" in done.stdout.splitlines()
-    document = json.loads(Path("out/dynamics.json").read_text(encoding="utf-8"))
+    document = read_json("out/dynamics.json")
     assert document["labels"] == ["0.05", "0.1"]
     assert "damping ratio of the pair alone" in Path("out/dynamics.html").read_text(encoding="utf-8")
     with np.load("out/dynamics.npz") as arrays:
@@ -228,7 +220,6 @@ def test_errors_of_teeth_are_laid_over_each_other(here: Path) -> None:
     assert np.array_equal(upper.get_ydata(), found.errors["10"].band[1][:, 0])
 
 
-TEMPLATES = Path(__file__).parents[2] / "templates"
 LABELS = ("exact", "isolated <1>")
 
 

@@ -1,14 +1,12 @@
 """`gearcad identify`: table, document, spec, wrong input."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
+from support.commands import invoke
 
-from gearcad.cli import main
 from gearcad.core.quantities import schema_of
 from gearcad.designs import GearDesign, read_spec
 from gearcad.designs.reader import starter_text
@@ -19,7 +17,7 @@ READINGS = "--teeth 24 --tip-diameter 52.02 --root-diameter 43.01 --span 3:15.40
 
 
 def run(words: str, *others: object) -> Result:
-    return CliRunner().invoke(main, ["identify", *words.split(), *map(str, others)])
+    return invoke("identify", *words.split(), *map(str, others))
 
 
 def test_table_says_what_it_is_and_how_far_it_is_off() -> None:

@@ -1,7 +1,5 @@
 """`gearcad mesh` as a user meets it."""
 
-from __future__ import annotations
-
 import csv
 import json
 import subprocess
@@ -10,9 +8,8 @@ from pathlib import Path
 
 import meshio
 import pytest
-from click.testing import CliRunner, Result
+from support.commands import read_json, run
 
-from gearcad.cli import main
 from gearcad.meshing import Element
 
 GEAR = """
@@ -42,26 +39,13 @@ torque = 50.0
 HELICAL = PAIR.replace("[pinion]", "helix_angle = 20.0\n[pinion]")
 
 
-def run(*arguments: str, status: int = 0) -> Result:
-    result = CliRunner().invoke(main, list(arguments))
-    assert result.exit_code == status, result.output
-    assert "Traceback" not in result.output
-    return result
-
-
-@pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 def spec(text: str) -> str:
     Path("some.toml").write_text(text, encoding="utf-8")
     return "some.toml"
 
 
 def document() -> dict:
-    return json.loads(Path("output/some/mesh.json").read_text(encoding="utf-8"))
+    return read_json("output/some/mesh.json")
 
 
 def test_a_gear_is_meshed_as_its_ring(here: Path) -> None:
@@ -224,7 +208,7 @@ def test_rows_of_a_table_are_meshed(here: Path) -> None:
     assert sorted(path.name for path in Path("output/table/b").iterdir()) == [
         *("data.json", "gear.inp", "gear.vtu", "manifest.json", "mesh.json"),
     ]
-    told = json.loads(Path("output/table/b/mesh.json").read_text(encoding="utf-8"))
+    told = read_json("output/table/b/mesh.json")
     assert (rows[1]["mesh.elements"], rows[1]["mesh.passed"]) == (str(told["summary"]["elements"]), "true")
     assert int(rows[1]["mesh.elements"]) == 3 * int(rows[0]["mesh.elements"])
 

@@ -3,26 +3,14 @@
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from support.commands import run
+from support.specs import TEMPLATES
 
-from gearcad.cli import main
 from gearcad.designs import open_table
 from gearcad.designs.reader import starters
 from gearcad.drawing.sheet_template import SheetTemplate
 
-TEMPLATES = Path(__file__).parents[2] / "templates"
-
-
-def run(*arguments: str, status: int = 0) -> Result:
-    """Run in-process in the current folder; checks the exit status."""
-    result = CliRunner().invoke(main, list(arguments), prog_name="gearcad")
-    assert result.exit_code == status, result.stderr
-    return result
-
-
-@pytest.fixture(autouse=True)
-def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("here")
 
 
 @pytest.mark.parametrize("kind", ["pairs", "gears", "planetary-sets"])

@@ -10,11 +10,10 @@ import time
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from support.commands import invoke
 from support.processes import PATIENCE, hear_interrupts, wait_until
 
 from gearcad import ParameterError
-from gearcad.cli import main
 from gearcad.core import output
 from gearcad.core.output import MARK, json_text, locked, mark_folder, staged_files
 from gearcad.designs.reader import starter_text
@@ -157,7 +156,7 @@ def test_a_long_job_does_not_begin_where_nothing_can_be_written(
     (tmp_path / "file").touch()
     (tmp_path / "it.toml").write_text("[gear]\nteeth = 20\nnormal_module = 2\nface_width = 5\n")
     monkeypatch.setattr(Mesh, "run", None)
-    done = CliRunner().invoke(main, ["mesh", str(tmp_path / "it.toml"), "-o", str(tmp_path / place)])
+    done = invoke("mesh", str(tmp_path / "it.toml"), "-o", str(tmp_path / place))
     said = f"Error: output = '{tmp_path / place}': cannot be written (Not a directory); give a folder you may write to\n"
     assert (done.exit_code, done.stderr) == (2, said)
 
@@ -166,7 +165,7 @@ def test_a_long_job_does_not_begin_where_nothing_can_be_written(
 def test_a_plot_of_what_is_no_file_is_refused(tmp_path: Path, results: str) -> None:
     """It was read until memory ended, or waited for."""
     os.mkfifo(tmp_path / "pipe")
-    done = CliRunner().invoke(main, ["plot", str(tmp_path / results), "--x", "a", "--y", "b"])
+    done = invoke("plot", str(tmp_path / results), "--x", "a", "--y", "b")
     assert done.exit_code == 2 and "must be an ordinary file; give the results.csv" in done.stderr
 
 

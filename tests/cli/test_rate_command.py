@@ -1,7 +1,5 @@
 """gearcad rate: exit statuses, screen, documents and pages of pairs, racks and planetary trains; columns of tables."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path

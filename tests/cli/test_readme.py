@@ -1,7 +1,5 @@
 """What the README and docs/papers.md show works as shown."""
 
-from __future__ import annotations
-
 import os
 import re
 import shlex
@@ -12,6 +10,7 @@ from pathlib import Path
 import pytest
 from click import Context
 from click.testing import CliRunner
+from support.commands import run
 from support.paper_page import Section, given, sections
 
 from gearcad.cli import main
@@ -36,8 +35,7 @@ def test_python_example_gives_the_numbers_it_names() -> None:
 def test_spec_example_is_the_shipped_pair(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("readme.toml").write_text(_block("toml", "[pinion]"), encoding="utf-8")
-    result = CliRunner().invoke(main, ["data", "readme.toml", "--json"])
-    assert result.exit_code == 0, result.output
+    result = run("data", "readme.toml", "--json")
     assert '"transverse_contact_ratio": 1.363079284' in result.output
 
 

@@ -1,7 +1,5 @@
 """Reports of plane and solid checks: complete, well-formed, self-contained, the same bytes every time."""
 
-from __future__ import annotations
-
 import base64
 import json
 import platform

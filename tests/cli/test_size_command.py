@@ -1,13 +1,12 @@
 """`gearcad size` and `gearcad planetary --ratio`: tables, files, and what is said where nothing is found."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from support.commands import invoke, read_json
 
 from gearcad.cli import main
 from gearcad.designs import PairDesign, PlanetaryDesign, read_spec
@@ -25,9 +24,7 @@ RANGES = (
 def run(*words: object, **options: str) -> Result:
     given = {"--torque": "100", "--speed": "1500", "--ratio": "2", "--material": "Eh MQ", "--life": "1e4"}
     given |= {f"--{name.replace('_', '-')}": value for name, value in options.items()}
-    return CliRunner().invoke(
-        main, ["size", *RANGES.split(), *(each for item in given.items() for each in item), *map(str, words)]
-    )
+    return invoke("size", *RANGES.split(), *(each for item in given.items() for each in item), *map(str, words))
 
 
 def test_files_and_table(tmp_path: Path) -> None:
@@ -35,7 +32,7 @@ def test_files_and_table(tmp_path: Path) -> None:
     assert found.exit_code == 0, found.output
     heading, first, *_ = found.stdout.splitlines()
     assert heading.split()[:3] == ["pair", "a", "mm"]
-    document = json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))
+    document = read_json(tmp_path / "size.json")
     best = document["found"][0]
     assert first.split()[0] == best["name"]
     assert document["considered"] == 4 * 2 * 2 * 3 * 2
@@ -86,9 +83,9 @@ SETS = (
 
 
 def test_planetary_sets(tmp_path: Path) -> None:
-    found = CliRunner().invoke(main, [*SETS.split(), "--material", "Eh MQ", "-o", str(tmp_path)])
+    found = invoke(*SETS.split(), "--material", "Eh MQ", "-o", str(tmp_path))
     assert found.exit_code == 0, found.output
-    assert json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))["found"]
+    assert read_json(tmp_path / "size.json")["found"]
     design = read_spec(tmp_path / "best.toml")
     assert isinstance(design, PlanetaryDesign)
     assert design.train.ratio == pytest.approx(5, rel=1e-3)
@@ -98,7 +95,7 @@ def test_planetary_sets(tmp_path: Path) -> None:
 def test_the_advice_follows_the_condition_that_took_the_last(tmp_path: Path) -> None:
     found = run("-o", tmp_path, "--quiet", max_mass="0.1")
     assert found.exit_code == 1
-    lightest = json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))["lightest"]
+    lightest = read_json(tmp_path / "size.json")["lightest"]
     *_, said, advice = found.stderr.splitlines()
     assert f"{lightest['name']}, b {lightest['face_width']:g} mm: {lightest['mass']:.3g} kg" in said
     mass = float(advice.split("--max-mass ")[1].split()[0])
@@ -110,7 +107,7 @@ def test_what_safeties_go_by_and_what_was_not_judged(tmp_path: Path, monkeypatch
     monkeypatch.setattr("gearcad.sizing.proposals.FRONT_SAMPLE", 2)
     found = run("-o", tmp_path, by="scuffing", max_mass="100")
     said = found.stderr
-    document = json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))
+    document = read_json(tmp_path / "size.json")
     why = document["not_judged"]["scuffing"]
     assert why == "scuffing not judged: required_safety_scuffing and scuffing_stage not given"
     assert said.count(why) == 1
@@ -137,7 +134,7 @@ def test_empty_options_are_refused(name: str, tmp_path: Path) -> None:
 
 def test_sets_have_no_most_mass(tmp_path: Path) -> None:
     words = "size --planetary --torque 300 --speed 1500 --ratio 5.2 --max-mass 3 -o"
-    found = CliRunner().invoke(main, [*words.split(), str(tmp_path), "--material", "Eh MQ"])
+    found = invoke(*words.split(), str(tmp_path), "--material", "Eh MQ")
     assert "max_mass = 3: applies to pairs" in found.stderr
 
 
@@ -150,7 +147,7 @@ KINDS = {
 
 
 def planetary_run(*words: object) -> Result:
-    return CliRunner().invoke(main, ["planetary", *map(str, words)])
+    return invoke("planetary", *map(str, words))
 
 
 def designs(table: Path) -> list[PlanetaryDesign]:

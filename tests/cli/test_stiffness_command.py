@@ -1,15 +1,11 @@
 """`gearcad stiffness` as a user meets it."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
-
-from gearcad.cli import main
+from support.commands import invoke, read_json, run, spec_file
 
 pytestmark = pytest.mark.usefixtures("no_pictures")
 
@@ -30,27 +26,11 @@ torque = 50.0
 QUICK = ("--method", "potential-energy", "--method", "weber-banaschek", "--method", "iso6336")
 
 
-def run(*arguments: str) -> Result:
-    return CliRunner().invoke(main, list(arguments))
-
-
-@pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-def spec(text: str = PAIR) -> str:
-    Path("pair.toml").write_text(text, encoding="utf-8")
-    return "pair.toml"
-
-
 def test_table_and_files(here: Path) -> None:
-    result = run("stiffness", spec(), *QUICK, "--fourier", "4")
-    assert result.exit_code == 0, result.output
+    result = run("stiffness", spec_file(PAIR), *QUICK, "--fourier", "4")
     lines = result.stdout.splitlines()
     assert lines[-3:] == [f"output/pair/stiffness.{kind}" for kind in ("csv", "html", "json")]
-    document = json.loads((here / "output/pair/stiffness.json").read_text(encoding="utf-8"))
+    document = read_json(here / "output/pair/stiffness.json")
     assert (document["kind"], document["name"], document["common_width"]) == ("stiffness", "pair", 20.0)
     assert list(document["methods"]) == ["potential-energy", "weber-banaschek", "iso6336"]
     energy = document["methods"]["potential-energy"]
@@ -68,19 +48,17 @@ def test_table_and_files(here: Path) -> None:
 
 
 def test_json_is_one_document(here: Path) -> None:
-    result = run("stiffness", spec(), *QUICK, "--json", "--quiet", "--positions", "40")
+    result = invoke("stiffness", spec_file(PAIR), *QUICK, "--json", "--quiet", "--positions", "40")
     assert result.exit_code == 0 and result.stderr == ""
     document = json.loads(result.stdout)
     assert len(document["methods"]["weber-banaschek"]["mesh_cycle"]["roll_angle"]) < 60
 
 
 def test_a_method_that_cannot_treat_the_pair_is_left_out_with_its_reason(here: Path) -> None:
-    helical = spec(PAIR.replace("[pinion]", "helix_angle = 20.0\n[pinion]"))
+    helical = spec_file(PAIR.replace("[pinion]", "helix_angle = 20.0\n[pinion]"))
     result = run("stiffness", helical, *QUICK, "--method", "plane-strain")
-    assert result.exit_code == 0, result.output
     assert "FE contact, plane strain: left out: pair.helix_angle = 20 deg: must be 0 for plane-strain" in result.stdout
-    alone = run("stiffness", helical, "--method", "plane-strain", "-o", "other")
-    assert alone.exit_code == 2
+    alone = run("stiffness", helical, "--method", "plane-strain", "-o", "other", status=2)
     assert alone.stderr.splitlines()[-1].startswith("Error: pair.helix_angle = 20 deg: must be 0 for plane-strain")
     assert not Path("other").exists()
 
@@ -95,8 +73,7 @@ def test_a_method_that_cannot_treat_the_pair_is_left_out_with_its_reason(here: P
     ],
 )
 def test_wrong_options(here: Path, arguments: list[str], message: str) -> None:
-    result = run("stiffness", spec(), *arguments)
-    assert result.exit_code == 2
+    result = run("stiffness", spec_file(PAIR), *arguments, status=2)
     assert message in result.stderr and "Traceback" not in result.stderr
     assert not Path("output").exists()
 
@@ -111,15 +88,13 @@ def test_wrong_options(here: Path, arguments: list[str], message: str) -> None:
     ],
 )
 def test_specs_without_a_mesh(here: Path, text: str, message: str) -> None:
-    result = run("stiffness", spec(text), *QUICK)
-    assert result.exit_code == 2
+    result = run("stiffness", spec_file(text), *QUICK, status=2)
     assert message in result.stderr and result.stdout == ""
 
 
 def test_closed_forms_warn_of_a_thin_rim(here: Path) -> None:
     """A rim of 2 mm below teeth of 4.5 mm, h_f = 17.5/15.5 = 1.129: none of the three knows such a body."""
-    result = run("stiffness", spec(PAIR.replace("body.bore = 12.0", "body.bore = 31.0")), *QUICK)
-    assert result.exit_code == 0, result.output
+    result = run("stiffness", spec_file(PAIR.replace("body.bore = 12.0", "body.bore = 31.0")), *QUICK)
     warned = [line for line in result.stdout.splitlines() if "pinion" in line and "theta_f" not in line]
     thin = "0.444 tooth heights"
     assert warned == [
@@ -136,8 +111,7 @@ def test_double_helical_pairs_are_refused_before_any_method_begins(tmp_path: Pat
     text = "".join(f"{key} = {value}\n" for key, value in double.items())
     spec = tmp_path / "double.toml"
     spec.write_text(f"pair.normal_module = 2.0\npinion.teeth = 24\nwheel.teeth = 40\nload.torque = 60.0\n{text}")
-    result = CliRunner().invoke(main, ["stiffness", str(spec), "-o", str(tmp_path / "files")])
-    assert result.exit_code == 2
+    result = run("stiffness", str(spec), "-o", str(tmp_path / "files"), status=2)
     assert result.output.splitlines() == [
         "Error: double_helix.gap_width = 8 mm: must be left out for a mesh stiffness: take one half, of face width 16 mm,"
         " and half the torque"

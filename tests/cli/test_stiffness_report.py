@@ -1,7 +1,5 @@
 """Report and pictures of the mesh stiffness by several methods: they hold the numbers of the cycles, and nothing else."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -4,7 +4,8 @@ import csv
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import CliRunner
+from support.commands import run
 
 from gearcad.cli import main
 
@@ -13,14 +14,6 @@ SPEC = f"{VOLVO}.toml"
 
 RATIO = 1e-9
 """Absolute, for contact ratios of about 1: what the references promise."""
-
-
-def run(*arguments: str, status: int = 0) -> Result:
-    """Run in-process in the current folder; checks the exit status and that no traceback shows."""
-    result = CliRunner().invoke(main, list(arguments), prog_name="gearcad")
-    assert result.exit_code == status, result.stderr
-    assert "Traceback" not in result.output
-    return result
 
 
 def refusal(*arguments: str) -> str:

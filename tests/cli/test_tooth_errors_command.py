@@ -1,21 +1,19 @@
 """K_v with tooth errors that are drawn, by the command: documents, tables, report, and what cannot be asked for."""
 
-from __future__ import annotations
-
 import csv
-import json
 from dataclasses import replace
 from pathlib import Path
 from threading import Event
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 from matplotlib.figure import Figure
+from support.commands import invoke, read_json
+from support.specs import TEMPLATES
 from support.trains import one_stage
 
 from gearcad import Gear, GearPair, Load, Material
-from gearcad.cli import main
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Role
 from gearcad.dynamics.engagement import engaged
@@ -38,8 +36,6 @@ from gearcad.report.document import sentences
 from gearcad.report.dynamics import error_table
 from gearcad.stiffness import METHODS
 
-TEMPLATES = Path(__file__).parents[2] / "templates"
-
 FIGURE_5 = 'tooth_errors = "on"\naccuracy_grade = 9\npremature_engagement = "on"\n'
 
 
@@ -54,7 +50,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def run(more: str, *options: str) -> Result:
     text = (TEMPLATES / "train-1-stage.toml").read_text(encoding="utf-8") + more
     Path("it.toml").write_text(text, encoding="utf-8")
-    return CliRunner().invoke(main, ["dynamics", "it.toml", "-o", "out", *options])
+    return invoke("dynamics", "it.toml", "-o", "out", *options)
 
 
 def options(**more: object) -> DynamicsOptions:
@@ -70,7 +66,7 @@ def study() -> TrainStudy:
 def test_documents_and_tables_are_the_samples(here: Path) -> None:
     result = run(FIGURE_5 + "error_samples = 4\nspeeds = 3\n")
     assert result.exit_code == 0, result.output
-    document = json.loads(Path("out/dynamics.json").read_text(encoding="utf-8"))["tooth_errors"]
+    document = read_json("out/dynamics.json")["tooth_errors"]
     arrays = np.load("out/dynamics.npz")
     samples = arrays["errors_kv"][:, :, 0]
     assert samples.shape == (4, 3)

@@ -1,7 +1,5 @@
 """`gearcad verify`: specs, tables, baselines, evidence, and what it says of wrong input."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path

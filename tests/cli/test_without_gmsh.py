@@ -1,17 +1,15 @@
 """gmsh is under the GPL, and some do without: what is not meshed with it runs, the rest says in one line what is missing."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from support.commands import invoke
+from support.specs import TEMPLATES
 
 import gearcad
 from gearcad.cli import main
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 MISSING = "gmsh cannot be loaded (import of gmsh halted; None in sys.modules): pip install gmsh; solid checks"
 
@@ -45,7 +43,7 @@ def test_a_planetary_train_tells_all_but_what_hangs_on_stiffness() -> None:
 
 @pytest.mark.parametrize("command", ["mesh", "check", "dynamics"])
 def test_what_needs_triangles_says_so_in_one_line_and_leaves_nothing(command: str, tmp_path: Path) -> None:
-    done = CliRunner().invoke(main, [command, str(TEMPLATES / "fzg-c.toml"), "--quiet"])
+    done = invoke(command, str(TEMPLATES / "fzg-c.toml"), "--quiet")
     assert done.exit_code == 1
     assert done.stderr.startswith(f"Error: {MISSING}") and done.stderr.count("\n") == 1
     assert not list(tmp_path.rglob("*.*"))
@@ -59,6 +57,6 @@ def test_sheets_pictures_and_solid_bodies_need_no_gmsh(tmp_path: Path) -> None:
     run("mesh", volvo)
     run("stiffness", volvo, "--method", "potential-energy")
     run("dynamics", volvo)
-    done = CliRunner().invoke(main, ["check", volvo, "--quiet"])
+    done = invoke("check", volvo, "--quiet")
     assert "numerics" in done.output and MISSING not in done.output
     assert (tmp_path / "output" / "volvo-13-44" / "check.json").exists()

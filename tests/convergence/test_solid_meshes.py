@@ -1,13 +1,9 @@
 """Meshes of solid bodies: the error that a check tells against what much finer meshes say; orders out of made-up values."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
 import pytest
-from numpy.typing import NDArray
 from support.checks import TORQUES, coarse_pair
 from threadpoolctl import threadpool_limits
 
@@ -18,8 +14,6 @@ from gearcad.check.summary import figures
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,6 @@
 The pair is that of the Alm thesis, z 18/161, m 1.5, 12.7 N·m on 10 mm.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache

@@ -1,7 +1,5 @@
 """What stands around the code is true: paths that CONTRIBUTING.md names, libraries of the image, forms, what is to be cited."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Licences of what gearcad needs, as the installed packages state them, are those of LICENSES.md."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from importlib.metadata import Distribution, PackageNotFoundError, distribution

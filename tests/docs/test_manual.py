@@ -1,7 +1,5 @@
 """The manual: what its pages show is what comes out; every command, public name, key and quantity has its place in it."""
 
-from __future__ import annotations
-
 import re
 import socket
 import sys

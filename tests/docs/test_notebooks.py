@@ -1,7 +1,5 @@
 """Notebooks: nothing of a run is kept in them, and all of them run to their ends, where they check what they have found."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

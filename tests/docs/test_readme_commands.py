@@ -1,7 +1,5 @@
 """Commands of the README and of the overview end well, section by section; the README's Python runs from top to bottom."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from pathlib import Path

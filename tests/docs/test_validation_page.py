@@ -1,7 +1,5 @@
 """The validation page shows what tests know of published values, each once, and nothing that no test knows."""
 
-from __future__ import annotations
-
 import ast
 import json
 from pathlib import Path

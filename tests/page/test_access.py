@@ -1,7 +1,5 @@
 """Who may ask the server of the page, and that texts of a browser are never files, paths or scripts."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Inputs of the page: fields of every kind of spec, text under change, a second design, and the shift diagram."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """What takes long is found in a process beside the server: it is what would be found here, and needs no NiceGUI there."""
 
-from __future__ import annotations
-
 import os
 import sys
 

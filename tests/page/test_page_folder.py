@@ -1,7 +1,5 @@
 """Folder and links of the page: what is found by name, and designs that links hold whole."""
 
-from __future__ import annotations
-
 import base64
 import zlib
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Figures of runs beside each other, and what the browser fetches of them: only what a run has made, under fixed names."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Callable, Iterator
 from io import BytesIO

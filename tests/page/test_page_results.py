@@ -1,7 +1,5 @@
 """Tables of results on the page: the design of a row is the one that the row was made of."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Runs of the page: their processes end as they should, and they make what the command writes, byte by byte."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -12,11 +10,12 @@ from pathlib import Path
 
 import psutil
 import pytest
-from click.testing import CliRunner
+from support.commands import invoke
+from support.specs import FACETED_OR_FLAT, TEMPLATES
 
-from gearcad.cli import main
 from gearcad.core.errors import ParameterError
 from gearcad.designs.reader import read_spec, starter_text
+from gearcad.jobs.draw import SheetFormat
 from gearcad.page.panels.runs import expected_of, figures_beside
 from gearcad.page.run_process import _LARGEST_FILE, RUNS, RunRequest
 from gearcad.page.runs import Run, RunLimits, RunPermits, Runs, RunState, _kill, close_all_runs
@@ -207,7 +206,7 @@ def test_no_file_of_a_run_is_larger_than_permitted() -> None:
     ],
 )
 def test_limits_that_are_none_are_told_before_anything_is_served(option: str, given: str, line: str) -> None:
-    told = CliRunner().invoke(main, ["open", option, given, "--no-browser"])
+    told = invoke("open", option, given, "--no-browser")
     assert (told.exit_code, told.stderr) == (2, f"Error: {line}\n")
 
 
@@ -216,9 +215,6 @@ def test_limits_are_those_of_all_sessions(monkeypatch: pytest.MonkeyPatch) -> No
     runs = Runs()
     runs.close()
     assert (runs.limits.seconds, runs.limits.memory) == (7.0, 3e9)
-
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 
 def test_what_would_not_begin_says_why() -> None:
@@ -258,8 +254,8 @@ COMMANDS = {
     "dynamics": (COMMAND_PAIR, "dynamics"),
     "planetary": (starter_text("planetary-24-21-66")[1], "planetary"),
     "verify": (starter_text("fzg-c")[1], "verify"),
-    **{each: (RATED, f"build --format {each}") for each in ("step", "stl", "3mf", "glb", "dxf", "csv")},
-    **{f"drawing-{each}": (RATED, f"draw --format {each}") for each in ("pdf", "dxf", "svg")},
+    **{each: (RATED, f"build --format {each}") for each in ("step", *FACETED_OR_FLAT)},
+    **{f"drawing-{kind.value}": (RATED, f"draw --format {kind.value}") for kind in SheetFormat},
     "data": (RATED, "data --json"),
 }
 """Of each run of the page the spec and the command that does the same."""
@@ -276,7 +272,7 @@ def test_a_run_makes_what_the_command_writes(kind: str, tmp_path: Path, monkeypa
     spec.write_text(text, encoding="utf-8")
     if verb != "data":
         options += ["-o", str(folder)]
-    told = CliRunner().invoke(main, [verb, str(spec), *options])
+    told = invoke(verb, str(spec), *options)
     assert told.exit_code in (0, 1), told.output
     written = (
         {path.name: path.read_bytes() for path in folder.iterdir()} if folder.exists() else {"data.json": told.stdout_bytes}

@@ -1,7 +1,5 @@
 """Section, bodies and load shares that the page shows: flanks touch where it says."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace

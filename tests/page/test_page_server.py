@@ -1,7 +1,5 @@
 """The server of the page: port, terminal, what tabs hand over, and how it ends."""
 
-from __future__ import annotations
-
 import logging
 import os
 import signal

@@ -1,13 +1,12 @@
 """Data sheet and rating of the page: what `data.json` and `gearcad rate --json` hold, with all digits."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from support.specs import TEMPLATES
 
 from gearcad.core.records import Notice
 from gearcad.designs.design import Design
@@ -33,7 +32,6 @@ from gearcad.rating.options import RatingOptions
 from gearcad.sheet import sheet_of
 from gearcad.sheet.blocks import flattened
 
-TEMPLATES = Path(__file__).parents[2] / "templates"
 ENGLISH, GERMAN = (PageWords.of(each) for each in PageLanguage)
 
 

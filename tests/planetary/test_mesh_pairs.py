@@ -1,7 +1,5 @@
 """The meshes of planetary trains as pairs: designs, specs, loads, and structural checks."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 from dataclasses import replace

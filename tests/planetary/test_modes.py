@@ -1,7 +1,5 @@
 """Natural modes and Campbell data of planetary trains: kinds of any set, closed forms, and what shakes which mode."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Phases of meshes against exact flanks, and which harmonics shake what."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

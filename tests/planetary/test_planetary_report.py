@@ -1,10 +1,7 @@
 """The report of a planetary train holds what its study holds, names what it does not, and needs nothing from elsewhere."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from pathlib import Path
 
 import lxml.etree
 import lxml.html
@@ -12,6 +9,7 @@ import pytest
 from matplotlib.figure import Figure
 from support.planetary import simple_train
 from support.planetary_trains import TRAINS
+from support.specs import TEMPLATES
 
 from gearcad.designs import PlanetaryDesign, read_spec
 from gearcad.dynamics.options import DynamicsOptions
@@ -26,8 +24,6 @@ from gearcad.report.planetary_tables import mesh_table
 from gearcad.stiffness.methods import METHODS
 
 OWN = METHODS[QUICK]
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 NASTY_NAME = 'a <b>"train"</b> & $more$'
 

@@ -1,7 +1,5 @@
 """Speeds and power of planetary trains at their limits, and forces on planets against vectors in space."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

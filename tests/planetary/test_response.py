@@ -1,7 +1,5 @@
 """Vibration of planetary trains: against time integration, at rest, at the least and the greatest speeds, and by symmetry."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 

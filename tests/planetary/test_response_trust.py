@@ -1,13 +1,11 @@
 """What the response of a planetary train says of itself: what it leaves out, what lasts, and that `at` is as its charts."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from support.planetary_trains import MASSES, TRAINS, on_springs
+from support.specs import TEMPLATES
 from support.transient import integrate
 
 import gearcad
@@ -23,7 +21,6 @@ from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim, TrainLoad
 from gearcad.planetary.power import mesh_loads, power_flow
 from gearcad.report.planetary import sections_of_vibration
 
-TEMPLATES = Path(__file__).parents[2] / "templates"
 LOAD = TrainLoad(torque=300.0, speed=1500.0)
 BARE = DynamicsOptions(stiffness="weber-banaschek", speed_to=600.0)
 """A method that knows no rings: the rest of a study is soon there."""

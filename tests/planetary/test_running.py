@@ -1,7 +1,5 @@
 """Running trains against the dense matrix at single instants; torques by the member on which they act."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -9,12 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from support.commands import run
 from support.dense_trains import dense_sharing
 from support.planetary_trains import Square, Trapezoid, alm_train, simple_set
 
 from gearcad import Material, read
-from gearcad.cli import main
 from gearcad.core.errors import GeometryError, ParameterError, SpecError
 from gearcad.core.runtime import templates
 from gearcad.designs import PlanetaryDesign
@@ -250,8 +247,7 @@ def test_commands_tell_the_old_name(tmp_path: Path) -> None:
     text = (templates() / "planetary-24-21-66.toml").read_text(encoding="utf-8")
     for key, told in (("output_torque", False), ("torque", True)):
         path.write_text(text.replace("output_torque = ", f"{key} = "), encoding="utf-8")
-        shown = CliRunner().invoke(main, ["data", str(path)])
-        assert shown.exit_code == 0
+        shown = run("data", str(path))
         assert ("torque is the old name of output_torque" in shown.output) is told
     designs = [row.design() for row in open_table(templates() / "planetary-sets.csv").rows()]
     assert all(isinstance(each, PlanetaryDesign) and each.load and each.load.output_torque for each in designs)

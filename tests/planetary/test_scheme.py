@@ -1,7 +1,5 @@
 """Scheme, front view, lever speeds and poses of a train: gears that mesh lie on each other and do not overlap."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import combinations, pairwise

@@ -1,7 +1,5 @@
 """The search for tooth numbers against plain loops, and planetary sets sized for a task."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path

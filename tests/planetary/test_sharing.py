@@ -1,7 +1,5 @@
 """Load sharing and twist against one dense matrix; springs that can only press against all their active sets."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import combinations
 

@@ -1,7 +1,5 @@
 """Springs of planetary trains and stiffness of their meshes: rigid motions, approach of flanks, contacts cut from flanks."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cache

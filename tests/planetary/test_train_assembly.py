@@ -1,7 +1,5 @@
 """What cannot be put together is refused, with the condition, its numbers and what would do."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

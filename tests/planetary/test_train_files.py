@@ -1,7 +1,5 @@
 """Files of whole trains: scenes that turn as the train does, meshes written once, sections in place, pictures, and a table."""
 
-from __future__ import annotations
-
 import math
 import os
 import re

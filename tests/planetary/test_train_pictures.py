@@ -1,7 +1,5 @@
 """Pictures of what was computed of a train show those numbers, and survive few planets and many."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Solids and masses of whole trains: parts and names after STEP, volumes, annuli in closed form."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Whether planetary trains hold: every mesh by the rating of pairs, with what planets share, and its sheet."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path

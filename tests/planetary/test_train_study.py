@@ -6,12 +6,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 from support.batches import read_results
+from support.commands import read_json, run
 from support.planetary_trains import simple_set
+from support.specs import TEMPLATES
 
 import gearcad
-from gearcad.cli import main
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Notice, joined
 from gearcad.designs import PlanetaryDesign, read_spec
@@ -21,14 +21,6 @@ from gearcad.jobs.planetary import Planetary, Studied
 from gearcad.planetary import TrainLoad
 from gearcad.rating.options import RatingOptions
 from gearcad.stiffness.methods import METHODS
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
-
-
-def run(*arguments: str, status: int = 0) -> Result:
-    result = CliRunner().invoke(main, list(arguments), prog_name="gearcad")
-    assert result.exit_code == status, result.stderr
-    return result
 
 
 def starter(name: str) -> PlanetaryDesign:
@@ -231,7 +223,7 @@ def test_without_a_speed_torques_are_known_and_nothing_is_said_to_stand(tmp_path
     result = run("planetary", str(spec), "-o", str(tmp_path / "out"), "--quiet")
     lines = {line[:22].strip(): line[22:].split() for line in result.stdout.splitlines()}
     assert lines["sun"] == ["-", "54.123", "-", "input"] and "planet" not in lines
-    document = json.loads((tmp_path / "out" / "planetary.json").read_text(encoding="utf-8"))
+    document = read_json(tmp_path / "out" / "planetary.json")
     assert {member["speed"] for member in document["members"].values()} == {None}
     page = (tmp_path / "out" / "planetary.html").read_text(encoding="utf-8")
     assert "Speeds and torques" in page and "Lever of the speeds" not in page
@@ -264,7 +256,7 @@ def test_rows_of_a_table_have_the_figures(tmp_path: Path) -> None:
     assert float(stepped["planetary.ratio"]) == pytest.approx(13.894737, abs=1e-6)
     assert float(plain["planetary.members.carrier.torque"]) == -200.0
     assert float(plain["planetary.meshes.sun-planet.transverse_contact_ratio"]) > 1.2
-    document = json.loads((tmp_path / "out" / plain["name"] / "planetary.json").read_text(encoding="utf-8"))
+    document = read_json(tmp_path / "out" / plain["name"] / "planetary.json")
     assert float(plain["planetary.torsional_stiffness"]) == document["torsional_stiffness"]["stiffness"]
     with (tmp_path / "out" / "columns.csv").open(encoding="utf-8", newline="") as file:
         told = {row["column"]: (row["symbol"], row["unit"], row["of"]) for row in csv.DictReader(file)}

@@ -1,7 +1,5 @@
 """Whatever a spec holds, a command answers with a status and one line; every default is marked as assumed."""
 
-from __future__ import annotations
-
 import copy
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """What is said of "isolated" is true of random drives: by K_v of full matrices, and by what comes of taking a part away."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass, replace
 from random import Random

@@ -1,7 +1,5 @@
 """Ratings of random pairs against a rating written apart, as arrays of variants, and by the laws of safeties."""
 
-from __future__ import annotations
-
 import random
 from dataclasses import dataclass, replace
 from pathlib import Path

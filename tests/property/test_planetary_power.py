@@ -1,7 +1,5 @@
 """Random planetary sets: speeds and torques in balance; what is admitted stands in mesh without overlap."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass

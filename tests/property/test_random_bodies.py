@@ -1,7 +1,5 @@
 """Bodies and solids of any gear: good hexahedra and tetrahedra, orders of elimination, valid closed solids."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Any inputs make either a sane tooth, ring or shaped gear, or an error that names its parameter."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import fields, replace
@@ -11,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
-from support.envelope import Cutter, half_space_angle
+from support.rings import Cutter, half_space_angle
 from support.strategies import HELIX, MODULE, PRESSURE_ANGLE, SHIFT, build_gear, gear_inputs, names_a_field
 
 from gearcad import BasicRack, Body, Gear

@@ -1,7 +1,5 @@
 """Exact profiles of pairs, racks and rings in mesh: no overlap, and contact exactly where the backlash says."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable

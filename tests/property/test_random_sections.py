@@ -1,7 +1,5 @@
 """Sections of any gear, modified or not, are filled by good elements on the exact outline, with named sides."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Random gears, racks and pairs: shift diagrams, specific sliding, and data against what tools would cut and measure."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path
@@ -9,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from hypothesis import event, given, settings
+from support.commands import invoke
 from support.ring_pairs import build_ring_pair, ring_pair_inputs
 from support.samples import random_ring
 from support.strategies import (
@@ -25,7 +23,6 @@ from support.strategies import (
 )
 
 from gearcad import BasicRack, GearPair, Load, Material, Rack, RackPair, plots
-from gearcad.cli import main
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError
 from gearcad.core.records import Role
 from gearcad.designs.reader import design_from_tables
@@ -247,9 +244,9 @@ def test_a_contact_that_begins_at_the_base_circle_slides_without_limit() -> None
 
 def test_the_data_sheet_has_it(tmp_path: Path) -> None:
     spec = str(tmp_path / "reducer.toml")
-    CliRunner().invoke(main, ["new", "reducer", "-o", spec])
-    shown = CliRunner().invoke(main, ["data", spec]).stdout
-    told = json.loads(CliRunner().invoke(main, ["data", spec, "--json"]).stdout)["pair"]["specific_sliding"]
+    invoke("new", "reducer", "-o", spec)
+    shown = invoke("data", spec).stdout
+    told = json.loads(invoke("data", spec, "--json").stdout)["pair"]["specific_sliding"]
     assert "specific sliding at A, pinion" in shown and "ζ_A1" in shown
     assert told["greatest"] == max(abs(value) for key, value in told.items() if key != "greatest")
 

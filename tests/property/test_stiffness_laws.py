@@ -1,7 +1,5 @@
 """What every mesh stiffness must obey, whatever the pair: scaling, exchange of the gears, sums, and limits."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """What every train must obey: counts, limits, scaling, names and order, sums of energies; and what is refused."""
 
-from __future__ import annotations
-
 import math
 import pickle
 import warnings

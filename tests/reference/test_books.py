@@ -1,7 +1,5 @@
 """Printed examples (KHK / SDP-SI, FZG type C, ...), and `identify` on published gears."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """CalculiX (Debian: calculix-ccx) reads our meshes and decks, and confirms contact and root stress of plane and solid pairs."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from dataclasses import asdict, replace
@@ -15,8 +13,8 @@ from support.boxes import box
 from support.brute import stiffness_matrix
 from support.calculix import needs_ccx, run_ccx
 from support.published import Published
+from support.specs import TEMPLATES
 
-import gearcad
 from gearcad import Body, Gear, GearPair, Load
 from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
@@ -139,8 +137,6 @@ def _solved(mesh: ElementMesh, elasticity: PlaneElasticity, force: float) -> np.
     moved[free] = spsolve(stiffness_matrix(sector, elasticity)[free][:, free].tocsc(), loads.ravel()[free])
     return moved.reshape(-1, 2)
 
-
-TEMPLATES = Path(gearcad.__file__).parents[1] / "templates"
 
 # In %. Geometry is that of the turned and bent gears in CalculiX's contact, ours is linear: that is worth 0.2 % of root stress.
 ERROR, SHARE, ROOT, PAIR_PRESSURE = 0.2, 0.2, 0.5, 2.0

@@ -1,7 +1,5 @@
 """The structural check against trials of another program, laws of similarity, and ISO 6336 with its load factors."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Tables behind sheets, whole columns of them, and keyways of DIN 6885-1, against what is printed elsewhere."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 

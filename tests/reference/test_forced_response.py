@@ -1,9 +1,6 @@
 """Forced vibration in J. Osinski's paper: resonance charts, displacements, and when the isolated pair is enough."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,6 +19,7 @@ from support.responses import (
     preloaded,
     two_stages,
 )
+from support.specs import TEMPLATES
 from support.trains import SHORT, one_stage
 
 from gearcad.core.runtime import templates
@@ -215,8 +213,6 @@ def test_figure_8_approach_of_the_first_of_two_stages(phase: float) -> None:
     chart = kv_chart(periodic_response(two_stages(), excitation, [9971.0, 16559.0, 24976.0]))
     assert chart.displacements.approaches[:, 0] == pytest.approx(HALF_RANGES[phase], rel=THREE_DIGITS)
 
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 FOUR = (TrainModel.ISOLATED, TrainModel.MASSLESS, TrainModel.MODES, TrainModel.EXACT)
 

@@ -1,7 +1,5 @@
 """Load sharing, running and torsional stiffness of planetary trains against closed forms and the Alm thesis."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cache

@@ -1,7 +1,5 @@
 """Pair models of J. Uhlir's thesis (CTU in Prague), and gears that travel as well as turn, against Newton's equations."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Speeds, torques, efficiencies and forces of planetary sets of all types, and of the train of the Alm thesis."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

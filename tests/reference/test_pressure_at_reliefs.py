@@ -1,7 +1,5 @@
 """Pressure where linear reliefs start, and meshes of sectors solved by scikit-fem."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cache

@@ -1,7 +1,5 @@
 """Ratings, permissible stresses and safeties against values that standards, reports and public programs print."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

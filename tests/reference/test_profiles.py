@@ -1,7 +1,5 @@
 """Tooth profiles and trochoids of the theses' gears, point by point."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

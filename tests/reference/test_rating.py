@@ -1,7 +1,5 @@
 """Ratings of pairs and rings against values worked out from the standards' formulas elsewhere."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Pairs with a ring, and roots cut by a pinion-type shaper cutter: closed forms, KHK's example, brute force."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace
@@ -12,8 +10,8 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 from support.cases import half_unit
-from support.envelope import Cutter, half_space_angle
 from support.published import Published
+from support.rings import Cutter, half_space_angle
 
 from gearcad import BasicRack, Gear, GearPair
 from gearcad.core.records import Role

@@ -1,7 +1,5 @@
 """Sizing tasks of textbooks and tutorials: what they propose, and pairs that are as safe and no heavier."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

@@ -1,23 +1,18 @@
 """Solid pairs in mesh against the plane model, Hertz's ellipse, equilibrium, and the Chalmers/Volvo pair 13/44."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.gap import hertz_ellipse
+from support.checks import check_between_plane_states, check_ellipse, check_mirrored, check_reactions, load_tilt
 from threadpoolctl import threadpool_limits
 
 from gearcad import FlankModification, Gear, GearPair, Material, Mounting
-from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.pair import plane_pair
-from gearcad.contact.plane.sector import Plane
 from gearcad.contact.shared.bodies import BodyModel, Cuts
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
-from gearcad.core.records import PerGear, Role
+from gearcad.core.records import PerGear
 from gearcad.designs import read_spec
 from gearcad.designs.reader import starter_text
 from gearcad.meshing.outline import MeshSizes
@@ -58,27 +53,13 @@ def helical() -> SolidPair:
 
 def test_spur_gear_lies_between_the_plane_states(spur: SolidPair) -> None:
     """Thin gears are in plane stress, wide ones in plane strain. Root stress is the same in both, but varies over the face."""
-    solid = SolidCycle.run(spur, FZG_TORQUE, POSITIONS)
-    stress, strain = (
-        PlaneCycle.run(plane_pair(FZG, STEEL, body=SECTORS, plane=plane), FZG_TORQUE, POSITIONS)
-        for plane in (Plane.STRESS, Plane.STRAIN)
-    )
-    soft, stiff = (cycle.values("stiffness").mean() for cycle in (stress, strain))
-    assert soft < solid.values("stiffness").mean() < stiff
-    for role in Role:
-        plane = max(position.tension.pick(role).stress for position in strain.positions)
-        heights, along = solid.root_along_face(role)
-        across = np.linspace(0, 20, 401)
-        assert np.interp(across, heights, along).mean() == pytest.approx(plane, rel=0.04)
-        assert along.max() == pytest.approx(plane, rel=0.12)
+    check_between_plane_states(spur, FZG_TORQUE, SECTORS, POSITIONS)
 
 
 def test_reactions_are_the_torques(spur: SolidPair, helical: SolidPair) -> None:
     """On both hubs at every position: 0.5 % is asked."""
     for model, torque in ((spur, FZG_TORQUE), (helical, HELICAL_TORQUE)):
-        ratio = model.pair.wheel.teeth / model.pair.pinion.teeth
-        for position in SolidCycle.run(model, torque, POSITIONS).positions:
-            assert position.torques == pytest.approx((torque, torque * ratio), rel=0.003)
+        check_reactions(model, torque, POSITIONS)
 
 
 def test_small_helix_angles_are_continuous(spur: SolidPair) -> None:
@@ -102,13 +83,7 @@ def test_hand_does_not_matter(helical: SolidPair) -> None:
         wheel=replace(HELICAL.wheel, helix_angle=18.0),
         axial_offset=-1.0,
     )
-    mirrored = solid_pair(pair, STEEL, body=SECTORS, sizes=QUICK)
-    one, other = (SolidCycle.run(model, HELICAL_TORQUE, 3) for model in (helical, mirrored))
-    for name in ("stiffness", "transmission_error", "approach_parts", "torques"):
-        assert other.values(name) == pytest.approx(one.values(name), rel=1e-6)
-    assert other.load_along_face[1] == pytest.approx(one.load_along_face[1][::-1], rel=1e-4)
-    for role in Role:
-        assert other.root_along_face(role)[1] == pytest.approx(one.root_along_face(role)[1][::-1], rel=1e-5)
+    check_mirrored(helical, solid_pair(pair, STEEL, body=SECTORS, sizes=QUICK), HELICAL_TORQUE)
 
 
 def test_driver_and_wheel_may_be_exchanged(helical: SolidPair) -> None:
@@ -126,17 +101,11 @@ def test_driver_and_wheel_may_be_exchanged(helical: SolidPair) -> None:
 
 def test_crowned_flanks_touch_in_hertzs_ellipse(spur: SolidPair) -> None:
     """One pair at the pitch point, its ellipse well inside the face: 2 % is asked."""
+    path = FZG.path_of_contact
+    whole = math.sqrt(FZG.centre_distance**2 - ((FZG.pinion.base_diameter + FZG.wheel.base_diameter) / 2) ** 2)
     for amount in (60.0, 150.0):
         crowned = replace(FZG, pinion=replace(FZG.pinion, modification=FlankModification(lead_crowning=amount)))
-        solved = spur.remade(crowned, Mounting()).solve(0.0, FZG_TORQUE, single=True)
-        along = 20.0**2 / (8 * amount / 1000)
-        path = FZG.path_of_contact
-        whole = math.sqrt(FZG.centre_distance**2 - ((FZG.pinion.base_diameter + FZG.wheel.base_diameter) / 2) ** 2)
-        across = path.C * (whole - path.C) / whole
-        modulus = STEEL.youngs_modulus / (1 - STEEL.poisson_ratio**2) / 2
-        pressure, _, lesser = hertz_ellipse(float(solved.forces.sum()), across, along, modulus)
-        assert solved.pressures.max() == pytest.approx(pressure, rel=0.02)
-        assert solved.half_widths.max() == pytest.approx(lesser, rel=0.02)
+        check_ellipse(spur.remade(crowned, Mounting()), FZG_TORQUE, path.C * (whole - path.C) / whole, amount)
 
 
 def test_misalignment_moves_the_load_and_the_helix_brings_it_back(helical: SolidPair) -> None:
@@ -146,20 +115,14 @@ def test_misalignment_moves_the_load_and_the_helix_brings_it_back(helical: Solid
     section, which a helix angle modification of the pinion over its own width must give. What stays is that the turned axis
     also moves the wheel along itself, which parts the lines of contact.
     """
-
-    def tilt(model: SolidPair) -> float:
-        """How much more is carried at large z, over all."""
-        across, load = SolidCycle.run(model, HELICAL_TORQUE, 4).load_along_face
-        return float((load * np.sign(across)).sum() / load.sum())
-
     mounting = Mounting(misalignment=30.0)
-    even, askew = tilt(helical), tilt(helical.remade(HELICAL, mounting))
+    even, askew = load_tilt(helical, HELICAL_TORQUE), load_tilt(helical.remade(HELICAL, mounting), HELICAL_TORQUE)
     assert askew < even - 0.2
     pinion, flat = HELICAL.pinion, math.cos(math.radians(HELICAL.pinion.base_helix_angle))
     needed = mounting.misalignment / HELICAL.common_width.width * pinion.face_width / flat**2
     turned = replace(pinion, modification=FlankModification(helix_angle_modification=needed))
     assert np.diff(turned.flank_form.depth(10.0, np.array([0.0, 22.0])))[0] == pytest.approx(-needed / 1000)
-    back = tilt(helical.remade(replace(HELICAL, pinion=turned), mounting))
+    back = load_tilt(helical.remade(replace(HELICAL, pinion=turned), mounting), HELICAL_TORQUE)
     assert abs(back - even) < 0.2 * abs(askew - even)
 
 

@@ -1,19 +1,16 @@
 """Solid pairs with a ring against the plane model, Hertz's ellipse and equilibrium; a ring meshed whole as a witness."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.checks import check_between_plane_states, check_ellipse, check_mirrored, check_reactions, load_tilt
 from support.dense_contact import dense_contact
-from support.gap import hertz_ellipse
 
 from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import PlanePair, plane_pair
-from gearcad.contact.plane.sector import Plane
 from gearcad.contact.shared.bodies import BodyModel, Cuts
 from gearcad.contact.solid.cycle import SolidCycle, solid_field
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
@@ -63,19 +60,7 @@ def helical() -> SolidPair:
 
 def test_spur_gear_lies_between_the_plane_states(spur: SolidPair) -> None:
     """As external ones do: thin gears are in plane stress, wide ones in plane strain. Mean root stresses differed by 1 %."""
-    solid = SolidCycle.run(spur, SPUR_TORQUE, POSITIONS)
-    stress, strain = (
-        PlaneCycle.run(plane_pair(SPUR, STEEL, body=FIVE, plane=plane), SPUR_TORQUE, POSITIONS)
-        for plane in (Plane.STRESS, Plane.STRAIN)
-    )
-    soft, stiff = (cycle.values("stiffness").mean() for cycle in (stress, strain))
-    assert soft < solid.values("stiffness").mean() < stiff
-    for role in Role:
-        plane = max(position.tension.pick(role).stress for position in strain.positions)
-        heights, along = solid.root_along_face(role)
-        across = np.linspace(0, 20, 401)
-        assert np.interp(across, heights, along).mean() == pytest.approx(plane, rel=0.04)
-        assert along.max() == pytest.approx(plane, rel=0.12)
+    check_between_plane_states(spur, SPUR_TORQUE, FIVE, POSITIONS)
 
 
 def test_reactions_are_the_torques(spur: SolidPair, helical: SolidPair) -> None:
@@ -83,9 +68,7 @@ def test_reactions_are_the_torques(spur: SolidPair, helical: SolidPair) -> None:
     rim = Body(rim_diameter=SPUR.wheel.profile.root_diameter + 2.0)
     thin = solid_pair(replace(SPUR, wheel=replace(SPUR.wheel, body=rim)), STEEL, body=SECTORS, sizes=QUICK)
     for model, torque in ((spur, SPUR_TORQUE), (helical, HELICAL_TORQUE), (thin, SPUR_TORQUE)):
-        ratio = -model.pair.wheel.teeth / model.pair.pinion.teeth
-        for position in SolidCycle.run(model, torque, POSITIONS).positions:
-            assert position.torques == pytest.approx((torque, torque * ratio), rel=0.003)
+        check_reactions(model, torque, POSITIONS)
 
 
 ASYMMETRY, BESIDE = 0.07, 0.003
@@ -107,13 +90,7 @@ def test_hand_does_not_matter(helical: SolidPair) -> None:
     """The mirror image in a plane across the axes has the same figures to rounding."""
     pinion, wheel = (replace(gear, helix_angle=-18.0) for gear in HELICAL.gears)
     other_hand = replace(HELICAL, pinion=pinion, wheel=wheel, axial_offset=-1.0)
-    mirrored = solid_pair(other_hand, STEEL, body=SECTORS, sizes=QUICK)
-    one, other = (SolidCycle.run(model, HELICAL_TORQUE, 3) for model in (helical, mirrored))
-    for name in ("stiffness", "transmission_error", "approach_parts", "torques"):
-        assert other.values(name) == pytest.approx(one.values(name), rel=1e-6)
-    assert other.load_along_face[1] == pytest.approx(one.load_along_face[1][::-1], rel=1e-4)
-    for role in Role:
-        assert other.root_along_face(role)[1] == pytest.approx(one.root_along_face(role)[1][::-1], rel=1e-5)
+    check_mirrored(helical, solid_pair(other_hand, STEEL, body=SECTORS, sizes=QUICK), HELICAL_TORQUE)
 
 
 def test_one_base_pitch_is_like_the_next(helical: SolidPair) -> None:
@@ -152,14 +129,9 @@ def test_crowned_flanks_touch_in_hertzs_ellipse(spur: SolidPair) -> None:
         for diameter in SPUR.working_pitch_diameters
     )
     across = first * second / (second - first)
-    modulus = STEEL.youngs_modulus / (1 - STEEL.poisson_ratio**2) / 2
     for amount in (60.0, 100.0):
         crowned = replace(SPUR, wheel=replace(SPUR.wheel, modification=FlankModification(lead_crowning=amount)))
-        solved = spur.remade(crowned, Mounting()).solve(0.0, SPUR_TORQUE / 3, single=True)
-        along = 20.0**2 / (8 * amount / 1000)
-        pressure, _, lesser = hertz_ellipse(float(solved.forces.sum()), across, along, modulus)
-        assert solved.pressures.max() == pytest.approx(pressure, rel=0.02)
-        assert solved.half_widths.max() == pytest.approx(lesser, rel=0.02)
+        check_ellipse(spur.remade(crowned, Mounting()), SPUR_TORQUE / 3, across, amount)
 
 
 def test_an_even_load_has_hertzs_pressure(spur: SolidPair) -> None:
@@ -176,22 +148,17 @@ def test_an_even_load_has_hertzs_pressure(spur: SolidPair) -> None:
 def test_misalignment_moves_the_load_and_the_rings_helix_brings_it_back(helical: SolidPair) -> None:
     """As in `test_solid_pair`; of a ring it is the other flank that carries, so its helix has to turn the other way."""
 
-    def tilt(model: SolidPair) -> float:
-        """How much more is carried at large z, over all."""
-        across, load = SolidCycle.run(model, HELICAL_TORQUE, 4).load_along_face
-        return float((load * np.sign(across)).sum() / load.sum())
-
     def with_helix(amount: float) -> SolidPair:
         turned = replace(HELICAL.wheel, modification=FlankModification(helix_angle_modification=amount))
         return helical.remade(replace(HELICAL, wheel=turned), mounting)
 
     mounting = Mounting(misalignment=30.0)
-    even, askew = tilt(helical), tilt(helical.remade(HELICAL, mounting))
+    even, askew = load_tilt(helical, HELICAL_TORQUE), load_tilt(helical.remade(HELICAL, mounting), HELICAL_TORQUE)
     assert askew < even - 0.2
     flat = math.cos(math.radians(HELICAL.pinion.base_helix_angle))
     needed = mounting.misalignment / HELICAL.common_width.width * HELICAL.wheel.face_width / flat**2
-    assert abs(tilt(with_helix(-needed)) - even) < 0.2 * abs(askew - even)
-    assert tilt(with_helix(needed)) < askew - 0.1
+    assert abs(load_tilt(with_helix(-needed), HELICAL_TORQUE) - even) < 0.2 * abs(askew - even)
+    assert load_tilt(with_helix(needed), HELICAL_TORQUE) < askew - 0.1
 
 
 def test_the_field_of_a_ring_is_that_of_the_ring_as_it_stands(helical: SolidPair) -> None:

@@ -1,7 +1,5 @@
 """Mesh stiffness in closed form against independent values, and against the two programs printed in the Alm thesis."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

@@ -20,8 +20,6 @@ numbers alone: with both gears 10 mm wide, held 0.5 and 2 m_n below the root cir
 plane strain is 7.8 % above plane stress, where the thesis has 8.9 %. With both 15 mm wide, all is 22 to 25 % too stiff.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

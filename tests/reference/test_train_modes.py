@@ -1,7 +1,5 @@
 """Natural frequencies and modes of trains against Osinski's paper, and of planetary trains against Lin and Parker's."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The helical pair 13/44 of the Chalmers/Volvo thesis (2017), and ratings as two theses print them."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

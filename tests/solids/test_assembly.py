@@ -1,7 +1,5 @@
 """Two gears posed in mesh: parts, places, no overlap, and contact after a turn by the backlash."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """DXF contours and CSV points: on the exact profile and dense, read back by others."""
 
-from __future__ import annotations
-
 import csv
 import math
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Solids and triangles of double helical gears against the exact halves."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any
@@ -11,10 +9,10 @@ import numpy as np
 import pytest
 import trimesh
 from OCP.BRepAdaptor import BRepAdaptor_Surface
-from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.GeomAbs import GeomAbs_BSplineSurface
 from scipy.spatial import cKDTree
 from support.clearance import chamfered_volume, distance_to_section, toothed_volume
+from support.solids import valid_and_closed
 
 from gearcad import BasicRack, Body, FlankModification, Gear
 from gearcad.geometry.gear import halves
@@ -63,10 +61,6 @@ def _points(solid: cadquery.Shape, low: float, high: float, most: int = 60) -> n
     return np.array(found[: most * 49] if most else found)
 
 
-def _valid(shape: cadquery.Shape) -> bool:
-    return BRepCheck_Analyzer(shape.wrapped).IsValid() and all(shell.wrapped.Closed() for shell in shape.Shells())
-
-
 _LONG = ("gap", "full radius", "apex", "many teeth")
 """What is on them is on the others too."""
 
@@ -78,7 +72,7 @@ def test_flanks_volume_and_validity_before_and_after_step(name: str, tmp_path: P
     write_step(solid, tmp_path / "gear.step", name="gear")
     again = cadquery.importers.importStep(str(tmp_path / "gear.step")).val()
     assert len(again.Solids()) == 1
-    assert _valid(again)
+    assert valid_and_closed(again)
     assert again.Volume() == pytest.approx(_volume(gear), rel=1e-7)
     assert again.Center().z == pytest.approx(gear.face_width / 2, abs=1e-6)  # halves weigh the same
     for half in halves(gear):
@@ -100,7 +94,7 @@ def test_modified_halves_are_mirror_images(gap: float) -> None:
     )
     gear = _gear({"teeth": 24, "helix_angle": 22.0, "body": _HUB}, DoubleHelix(gap_width=gap), modification=modification)
     solid = gear_solid(gear)
-    assert _valid(solid)
+    assert valid_and_closed(solid)
     lower = _points(solid, 0.0, gear.half_width)
     upper = [tuple(point) for point in np.round(_points(solid, 50 - gear.half_width, 50.0, most=0), 6)]
     mirrored = np.round(lower * [1, 1, -1] + [0, 0, 50], 6) + 0.0

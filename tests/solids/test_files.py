@@ -1,7 +1,5 @@
 """Files that anyone can read anywhere: names in every script, equal bytes; STL and GLB beside trimesh's own."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """The built B-rep against the exact surface, before and after STEP; volume, mass and second moments of boundaries."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess
@@ -14,9 +12,9 @@ import cadquery
 import numpy as np
 import pytest
 from OCP.BRepAdaptor import BRepAdaptor_Surface
-from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.GeomAbs import GeomAbs_BSplineSurface
 from support.clearance import distance_to_section, solid_volume
+from support.solids import reopened, valid_and_closed
 
 from gearcad import BasicRack, Body, FlankModification, Gear, Rack
 from gearcad.geometry import DoubleHelix
@@ -64,10 +62,6 @@ GEARS = {
 }  # fmt: skip
 
 
-def _valid_and_closed(shape: cadquery.Shape) -> bool:
-    return BRepCheck_Analyzer(shape.wrapped).IsValid() and all(shell.wrapped.Closed() for shell in shape.Shells())
-
-
 def _flank_points(solid: cadquery.Shape, width: float, most: int = 40, grid: int = 11) -> np.ndarray:
     """Points (n, 3) inside the B-spline faces (flanks, fillets, chamfers), from the first and last of them."""
     faces = [BRepAdaptor_Surface(face.wrapped) for face in solid.Faces()]
@@ -85,13 +79,10 @@ _LONG = ("alm 161", "z 300", "volvo wheel", "z 8 undercut", "twist 180", "m 20")
 def test_flanks_volume_and_validity_before_and_after_step(name: str, tmp_path: Path) -> None:
     gear = Gear(**GEARS[name])
     solid = gear_solid(gear)
-    path = tmp_path / "gear.step"
-    write_step(solid, path, name="gear")
-    again = cadquery.importers.importStep(str(path)).val()
-    assert len(again.Solids()) == 1
+    again = reopened(solid, tmp_path / "gear.step")
     volume = solid_volume(gear)
     for shape in (solid, again):
-        assert _valid_and_closed(shape)
+        assert valid_and_closed(shape)
         assert shape.Volume() == pytest.approx(volume, rel=VOLUME_TOLERANCE)
     assert distance_to_section(gear, _flank_points(solid, gear.face_width)).max() < FITTED < FLANK_TOLERANCE
 
@@ -104,7 +95,7 @@ def test_bore_keyway_and_hub(helix: float, side: str) -> None:
     solid = gear_solid(gear)
     hubs = 2 if side == "both" else 1
     expected = solid_volume(gear)
-    assert _valid_and_closed(solid)
+    assert valid_and_closed(solid)
     assert solid.Volume() == pytest.approx(expected, rel=VOLUME_TOLERANCE)
     box = solid.BoundingBox()
     assert box.zmin == pytest.approx(0 if side == "front" else -4, abs=1e-5)
@@ -138,10 +129,8 @@ def test_end_chamfer(name: str, helix: float, tmp_path: Path) -> None:
         bare = Gear(**plain)
         length = (bare.tip_diameter - bare.form_diameter) / 2
     gear = Gear(**plain, body=Body(bore=12, end_chamfer=length, end_chamfer_angle=angle, tip_chamfer=tip))
-    path = tmp_path / "gear.step"
-    write_step(gear_solid(gear), path, name="gear")
-    again = cadquery.importers.importStep(str(path)).val()
-    assert _valid_and_closed(again)
+    again = reopened(gear_solid(gear), tmp_path / "gear.step")
+    assert valid_and_closed(again)
     assert again.Volume() == pytest.approx(solid_volume(gear), rel=VOLUME_TOLERANCE)
 
 

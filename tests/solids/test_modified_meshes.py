@@ -1,7 +1,5 @@
 """Triangles, contour and points of gears with modified flanks (identity and reference)."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import pairwise
@@ -13,6 +11,7 @@ import trimesh
 from support.clearance import distance_to_section
 from support.modified import depth_off, removed_volume, unturned
 from support.samples import AMOUNTS, GEARS, crossed, modified, random_gear
+from support.solids import check_stl
 
 from gearcad import BasicRack, Gear
 from gearcad.geometry.modification import FlankModification
@@ -125,12 +124,7 @@ def test_fillets_without_a_root_land_stay_closed(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", GEARS)
 def test_stl_is_closed_when_read_again(name: str, tmp_path: Path) -> None:
-    facets = tessellate(modified(GEARS[name]))
-    write_stl(facets, tmp_path / "gear.stl")
-    mesh = trimesh.load(tmp_path / "gear.stl")
-    assert mesh.is_watertight
-    assert mesh.is_winding_consistent
-    assert len(mesh.faces) == len(facets.faces)
+    check_stl(tessellate(modified(GEARS[name])), tmp_path / "gear.stl")
 
 
 def test_idle_lengths_leave_the_mesh_as_it_was() -> None:

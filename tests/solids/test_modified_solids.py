@@ -1,7 +1,5 @@
 """The B-rep of gears and rings with modified flanks, measured before and after STEP against formulas."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +8,6 @@ import cadquery
 import numpy as np
 import pytest
 from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
-from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepClass import BRepClass_FaceClassifier
 from OCP.GeomAbs import GeomAbs_BSplineSurface, GeomAbs_Cylinder
 from OCP.gp import gp_Pnt2d
@@ -19,6 +16,7 @@ from support.clearance import distance_to_section
 from support.modified import depth_off, folded, removed_volume, specified, unturned
 from support.rings import RingSection
 from support.samples import AMOUNTS, GEARS, crossed, modified, random_gear
+from support.solids import reopened, valid_and_closed
 
 from gearcad import BasicRack, Body, Gear, GeometryError
 from gearcad.geometry import ShaperCutter
@@ -63,17 +61,6 @@ def _on_involute(gear: Gear, points: np.ndarray) -> np.ndarray:
     return points[(radius > gear.form_diameter / 2 + EDGE) & (radius < gear.tip_form_diameter / 2 - EDGE)]
 
 
-def _valid_and_closed(shape: cadquery.Shape) -> bool:
-    return BRepCheck_Analyzer(shape.wrapped).IsValid() and all(shell.wrapped.Closed() for shell in shape.Shells())
-
-
-def _again(solid: cadquery.Shape, path: Path) -> cadquery.Shape:
-    write_step(solid, path, name="gear")
-    again = cadquery.importers.importStep(str(path)).val()
-    assert len(again.Solids()) == 1
-    return again
-
-
 def _measure(gear: Gear, shape: cadquery.Shape) -> None:
     """Flanks, fillets and chamfers lie where they are specified, inside of faces and on edges."""
     faces = _sides(shape)
@@ -91,7 +78,7 @@ def _measure(gear: Gear, shape: cadquery.Shape) -> None:
 def test_each_modification_is_measured_on_the_solid(name: str, amount: str) -> None:
     gear = modified(GEARS[name], amount)
     solid = gear_solid(gear)
-    assert _valid_and_closed(solid)
+    assert valid_and_closed(solid)
     _measure(gear, solid)
 
 
@@ -104,9 +91,9 @@ _LIKE_OTHERS = ("spur", "right hand", "chamfered", "chamfered, spur")
 def test_all_modifications_after_step(name: str, shape: str, tmp_path: Path) -> None:
     gear = modified(GEARS[name], tip_relief_shape=shape, root_relief_shape=shape, end_relief_shape=shape)
     solid = gear_solid(gear)
-    assert _valid_and_closed(solid)
-    again = _again(solid, tmp_path / "gear.step")
-    assert _valid_and_closed(again)
+    assert valid_and_closed(solid)
+    again = reopened(solid, tmp_path / "gear.step")
+    assert valid_and_closed(again)
     _measure(gear, again)
 
 
@@ -128,8 +115,8 @@ def test_an_end_relief_that_begins_inside_on_or_beyond_the_cone(name: str, share
     plain = GEARS[name]
     gear = modified(plain, end_relief_length=min(share * plain.body.end_chamfer, plain.face_width / 2))
     solid = gear_solid(gear)
-    again = _again(solid, tmp_path / "gear.step")
-    assert _valid_and_closed(again)
+    again = reopened(solid, tmp_path / "gear.step")
+    assert valid_and_closed(again)
     _measure(gear, again)
     removed = gear_solid(plain).Volume() - solid.Volume()
     assert removed == pytest.approx(removed_volume(gear), abs=VOLUME_TOLERANCE * solid.Volume())
@@ -143,7 +130,7 @@ def test_reliefs_that_meet_in_one_line() -> None:
     lengths |= {"tip_relief_transition": 0.0, "root_relief_transition": 0.0}
     gear = modified(plain, "tip_relief", "root_relief", "end_relief", **lengths)
     solid = gear_solid(gear)
-    assert _valid_and_closed(solid)
+    assert valid_and_closed(solid)
     _measure(gear, solid)
     more = len(solid.Faces()) - len(gear_solid(plain).Faces())
     assert more == plain.teeth * (2 * 3 * 2 - 2 * 2)  # fillet and two parts of the flank, in two halves, for fillet and flank
@@ -159,8 +146,8 @@ def test_reliefs_that_all_but_meet(gap: float, tmp_path: Path) -> None:
     lengths = {"tip_relief_length": flank / 2, "root_relief_length": flank / 2 - gap}
     gear = modified(plain, **lengths, end_relief_length=plain.face_width / 2 - gap)
     solid = gear_solid(gear)
-    for made in (solid, _again(solid, tmp_path / "gear.step")):
-        assert _valid_and_closed(made)
+    for made in (solid, reopened(solid, tmp_path / "gear.step")):
+        assert valid_and_closed(made)
     _measure(gear, solid)
 
 
@@ -186,7 +173,7 @@ def test_fillets_without_a_root_land_go_on_meeting() -> None:
     plain = replace(GEARS["right hand"], rack=BasicRack(root_radius="full"))
     gear = modified(plain)
     solid = gear_solid(gear)
-    assert _valid_and_closed(solid)
+    assert valid_and_closed(solid)
     points = _edge_points(_sides(solid, 150))
     root = points[np.abs(np.hypot(*points[:, :2].T) - gear.root_diameter / 2) < EDGE]
     assert len(root) > 100
@@ -209,15 +196,15 @@ def test_two_turns_of_twist_are_parted() -> None:
     width = 7.9 * math.pi * 10 / math.tan(math.radians(30)) / math.cos(math.radians(30)) / 2
     gear = modified(Gear(teeth=10, normal_module=2.0, face_width=width, helix_angle=30, profile_shift=0.3))
     solid = gear_solid(gear)
-    assert _valid_and_closed(solid)
+    assert valid_and_closed(solid)
     _measure(gear, solid)
 
 
 def _check_random(seed: int, path: Path) -> None:
     gear = random_gear(seed)
     solid = gear_solid(gear)
-    for made in (solid, _again(solid, path)):
-        assert _valid_and_closed(made), gear
+    for made in (solid, reopened(solid, path)):
+        assert valid_and_closed(made), gear
     _measure(gear, solid)
     removed = gear_solid(replace(gear, modification=FlankModification())).Volume() - solid.Volume()
     assert removed == pytest.approx(removed_volume(gear), abs=VOLUME_TOLERANCE * solid.Volume()), gear
@@ -245,13 +232,6 @@ RINGS = {
     "chamfered": Gear(**_PLAIN | {"helix_angle": 25.0, "body": replace(_RIM, end_chamfer=1.2, tip_chamfer=0.3)}),
     "chamfered beyond the root": Gear(**_PLAIN | {"helix_angle": -17.0, "body": replace(_RIM, end_chamfer=5.2)}),
 }  # fmt: skip
-
-
-def _ring_again(solid: cadquery.Shape, path: Path) -> cadquery.Shape:
-    write_step(solid, path, name="ring")
-    again = cadquery.importers.importStep(str(path)).val()
-    assert len(again.Solids()) == 1
-    return again
 
 
 def _ring_points(shape: cadquery.Shape, most: int = 48, grid: int = 5) -> np.ndarray:
@@ -288,8 +268,8 @@ _LONG = ("spur, form root", "right hand, shaped", "chamfered", "chamfered beyond
 def test_all_modifications_before_and_after_step(name: str, tmp_path: Path) -> None:
     gear = modified(RINGS[name])
     solid = gear_solid(gear)
-    for made in (solid, _ring_again(solid, tmp_path / "ring.step")):
-        assert _valid_and_closed(made)
+    for made in (solid, reopened(solid, tmp_path / "ring.step")):
+        assert valid_and_closed(made)
     _ring_measure(gear, solid)
     removed = gear_solid(RINGS[name]).Volume() - solid.Volume()
     assert removed == pytest.approx(removed_volume(gear), abs=VOLUME_TOLERANCE * solid.Volume())
@@ -308,7 +288,7 @@ def _crossed() -> list[object]:
 def test_ring_each_modification_is_measured_on_the_solid(name: str, amount: str) -> None:
     gear = modified(RINGS[name], amount)
     solid = gear_solid(gear)
-    assert _valid_and_closed(solid)
+    assert valid_and_closed(solid)
     _ring_measure(gear, solid)
 
 
@@ -316,7 +296,7 @@ def test_ring_fillets_without_a_root_land_go_on_meeting() -> None:
     """A full radius leaves no land to open: the fillets turn less and less towards the middle of the space."""
     gear = modified(Gear(**_PLAIN | {"helix_angle": 20.0, "rack": BasicRack(root_radius="full")}))
     section, solid = RingSection(gear), gear_solid(gear)
-    assert _valid_and_closed(solid)
+    assert valid_and_closed(solid)
     points = _ring_points(solid, 160)
     radius = np.hypot(*points[:, :2].T)
     flank = (radius < section.form - ON_FLANK) & (radius > section.tip_form + ON_FLANK)
@@ -331,7 +311,7 @@ def test_sharp_corners_turn_with_their_flanks() -> None:
     kinks = {"tip_relief_transition": 0.0, "root_relief_transition": 0.0}
     gear = modified(Gear(**_PLAIN | {"helix_angle": 15.0, "cutter": ShaperCutter(tip_radius=0.0)}), **kinks)
     solid = gear_solid(gear)
-    assert _valid_and_closed(solid)
+    assert valid_and_closed(solid)
     points = _ring_points(solid)
     assert np.abs(depth_off(gear, points)).max() < ON_FLANK
     assert np.hypot(*points[:, :2].T).max() == pytest.approx(RingSection(gear).root, abs=1e-9)
@@ -343,9 +323,9 @@ def test_random_rings_long(seed: int, tmp_path: Path) -> None:
     """Random rings, two in three of them modified, chamfered or bolted: sides, volume, validity, STEP."""
     plain, gear = _random(seed)
     before, solid = gear_solid(plain), gear_solid(gear)
-    again = _ring_again(solid, tmp_path / "ring.step")
+    again = reopened(solid, tmp_path / "ring.step")
     for made in (before, solid, again):
-        assert _valid_and_closed(made), gear
+        assert valid_and_closed(made), gear
     assert before.Volume() == pytest.approx(RingSection(plain).volume, rel=VOLUME_TOLERANCE), plain
     assert again.Volume() == pytest.approx(solid.Volume(), rel=VOLUME_TOLERANCE), gear
     _ring_measure(gear, solid)

@@ -1,7 +1,5 @@
 """Pictures: what turns stands as teeth have it and comes round, cuts are closed, images are at scale, from where they say."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import replace

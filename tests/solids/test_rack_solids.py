@@ -1,7 +1,5 @@
 """Solids, facets, drawings and points of racks against formulas of the tests' own, before and after STEP."""
 
-from __future__ import annotations
-
 import csv
 import math
 from pathlib import Path
@@ -14,9 +12,9 @@ import pytest
 import trimesh
 from hypothesis import event, given, settings
 from OCP.BRepAdaptor import BRepAdaptor_Surface
-from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.GeomAbs import GeomAbs_Cylinder, GeomAbs_Plane
 from support.rack_clearance import rack_height, rack_volume, section_area
+from support.solids import reopened, valid_and_closed
 from support.strategies import build_rack, rack_inputs
 
 from gearcad import BasicRack, Body, Gear, Rack, RackPair
@@ -48,10 +46,6 @@ RACKS: dict[str, dict[str, Any]] = {
 }
 
 
-def _valid_and_closed(shape: cadquery.Shape) -> bool:
-    return BRepCheck_Analyzer(shape.wrapped).IsValid() and all(shell.wrapped.Closed() for shell in shape.Shells())
-
-
 def _miss(rack: Rack, points: np.ndarray) -> np.ndarray:
     """How far (mm, along y) points (n, 3) on the toothed side are off."""
     drift = -math.tan(math.radians(rack.helix_angle))
@@ -62,13 +56,10 @@ def _miss(rack: Rack, points: np.ndarray) -> np.ndarray:
 def test_surfaces_volume_and_validity_before_and_after_step(name: str, tmp_path: Path) -> None:
     rack = Rack(**PLAIN | RACKS[name])
     solid = rack_solid(rack)
-    path = tmp_path / "rack.step"
-    write_step(solid, path, name="rack")
-    again = cadquery.importers.importStep(str(path)).val()
+    again = reopened(solid, tmp_path / "rack.step", "rack")
     volume = rack_volume(rack)
-    assert len(again.Solids()) == 1
     for shape in (solid, again):
-        assert _valid_and_closed(shape)
+        assert valid_and_closed(shape)
         assert shape.Volume() == pytest.approx(volume, rel=VOLUME_TOLERANCE)
     kinds = {BRepAdaptor_Surface(face.wrapped).GetType() for face in again.Faces()}
     assert kinds == {GeomAbs_Plane} | ({GeomAbs_Cylinder} if rack.root_radius else set())
@@ -145,7 +136,7 @@ def check_random(inputs: dict[str, Any]) -> None:
         return
     event("made")
     solid = rack_solid(rack)
-    assert _valid_and_closed(solid)
+    assert valid_and_closed(solid)
     assert solid.Volume() == pytest.approx(rack_volume(rack), rel=VOLUME_TOLERANCE)
     check_facets(rack, 0.005 * rack.normal_module)
 

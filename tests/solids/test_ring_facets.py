@@ -1,7 +1,5 @@
 """Facets of rings: closed, away from the body, within the chord error also inside triangles, of the exact volume."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -13,13 +11,14 @@ from support.clearance import distance_to_section
 from support.modified import depth_off, unturned
 from support.rings import RingSection
 from support.samples import RINGS, SAMPLES, SHAPED, random_ring
+from support.solids import Cone, check_closed, check_outward, check_stl
 
 from gearcad import Body, FlankModification, Gear, GearPair, GeometryError, ParameterError
 from gearcad.geometry import ShaperCutter
 from gearcad.geometry.fillets import ShaperTip
 from gearcad.geometry.gear_data import twist
 from gearcad.geometry.profile import Curve, CurveKind
-from gearcad.solids import FileOptions, write_3mf, write_glb, write_stl
+from gearcad.solids import FileOptions, write_3mf, write_glb
 from gearcad.solids.exact.inertia import mass_properties
 from gearcad.solids.facets.tessellation import Facets, tessellate
 from gearcad.solids.files.products import PairProduct
@@ -45,28 +44,13 @@ def _mesh(facets: Facets) -> trimesh.Trimesh:
 
 
 def _closed(gear: Gear, facets: Facets) -> None:
-    mesh = _mesh(facets)
-    assert mesh.is_watertight
-    assert mesh.is_winding_consistent
-    assert mesh.euler_number == -2 * gear.body.bolt_holes  # 2 - 2 g: one hole more than bolts go through
-    assert mesh.area_faces.min() > 0
-    assert len(np.unique(facets.faces)) == len(facets.vertices)
+    check_closed(facets, -2 * gear.body.bolt_holes)  # 2 - 2 g: one hole more than bolts go through
 
 
 def _faces_out(gear: Gear, facets: Facets) -> None:
-    """No triangle of the end planes and of the cones is folded over: each shows the way it should."""
-    corners = facets.vertices[facets.faces]
-    upward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]
-    radius, z = np.hypot(corners[..., 0], corners[..., 1]), corners[..., 2]
-    for level, outward in ((0.0, -1), (gear.face_width, 1)):
-        assert np.all(outward * upward[np.all(z == level, axis=1)] > 0)
-    if gear.body.end_chamfer:
-        slope, tip = math.tan(math.radians(gear.body.end_chamfer_angle)), -gear.tip_diameter / 2
-        for from_end, outward in ((z, -1), (gear.face_width - z, 1)):
-            cone = tip + (gear.body.end_chamfer - from_end) * slope
-            on_cone = np.all(np.abs(radius - cone) < ON_SURFACE * max(tip, 1), axis=1)
-            assert on_cone.sum() >= 2 * gear.tooth_count
-            assert np.all(outward * upward[on_cone] > 0)
+    height, slope, tip = gear.body.end_chamfer, math.tan(math.radians(gear.body.end_chamfer_angle)), -gear.tip_diameter / 2
+    cone = Cone(tip, height, -slope, ON_SURFACE * max(tip, 1), 2 * gear.tooth_count) if height else None
+    check_outward(facets, gear.face_width, (0.0, 0.0), cone)
 
 
 def _error(gear: Gear, asked: float = DEFAULT) -> float:
@@ -303,15 +287,7 @@ def test_a_chord_error_below_single_precision_is_refused() -> None:
 
 @pytest.mark.parametrize("name", RINGS)
 def test_stl_is_closed_when_read_again(name: str, tmp_path: Path) -> None:
-    facets = tessellate(RINGS[name])
-    path = tmp_path / "ring.stl"
-    write_stl(facets, path)
-    mesh = trimesh.load(path)
-    assert mesh.is_watertight
-    assert mesh.is_winding_consistent
-    assert len(mesh.faces) == len(facets.faces)
-    size = np.ptp(facets.vertices, axis=0).max()
-    assert mesh.volume == pytest.approx(facets.volume, abs=FLOAT32 * size * _mesh(facets).area)
+    check_stl(tessellate(RINGS[name]), tmp_path / "ring.stl")
 
 
 def _pair(helix: float = 0.0) -> GearPair:

@@ -1,7 +1,5 @@
 """DXF contours and CSV points of rings and of shaped gears: on the exact profile, and the cutter as it rolls (identity)."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The B-rep of rings against the helicoid and the cutter's envelope by formulas of the tests' own, before and after STEP."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace
@@ -11,14 +9,14 @@ import cadquery
 import numpy as np
 import pytest
 from OCP.BRepAdaptor import BRepAdaptor_Surface
-from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.GeomAbs import GeomAbs_BSplineSurface, GeomAbs_Cylinder
 from support.clearance import distance_to_section, solid_volume
 from support.rings import RingSection
+from support.solids import reopened, valid_and_closed
 
 from gearcad import BasicRack, Body, Gear, GeometryError
 from gearcad.geometry import ShaperCutter
-from gearcad.solids import gear_solid, write_step
+from gearcad.solids import gear_solid
 from gearcad.solids.exact.inertia import mass_properties
 
 FITTED = 1e-6  # mm: 0.001 µm, what a section is fitted to and what is promised
@@ -60,17 +58,6 @@ def _ring(**changes: object) -> Gear:
     return Gear(**{**_PLAIN, **changes})
 
 
-def _valid_and_closed(shape: cadquery.Shape) -> bool:
-    return BRepCheck_Analyzer(shape.wrapped).IsValid() and all(shell.wrapped.Closed() for shell in shape.Shells())
-
-
-def _again(solid: cadquery.Shape, path: Path) -> cadquery.Shape:
-    write_step(solid, path, name="ring")
-    again = cadquery.importers.importStep(str(path)).val()
-    assert len(again.Solids()) == 1
-    return again
-
-
 def _side_points(solid: cadquery.Shape, most: int = 90, grid: int = 7) -> np.ndarray:
     """Points (n, 3) of the B-spline surfaces (flanks, fillets, chamfers), some of every kind."""
     faces = [BRepAdaptor_Surface(face.wrapped) for face in solid.Faces()]
@@ -87,7 +74,7 @@ def _measure(gear: Gear, *shapes: cadquery.Shape) -> None:
     """Flanks, fillets and chamfers, volume, validity."""
     section = RingSection(gear)
     for shape in shapes:
-        assert _valid_and_closed(shape)
+        assert valid_and_closed(shape)
         assert shape.Volume() == pytest.approx(section.volume, rel=VOLUME_TOLERANCE)
     points = _side_points(shapes[0])
     radius = np.hypot(*points[:, :2].T)
@@ -108,7 +95,7 @@ _DEFAULT = (
 def test_sides_volume_and_validity_before_and_after_step(name: str, tmp_path: Path) -> None:
     gear = _ring(**RINGS[name])
     solid = gear_solid(gear)
-    _measure(gear, solid, _again(solid, tmp_path / "ring.step"))
+    _measure(gear, solid, reopened(solid, tmp_path / "ring.step"))
 
 
 def test_root_lands_are_there_unless_the_radius_is_full() -> None:
@@ -153,8 +140,8 @@ def test_end_chamfer(name: str, helix: float, tmp_path: Path) -> None:
     )  # fmt: skip
     gear = replace(bare, body=body)
     solid = gear_solid(gear)
-    again = _again(solid, tmp_path / "ring.step")
-    assert _valid_and_closed(again)
+    again = reopened(solid, tmp_path / "ring.step")
+    assert valid_and_closed(again)
     assert again.Volume() == pytest.approx(RingSection(gear).volume, rel=VOLUME_TOLERANCE)
     face = RingSection(gear).tip + length * math.tan(math.radians(angle))
     cones = [each for each in solid.Faces() if each.geomType() == "CONE"]
@@ -210,8 +197,8 @@ SHAPED = {
 def test_external_gears_cut_by_a_shaper(name: str, tmp_path: Path) -> None:
     gear = Gear(**{"teeth": 20, "normal_module": 2.0, "face_width": 8.0, **SHAPED[name]})
     solid = gear_solid(gear)
-    for shape in (solid, _again(solid, tmp_path / "gear.step")):
-        assert _valid_and_closed(shape)
+    for shape in (solid, reopened(solid, tmp_path / "gear.step")):
+        assert valid_and_closed(shape)
         assert shape.Volume() == pytest.approx(solid_volume(gear), rel=VOLUME_TOLERANCE)
     assert distance_to_section(gear, _side_points(solid)).max() < FITTED
 

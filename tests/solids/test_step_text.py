@@ -1,7 +1,5 @@
 """STEP as we write it: well formed text, the same solid for the CAD kernel; names, colours, bytes through CadQuery."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Structured triangulation: closed, outward, within the chord error, and of the exact volume (identity and convergence)."""
 
-from __future__ import annotations
-
 import json
 import math
 import struct
@@ -14,6 +12,7 @@ import trimesh
 from scipy.integrate import quad
 from support.clearance import chamfered_volume, distance_to_section, section_area, toothed_volume
 from support.samples import SAMPLES
+from support.solids import Cone, check_closed, check_outward, check_stl
 
 from gearcad import BasicRack, Body, Gear, GearcadError, ParameterError
 from gearcad.solids import ScenePart, write_scene, write_stl
@@ -79,29 +78,13 @@ def _volume(gear: Gear) -> float:
 
 
 def _closed(gear: Gear, facets: Facets) -> None:
-    mesh = _mesh(facets)
-    assert mesh.is_watertight
-    assert mesh.is_winding_consistent
-    assert mesh.euler_number == (0 if gear.body.bore else 2)
-    assert mesh.area_faces.min() > 0
-    assert len(np.unique(facets.faces)) == len(facets.vertices)
+    check_closed(facets, 0 if gear.body.bore else 2)
 
 
 def _faces_out(gear: Gear, facets: Facets) -> None:
-    """No triangle of the end planes and of the cones is folded over: each shows the way it should."""
-    corners = facets.vertices[facets.faces]
-    upward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]
-    radius, z = np.hypot(corners[..., 0], corners[..., 1]), corners[..., 2]
-    back, front = gear.body.hub_ends
-    for level, outward in ((0.0, -1), (gear.face_width, 1), (-back, -1), (gear.face_width + front, 1)):
-        assert np.all(outward * upward[np.all(z == level, axis=1)] > 0)
-    if gear.body.end_chamfer:
-        slope = math.tan(math.radians(gear.body.end_chamfer_angle))
-        for from_end, outward in ((z, -1), (gear.face_width - z, 1)):
-            cone = gear.tip_diameter / 2 - (gear.body.end_chamfer - from_end) * slope
-            on_cone = np.all(np.abs(radius - cone) < ON_SURFACE, axis=1)
-            assert on_cone.sum() >= 2 * gear.teeth
-            assert np.all(outward * upward[on_cone] > 0)
+    height, slope = gear.body.end_chamfer, math.tan(math.radians(gear.body.end_chamfer_angle))
+    cone = Cone(gear.tip_diameter / 2, height, slope, ON_SURFACE, 2 * gear.teeth) if height else None
+    check_outward(facets, gear.face_width, gear.body.hub_ends, cone)
 
 
 def _samples(facets: Facets, which: np.ndarray, most: int = 1000) -> np.ndarray:
@@ -332,16 +315,9 @@ def test_facets_are_read_only() -> None:
 
 @pytest.mark.parametrize("name", ["spur", "helical", "tiny", "huge", "nearly sharp tool"])
 def test_stl_is_closed_when_read_again(name: str, tmp_path: Path) -> None:
-    facets = tessellate(SAMPLES[name])
     path = tmp_path / "gear.stl"
-    write_stl(facets, path)
+    check_stl(tessellate(SAMPLES[name]), path)
     first = path.read_bytes()
-    mesh = trimesh.load(path)
-    assert mesh.is_watertight
-    assert mesh.is_winding_consistent
-    assert len(mesh.faces) == len(facets.faces)
-    size = np.ptp(facets.vertices, axis=0).max()
-    assert mesh.volume == pytest.approx(facets.volume, abs=FLOAT32 * size * _mesh(facets).area)
     write_stl(tessellate(SAMPLES[name]), path)
     assert path.read_bytes() == first
 

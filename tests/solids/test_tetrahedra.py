@@ -1,7 +1,5 @@
 """Tetrahedra of whole gears: against formulas of the tests' own, and against each other (reference, identity)."""
 
-from __future__ import annotations
-
 import math
 import signal
 from collections.abc import Iterator

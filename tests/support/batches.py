@@ -1,7 +1,5 @@
 """Small design tables, tables of real variants, and what can be told of the folder that a batch has made of one."""
 
-from __future__ import annotations
-
 import csv
 import hashlib
 import json
@@ -112,8 +110,6 @@ def _faults(path: Path, size: int) -> list[str]:
         return [] if len(content) == 84 + 50 * triangles else [f"{triangles} triangles in {len(content)} bytes"]
     return [] if content.endswith(_ENDS[path.suffix[1:]]) else ["torn"]
 
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 SHEET_GEARS = "name,teeth,normal_module,face_width\n"
 GOOD = "good,20,2,10\n"

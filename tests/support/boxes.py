@@ -1,7 +1,5 @@
 """Boxes of every kind of element, whose volume and whose sides anybody knows."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import permutations
 

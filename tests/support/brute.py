@@ -1,7 +1,5 @@
 """Witnesses of plane contact: flanks meshed so finely that elements carry it, and the matrix of a whole section."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -13,6 +11,7 @@ from gearcad.contact.plane.ring import Ring
 from gearcad.contact.plane.sector import PlaneElasticity, element_stiffness, node_dofs
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
+from gearcad.meshing.outline import OutlineSide
 from gearcad.meshing.sector import SectorMesh
 
 
@@ -90,3 +89,11 @@ def summed(triangles: Wholes, matrices: Floats, nodes: int) -> Any:
     dofs = node_dofs(triangles)
     rows, columns = np.broadcast_arrays(dofs[:, :, None], dofs[:, None])
     return scipy.sparse.csr_matrix((matrices.ravel(), (rows.ravel(), columns.ravel())), shape=(2 * nodes, 2 * nodes))
+
+
+def tip_loads(mesh: SectorMesh) -> Floats:
+    """Unit loads along x and y (2 n, 2) at the tip of a left flank."""
+    tip = mesh.sides[OutlineSide.LEFT_FLANK][0]
+    loads = np.zeros((2 * len(mesh.points), 2))
+    loads[2 * tip, 0], loads[2 * tip + 1, 1] = 1, 1
+    return loads

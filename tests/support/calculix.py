@@ -1,7 +1,5 @@
 """CalculiX (Debian: calculix-ccx), where it is installed."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

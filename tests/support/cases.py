@@ -1,7 +1,5 @@
 """Reference cases of `tests/data`: geometry, ratings and stiffness, with the gears and pairs that they describe."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path

@@ -1,11 +1,10 @@
 """Checks to draw and to report, coarse solid pairs made once for all tests, and sizes of meshes that are made quickly."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache, lru_cache
-from pathlib import Path
 
+import numpy as np
+import pytest
 from threadpoolctl import threadpool_limits
 
 from gearcad import Body, Gear, GearPair, Load, Material, Mounting, ShaperCutter
@@ -18,18 +17,23 @@ from gearcad.check.summary import PLANE, SOLID, summarise_plane, summarise_solid
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import plane_pair
+from gearcad.contact.plane.sector import Plane
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
-from gearcad.core.records import Notice, PerGear
+from gearcad.core.records import Notice, PerGear, Role
 from gearcad.designs import read_spec
 from gearcad.geometry import FlankModification
 from gearcad.meshing.outline import MeshSizes
+from support.dense_contact import hertz_ellipse
+from support.specs import TEMPLATES
 
 NASTY_NAME = "<script>alert('gear')</script> & \"$x_1$\""
 """A name that would break HTML, and mathtext."""
 
 _POSITIONS = 16
+
+STEEL = Material()
 
 
 @lru_cache
@@ -99,8 +103,6 @@ def small_solid_check() -> SolidCheck:
     )
 
 
-TEMPLATES = Path(__file__).parents[2] / "templates"
-
 PAIRS = ("FZG C", "helical")
 
 TORQUES = {"FZG C": 302.0, "helical": 60.0, "Alm": 12.7, "ring": 60.0}
@@ -132,3 +134,56 @@ def coarse_model(name: str) -> SolidPair:
 
 
 COARSE = MeshSizes(flank=0.6, corner=0.5, fillet=0.4, outline=0.75, cut=0.75, rim=2.0, growth=0.5)
+
+
+SPREAD = 20.0
+"""mm: the face width of spur pairs whose root stress is compared along the face."""
+
+
+def check_between_plane_states(model: SolidPair, torque: float, body: BodyModel, positions: int) -> None:
+    """The stiffness lies between plane stress and strain; root stress is that of plane strain, but varies over the face."""
+    solid = SolidCycle.run(model, torque, positions)
+    stress, strain = (
+        PlaneCycle.run(plane_pair(model.pair, STEEL, body=body, plane=plane), torque, positions)
+        for plane in (Plane.STRESS, Plane.STRAIN)
+    )
+    soft, stiff = (cycle.values("stiffness").mean() for cycle in (stress, strain))
+    assert soft < solid.values("stiffness").mean() < stiff
+    for role in Role:
+        plane = max(position.tension.pick(role).stress for position in strain.positions)
+        heights, along = solid.root_along_face(role)
+        assert np.interp(np.linspace(0, SPREAD, 401), heights, along).mean() == pytest.approx(plane, rel=0.04)
+        assert along.max() == pytest.approx(plane, rel=0.12)
+
+
+def check_reactions(model: SolidPair, torque: float, positions: int) -> None:
+    """Reactions on both hubs are the torques at every position; a ring is turned the way its pinion turns."""
+    ratio = abs(model.pair.wheel.teeth) / model.pair.pinion.teeth
+    for position in SolidCycle.run(model, torque, positions).positions:
+        assert position.torques == pytest.approx((torque, torque * ratio), rel=0.003)
+
+
+def check_mirrored(model: SolidPair, mirrored: SolidPair, torque: float) -> None:
+    """The mirror image in a plane across the axes has the same figures to rounding."""
+    one, other = (SolidCycle.run(each, torque, 3) for each in (model, mirrored))
+    for name in ("stiffness", "transmission_error", "approach_parts", "torques"):
+        assert other.values(name) == pytest.approx(one.values(name), rel=1e-6)
+    assert other.load_along_face[1] == pytest.approx(one.load_along_face[1][::-1], rel=1e-4)
+    for role in Role:
+        assert other.root_along_face(role)[1] == pytest.approx(one.root_along_face(role)[1][::-1], rel=1e-5)
+
+
+def check_ellipse(crowned: SolidPair, torque: float, across: float, crowning: float) -> None:
+    """Pressure and width at the pitch point are those of Hertz's ellipse, by the crowning (µm) over `SPREAD`: 2 % is asked."""
+    solved = crowned.solve(0.0, torque, single=True)
+    along = SPREAD**2 / (8 * crowning / 1000)
+    modulus = STEEL.youngs_modulus / (1 - STEEL.poisson_ratio**2) / 2
+    pressure, _, lesser = hertz_ellipse(float(solved.forces.sum()), across, along, modulus)
+    assert solved.pressures.max() == pytest.approx(pressure, rel=0.02)
+    assert solved.half_widths.max() == pytest.approx(lesser, rel=0.02)
+
+
+def load_tilt(model: SolidPair, torque: float) -> float:
+    """How much more is carried at large z, over all."""
+    across, load = SolidCycle.run(model, torque, 4).load_along_face
+    return float((load * np.sign(across)).sum() / load.sum())

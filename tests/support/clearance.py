@@ -1,21 +1,17 @@
 """Gears on their exact outlines: overlap in mesh, area and distance, without the code that is judged."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.spatial import cKDTree
 
 from gearcad import Gear
+from gearcad.core.records import Floats
 from gearcad.geometry import GearPair, ToothProfile
-
-Floats = NDArray[np.float64]
 
 GRID = 65
 FINE = 17

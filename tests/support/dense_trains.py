@@ -1,7 +1,5 @@
 """Drives and planetary trains by dense matrices."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

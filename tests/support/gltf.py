@@ -1,16 +1,13 @@
 """GLB read by hand: where every node is at a time of an animation, by the rules of glTF 2.0 alone."""
 
-from __future__ import annotations
-
 import json
 import struct
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from gearcad.core.records import Floats
 
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942
 _TYPES = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}

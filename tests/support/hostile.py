@@ -1,7 +1,5 @@
 """Specs with a value in them that nobody should write: what a command may do with them is say so in one line."""
 
-from __future__ import annotations
-
 import copy
 import csv
 import io

@@ -1,7 +1,5 @@
 """What a worker process is made to do in tests; functions are found there by their name, so they cannot stand in a test."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import signal

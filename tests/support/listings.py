@@ -5,8 +5,6 @@ radians. Arrays hold the 100 positions of the listing: gear 1 from its foot to i
 meets gear 1 in reverse. The listings' names are kept where they have one.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,9 +12,8 @@ from enum import Flag, auto
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from gearcad.core.records import Floats
 
 
 class Correction(Flag):

@@ -1,7 +1,5 @@
 """Random gears on a bench: made to standards, measured with noise, and whether an identification names them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import replace

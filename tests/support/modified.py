@@ -1,7 +1,5 @@
 """Modified flanks by formulas of their own: depths in mm, and how far points of a solid are off the surface they make."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 
@@ -10,8 +8,7 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from gearcad import Gear
-
-Floats = NDArray[np.float64]
+from gearcad.core.records import Floats
 
 
 def _roll(gear: Gear, radius: Floats) -> Floats:

@@ -1,7 +1,5 @@
 """A server of the page, a browser without a window, a tab of it, and what a coroutine gives in a thread of its own."""
 
-from __future__ import annotations
-
 import asyncio
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The page docs/papers.md: its commands, and the numbers that it says they give."""
 
-from __future__ import annotations
-
 import csv
 import json
 import re

@@ -1,7 +1,5 @@
 """Reports without their pictures: drawing takes longer than all the rest of a command, and tests of reports have it."""
 
-from __future__ import annotations
-
 import pytest
 
 _PICTURED = ("document", "check", "strength", "planetary", "dynamics")

@@ -4,8 +4,6 @@ Written from the equations alone, for steel of equal E, full discs with bores, n
 range. Standard's symbols throughout; lists are [pinion, wheel]; mm, N, MPa, µm, m/s.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 from math import acos, atan, cos, degrees, floor, hypot, log, pi, radians, sin, sqrt, tan

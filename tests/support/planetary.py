@@ -1,7 +1,5 @@
 """Trains to look at, whether their gears overlap, and contacts of a mesh found by cutting exact flanks."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property

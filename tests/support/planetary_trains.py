@@ -1,7 +1,5 @@
 """Planetary trains for tests: types A to D, the Alm thesis's, trains with loads, and sets by numbers of teeth."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The command `gearcad batch` as a process of its own, its children, and their end."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

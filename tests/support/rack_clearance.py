@@ -1,19 +1,16 @@
 """Racks by formulas of the tests' own, and whether a pinion and a rack overlap in mesh."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.integrate import quad
 
 from gearcad import Rack, RackPair
-
-Floats = NDArray[np.float64]
+from gearcad.core.records import Floats
 
 GRID = 49
 FINE = 13

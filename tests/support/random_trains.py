@@ -1,7 +1,5 @@
 """Random planetary sets of types A to D, and all sets for a ratio by plain loops."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace

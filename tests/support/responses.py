@@ -1,7 +1,5 @@
 """Systems of few degrees of freedom, their Floquet multipliers, and two gears as free bodies by Newton's equations."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 from hypothesis import strategies as st
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gearcad import BasicRack, Body, Gear
-from gearcad.core.records import PerGear
+from gearcad.core.records import Floats, PerGear
 from gearcad.geometry import ShaperCutter, ToothProfile, zero_backlash_centre_distance
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.mating import tip_on_form_circle
@@ -89,8 +89,6 @@ def build_ring_pair(inputs: dict[str, Any]) -> PairData:
     cutter = ShaperCutter(teeth=inputs["cutter_teeth"] if few else None, tip_radius=inputs["corner"])
     return PairData(pinion=pinion, wheel=Gear(**of_ring, cutter=cutter), centre_distance=distance)
 
-
-Floats = NDArray[np.float64]
 
 CHORD_ERROR = 5e-5
 """Of the polygons, in transverse modules."""

@@ -1,7 +1,5 @@
 """Gears, gears with modified flanks and rings that between them show every feature and every corner of an outline."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import replace

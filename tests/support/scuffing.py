@@ -1,7 +1,5 @@
 """Pairs that could scuff: load factors as they come, an oil, and both temperatures."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

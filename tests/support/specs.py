@@ -1,7 +1,5 @@
 """Specs from tables of Python, the starters, and what jobs say of a spec: the way of a user, who has a file and a document."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -11,8 +9,17 @@ from gearcad.core.runtime import templates
 from gearcad.designs import Design
 from gearcad.designs.reader import NO_DESIGNS, read_spec, starters
 from gearcad.jobs.strength import Rate
+from gearcad.solids import Format
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
 
 Tables = Mapping[str, Mapping[str, Any]]
+
+FACETED_OR_FLAT = [kind.value for kind in Format if kind not in (Format.STEP, Format.PNG)]
+"""Formats whose files need no exact solid and no window."""
+
+WITHOUT_ASSEMBLY = (Format.STL, Format.DXF, Format.CSV)
+"""Formats that hold one part only, as the manual says."""
 
 
 def spec_text(tables: Tables) -> str:

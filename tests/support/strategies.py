@@ -1,14 +1,13 @@
 """Random gears and pairs over the whole parameter space that is promised, valid or not."""
 
-from __future__ import annotations
-
+import re
 from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
 from hypothesis import strategies as st
 
-from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Rack, RackPair
+from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, GeometryError, Rack, RackPair
 from gearcad.core.errors import InputError
 from gearcad.geometry import HubSide
 from support.modified import roll_ends
@@ -273,3 +272,13 @@ def build_rack_pair(inputs: dict[str, Any]) -> RackPair:
     )
     usual = pinion.reference_diameter / 2 + (pinion.profile_shift + inputs["spread"]) * m
     return RackPair(pinion=pinion, rack=rack, mounting_distance=usual)
+
+
+def permitted_beside(error: GeometryError, parameter: str, text: str) -> float:
+    """The permitted value that a refusal names: one line about this parameter, with this text and a limit."""
+    assert error.parameter == parameter
+    assert text in str(error)
+    assert "\n" not in str(error)
+    wording = re.search(r"must be (at most|at least|above|below|between|)\D*?(-?\d+(?:\.\d+)?)", error.permitted)
+    assert wording, error.permitted
+    return float(wording[2]) + {"above": 1e-6, "below": -1e-6, "between": 1e-6}.get(wording[1], 0.0)

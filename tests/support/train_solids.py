@@ -1,7 +1,5 @@
 """Trains with bodies, and how far their solids are from each other in mesh: distances between faces by the CAD kernel."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Trains and pairs that several tests use, an integrator of their equations, and a drive written out by hand."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,11 +9,10 @@ from typing import Any
 
 import numpy as np
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from gearcad import Gear, GearPair, Load
-from gearcad.core.records import Floats as DriveFloats
+from gearcad.core.records import Floats
 from gearcad.dynamics.time_domain.contact_model import ContactModel, EngagedPairs, disc_inertia
 from gearcad.dynamics.trains.members import GROUND, Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.train import Train
@@ -102,8 +99,6 @@ def random_trains(draw: st.DrawFn, *, order: int = 24) -> Train:
     inertias = [Inertia(name=name, inertia=10 ** number(-3, 0)) for name in names]
     return Train(model="elements", inertias=inertias, shafts=shafts, meshes=meshes, order=order)
 
-
-Floats = NDArray[np.float64]
 
 THESIS_SPEEDS = np.arange(0, 20001, 500.0)
 
@@ -241,7 +236,7 @@ class Drive:
         return [METHODS[self.method](pair=of)(Load(torque=each)) for of, each in zip(self.pairs, self.torques, strict=True)]
 
     @cached_property
-    def forces(self) -> DriveFloats:
+    def forces(self) -> Floats:
         """At rest in both meshes (N)."""
         return np.array([2000 * each / of.pinion.base_diameter for of, each in zip(self.pairs, self.torques, strict=True)])
 
@@ -291,7 +286,7 @@ class ByHand:
         """Base radii of the pinions and wheels (m)."""
         return [(of.pinion.base_diameter / 2000, of.wheel.base_diameter / 2000) for of in self.drive.pairs]
 
-    def forces(self, time: float, phi: DriveFloats, rate: DriveFloats) -> list[tuple[float, float]]:
+    def forces(self, time: float, phi: Floats, rate: Floats) -> list[tuple[float, float]]:
         """Of spring and damper of each mesh (N)."""
         found = []
         for stage, ((pinion, wheel), clearance) in enumerate(zip(self.radii, self.drive.clearances, strict=True)):
@@ -303,7 +298,7 @@ class ByHand:
             found.append((spring, self.drive.mesh_dampers[stage] * closing))
         return found
 
-    def derivative(self, time: float, state: DriveFloats) -> DriveFloats:
+    def derivative(self, time: float, state: Floats) -> Floats:
         phi, rate, drive = state[:4], state[4:], self.drive
         torque = np.array([drive.torque, 0.0, 0.0, -drive.torques[1] * drive.ratios[1]])
         for stage, force in enumerate(map(sum, self.forces(time, phi, rate))):
@@ -314,19 +309,19 @@ class ByHand:
         torque[2] += shaft
         return np.concatenate([rate, torque / drive.inertias])
 
-    def run(self, state: DriveFloats, times: DriveFloats) -> DriveFloats:
+    def run(self, state: Floats, times: Floats) -> Floats:
         """States (t, 8) at rising times (t,) from 0 on, from jump to jump of the stiffness."""
         end = float(times[-1])
         cuts = {0.0, end}
         for of, frequency in zip(self.courses, self.teeth_per_second, strict=True):
             every = (np.arange(-2, math.ceil(end * frequency) + 2)[:, None] + of.jumps).ravel() / frequency
             cuts |= {float(each) for each in every if 1e-9 * end < each < end * (1 - 1e-9)}
-        rows: list[DriveFloats] = []
+        rows: list[Floats] = []
         for begin, stop in pairwise(sorted(cuts)):
             inside = times[(times >= begin) & (times < stop)]
             edge = 1e-9 * (stop - begin)
 
-            def rates(time: float, x: DriveFloats, a: float = begin + edge, b: float = stop - edge) -> DriveFloats:
+            def rates(time: float, x: Floats, a: float = begin + edge, b: float = stop - edge) -> Floats:
                 return self.derivative(min(max(time, a), b), x)
 
             told = np.append(inside, stop)
@@ -335,3 +330,13 @@ class ByHand:
             rows.extend(found.y.T[:-1])
             state = found.y[:, -1]
         return np.array([*rows, state])
+
+
+def torqued_pair(teeth: int, **mesh: Any) -> Train:
+    """A pinion of `teeth` and a wheel of half its speed under 200 and 400 N·m at 3000 rpm; `mesh` describes their mesh."""
+    return Train(
+        inertias=(Inertia(name="pinion", inertia=0.004), Inertia(name="wheel", inertia=0.03)),
+        meshes=(ToothMesh(name="mesh", pinion="pinion", wheel="wheel", base_radii=(40, 80), teeth=teeth, **mesh),),
+        torques={"pinion": 200.0, "wheel": 400.0},
+        speed=3000.0,
+    )

@@ -3,8 +3,6 @@
 SI units, frequencies circular (1/s).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

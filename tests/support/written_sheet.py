@@ -23,7 +23,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath, text_to_path
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from gearcad.core.records import Floats
 
 TOUCH = 0.02
 """mm by which a text may reach into what is beside it: the rounding of a font's outlines."""

@@ -1,7 +1,5 @@
 """Pictures of plane and solid checks draw what their numbers are; the stress field is that of the elements."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Safeties by the stresses of finite elements, and K_Hbeta from the load along the face width."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Gates and references of a check: one that cannot be evaluated is not passed and says why; figures that are absent."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

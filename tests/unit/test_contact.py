@@ -1,7 +1,5 @@
 """Pairs: lines of contact, sliding, clearances and the fillet check; formulas with signed teeth."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

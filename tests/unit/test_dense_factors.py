@@ -1,7 +1,5 @@
 """Factors whose blocks on the diagonal are inverted, against SciPy's solutions with a triangle."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.linalg

@@ -1,7 +1,5 @@
 """Double helical gears and pairs: halves, limits, what two halves carry, and their meshes."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

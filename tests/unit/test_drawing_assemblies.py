@@ -1,7 +1,5 @@
 """Assemblies on paper: what is where and what is hidden, by formulas; every number is that of the documents."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cache

@@ -1,7 +1,5 @@
 """Frames of sheets: fields of ISO 5457, title block of ISO 7200, lists and tables; whatever texts, none leaves its cell."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, replace
 from itertools import combinations

@@ -1,7 +1,5 @@
 """Layout: marks that clash with nothing, lanes in order, the largest scale, and what is said where there is no room."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from itertools import combinations, product
 

@@ -1,7 +1,5 @@
 """[drawing] and the drawings of gears, and what sheets demand: fits, keyways, chamfers, run-out and roughness."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import fields, replace

@@ -1,8 +1,5 @@
 """K_v of ISO 6336-1, Method B: its equations, what of them the load changes, and the tolerances that go into it."""
 
-from __future__ import annotations
-
-import json
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 from support.cases import STEEL
+from support.commands import read_json
 from support.published import Published
+from support.specs import TEMPLATES
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
 from gearcad.core.errors import ParameterError
@@ -22,8 +21,6 @@ from gearcad.material import MaterialGroup
 from gearcad.rating import Accuracy, DynamicFactor, RatingOptions, RunningIn, running_in_alpha
 from gearcad.rating.load_factor_formulas import running_factors
 from gearcad.rating.tolerances import flank_tolerances
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 EXACT = 1e-12
 """Relative: the same quantity by two formulas."""
@@ -93,8 +90,7 @@ def test_resonance_speed_of_the_alm_starter() -> None:
 # ---------------------------------------------------------------------- other programs
 
 PUBLIC: dict[str, dict[str, Any]] = {
-    case["id"]: case
-    for case in json.loads((Path(__file__).parents[1] / "data" / "rating_public.json").read_text(encoding="utf-8"))
+    case["id"]: case for case in read_json(Path(__file__).parents[1] / "data" / "rating_public.json")
 }
 """What reports of other programs print."""
 

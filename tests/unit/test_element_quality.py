@@ -1,7 +1,5 @@
 """Quality of elements in closed form and by VTK (Verdict), and gates that catch spoilt meshes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

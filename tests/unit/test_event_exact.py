@@ -1,21 +1,19 @@
 """Pairs integrated from event to event, and trains without damping, against closed forms and SciPy."""
 
-from __future__ import annotations
-
-import json
 import math
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
+from support.commands import invoke, read_json
+from support.trains import torqued_pair
 
-from gearcad.cli import main
 from gearcad.core.errors import ParameterError, SolverError
+from gearcad.core.records import Floats
 from gearcad.core.runtime import compiled
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.time_domain.event_kernel import (
@@ -31,11 +29,8 @@ from gearcad.dynamics.time_domain.event_kernel import (
 )
 from gearcad.dynamics.time_domain.transient_result import TransientOptions
 from gearcad.dynamics.train_study import study_train, study_undamped
-from gearcad.dynamics.trains.members import Inertia, ToothMesh
 from gearcad.dynamics.trains.steady_response import UndampedError
 from gearcad.dynamics.trains.train import Train
-
-Floats = NDArray[np.float64]
 
 ROUNDING = 1e-12
 """Relative to the amplitude: some thousand operations in double precision."""
@@ -229,13 +224,7 @@ PHASE = 0.01
 
 def pair(**more: object) -> Train:
     """A pair without damping; its mesh is as stiff everywhere unless `more` says otherwise."""
-    mesh: dict[str, object] = {"stiffness": STIFFNESS / 1e6, "variation": 0.0, "damping": 0.0, **more}
-    return Train(
-        inertias=(Inertia(name="pinion", inertia=0.004), Inertia(name="wheel", inertia=0.03)),
-        meshes=(ToothMesh(name="mesh", pinion="pinion", wheel="wheel", base_radii=(40, 80), teeth=RATIO, **mesh),),  # type: ignore[arg-type]
-        torques={"pinion": 200.0, "wheel": 400.0},
-        speed=3000.0,
-    )
+    return torqued_pair(RATIO, **{"stiffness": STIFFNESS / 1e6, "variation": 0.0, "damping": 0.0, **more})
 
 
 def test_a_torque_step_swings_for_ever_as_an_undamped_oscillator() -> None:
@@ -309,9 +298,9 @@ def test_a_run_needs_a_speed() -> None:
 
 def _run(tmp_path: Path, text: str, *more: str) -> tuple[int, str, dict[str, object]]:
     (tmp_path / "it.toml").write_text(text, encoding="utf-8")
-    result = CliRunner().invoke(main, ["dynamics", str(tmp_path / "it.toml"), "-o", str(tmp_path / "out"), *more])
+    result = invoke("dynamics", str(tmp_path / "it.toml"), "-o", str(tmp_path / "out"), *more)
     written = tmp_path / "out" / "dynamics.json"
-    return result.exit_code, result.output, json.loads(written.read_text(encoding="utf-8")) if written.exists() else {}
+    return result.exit_code, result.output, read_json(written) if written.exists() else {}
 
 
 def test_modes_are_written_and_the_run_in_time_is_offered(tmp_path: Path) -> None:

@@ -1,7 +1,5 @@
 """Means, series, curves and extremes over a base pitch, against closed forms."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from support.checks import coarse_model, coarse_pair
 
 from gearcad import FlankModification, Material, Mounting
@@ -21,7 +18,7 @@ from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.loaded import Extreme, ExtremeQuantity, RollRange, add_positions, extreme
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.core.errors import SolverError
-from gearcad.core.records import Role
+from gearcad.core.records import Floats, Role
 from gearcad.geometry import ReliefShape
 from gearcad.mesh_cycle import MeshCycle
 
@@ -195,9 +192,6 @@ def test_relieved_tips_roll_smoothly(shape: ReliefShape) -> None:
     cycle = SolidCycle.run(plain.remade(replace(plain.pair, **gears), Mounting()), 60.0, 2)
     errors = [cycle.solve(float(angle)).transmission_error for angle in np.linspace(-2.0, -1.6, 9)]
     assert np.abs(np.diff(errors, 2)).max() < 0.005 * errors[0]  # 40 % where a parabola seemed to end before the tip
-
-
-Floats = NDArray[np.float64]
 
 
 def _cycle(angle: Floats, stiffness: Floats, **more: Any) -> MeshCycle:

@@ -1,7 +1,5 @@
 """The sheet of a gear, its mass, dimensions, symbols and tables: what they say and where they stand."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import islice

@@ -1,7 +1,5 @@
 """Views of external gears and details of teeth: what ISO 2203 says of them, sizes at scale, exact outlines."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import combinations, pairwise

@@ -1,7 +1,5 @@
 """Guarded work leaves nothing half made, jobs work on one thread, and compiled code of an older version does no harm."""
 
-from __future__ import annotations
-
 import os
 import pickle
 import signal

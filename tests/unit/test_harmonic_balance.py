@@ -1,7 +1,5 @@
 """Excitation, harmonic balance, stability, time integration and K_v: each against a closed form or against another method."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """`identify`: the least of its sum of squares, what gauges read, what is refused, what is said."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.optimize import least_squares

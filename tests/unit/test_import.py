@@ -1,7 +1,5 @@
 """What `import gearcad` and each command load; system libraries, examples in docstrings, and the version."""
 
-from __future__ import annotations
-
 import ast
 import doctest
 import importlib
@@ -14,6 +12,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from support.specs import TEMPLATES
 
 import gearcad
 
@@ -60,8 +59,6 @@ def test_dataclasses_are_frozen() -> None:
         )
     assert found == MUTABLE
 
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 _CODE = """
 import json, sys

@@ -1,7 +1,5 @@
 """Measuring gears and rings: span, balls, pins and chords against the same measurements made on exact outlines and screws."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

@@ -1,13 +1,10 @@
 """Contacts solved before, where a linear relief starts, and of many variants at once."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from support.checks import PAIRS, TORQUES, coarse_model, small_check
 
 from gearcad import FlankModification, Gear, Mounting
@@ -28,6 +25,7 @@ from gearcad.contact.shared.local_contact import (
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.line_contact import LineSolution, gaps, plain_widths, solve_lines, start_distances
 from gearcad.contact.solid.pair import KnownResponses
+from gearcad.core.records import Floats
 from gearcad.geometry import GearPair, ReliefShape
 from gearcad.stiffness import PlaneStrainContact
 
@@ -109,8 +107,6 @@ def test_a_compliance_with_an_error_below_zero_still_carries_the_load(seed: int)
     assert opening.min() > -1e-9
     assert np.abs(pressure * opening).max() < 1e-9
 
-
-Floats = NDArray[np.float64]
 
 STEEL = 113187.0
 """Reduced modulus of two steel bodies (MPa)."""

@@ -1,7 +1,5 @@
 """Agreement of charts; elements of shafts with many half waves; lines of the dynamic transmission error."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Formulas of the load factors and face load factors: values by hand and of printed reports, limits, many variants at once."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """LoadFactors of a pair: against another implementation, in their order, by options, and at their limits."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

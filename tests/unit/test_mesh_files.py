@@ -1,7 +1,5 @@
 """Meshes as files, read by others: nodes in the reader's own order, parts and sides under their names."""
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """`gearcad.mesh`: what options ask for is what comes out, as objects of other libraries, as text, and as decks."""
 
-from __future__ import annotations
-
 import math
 import sys
 from dataclasses import replace

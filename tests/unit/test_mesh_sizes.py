@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from support.checks import COARSE
+from support.commands import invoke
 from support.samples import AMOUNTS, modified
 from support.samples import GEARS as EXACTNESS_GEARS
 
@@ -20,7 +20,6 @@ from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Geometry
 from gearcad.check import CheckOptions, run
 from gearcad.check.run import check_pair, expected_solid
 from gearcad.check.task import CheckTask, check_task
-from gearcad.cli import main
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Floats
 from gearcad.jobs import mesh as mesh_job
@@ -176,7 +175,7 @@ def test_want_of_memory_is_told_in_a_line(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(mesh_job, "run_mesh", fail)
     spec = tmp_path / "some.toml"
     spec.write_text("[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 8.0\n", encoding="utf-8")
-    result = CliRunner().invoke(main, ["mesh", str(spec), "--quiet", "-o", str(tmp_path / "out")])
+    result = invoke("mesh", str(spec), "--quiet", "-o", str(tmp_path / "out"))
     assert (result.exit_code, result.stderr) == (
         1,
         "Error: there is not enough memory (Unable to allocate 9 GiB); ask for less, or free some\n",

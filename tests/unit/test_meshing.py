@@ -1,7 +1,5 @@
 """Meshes of tooth sectors and bodies in hexahedra: exactly on the profile, closed, named all over, well shaped."""
 
-from __future__ import annotations
-
 import math
 import tracemalloc
 from dataclasses import replace

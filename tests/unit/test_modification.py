@@ -1,7 +1,5 @@
 """Flank modifications: each term against a formula by hand, both flanks and hands, and what changed gears really have."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace

@@ -1,16 +1,14 @@
 """Steps in time, each piece against something that takes none: exponentials, scipy's integration, harmonic balance, energy."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from gearcad.core.errors import ParameterError, SolverError
+from gearcad.core.records import Floats
 from gearcad.dynamics.response.branch_continuation import trace
 from gearcad.dynamics.response.linear_response import periodic_response
 from gearcad.dynamics.time_domain.motion import MeshLaw, MovingSystem, PiecewiseLine, RunCourse, SpringTable, Start
@@ -21,8 +19,6 @@ from gearcad.dynamics.trains.shaft_lines import System, system
 from gearcad.dynamics.trains.steady_response import Direction
 from gearcad.dynamics.trains.tooth_deviations import TransmissionError
 from gearcad.dynamics.trains.train import Train
-
-Floats = NDArray[np.float64]
 
 EXPONENTIAL = 1e-11
 """Relative to the largest entry: scipy's own rounding of exponentials of stiff matrices."""

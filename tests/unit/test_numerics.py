@@ -1,7 +1,5 @@
 """Numerical functions against `math`, SciPy and plain loops: functions of numbers or arrays, roots, maxima, lattices."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import random

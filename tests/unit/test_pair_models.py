@@ -1,7 +1,5 @@
 """Pair models: inputs, spectra, and Campbell diagrams by integration against springs solved from event to event."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess

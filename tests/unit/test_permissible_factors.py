@@ -1,7 +1,5 @@
 """Factors of permissible stress at their knees and limits, and endurance limits by groups, qualities and hardness."""
 
-from __future__ import annotations
-
 import math
 import re
 

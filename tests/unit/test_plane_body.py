@@ -1,14 +1,12 @@
 """Bodies put together from sectors: constant stress, rigid motions, and condensation against the same ring in full."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 import pytest
 import scipy.sparse
 import scipy.sparse.linalg
-from support.brute import stiffness_matrix, summed
+from support.brute import stiffness_matrix, summed, tip_loads
 
 from gearcad import Gear, Material
 from gearcad.contact.plane.ring import assemble
@@ -221,13 +219,6 @@ def _permitted(mesh: SectorMesh, number: Any, turned: list[Any], points: Any, cu
 def _in_frame(moved: Any, row: Any, turn: Any) -> Any:
     here = np.stack([moved[2 * row], moved[2 * row + 1]], 1)  # nodes, direction, loads
     return np.einsum("dc,ndm->ncm", turn, here).reshape(2 * len(row), -1)
-
-
-def tip_loads(mesh: SectorMesh) -> Any:
-    tip = mesh.sides[OutlineSide.LEFT_FLANK][0]
-    loads = np.zeros((2 * len(mesh.points), 2))
-    loads[2 * tip, 0], loads[2 * tip + 1, 1] = 1, 1
-    return loads
 
 
 def assert_same(mesh: SectorMesh, full: int, teeth: int, cuts: Cuts | None) -> None:

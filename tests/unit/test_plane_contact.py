@@ -1,7 +1,5 @@
 """The contact of two flanks: two cylinders against Hertz, the complementarity, gaps, and which teeth can touch."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from dataclasses import dataclass, replace
@@ -10,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.optimize import nnls
+from support.dense_contact import involute, pair_of_tooth_0
 
 from gearcad import BasicRack, FlankModification, Gear, GearPair, Material, ReliefShape
 from gearcad.contact.plane.cycle import PlaneCycle, greatest_von_mises, strip_stresses
@@ -208,18 +207,12 @@ PAIR = GearPair(
 )
 
 
-def involute(base: float, start: float, lengths: Any) -> Any:
-    """Points of an involute that begins on the base circle at the angle `start`, unrolled counter-clockwise."""
-    angle = start + lengths / base
-    return np.stack([base * np.cos(angle) + lengths * np.sin(angle), base * np.sin(angle) - lengths * np.cos(angle)], -1)
-
-
 @pytest.mark.parametrize("part", [0.0, 0.3, 0.8, 1.0])
 def test_gap_is_the_distance_of_two_involutes(part: float) -> None:
     """Both flanks drawn in a plane whose x axis is the line of action; what lies between them at each place on the tangent."""
     line, path = line_of_action(PAIR), PAIR.path_of_contact
     length = path.A + 0.02 + part * (path.E - path.A - 0.04)
-    (pair,) = [found for found in contact_pairs(line, length, lambda _tooth, _radius: 0.3, 60, 0.01) if found.tooth == 0]
+    pair = pair_of_tooth_0(PAIR, length, 0.3, 60)
     gaps = np.zeros(len(pair.cells.place))
     for gear, contact, lengths, sense in (
         (PAIR.pinion, length, pair.cells.lengths.pinion, 1),
@@ -235,11 +228,7 @@ def test_gap_is_the_distance_of_two_involutes(part: float) -> None:
 
 
 def test_radius_is_that_of_euler_and_savary() -> None:
-    (pair,) = [
-        found
-        for found in contact_pairs(line_of_action(PAIR), PAIR.path_of_contact.C, lambda _tooth, _radius: 0.1, 66, 0.01)
-        if found.tooth == 0
-    ]
+    pair = pair_of_tooth_0(PAIR, PAIR.path_of_contact.C, 0.1, 66)
     first, second = (
         diameter / 2 * math.sin(math.radians(PAIR.working_transverse_pressure_angle))
         for diameter in PAIR.working_pitch_diameters
@@ -275,7 +264,7 @@ def test_corners_beyond_the_path_count_up_to_the_gap() -> None:
 
 def test_cells_are_not_narrower_than_asked() -> None:
     line, length = line_of_action(PAIR), PAIR.path_of_contact.C
-    (fine,) = [each for each in contact_pairs(line, length, lambda *_: 0.3, 60, 0.01) if each.tooth == 0]
+    fine = pair_of_tooth_0(PAIR, length, 0.3, 60)
     (coarse,) = [each for each in contact_pairs(line, length, lambda *_: 0.3, 60, 0.01, 0.03) if each.tooth == 0]
     assert (fine.cells.width, coarse.cells.width) == pytest.approx((0.01, 0.03))
 

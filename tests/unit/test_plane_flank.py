@@ -1,7 +1,5 @@
 """A load on a flank: Flamant's field against Johnson, and what is left of it in a tooth."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

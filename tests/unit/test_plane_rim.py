@@ -1,7 +1,5 @@
 """Bores that are not held rigidly: against the same ring in full, thin rings in closed form, and limits of stiffness."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any
@@ -10,7 +8,7 @@ import numpy as np
 import pytest
 import scipy.sparse
 import scipy.sparse.linalg
-from support.brute import stiffness_matrix
+from support.brute import stiffness_matrix, tip_loads
 
 from gearcad import Body, Gear, GearPair, Material
 from gearcad.contact.plane.flank import Fillets, PlaneCompliance, flank_compliance
@@ -107,13 +105,6 @@ def _bore_weights(mesh: SectorMesh) -> Any:
             for node, n in zip((a, b, c), shape, strict=True):
                 weights[2 * node : 2 * node + 2] += n * length * np.outer(e, along)
     return weights
-
-
-def tip_loads(mesh: SectorMesh) -> Any:
-    tip = mesh.sides[OutlineSide.LEFT_FLANK][0]
-    loads = np.zeros((2 * len(mesh.points), 2))
-    loads[2 * tip, 0], loads[2 * tip + 1, 1] = 1, 1
-    return loads
 
 
 @pytest.fixture(scope="module")

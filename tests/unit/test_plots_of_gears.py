@@ -1,7 +1,5 @@
 """Pictures of gears, pairs and meshes: what they show is where it is, and nothing is cut off or lies on anything else."""
 
-from __future__ import annotations
-
 import io
 import math
 import xml.etree.ElementTree as ElementTree

@@ -1,7 +1,5 @@
 """The tooth outline: the involute function, its curves, their joints, undercut, and polylines along it."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import pairwise

@@ -1,21 +1,20 @@
 """Progress of long jobs: never backwards, on stderr only, and what they take is told before they start."""
 
-from __future__ import annotations
-
 import json
 import math
 import re
 import tracemalloc
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 from support.checks import coarse_pair
+from support.commands import invoke
 from support.pictures import leave_out_pictures
 from support.responses import cosine, oscillator
+from support.specs import TEMPLATES
 from support.trains import thesis_model
 from threadpoolctl import threadpool_limits
 
@@ -24,7 +23,6 @@ from gearcad.check.options import CheckOptions
 from gearcad.check.run import expected_check, plane_steps
 from gearcad.check.task import check_task
 from gearcad.cli import job as shown
-from gearcad.cli import main
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, solid_pair
 from gearcad.core.runtime import Agenda, Expected, Share, cores, onwards, part
@@ -83,7 +81,7 @@ def checked(tmp_path_factory: pytest.TempPathFactory) -> Result:
     with pytest.MonkeyPatch.context() as patch:
         leave_out_pictures(patch)
         patch.setattr(shown, "_LONG", 0.01)
-        return CliRunner().invoke(main, ["check", str(place / "spur.toml"), "--json", "-o", str(place / "out")])
+        return invoke("check", str(place / "spur.toml"), "--json", "-o", str(place / "out"))
 
 
 def test_percent_and_time_left_stand_on_stderr(checked: Result) -> None:
@@ -177,9 +175,6 @@ def test_memory_of_bodies_is_what_was_expected() -> None:
     finally:
         tracemalloc.stop()
     assert expected_bodies(pair, body, sizes).memory == pytest.approx(peak, rel=1 / 3)
-
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 
 @pytest.mark.parametrize("backlash", [None, math.inf])

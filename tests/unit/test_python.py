@@ -1,7 +1,5 @@
 """gearcad from Python: what objects show of themselves, and jobs on a pair that no spec describes."""
 
-from __future__ import annotations
-
 import inspect
 import re
 import subprocess
@@ -16,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.checks import coarse_pair
+from support.specs import TEMPLATES
 
 import gearcad
 from gearcad import (
@@ -43,8 +42,6 @@ from gearcad.jobs.job import as_design
 from gearcad.jobs.modify import Modify
 from gearcad.jobs.strength import Rate
 from gearcad.solids import Format
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 FZG_C = coarse_pair("FZG C")
 

@@ -1,13 +1,12 @@
 """Racks in specs, tables, documents and jobs: what a text becomes, and where it is refused in a line."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path
 from typing import Any
 
 import pytest
+from support.specs import FACETED_OR_FLAT
 
 import gearcad
 from gearcad import Gear, Load, Rack, RackPair, SpecError
@@ -160,9 +159,9 @@ def test_jobs_take_racks_or_say_why_not(tmp_path: Path) -> None:
     pair = RackPair(pinion=Gear(teeth=20, normal_module=2, face_width=20), rack=Rack(**RACK))
     assert gearcad.data(pair)["pair"]["mounting_distance"] == 20
     assert gearcad.rate(pair, Load(torque=50)).nominal.flank.nominal_stress > 0
-    files = gearcad.build(pair, tmp_path, ["stl", "3mf", "glb", "dxf", "csv"], circles=True)
+    files = gearcad.build(pair, tmp_path, FACETED_OR_FLAT, circles=True)
     assert {file.name for file in files} == {"data.json", "assembly.3mf", "assembly.glb"} | {
-        f"{part}.{kind}" for part in ("pinion", "rack") for kind in ("stl", "3mf", "glb", "dxf", "csv")
+        f"{part}.{kind}" for part in ("pinion", "rack") for kind in FACETED_OR_FLAT
     }
     assert [file.name for file in gearcad.build(pair.rack, tmp_path / "rack", ["dxf"])] == ["data.json", "rack.dxf"]
     with pytest.raises(GeometryError, match="bracket = True: needs a pair of gears"):

@@ -1,7 +1,5 @@
 """Racks and rack-pinion pairs by closed forms, by the limit of a wheel of very many teeth, and by what they refuse."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Identities and limits of the ratings, where the formulas leave their ranges, and the document of a rating."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Hertz's line contact and the root section of a rating: against integrals, the trochoid, limits and known values."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Inputs of a rating, its edition of 2019, and racks as the limit of wheels of ever more teeth."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Internal pairs and shaped gears: factors by hand, sections held against curves and limits, and what is refused."""
 
-from __future__ import annotations
-
 import math
 import random
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """What a plane check says of rims, bolts, rings, thin faces and roots wider than the mesh."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

@@ -1,17 +1,15 @@
 """Contact of a pinion inside a ring: gaps, the line of action, poses, and the check of its solid bodies."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import meshio
 import numpy as np
 import pytest
 from support.brute import nodal_compliance
+from support.dense_contact import involute, pair_of_tooth_0
 
 from gearcad import Body, Gear, GearPair, Load, Material, Mounting
 from gearcad.check.comparison import ComparisonRole
@@ -54,12 +52,6 @@ def cycle(model: PlanePair) -> PlaneCycle:
     return PlaneCycle.run(model, TORQUE, 12)
 
 
-def involute(base: float, start: float, lengths: Any) -> Any:
-    """Points of an involute that begins on the base circle at the angle `start`, unrolled counter-clockwise."""
-    angle = start + lengths / base
-    return np.stack([base * np.cos(angle) + lengths * np.sin(angle), base * np.sin(angle) - lengths * np.cos(angle)], -1)
-
-
 # The line of action
 
 
@@ -68,7 +60,7 @@ def test_gap_is_that_of_two_involutes_unrolled_to_the_same_side(part: float) -> 
     """Both base circles lie on one side of the line of action, and places along the tangent are the same for both."""
     line, path = line_of_action(PAIR), PAIR.path_of_contact
     length = path.A + 0.02 + part * (path.E - path.A - 0.04)
-    (pair,) = [found for found in contact_pairs(line, length, lambda _tooth, _radius: 0.3, 60, 0.01) if found.tooth == 0]
+    pair = pair_of_tooth_0(PAIR, length, 0.3, 60)
     between = np.zeros(len(pair.cells.place))
     for gear, contact, lengths, sense in (
         (PAIR.pinion, length, pair.cells.lengths.pinion, 1),
@@ -83,11 +75,7 @@ def test_gap_is_that_of_two_involutes_unrolled_to_the_same_side(part: float) -> 
 
 
 def test_radius_is_that_of_a_round_flank_in_a_hollow_one() -> None:
-    (pair,) = [
-        found
-        for found in contact_pairs(line_of_action(PAIR), PAIR.path_of_contact.C, lambda _tooth, _radius: 0.1, 66, 0.01)
-        if found.tooth == 0
-    ]
+    pair = pair_of_tooth_0(PAIR, PAIR.path_of_contact.C, 0.1, 66)
     sine = math.sin(math.radians(PAIR.working_transverse_pressure_angle))
     first, second = (abs(diameter) / 2 * sine for diameter in PAIR.working_pitch_diameters)
     assert pair.radius == pytest.approx(first * second / (second - first), rel=1e-9)

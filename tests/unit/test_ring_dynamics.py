@@ -1,7 +1,5 @@
 """Dynamics and mesh stiffness of internal pairs."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Meshes of sectors, rings and internal pairs: sides, sizes and how they stand."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 from typing import Any

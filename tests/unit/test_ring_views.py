@@ -1,7 +1,5 @@
 """Views of rings and racks: what ISO 2203 says of them, sizes at scale, and the hand of the teeth as the solid has it."""
 
-from __future__ import annotations
-
 import math
 from itertools import product
 from typing import TypeVar

@@ -1,7 +1,5 @@
 """Scuffing temperatures against formulas that were not derived from the same code, and against printed numbers."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import fields, replace
 

@@ -1,7 +1,5 @@
 """What scuffing temperatures do at the limits of their formulas, and what they must never do."""
 
-from __future__ import annotations
-
 import random
 from dataclasses import replace
 

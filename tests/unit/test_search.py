@@ -1,7 +1,5 @@
 """The search for modifications, on FZG C gears: what it finds, against what is known of good tip relief."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import replace
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Sections of gears as meshes with named sides, and their nodes turned by modifications."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

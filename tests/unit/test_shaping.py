@@ -1,7 +1,5 @@
 """Rings, shaper cutters and specs with a ring that cannot be: one line each, and the number in it would do."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Files of sheets: what other programs find in them is what was put on paper."""
 
-from __future__ import annotations
-
 import base64
 import re
 import zlib

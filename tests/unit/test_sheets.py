@@ -15,9 +15,7 @@ import openpyxl
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from support.batches import ERROR, GOOD, refusal_of, values_of, workbook
-from support.batches import SHEET_GEARS as GEARS
-from support.batches import sheet_rows_of as rows_of
+from support.batches import ERROR, GOOD, SHEET_GEARS, refusal_of, sheet_rows_of, values_of, workbook
 
 from gearcad import SpecError
 from gearcad.designs import open_table
@@ -30,9 +28,7 @@ MODEST = 8_000_000
 """Bytes of memory in which a workbook is refused that unpacks to more."""
 
 
-@pytest.fixture(autouse=True)
-def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("here")
 
 
 def workbook_rows(rows: list[list[Any]]) -> list[DesignRow]:
@@ -67,19 +63,22 @@ BINARY = "t.csv: is not a text; save it as CSV UTF-8 (a workbook is named .xlsx)
     ("content", "message"),
     [
         (
-            (GEARS + GOOD + "grün,20,2,10\n").encode("latin-1"),
+            (SHEET_GEARS + GOOD + "grün,20,2,10\n").encode("latin-1"),
             "t.csv line 3: is not UTF-8 text (byte 3 of the line); save it as CSV UTF-8",
         ),
-        ((GEARS + GOOD).encode("utf-16")[:-1], "t.csv: is not UTF-16 text; save it as CSV UTF-8"),
-        ((GEARS + GOOD).encode("utf-16-le"), BINARY),
-        ((GEARS + "a\0b,20,2,10\n").encode(), BINARY),
-        ((GEARS + GOOD + '"b,20,2,10\n' + GOOD).encode(), "t.csv row 3: a quotation mark opens a cell here and never closes"),
+        ((SHEET_GEARS + GOOD).encode("utf-16")[:-1], "t.csv: is not UTF-16 text; save it as CSV UTF-8"),
+        ((SHEET_GEARS + GOOD).encode("utf-16-le"), BINARY),
+        ((SHEET_GEARS + "a\0b,20,2,10\n").encode(), BINARY),
         (
-            (GEARS + '"b,20,2,10\n' + GOOD * 15000).encode(),
+            (SHEET_GEARS + GOOD + '"b,20,2,10\n' + GOOD).encode(),
+            "t.csv row 3: a quotation mark opens a cell here and never closes",
+        ),
+        (
+            (SHEET_GEARS + '"b,20,2,10\n' + GOOD * 15000).encode(),
             "t.csv row 2: has a cell of more than 131072 characters; does a quotation mark open and never close?",
         ),
         (
-            (GEARS + GOOD + '"b"c,20,2,10\n').encode(),
+            (SHEET_GEARS + GOOD + '"b"c,20,2,10\n').encode(),
             "t.csv row 3: a closing quotation mark must end its cell; inside a cell write the mark twice",
         ),
     ],
@@ -89,8 +88,8 @@ def test_a_broken_text_says_where(content: bytes, message: str) -> None:
 
 
 def test_quotation_marks_in_comments_do_not_matter() -> None:
-    content = '# 5" pipe\n# see, "this\n' + GEARS + '# and, "that"x\n,,"# quoted, too"\n' + GOOD
-    assert [(row.number, row.name) for row in rows_of(content)] == [(6, "good")]
+    content = '# 5" pipe\n# see, "this\n' + SHEET_GEARS + '# and, "that"x\n,,"# quoted, too"\n' + GOOD
+    assert [(row.number, row.name) for row in sheet_rows_of(content)] == [(6, "good")]
 
 
 @pytest.mark.parametrize(
@@ -228,7 +227,7 @@ def test_the_sheet_in_front_counts() -> None:
 
 def inflated(part: str, old: str, new: str) -> Path:
     """A workbook of one good row with a text in one of its parts replaced."""
-    good = workbook([GEARS.strip().split(","), ["good", 20, 2, 10]], "good.xlsx")
+    good = workbook([SHEET_GEARS.strip().split(","), ["good", 20, 2, 10]], "good.xlsx")
     with zipfile.ZipFile(good) as before, zipfile.ZipFile("t.xlsx", "w", zipfile.ZIP_DEFLATED, compresslevel=1) as after:
         for name in before.namelist():
             content = before.read(name).decode()
@@ -349,7 +348,7 @@ def test_every_dialect_reads_to_the_same_rows(designs: list[tuple[Any, ...]]) ->
         for number, (name, *values) in enumerate(designs)
     ]
     for dialect, write in DIALECTS.items():
-        rows = rows_of(write(table))
+        rows = sheet_rows_of(write(table))
         assert [(row.number, row.name, row.values) for row in rows] == expected, dialect
         assert not any(row.faults for row in rows)
     assert [(row.number, row.name, row.values) for row in workbook_rows(table)] == expected

@@ -1,7 +1,5 @@
 """The pair on bearings, and single teeth as springs: modal structure, limits with closed forms, errors that are drawn."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The search for sizes: its ranges, complete, in no order but its own, and the same each time; fronts, ripple, rounding."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from dataclasses import replace
@@ -10,10 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from support.commands import invoke
 
 from gearcad import GearPair, Load, Material, PerGear
-from gearcad.cli import main
 from gearcad.cli.size_options import values_of
 from gearcad.core.errors import InputError, ParameterError
 from gearcad.geometry import Gear
@@ -288,7 +285,7 @@ def run(**changes: str | None) -> str:
     """Standard error of a command that must refuse, in one line with exit status 2."""
     given = TASK | {f"--{name.replace('_', '-')}": value for name, value in changes.items()}
     words = [word for name, value in given.items() if value is not None for word in (name, value)]
-    result = CliRunner().invoke(main, ["size", *words])
+    result = invoke("size", *words)
     assert result.exit_code == 2, result.output
     assert result.stderr.count("\n") == 1
     return result.stderr

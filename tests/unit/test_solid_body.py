@@ -1,7 +1,5 @@
 """Solid bodies put together from sectors: patches, rigid motions, and condensation against the same body in full."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import pairwise

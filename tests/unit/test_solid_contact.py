@@ -1,14 +1,11 @@
 """Contact along lines: the half-space's field, gaps against points in space, ellipses against Hertz."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
-from support.gap import gap_along_action, hertz_ellipse, middle_height
+from support.dense_contact import gap_along_action, hertz_ellipse, middle_height
 
 from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
 from gearcad.contact.shared.bodies import BodyModel
@@ -34,9 +31,7 @@ from gearcad.contact.solid.line_contact import (
 )
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
 from gearcad.core.errors import SolverError
-from gearcad.core.records import PerGear, Role
-
-Floats = NDArray[np.float64]
+from gearcad.core.records import Floats, PerGear, Role
 
 STEEL = Material()
 LOAD = np.array([0.3, -0.2, 0.1])

@@ -1,7 +1,5 @@
 """Texts of specs, edited and written; keys that take a text; the normal diametral pitch instead of the module."""
 
-from __future__ import annotations
-
 import copy
 import dataclasses
 import json
@@ -14,6 +12,7 @@ from typing import Any
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from support.specs import TEMPLATES
 from support.strategies import MODIFICATIONS, build_pair, modified, pair_inputs
 
 from gearcad import BasicRack, Gear, GearPair, GeometryError, Load, Material, Rack
@@ -29,8 +28,6 @@ from gearcad.designs.train_keys import PLANETARY, TRAIN_PARTS
 from gearcad.drawing.options import PartDrawing
 from gearcad.rating.editions import Edition
 from gearcad.rating.options import RatingOptions
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 CHANGES: dict[str, float | str] = {
     "pair.name": "fzg-c-modified",

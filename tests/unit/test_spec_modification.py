@@ -1,7 +1,5 @@
 """Flank modifications and mounting: what is permitted, and their way through specs, tables, studies and the data sheet."""
 
-from __future__ import annotations
-
 import io
 import math
 import re

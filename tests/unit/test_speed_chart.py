@@ -1,15 +1,12 @@
 """Charts over speed: every maximum between the speeds asked for, as many harmonics as are needed, motions where flanks part."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from support.responses import cosine, isolated, oscillator, preloaded, two_stages
+from support.specs import TEMPLATES
 from support.transient import integrate
 
 from gearcad.core.errors import GeometryError
@@ -28,9 +25,6 @@ from gearcad.dynamics.trains.shaft_lines import System
 from gearcad.dynamics.trains.tooth_deviations import PeriodicLine, TransmissionError
 from gearcad.dynamics.trains.train import Train
 
-Floats = NDArray[np.float64]
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 SAME_MOTION = 0.01
 """Two ways to integrate a motion, by steps of a hundredth of a vibration and by events."""
 MAXIMUM = 0.01

@@ -1,7 +1,5 @@
 """Full ratings and load spectra: closed forms between results, Miner's sum by hand, and faults in one line."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

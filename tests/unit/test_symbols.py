@@ -1,7 +1,5 @@
 """Words and symbols cover what the objects hold; sentences of templates are plain text on one line."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Design tables: keys of columns, values of cells, designs of rows, and the faults of all rows with their place."""
 
-from __future__ import annotations
-
 import csv
 import io
 import pickle
@@ -11,9 +9,8 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support.batches import ERROR, TEMPLATES, faults_of, refusal_of, values_of
-from support.batches import SHEET_GEARS as GEARS
-from support.batches import sheet_rows_of as rows_of
+from support.batches import ERROR, SHEET_GEARS, faults_of, refusal_of, sheet_rows_of, values_of
+from support.specs import TEMPLATES
 
 from gearcad import SpecError
 from gearcad.designs import design_from_tables, open_table, read_spec
@@ -21,10 +18,7 @@ from gearcad.designs.cells import column_letter
 from gearcad.designs.design import require_plain_name
 from gearcad.designs.train_keys import COLUMNS
 
-
-@pytest.fixture(autouse=True)
-def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("here")
 
 
 # ---------------------------------------------------------------------- headings
@@ -126,7 +120,7 @@ def test_a_file_without_a_heading_is_no_table(content: str) -> None:
 
 
 def test_a_heading_alone_is_a_table_without_rows() -> None:
-    assert rows_of(GEARS) == []
+    assert sheet_rows_of(SHEET_GEARS) == []
 
 
 # ---------------------------------------------------------------------- rows
@@ -136,22 +130,22 @@ def test_rows_are_counted_as_a_spreadsheet_shows_them() -> None:
     """Comments, blank rows and records of several lines are one row each, a line `sep=` is none."""
     content = (
         'sep=,\n# one, "two\n\n"# of\n2 lines",,\n'
-        + GEARS
+        + SHEET_GEARS
         + ',,,\na,20,2,10\n, # "x",,\n\n"b\nc",20,2,10\n\n#d,20,2,10\ne,20,2,10'
     )
-    assert [(row.number, row.name) for row in rows_of(content)] == [(6, "a"), (9, "b\nc"), (12, "e")]
+    assert [(row.number, row.name) for row in sheet_rows_of(content)] == [(6, "a"), (9, "b\nc"), (12, "e")]
 
 
 def test_comments_are_not_confused_with_errors_of_a_spreadsheet() -> None:
     names = ["#N/A", "#NAME?", "#DIV/0!", "#BEZUG!", "#NV"]
-    content = GEARS + "".join(f"{name},20,2,10\n" for name in (*names, "#a!", "#N/A here", "# #N/A", "#", "#1!"))
-    assert [row.name for row in rows_of(content)] == names
+    content = SHEET_GEARS + "".join(f"{name},20,2,10\n" for name in (*names, "#a!", "#N/A here", "# #N/A", "#", "#1!"))
+    assert [row.name for row in sheet_rows_of(content)] == names
     assert faults_of(content)[0] == f"t.csv row 2 column A (#N/A): name = '#N/A': {ERROR}"
     assert len(faults_of(content)) == len(names)
 
 
 def test_blank_cells_are_left_out_and_short_rows_filled_up() -> None:
-    rows = rows_of("name,teeth,normal_module,face_width,body.bore,material.name\na,20, ,10\nb,20,2,10,\xa0,\n")
+    rows = sheet_rows_of("name,teeth,normal_module,face_width,body.bore,material.name\na,20, ,10\nb,20,2,10,\xa0,\n")
     assert [row.values for row in rows] == [
         {"gear.teeth": 20, "gear.face_width": 10.0},
         {"gear.teeth": 20, "gear.normal_module": 2.0, "gear.face_width": 10.0},
@@ -170,8 +164,8 @@ def test_a_row_makes_what_the_same_spec_makes() -> None:
 
 
 def test_material_and_load_are_there_if_a_cell_of_theirs_is() -> None:
-    heading = GEARS.strip() + ",material.youngs_modulus,material.name,load.torque\n"
-    first, second = (row.design() for row in rows_of(heading + "a,20,2,10,205000,12,\nb,20,2,10,,,7\n"))
+    heading = SHEET_GEARS.strip() + ",material.youngs_modulus,material.name,load.torque\n"
+    first, second = (row.design() for row in sheet_rows_of(heading + "a,20,2,10,205000,12,\nb,20,2,10,,,7\n"))
     assert first.material is not None and second.load is not None
     assert (first.material.youngs_modulus, first.material.name, first.load) == (205000.0, "12", None)
     assert (second.material, second.load.torque) == (None, 7.0)
@@ -181,7 +175,7 @@ MIXED = "name,gear.teeth,pinion.teeth,wheel.teeth,gear.normal_module,pair.normal
 
 
 def test_a_mixed_table_makes_gears_and_pairs() -> None:
-    rows = rows_of(MIXED + "g,20,,,2,,10,\np,,20,30,,2,,10\n")
+    rows = sheet_rows_of(MIXED + "g,20,,,2,,10,\np,,20,30,,2,,10\n")
     assert [list(row.design().gears) for row in rows] == [["gear"], ["pinion", "wheel"]]
 
 
@@ -204,7 +198,7 @@ def test_rows_begin_anew_with_every_call_and_travel_between_processes() -> None:
 
 def test_a_fault_of_a_row_travels_between_processes_with_its_key() -> None:
     with pytest.raises(SpecError) as caught:
-        rows_of(GEARS + "a,2,2,10\n")[0].design()
+        sheet_rows_of(SHEET_GEARS + "a,2,2,10\n")[0].design()
     copy = pickle.loads(pickle.dumps(caught.value))
     assert (str(copy), copy.key) == (
         "t.csv row 2 column B (a): gear.teeth = 2: must be a whole number from 3 to 2000",
@@ -255,13 +249,13 @@ def test_teeth_are_whole_if_the_number_is(text: str, value: float) -> None:
 
 def test_texts_stay_texts_even_if_they_look_like_numbers() -> None:
     heading = "name;pinion.name;material.name;rack;profile_shift_split;wheel.body.hub_side\n"
-    [row] = rows_of(heading + "12;1,5;1.7131;2;3;4\n")
+    [row] = sheet_rows_of(heading + "12;1,5;1.7131;2;3;4\n")
     assert (row.name, list(row.values.values()), row.faults) == ("12", ["1,5", "1.7131", "2", "3", "4"], ())
 
 
 def test_an_apostrophe_before_a_formula_is_taken_off() -> None:
     """Tables of results have it, so that no spreadsheet runs the text; another apostrophe is the name's own."""
-    assert [row.name for row in rows_of("name\n'=1+2\n''@x\n'x\n=x\n")] == ["=1+2", "'@x", "'x", "=x"]
+    assert [row.name for row in sheet_rows_of("name\n'=1+2\n''@x\n'x\n=x\n")] == ["=1+2", "'@x", "'x", "=x"]
 
 
 NO_COMMA = "must have a decimal point: write 18.3 (a decimal comma needs semicolons between the cells)"
@@ -282,7 +276,7 @@ NO_COMMA = "must have a decimal point: write 18.3 (a decimal comma needs semicol
     ],
 )
 def test_a_cell_that_is_no_number_says_so(separator: str, cell: str, fault: str) -> None:
-    content = f"{GEARS}a,20,2,".replace(",", separator) + cell
+    content = f"{SHEET_GEARS}a,20,2,".replace(",", separator) + cell
     assert faults_of(content) == [f"t.csv row 2 column D (a): gear.face_width = {fault}"]
 
 
@@ -345,7 +339,7 @@ def test_names_fit_into_file_systems(name: str, permitted: bool) -> None:
 
 
 def test_a_row_and_a_spec_in_tables_give_the_same_design() -> None:
-    [row] = rows_of(
+    [row] = sheet_rows_of(
         "name,normal_module,pinion.teeth,wheel.teeth,face_width,rack,wheel.rack.root_radius\na,2,20,30,10,ISO53_C,full\n"
     )
     tables = {
@@ -417,7 +411,7 @@ def test_twenty_kinds_of_wrong_rows_give_as_many_clear_messages() -> None:
 
 
 def test_a_row_of_the_table_raises_its_first_fault() -> None:
-    good, *wrong = rows_of(WRONG, "pairs.csv")
+    good, *wrong = sheet_rows_of(WRONG, "pairs.csv")
     assert good.design().name == "good"
     for row, fault in zip(wrong, FAULTS, strict=True):
         with pytest.raises(SpecError) as caught:
@@ -473,7 +467,7 @@ def test_a_row_has_no_faults_exactly_if_it_makes_a_design(cells: list[str]) -> N
     heading = WRONG.split("\n")[1] + ",pinion.body.keyway_width,wheel.tip_diameter"
     buffer = io.StringIO()
     csv.writer(buffer).writerow(["a", *cells])
-    [row] = rows_of(f"{heading}\n{buffer.getvalue()}")
+    [row] = sheet_rows_of(f"{heading}\n{buffer.getvalue()}")
     faults = row.all_faults()
     assert len(set(faults)) == len(faults)
     assert all(fault.startswith("t.csv row 2 ") and fault.isprintable() for fault in faults)

@@ -1,7 +1,5 @@
 """Tolerances of flanks and allowances of tooth thickness and centre distance: formulas by hand and tables."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Gaps between teeth and contacts of a pair in mesh, against turned profiles, outlines and points of both surfaces."""
 
-from __future__ import annotations
-
 import math
 import random
 from dataclasses import replace
@@ -9,10 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from support.clearance import turn_to_touch
-from support.gap import distance_in_space, gap_along_action, middle_height, pinion_points, taken_back, wheel_points
+from support.dense_contact import distance_in_space, gap_along_action, middle_height, pinion_points, taken_back, wheel_points
 
 from gearcad import BasicRack, Body, FlankModification, Gear, GearcadError, GearPair, Mounting, ReliefShape, ShaperCutter
 from gearcad.contact.plane.pair import contact_pairs
@@ -282,8 +279,6 @@ def test_edge_that_bounds_keep_off_the_fillet_is_beside_it_everywhere() -> None:
                     cuts += depth > 0
     assert sure > 2 * unsure > 0 and cuts > 0
 
-
-PosedFloats = NDArray[np.float64]
 
 TOUCHING = 1e-9
 """rad: what the search for the touching turn leaves."""

@@ -1,7 +1,5 @@
 """K_v of teeth with errors in time: against equations of their own, the harmonic balance, the motion of one train by itself."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Columns and data sheet of trains; options without effect are told, and those of the starters can be used."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -1,7 +1,5 @@
 """Real pairs in trains: what a mesh takes from its pair, forces and flanks, and a train of one pair as the pair alone."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Trains in design tables and studies: keys of parts under their names, wildcards, and what is refused."""
 
-from __future__ import annotations
-
 import csv
 from dataclasses import replace
 from pathlib import Path

@@ -1,28 +1,25 @@
 """Runs with changing speed and torque: against closed forms, an integration by scipy, the charts; and what cannot be run."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from support.trains import torqued_pair
 
 from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.records import Floats
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.time_domain.transient import run_transient
 from gearcad.dynamics.time_domain.transient_result import Transient, TransientOptions
 from gearcad.dynamics.train_study import study_train
-from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
+from gearcad.dynamics.trains.members import Inertia, Shaft
 from gearcad.dynamics.trains.mesh_excitation import CosineStiffness, Excitation, MeshExcitation
 from gearcad.dynamics.trains.shaft_lines import system
 from gearcad.dynamics.trains.steady_response import Direction
 from gearcad.dynamics.trains.tooth_deviations import TransmissionError
 from gearcad.dynamics.trains.train import Train
-
-Floats = NDArray[np.float64]
 
 STEPS = 2e-3
 """Relative error of forces by 80 steps a vibration."""
@@ -32,13 +29,7 @@ JUMP = 0.02
 
 
 def pair(**more: object) -> Train:
-    mesh: dict[str, object] = {"stiffness": 300.0, "variation": 0.0, "damping_ratio": 0.05, **more}
-    return Train(
-        inertias=(Inertia(name="pinion", inertia=0.004), Inertia(name="wheel", inertia=0.03)),
-        meshes=(ToothMesh(name="mesh", pinion="pinion", wheel="wheel", base_radii=(40, 80), teeth=20, **mesh),),  # type: ignore[arg-type]
-        torques={"pinion": 200.0, "wheel": 400.0},
-        speed=3000.0,
-    )
+    return torqued_pair(20, **{"stiffness": 300.0, "variation": 0.0, "damping_ratio": 0.05, **more})
 
 
 def resonance(train: Train) -> float:

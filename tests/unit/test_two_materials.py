@@ -1,7 +1,5 @@
 """A material for each gear: in specs, tables, studies and Python, in ratings, and between finite elements."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 from dataclasses import replace

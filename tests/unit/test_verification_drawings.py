@@ -1,15 +1,13 @@
 """Drawings that were tampered with: every row of a table, dimensions, sizes, title and mass are noticed, with their words."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import ezdxf
 import pytest
+from support.specs import TEMPLATES
 
-import gearcad
 from gearcad.designs import read_spec
 from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.jobs.build import products_of
@@ -18,8 +16,6 @@ from gearcad.jobs.verification_sheets import judge_sheets, make_sheets
 from gearcad.solids import FileOptions
 from gearcad.verification.claims import Claim
 from gearcad.verification.exact_parts import ExactPart
-
-TEMPLATES = Path(gearcad.__file__).parents[1] / "templates"
 
 STARTERS = ("spur", "volvo-13-44", "reducer-21-43", "ring-22-70", "rack", "double-23-81", "planetary-24-21-66", "planetary-alm")
 

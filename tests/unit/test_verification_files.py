@@ -1,7 +1,5 @@
 """Files that were tampered with: the judges notice each change, name the claim, and say where."""
 
-from __future__ import annotations
-
 import json
 import re
 import struct

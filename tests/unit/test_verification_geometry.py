@@ -1,16 +1,14 @@
 """The judge of geometry: designs that are right pass, and each fault that is put in is noticed by its claim."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from support.cases import volvo_pair
 from support.samples import RINGS, SAMPLES, SHAPED
+from support.specs import TEMPLATES
 
 from gearcad import BasicRack, Body, Gear, GearPair, Rack, RackPair
 from gearcad.core.quantities import Derived
@@ -22,8 +20,6 @@ from gearcad.geometry.profile import ToothProfile
 from gearcad.verification import geometry
 from gearcad.verification.claims import Claim
 from gearcad.verification.geometry import judge_gear, judge_outline, judge_pair, judge_rack
-
-TEMPLATES = Path(__file__).parents[2] / "templates"
 
 HOBBED = Gear(teeth=23, normal_module=2, face_width=12, helix_angle=15, profile_shift=0.1, body=Body(tip_chamfer=0.2))
 SHAPER = ShaperCutter(teeth=25, tip_radius=0.2)

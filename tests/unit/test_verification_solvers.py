@@ -1,13 +1,12 @@
 """Meshes in other readers and CalculiX: figures of our own pass, and files or figures that were changed do not."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from support.calculix import needs_ccx
+from support.specs import TEMPLATES
 
 import gearcad
 from gearcad import Body, Gear
@@ -20,8 +19,6 @@ from gearcad.verification.calculix import PLANE_PERMITTED, compare
 from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.exact_parts import ExactPart
 from gearcad.verification.mesh_files import StatedMesh, judge_mesh
-
-TEMPLATES = Path(gearcad.__file__).parents[1] / "templates"
 
 GEAR = Gear(teeth=17, normal_module=2, face_width=6, helix_angle=12, profile_shift=0.2, body=Body(bore=14))
 

@@ -1,7 +1,5 @@
 """One server and one browser for all tests of the page; without Chromium they are skipped."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from collections.abc import Iterator

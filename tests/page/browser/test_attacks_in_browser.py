@@ -1,7 +1,5 @@
 """What hostile designs, hasty hands, other tabs, programs and sites do to a page and may ask its server: nothing."""
 
-from __future__ import annotations
-
 import http.client
 import os
 import signal

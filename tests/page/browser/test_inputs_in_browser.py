@@ -1,7 +1,5 @@
 """Inputs in a browser: keyboard, text, shift diagram, German, a phone; what is typed is seen everywhere."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """Runs, files and tables in a browser, and the page by keys alone."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Data sheet, bodies and section in a browser: what changed, notices, turning, cutting and measuring."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from gearcad.designs.reader import starter_text
