@@ -23,6 +23,8 @@ _LONG = 15
 """Letters of a word that may have to go on in the next line."""
 
 _LONG_WORD = re.compile(rf"\w{{{_LONG},}}")
+_NUMBER = r"[-+±−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+_NUMBERS = re.compile(rf"{_NUMBER}(?:(?: | … ){_NUMBER})*(?: (?:mm|deg|GB))?")
 _SOFT_HYPHEN = "\u00ad"
 
 
@@ -69,6 +71,10 @@ class PageWords:
     def __getitem__(self, english: str) -> str:
         return self.table.get(english, english)
 
+    def number(self, text: str) -> str:
+        """Return the text of one or several numbers with the decimal sign of the language; other text as it is."""
+        return text.replace(".", ",") if self.language is PageLanguage.GERMAN and _NUMBERS.fullmatch(text) else text
+
     def divided(self, text: str) -> str:
         """A text whose long words may go on in the next line, before any of the `parts` of which they are made."""
         if not self.parts:
@@ -81,7 +87,8 @@ class PageWords:
         end = line[line.rfind(": must be ") + len(": ") :]
         for pattern, words in self.permitted.items():
             if found := re.fullmatch(pattern, end):
-                return words.format(*found.groups()).replace(" deg", "°")
+                values = (self.number(value) if value else value for value in found.groups())
+                return words.format(*values).replace(" deg", "°")
         return ""
 
 

@@ -318,3 +318,40 @@ def test_the_eldest_steps_go_first(monkeypatch: pytest.MonkeyPatch) -> None:
     for _ in range(5):
         bench.undo()
     assert "teeth = 18\n" in bench.text
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "bounds"),
+    [
+        ("reducer-21-43", "pinion.teeth", (3, 2000, None)),
+        ("reducer-21-43", "wheel.teeth", (3, 2000, -10)),
+        ("spur", "gear.teeth", (3, 2000, -10)),
+        ("planetary-24-21-66", "planet.teeth", (3, 2000, None)),
+        ("planetary-24-21-66", "ring.teeth", (-2000, -10, None)),
+    ],
+)
+def test_bounds_of_numbers_of_teeth(name: str, key: str, bounds: tuple[int, int, int | None]) -> None:
+    field = _fields(_bench(name))[key]
+    assert (field["least"], field["most"], field["negative"]) == bounds
+
+
+def test_a_part_that_has_parts_stands_with_them() -> None:
+    bench = _bench("planetary-alm")
+    groups = [group for table in fields_of(bench.design, bench.tables) for group in table["groups"]]
+    assert {group["part"] for group in groups if group["family"] == "Pre stage"} == {
+        group["part"] for group in groups if group["part"].startswith("pre_stage")
+    }
+    assert not any("Pre stage" in group["titles"] for group in groups)
+
+
+def test_all_faults_are_found() -> None:
+    bench = _bench("reducer-21-43")
+    wrong = {"pinion.teeth": "2", "wheel.profile_shift": "9", "load.speed": "fast", "pair.normal_module": "-3"}
+    for key, text in wrong.items():
+        bench.change({key: text})
+    assert {fault.key for fault in bench.faults()} == wrong.keys()
+    assert bench.faults()[0] == bench.fault
+    bench.change({"pinion.teeth": "21"})
+    assert len(bench.faults()) == len(wrong) - 1
+    bench.write("[pair")
+    assert bench.faults() == (bench.fault,)

@@ -218,7 +218,7 @@ def test_limits_are_those_of_all_sessions(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_what_would_not_begin_says_why() -> None:
-    found = expected_of(read_spec(TEMPLATES / "volvo-13-44.toml"))
+    found = expected_of(read_spec(TEMPLATES / "volvo-13-44.toml"), PageWords.of(PageLanguage.ENGLISH))
     assert found["check-2d"].why.startswith("pair.helix_angle = 28 deg: must be 0 for model 2d")
     assert not found["check-2d"].told
     assert not found["check-3d"].why

@@ -114,7 +114,7 @@ def test_long_words_may_go_on_in_the_next_line() -> None:
     [
         ("must be a whole number from 3 to 2000", "muss eine ganze Zahl von 3 bis 2000 sein"),
         ('must be a number at least -5 and at most 5, or "auto"', 'muss eine Zahl von -5 bis 5 sein, oder "auto"'),
-        ("must be a number at least 0.01 mm and at most 200 mm", "muss eine Zahl von 0.01 mm bis 200 mm sein"),
+        ("must be a number at least 0.01 mm and at most 200 mm", "muss eine Zahl von 0,01 mm bis 200 mm sein"),
         ("must be a number at least -75 deg and at most 75 deg", "muss eine Zahl von -75° bis 75° sein"),
         ("must be a number above 0 mm", "muss eine Zahl über 0 mm sein"),
         ('must be "strain" or "stress"', 'muss "strain" oder "stress" sein'),
@@ -129,3 +129,20 @@ def test_what_is_permitted_is_said_where_there_are_words_for_it(end: str, said: 
 
 def test_notices_about_fields_have_german_names() -> None:
     assert PageWords.of(PageLanguage.GERMAN).notices.keys() == sheet_content._ABOUT.keys()
+
+
+@pytest.mark.parametrize(
+    ("text", "german"),
+    [
+        ("-0.25", "-0,25"),
+        ("1.2e-05", "1,2e-05"),
+        ("50.7 135.3", "50,7 135,3"),
+        ("12.6 GB", "12,6 GB"),
+        ("6.5.2", "6.5.2"),
+        ("A/8.3", "A/8.3"),
+        ("18CrNiMo7-6", "18CrNiMo7-6"),
+    ],
+)
+def test_numbers_have_the_decimal_sign_of_the_language(text: str, german: str) -> None:
+    assert PageWords.of(PageLanguage.GERMAN).number(text) == german
+    assert PageWords.of(PageLanguage.ENGLISH).number(text) == text

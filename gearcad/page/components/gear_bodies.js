@@ -17,6 +17,9 @@ function isWithoutCard() {
   return /swiftshader|llvmpipe|softpipe|software/i.test(name);
 }
 
+const fixed = (value, digits) =>
+  value.toLocaleString(document.documentElement.lang || "en", { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
+
 export default {
   template: `
     <div class="scene">
@@ -42,7 +45,7 @@ export default {
       const [from, to] = this.points;
       const [x, y, z] = to.map((each, n) => each - from[n]);
       const [size, off] = [Math.hypot(x, y, z), 2 * this.error];
-      return `${size.toFixed(3)} mm   x ${x.toFixed(3)}   y ${y.toFixed(3)}   z ${z.toFixed(3)}   (±${off.toPrecision(2)}: ${this.words.facets})`;
+      return `${fixed(size, 3)} mm   x ${fixed(x, 3)}   y ${fixed(y, 3)}   z ${fixed(z, 3)}   (±${off.toLocaleString(document.documentElement.lang || "en", { maximumSignificantDigits: 2 })}: ${this.words.facets})`;
     },
   },
   watch: {
@@ -205,7 +208,7 @@ export default {
           cut.cap.lookAt(middle.clone().sub(normal));
           cut.cap.scale.setScalar(2 * size);
         }
-        this.cutAt = `${place.toFixed(2)} mm`;
+        this.cutAt = `${fixed(place, 2)} mm`;
       }
       this.restyle();
       this.pose();

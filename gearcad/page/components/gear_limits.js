@@ -2,23 +2,26 @@
 // them the browser interpolates. What is moved goes to the server, one move at a time.
 const PATIENCE = 3000; // ms until a move that nobody answers is taken for lost
 const FINE = 4; // pixels of the regions to one of the grid
-const LEFT = 30, TOP = 6, WIDE = 278, HIGH = 240;
+const LEFT = 36, TOP = 6, WIDE = 272, HIGH = 240;
+
+const fixed = (value, digits) =>
+  value.toLocaleString(document.documentElement.lang || "en", { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
 
 export default {
   template: `
     <div class="limits">
       <p v-if="!variables.length" class="none">{{ words.none }}</p>
       <template v-else>
-        <svg :viewBox="'0 0 ' + (LEFT + WIDE + 6) + ' ' + (TOP + HIGH + 30)" tabindex="0" role="application" :aria-label="words.map + '. ' + said"
+        <svg :viewBox="'0 0 ' + (LEFT + WIDE + 6) + ' ' + (TOP + HIGH + 34)" tabindex="0" role="application" :aria-label="words.map + '. ' + said"
              @pointerdown="grab" @pointermove="drag" @pointerup="grabbed = false" @pointercancel="grabbed = false" @keydown="press">
           <foreignObject :x="LEFT" :y="TOP" :width="WIDE" :height="HIGH"><canvas ref="regions" class="regions"></canvas></foreignObject>
           <g class="ticks">
             <template v-for="tick in ticks(variables[0])"><line :x1="across(tick)" :x2="across(tick)" :y1="TOP" :y2="TOP + HIGH" :class="{ zero: tick === 0 }" />
-              <text :x="across(tick)" :y="TOP + HIGH + 11" text-anchor="middle">{{ tick }}</text></template>
+              <text :x="across(tick)" :y="TOP + HIGH + 14" text-anchor="middle">{{ decimal(tick) }}</text></template>
             <template v-for="tick in ticks(variables[1])"><line :x1="LEFT" :x2="LEFT + WIDE" :y1="up(tick)" :y2="up(tick)" :class="{ zero: tick === 0 }" />
-              <text :x="LEFT - 4" :y="up(tick) + 3" text-anchor="end">{{ tick }}</text></template>
-            <text :x="LEFT + WIDE / 2" :y="TOP + HIGH + 25" text-anchor="middle" class="axis">{{ variables[0].symbol }}</text>
-            <text :x="4" :y="TOP + 9" class="axis">{{ variables[1].symbol }}</text>
+              <text :x="LEFT - 4" :y="up(tick) + 4" text-anchor="end">{{ decimal(tick) }}</text></template>
+            <text :x="LEFT + WIDE / 2" :y="TOP + HIGH + 29" text-anchor="middle" class="axis">{{ axis(variables[0]) }}</text>
+            <text :x="4" :y="TOP + 9" class="axis">{{ axis(variables[1]) }}</text>
           </g>
           <g v-for="line in lines" :key="line.key" :class="['limit', line.kind, line.role, 'at' + line.order]">
             <path :d="line.d" /><text v-if="line.label" :x="line.x" :y="line.y">{{ line.label }}</text>
@@ -74,7 +77,13 @@ export default {
       }
     },
     shown(variable, value) {
-      return value.toFixed(Math.max(0, Math.round(-Math.log10(variable.step))));
+      return fixed(value, Math.max(0, Math.round(-Math.log10(variable.step)))) + variable.unit;
+    },
+    axis({ symbol, unit }) {
+      return unit ? `${symbol} (${unit})` : symbol;
+    },
+    decimal(tick) {
+      return tick.toLocaleString(document.documentElement.lang || "en", { useGrouping: false });
     },
     across(value) {
       const { least, most } = this.variables[0];
@@ -104,7 +113,7 @@ export default {
       const [x, y] = this.variables;
       const share = (variable, value) => (value - variable.least) / (variable.most - variable.least);
       const value = this.field(limit, share(x, this.at[0]) * (limit.values[0].length - 1), share(y, this.at[1]) * (limit.values.length - 1));
-      return value === null ? "–" : value.toFixed(2);
+      return value === null ? "–" : `${fixed(value, 2)} ${limit.unit}`.trim();
     },
     // Marching squares: the pieces of a line of equal values, cell by cell, joined where they meet.
     line(limit, level, order) {
@@ -121,7 +130,7 @@ export default {
       const place = ([i, j]) => [LEFT + (i / (columns - 1)) * WIDE, TOP + HIGH - (j / (rows - 1)) * HIGH];
       const d = this.chained(pieces).map((chain) => "M" + chain.map((end) => place(end).map((each) => each.toFixed(1)).join(" ")).join("L")).join("");
       const [x, y] = pieces.length ? place(pieces[Math.floor(pieces.length * 0.4)][0]) : [0, 0];
-      const label = limit.lines.length > 1 ? level.toFixed(1) : "";
+      const label = limit.lines.length > 1 ? fixed(level, 1) : "";
       return { key: `${limit.kind} ${limit.role} ${level}`, kind: limit.kind, role: limit.role, order, d, x: x + 2, y: y - 2, label };
     },
     // Pieces that have ends in common become one line, so that it can be dashed.

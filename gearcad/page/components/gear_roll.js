@@ -1,13 +1,16 @@
 // How far the first gear is turned. All of it happens here: views hear "gear-turn" on the window, nothing goes to the server.
 const PITCHES = 4; // that the slider spans
 
+const fixed = (value, digits) =>
+  value.toLocaleString(document.documentElement.lang || "en", { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
+
 export default {
   template: `
     <div class="gear-roll">
       <button type="button" :disabled="!pitch || still" :aria-pressed="running" :title="running ? words.stop : words.turn" @click="toggle">{{ running ? "❚❚" : "▶" }}</button>
       <input type="range" :disabled="!pitch" :min="-span / 2" :max="span / 2" :step="pitch / 400 || 1" :value="place" :aria-label="words.roll" :aria-valuetext="told" @input="slide" />
       <output :title="words.roll">{{ told }}</output>
-      <select :title="words.speed" :aria-label="words.speed" v-model.number="speed"><option v-for="each in [0.05, 0.1, 0.25, 0.5, 1, 2]" :value="each">{{ each }}/s</option></select>
+      <select :title="words.speed" :aria-label="words.speed" v-model.number="speed"><option v-for="each in [0.05, 0.1, 0.25, 0.5, 1, 2]" :value="each">{{ each.toLocaleString(lang()) }}/s</option></select>
     </div>`,
   props: { words: Object },
   data() {
@@ -22,7 +25,7 @@ export default {
       return this.span ? this.turn - this.span * Math.round(this.turn / this.span) : 0;
     },
     told() {
-      return `${((this.place * 180) / Math.PI).toFixed(2)}°`;
+      return `${fixed((this.place * 180) / Math.PI, 2)}°`;
     },
   },
   mounted() {
@@ -39,6 +42,9 @@ export default {
     this.stop();
   },
   methods: {
+    lang() {
+      return document.documentElement.lang || "en";
+    },
     show(pitch) {
       this.pitch = pitch;
       if (!pitch) this.stop();

@@ -13,6 +13,9 @@ function at(table, height) {
 }
 const turned = ([x, y], angle) => [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)];
 
+const fixed = (value, digits) =>
+  value.toLocaleString(document.documentElement.lang || "en", { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
+
 export default {
   template: `
     <div class="gear-section">
@@ -21,7 +24,7 @@ export default {
         <button type="button" @click="near = false; fit()">{{ words.fit }}</button>
         <button type="button" v-if="content.meshes.length" @click="near = true; fit()">{{ words.mesh }}</button>
         <select v-if="content.meshes.length" v-model="flanks" :title="words.flanks" :aria-label="words.flanks"><option v-for="each in ['left', 'right']" :key="each" :value="each">{{ words[each] }}: {{ content.bodies[0].name }}</option><option value="both">{{ words.both }}</option></select>
-        <label v-if="helical" :title="words.height">z <input type="range" min="0" max="1" step="0.005" v-model.number="share" :aria-label="words.height" /> {{ height.toFixed(2) }}</label>
+        <label v-if="helical" :title="words.height">z <input type="range" min="0" max="1" step="0.005" v-model.number="share" :aria-label="words.height" /> {{ fixed(height, 2) }} mm</label>
       </div>
       <p class="told" v-if="told" :style="toldAt">{{ told }}</p>
       <p class="nothing" v-if="empty">{{ words.nothing }}</p>
@@ -60,6 +63,7 @@ export default {
     cancelAnimationFrame(this.drawing);
   },
   methods: {
+    fixed,
     show(content, kept) {
       const former = this.extent();
       [this.content, this.kept, this.empty] = [content && Object.freeze(content), kept && Object.freeze(kept), !content];
@@ -294,7 +298,7 @@ export default {
         const [A, B, C, D, E] = mesh.path;
         line(Math.min(0, A), Math.max(E, mesh.length ?? E), this.colours.wrong, 1);
         line(A, E, this.colours.ink, 2.2);
-        [pen.fillStyle, pen.font] = [this.colours.ink, "11px system-ui, sans-serif"];
+        [pen.fillStyle, pen.font] = [this.colours.ink, "13px system-ui, sans-serif"];
         const named = { A, B, C, D, E, T1: 0, ...(mesh.length > 0 ? { T2: mesh.length } : {}) };
         if (this.view.scale * (E - A) > 60 && side === (driven || 1))
           for (const [name, s] of Object.entries(named)) {
@@ -363,7 +367,7 @@ export default {
           if (!body.teeth) continue;
           const [u, v] = this.to(this.place(body, this.turn));
           const off = Math.abs(Math.hypot(x - u, y - v) - (size / 2) * this.view.scale);
-          if (off < best) [best, text] = [off, `${body.name}: ${this.words[kind]} ${size.toFixed(4)} mm`];
+          if (off < best) [best, text] = [off, `${body.name}: ${this.words[kind]} ${fixed(size, 4)} mm`];
         }
       [this.told, this.toldAt] = [text, { left: `${x + 12}px`, top: `${y + 12}px` }];
     },

@@ -1,8 +1,11 @@
 // How the planets of a train share its load: a bar for each, from least to greatest a line, at 1 what all would carry alike.
+const fixed = (value, digits) =>
+  value.toLocaleString(document.documentElement.lang || "en", { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
+
 export default {
   template: `
     <div class="gear-shares" v-if="content" :aria-busy="busy">
-      <h2>{{ words.title }} <small v-if="content.factor">{{ words.factor }} <i>K_γ</i> {{ content.factor.toFixed(4) }}</small></h2>
+      <h2>{{ words.title }} <small v-if="content.factor">{{ words.factor }} <i>K_γ</i> {{ fixed(content.factor, 4) }}</small></h2>
       <p v-if="!content.shares.length">{{ content.why_not }}</p>
       <div v-for="([least, share, greatest], n) in content.shares" class="share">
         <span>{{ words.planet }} {{ n + 1 }}</span>
@@ -11,7 +14,7 @@ export default {
           <line :x1="at(least)" :x2="at(greatest)" y1="5" y2="5" class="range" />
           <line :x1="at(1)" :x2="at(1)" y1="0" y2="10" class="even" />
         </svg>
-        <b>{{ share.toFixed(3) }}</b><small>{{ greatest - least > 5e-4 ? least.toFixed(3) + " … " + greatest.toFixed(3) : "" }}</small>
+        <b>{{ fixed(share, 3) }}</b><small>{{ greatest - least > 5e-4 ? fixed(least, 3) + " … " + fixed(greatest, 3) : "" }}</small>
       </div>
     </div>`,
   props: { words: Object },
@@ -19,6 +22,7 @@ export default {
     return { content: null, busy: false };
   },
   methods: {
+    fixed,
     show(content) {
       [this.content, this.busy] = [content, false];
     },

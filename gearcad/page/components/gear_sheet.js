@@ -1,6 +1,6 @@
 // Blocks of quantities as tables: words, symbol, unit, values. What changed by the last step stands beside what it was, and what a
 // kept design has in lines below. Rows are walked by the arrow keys; Enter puts one on top, or takes it from there.
-const NUMBER = /^([^\p{L}\d]*\d+)([.]\d+)?(e[+-]?\d+)?$/u;
+const NUMBER = /^([^\p{L}\d]*\d+)([.,]\d+)?(e[+-]?\d+)?$/u;
 const FEW = 3;
 const LONG = 6; // characters of a unit
 const DECIMALS = 6; // characters behind a decimal point for which two columns have room everywhere

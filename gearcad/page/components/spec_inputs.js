@@ -4,6 +4,9 @@
 import { toRaw } from "vue";
 import { Changes, PAUSE } from "gear-changes";
 
+const decimal = (text) => (document.documentElement.lang === "de" ? text.replaceAll(".", ",") : text);
+const LIST = /^-?\d+([.]\d+)?( -?\d+([.]\d+)?)+$/; // of numbers
+
 const PHONE = "(max-width: 640px)";
 
 // One field. Its part of the page stays as it is while all that it is given does.
@@ -18,7 +21,7 @@ const SpecField = {
         <option v-for="word in field.choices" :key="word" :value="word">{{ word }}</option>
       </select>
       <input v-else :id="'in-' + field.key" type="text" spellcheck="false" :class="{ words: !field.number }"
-             :readonly="readonly" :value="draft ?? given ?? ''" :placeholder="used ?? ''"
+             :readonly="readonly" :value="draft ?? shown(given ?? '')" :placeholder="shown(used ?? '')"
              :list="field.offered.length ? 'of-' + field.key : null" :aria-invalid="!!fault"
              @focus="form.focused = field" @input="form.type(field.key, $event.target.value)" @blur="form.leave(field.key)"
              @keydown="form.press(field, $event)" />
@@ -30,6 +33,12 @@ const SpecField = {
       <span v-if="fault" class="fault" role="alert"><b v-if="said">{{ said }} – </b><span lang="en">{{ fault }}</span></span>
     </div>`,
   props: { form: Object, field: Object, given: null, used: null, draft: null, changed: Boolean, fault: String, said: String, readonly: Boolean },
+  methods: {
+    // Numbers have the decimal sign of the page, and may be typed with either.
+    shown(text) {
+      return this.field.number || LIST.test(text) ? decimal(text) : text;
+    },
+  },
 };
 
 export default {
@@ -248,7 +257,7 @@ export default {
       const typed = (text.split(".")[1] ?? "").length;
       const digits = field.whole ? 0 : typed || (Math.abs(value) < 10 ? 1 : 0);
       const stepped = (value + times * 10 ** -digits).toFixed(digits);
-      this.type(field.key, Number(stepped) === 0 ? stepped.replace("-", "") : stepped);
+      this.type(field.key, decimal(Number(stepped) === 0 ? stepped.replace("-", "") : stepped));
     },
     send(key, text) {
       const now = performance.now(), typing = this.typing, last = this.queue.at(-1);

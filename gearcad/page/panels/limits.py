@@ -101,6 +101,7 @@ class LimitsPanel(Panel[KnownMap]):
         paired = self._map is not None and any(limit.role for limit in self._map.map.limits)
         return {
             "words": words,
+            "unit": "°" if variable.free is Free.HELIX else "",
             "symbol": "x₁" if paired and variable.free is Free.FIRST else symbol,
             "value": variable.value,
             "least": variable.least,
@@ -112,6 +113,7 @@ class LimitsPanel(Panel[KnownMap]):
         return {
             "kind": limit.kind.value[0],
             "role": "both" if limit.role is None else limit.role.value,
+            "unit": "" if limit.kind in (LimitKind.TIP, LimitKind.CONTACT_RATIO) else "m_n",
             "words": " · ".join(filter(None, (self._kinds[limit.kind], self._roles[limit.role]))),
             "lines": _LINES[limit.kind],
             "refused": limit.kind.refused if np.isfinite(limit.kind.refused) else None,

@@ -70,7 +70,7 @@ def _text(value: Any, words: PageWords) -> str:
     if (verdict := _verdicts(words).get(value)) is not None:
         return verdict
     if isinstance(value, float):
-        return f"{value:.{_DIGITS}g}" if math.isfinite(value) else ""
+        return words.number(f"{value:.{_DIGITS}g}") if math.isfinite(value) else ""
     return format_number(value) if isinstance(value, int) else str(value)
 
 
@@ -105,7 +105,9 @@ class RunsPanel:
     ) -> None:
         self._bench, self._words, self._runs, self._seen = bench, words, runs or Runs(), seen
         limits = Expected(self._runs.limits.seconds, self._runs.limits.memory)
-        self._view = RunsView(self._start, self._cancel, _words(words), f"{words['each run has at most']} {_size(limits)}")
+        self._view = RunsView(
+            self._start, self._cancel, _words(words), f"{words['each run has at most']} {_size(limits, words)}"
+        )
         self._expected: dict[str, Outlook] = {}
         self._design: Design | None = None
         self._expected_of: Design | None = None
@@ -151,7 +153,7 @@ class RunsPanel:
         if design is self._expected_of:
             return
         await asyncio.sleep(_REST)
-        self._expected = await run.io_bound(expected_of, design) or {}
+        self._expected = await run.io_bound(expected_of, design, self._words) or {}
         self._expected_of = design
         self._show_kinds()
 
@@ -239,7 +241,7 @@ class RunsPanel:
         return found
 
 
-def expected_of(design: Design) -> dict[str, Outlook]:
+def expected_of(design: Design, words: PageWords) -> dict[str, Outlook]:
     """Return the outlook of each run that accepts designs of this kind, by its key."""
     found = {}
     for key, kind in ANALYSES.items():
@@ -249,12 +251,12 @@ def expected_of(design: Design) -> dict[str, Outlook]:
             except GearcadError as error:
                 found[key] = Outlook(why=str(error))
             else:
-                found[key] = Outlook(f"≈ {_size(expected)}" if expected else "")
+                found[key] = Outlook(f"≈ {_size(expected, words)}" if expected else "")
     return found
 
 
-def _size(expected: Expected) -> str:
-    memory = f", {about_memory(expected.memory)}" if math.isfinite(expected.memory) else ""
+def _size(expected: Expected, words: PageWords) -> str:
+    memory = f", {words.number(about_memory(expected.memory))}" if math.isfinite(expected.memory) else ""
     return f"{_figure(about(expected.seconds))}{memory}"
 
 

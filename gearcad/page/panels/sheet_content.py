@@ -54,7 +54,7 @@ def value_in(words: PageWords, text: str) -> str:
     """A value as shown."""
     if text.endswith(_ASSUMED):
         return f"{value_in(words, text.removesuffix(_ASSUMED))} ({words['assumed']})"
-    return words[text] if text in _VALUES else text
+    return words[text] if text in _VALUES else words.number(text)
 
 
 def called(words: PageWords, name: str) -> str:
@@ -164,7 +164,7 @@ def _kept_text(cell: SheetCell, kept: SheetCell | None, words: PageWords) -> dic
     """Return the text of the kept design's cell, if it is different, and the difference from it; otherwise an empty mapping."""
     if kept is None or kept.text == cell.text:
         return {}
-    return {"kept": value_in(words, kept.text), "difference": _difference(cell, kept)}
+    return {"kept": value_in(words, kept.text), "difference": words.number(_difference(cell, kept))}
 
 
 def _difference(cell: SheetCell, kept: SheetCell) -> str:

@@ -167,3 +167,42 @@ def test_enter_goes_on_from_a_list(tab: Any) -> None:
     tab.field("rating.standard").focus()
     tab.page.keyboard.press("Enter")
     assert tab.page.evaluate("document.activeElement.closest('[data-key]')?.dataset.key") not in ("rating.standard", None)
+
+
+def test_numbers_of_the_german_page_have_commas(tab: Any) -> None:
+    tab.page.goto(f"{tab.address}?lang=de")
+    tab.page.wait_for_selector(".scene[data-shown]")
+    tab.page.wait_for_selector(".gear-sheet .value", state="attached")
+    with_point = r"""() => {
+      const values = [...document.querySelectorAll(".gear-sheet .value, output")].map((value) => value.textContent);
+      const inputs = [...document.querySelectorAll(".inputs .field input")].flatMap((each) => [each.value, each.placeholder]);
+      return [...values, ...inputs].filter((text) => /^\s*-?\d+[.]\d+\D*$/.test(text));
+    }"""
+    assert tab.page.evaluate(with_point) == []
+    shift = tab.field("pinion.profile_shift")
+    assert shift.input_value() == "0,2"
+    shift.focus()
+    tab.page.keyboard.press("ArrowUp")
+    assert shift.input_value() == "0,3"
+    tab.page.wait_for_function("document.querySelector('[data-key=\"pinion.profile_shift\"]').classList.contains('changed')")
+    tab.page.keyboard.press("Escape")
+    assert shift.input_value() == "0,3"
+
+
+def test_a_finger_scrolls_a_phone_past_the_pictures(browser: Any, address: str) -> None:
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    page = context.new_page()
+    page.goto(address)
+    page.wait_for_selector(".scene[data-shown]")
+    for canvas in (".scene canvas", ".gear-section canvas"):
+        assert page.locator(canvas).evaluate("canvas => getComputedStyle(canvas).touchAction") == "pan-y"
+    touch = context.new_cdp_session(page)
+    box = page.locator(".scene canvas").bounding_box()
+    finger = {"x": box["x"] + box["width"] / 2, "y": box["y"] + box["height"] - 20}
+    touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [finger]})
+    for step in range(1, 21):
+        moved = finger | {"y": finger["y"] - 10 * step}
+        touch.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [moved]})
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    page.wait_for_function("window.scrollY > 100")
+    context.close()
