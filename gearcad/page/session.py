@@ -247,7 +247,6 @@ class Session:
         self._client.on_connect(self._connect)
         following = self._following = Following(lambda: bench.design, words["failed, and the page goes on"])
         ui.query("html").props(f"lang={words.language.value}")
-        ui.add_head_html(f"<script>document.documentElement.lang = '{words.language.value}'</script>")
         with ui.element("header").classes("bar"):
             self._bar()
         with ui.element("main").classes("panels"):

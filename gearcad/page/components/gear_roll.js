@@ -8,8 +8,8 @@ export default {
   template: `
     <div class="gear-roll">
       <button type="button" :disabled="!pitch || still" :aria-pressed="running" :title="running ? words.stop : words.turn" @click="toggle">{{ running ? "❚❚" : "▶" }}</button>
-      <input type="range" :disabled="!pitch" :min="-span / 2" :max="span / 2" :step="pitch / 400 || 1" :value="place" :aria-label="words.roll" :aria-valuetext="told" @input="slide" />
-      <output :title="words.roll">{{ told }}</output>
+      <input type="range" :disabled="!pitch" :min="-span / 2" :max="span / 2" :step="pitch / 400 || 1" :value="place" :aria-label="words.roll" :aria-valuetext="told()" @input="slide" />
+      <output :title="words.roll">{{ told() }}</output>
       <select :title="words.speed" :aria-label="words.speed" v-model.number="speed"><option v-for="each in [0.05, 0.1, 0.25, 0.5, 1, 2]" :value="each">{{ each.toLocaleString(lang()) }}/s</option></select>
     </div>`,
   props: { words: Object },
@@ -23,9 +23,6 @@ export default {
     // What runs on past the end of the slider is at its beginning, whole pitches away.
     place() {
       return this.span ? this.turn - this.span * Math.round(this.turn / this.span) : 0;
-    },
-    told() {
-      return `${fixed((this.place * 180) / Math.PI, 2)}°`;
     },
   },
   mounted() {
@@ -42,6 +39,10 @@ export default {
     this.stop();
   },
   methods: {
+    // The page has its language when there is a pitch.
+    told() {
+      return `${fixed((this.place * 180) / Math.PI, 2)}°`;
+    },
     lang() {
       return document.documentElement.lang || "en";
     },
