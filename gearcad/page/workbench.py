@@ -7,8 +7,12 @@ import binascii
 import copy
 import re
 import time
+import tomllib
 import zlib
 from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from enum import Enum
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,6 +22,7 @@ from gearcad.designs.cells import CellReader, Layout
 from gearcad.designs.design import Design, Where, files_only_in, require_plain_name, spec_text, tables_of_text
 from gearcad.designs.keys import MAIN_TABLES, Cell
 from gearcad.designs.reader import design_from_tables, edit_spec
+from gearcad.designs.train_keys import TEXTS, general_key
 from gearcad.page.run_process import design_of
 
 _MOST_STEPS = 1000
@@ -52,26 +57,121 @@ class Fault(NamedTuple):
         return int(found[1]) if found else None
 
 
+class Standing(Enum):
+    """What the last good design of a workbench is to the present inputs: theirs, that of earlier inputs, or of another spec."""
+
+    PRESENT = "present"
+    LAST_GOOD = "last good"
+    OTHER = "other"
+
+
+@dataclass
+class _Source:
+    """A spec that was opened or saved: its name, and the text that its file has."""
+
+    name: str
+    saved: str
+
+
+class _Version(NamedTuple):
+    text: str
+    source: _Source
+
+
+class _FieldText(NamedTuple):
+    """A text in which keys that were emptied in their fields still stand, so that they keep their places and comments."""
+
+    full: str
+    emptied: frozenset[str] = frozenset()
+
+    def changed(self, given: Mapping[str, Cell | None]) -> _FieldText:
+        """Return the text with other values; None empties a key. A value that stands there stays as it is written."""
+        try:
+            tables = tomllib.loads(self.full)
+        except (ValueError, RecursionError):  # then it cannot be edited, which the editor says
+            tables = {}
+        written = {key: value for key, value in given.items() if value is not None and not _stands(tables, key, value)}
+        emptied = self.emptied.difference(given).union(key for key, value in given.items() if value is None)
+        return _FieldText(edit_spec(self.full, written) if written else self.full, emptied)
+
+    @property
+    def text(self) -> str:
+        """The text without the keys that were emptied."""
+        return edit_spec(self.full, dict.fromkeys(sorted(self.emptied))) if self.emptied else self.full
+
+
+def _stands(tables: Mapping[str, Any], key: str, value: Cell) -> bool:
+    """Return whether nested tables have this value under a dotted key."""
+    inner: Any = tables
+    for part in key.split("."):
+        if not isinstance(inner, Mapping) or part not in inner:
+            return False
+        inner = inner[part]
+    return isinstance(inner, bool) is isinstance(value, bool) and bool(inner == _lists(value))
+
+
+def _lists(value: Any) -> Any:
+    """Return a value with the lists that TOML has in place of tuples."""
+    return [*map(_lists, value)] if isinstance(value, list | tuple) else value
+
+
 class Workbench:
     """One design under change: `text` is its spec, `design` the last that could be made, `fault` why the text makes none.
 
     `tables` are what the text says, as far as it can be read at all, and `former` what the one before said. A change is a step:
     it can be undone and redone. What is typed in one place without a pause is one step. Files it names must be in `folder`.
-    Raises SpecError for a first text that makes nothing.
+    `saved` is the text of the file that is open (None: this one). Raises SpecError for a first text that makes nothing.
     """
 
-    def __init__(self, text: str, name: str, folder: Path, clock: Callable[[], float] = time.monotonic) -> None:
-        self.name, self.folder, self._clock = name, folder, clock
+    def __init__(
+        self,
+        text: str,
+        name: str,
+        folder: Path,
+        clock: Callable[[], float] = time.monotonic,
+        saved: str | None = None,
+    ) -> None:
+        self.folder, self._clock = folder, clock
+        self._source = self._good_source = self._read_source = _Source(name, text if saved is None else saved)
         self.text = text
         self.fault: Fault | None = None
         self.tables, where = self._tables()
         self._where: Where | None = where
         self.former = self._good = self.tables
         self.design = self._design(self.tables, where)
-        self._back: list[str] = []
-        self._forth: list[str] = []
+        self._back: list[_Version] = []
+        self._forth: list[_Version] = []
         self._place, self._typed = "", 0.0
         self._step: int | None = None
+        self._fields = self._fields_before = _FieldText(text)
+        self._text_of_fields = text
+
+    @property
+    def name(self) -> str:
+        """Name of the file that is open, without its suffix: that of the design, where the text says no other."""
+        return self._source.name
+
+    @property
+    def is_saved(self) -> bool:
+        """Whether the file that is open has this text."""
+        return self.text == self._source.saved
+
+    @property
+    def saved_text(self) -> str:
+        """The text that the file that is open has, as far as it is known."""
+        return self._source.saved
+
+    @property
+    def standing(self) -> Standing:
+        """What the last good design is to the inputs. An input that could not be written into the text is one of them."""
+        if self.fault is None or not (self.fault.written or self.fault.key):
+            return Standing.PRESENT
+        return Standing.LAST_GOOD if self._source is self._good_source else Standing.OTHER
+
+    @property
+    def shown_design(self) -> Design | None:
+        """The last good design; None if it is of another spec than the inputs."""
+        return None if self.standing is Standing.OTHER else self.design
 
     def faults(self) -> tuple[Fault, ...]:
         """Return the fault and those that remain once each key at fault has the value of the last good design."""
@@ -104,34 +204,61 @@ class Workbench:
         What makes no gear stays in the text, as its fault does; the last good design stays too. What cannot be written there
         at all is a fault, too.
         """
+        place = " ".join(given)
+        if self.text != self._text_of_fields:
+            self._fields = self._fields_before = _FieldText(self.text)
+        before = self._fields_before if self._goes_on(place, step) else self._fields
         try:
-            text = edit_spec(self.text, {key: _value(key, typed) for key, typed in given.items()})
+            fields = before.changed({key: _value(key, typed) for key, typed in given.items()})
+            text = fields.text
         except GearcadError as error:
             self.fault = Fault(str(error), next(iter(given), ""), written=False)
             return False
-        return self.write(text, " ".join(given), step)
+        other = self.write(text, place, step)
+        self._fields_before, self._fields, self._text_of_fields = before, fields, text
+        return other
 
     def write(self, text: str, place: str = "", step: int | None = None) -> bool:
         """Take another text, as a step that can be undone; whether it is another one.
 
         What comes from the same `place` as the last text, in the same `step` or soon after it, goes on with that step.
         """
-        other, now = text != self.text, self._clock()
-        if other:
-            in_time = now - self._typed <= _PAUSE if step is None else step == self._step
-            going_on = bool(place and self._back) and place == self._place and in_time
-            if not going_on:
-                self._back = [*self._back[1 - _MOST_STEPS :], self.text]
-                self.former = self.tables
+        if other := text != self.text:
+            if not self._goes_on(place, step):
+                self._remember()
             self._forth.clear()
-            self._place, self._step, self._typed = place, step, now
+            self._place, self._step, self._typed = place, step, self._clock()
         self._take(text)
         return other
 
-    def open(self, text: str, name: str) -> None:
-        """Take another design, called `name` where its text says no other, as a step that can be undone."""
-        self.name = name
-        self.write(text)
+    def open(self, text: str, name: str, saved: str | None = None) -> None:
+        """Take another design, called `name` where its text says no other, as a step that can be undone.
+
+        `saved` is the text that its file has (None: this one).
+        """
+        if text != self.text:
+            self._remember()
+            self._forth.clear()
+        self._place = ""
+        self._source = _Source(name, text if saved is None else saved)
+        self._take(text)
+
+    def note_saved(self, name: str, text: str) -> None:
+        """Note that the file of this name has a text now; it is the one that is open."""
+        renamed = name != self.name
+        self._source.name, self._source.saved = name, text
+        if renamed:
+            self._take(self.text)
+
+    def _goes_on(self, place: str, step: int | None) -> bool:
+        """Return whether a change at a place belongs to the last step."""
+        in_time = self._clock() - self._typed <= _PAUSE if step is None else step == self._step
+        return bool(place and self._back) and place == self._place and in_time
+
+    def _remember(self) -> None:
+        """Make the present text one to which an undo leads."""
+        self._back = [*self._back[1 - _MOST_STEPS :], _Version(self.text, self._source)]
+        self.former = self.tables
 
     def blame(self, line: str) -> None:
         """Tell what could not be taken at all; text and design stay."""
@@ -140,7 +267,8 @@ class Workbench:
     def copied(self) -> Workbench:
         """Return a workbench of its own with the same text and steps."""
         other = copy.copy(self)
-        other._back, other._forth = [*self._back], [*self._forth]
+        own = (self._source, self._good_source, self._read_source, self._back, self._forth)
+        (other._source, other._good_source, other._read_source, other._back, other._forth) = copy.deepcopy(own)
         return other
 
     def undo(self) -> None:
@@ -151,20 +279,25 @@ class Workbench:
         """Go a step forth again, if there is one."""
         self._go(self._forth, self._back)
 
-    def _go(self, these: list[str], others: list[str]) -> None:
+    def _go(self, these: list[_Version], others: list[_Version]) -> None:
         if these:
-            others.append(self.text)
+            others.append(_Version(self.text, self._source))
             self._place, self.former = "", self.tables
-            self._take(these.pop())
+            version = these.pop()
+            self._source = version.source
+            self._take(version.text)
 
     def _take(self, text: str) -> None:
         self.text, self.fault = text, None
         self._where = None
+        if self._source is not self._read_source:
+            self.tables = {}
         try:
             self.tables, where = self._tables()
+            self._read_source = self._source
             self._where = where
             self.design = self._design(self.tables, where)
-            self._good = self.tables
+            self._good, self._good_source = self.tables, self._source
         except SpecError as error:
             self.fault = Fault(str(error), error.key)
         except GearcadError as error:
@@ -194,8 +327,13 @@ def _restore(tables: dict[str, Any], key: str, good: Mapping[str, Any]) -> bool:
 
 
 def _value(key: str, typed: str) -> Cell | None:
-    """Return the typed text as the value of a table cell, with a decimal point or comma. Raises ParameterError."""
-    return CellReader(Layout.SEMICOLON).value(key, typed, 0)
+    """Return the typed text as the value of a table cell, with a decimal point or comma, or of a switch.
+
+    Raises ParameterError.
+    """
+    value = CellReader(Layout.SEMICOLON).value(key, typed, 0)
+    is_switch = value in ("true", "false") and general_key(key) not in TEXTS
+    return value == "true" if is_switch else value
 
 
 DESIGN = "design"
@@ -243,17 +381,21 @@ def unpack(packed: str) -> tuple[str, str]:
 def linked_bench(packed: str, text: str, name: str, folder: Path) -> Workbench:
     """A workbench with the design of a link, or with this text where there is none.
 
-    What makes no gear, or is no link at all, is a fault of the text beneath it.
+    What makes no gear, or is no link at all, is a fault of the text beneath it. A design that has a file of its name in the
+    folder is saved if the file has its text.
     """
+    saved = None
     try:
         linked, of_link = unpack(packed) if packed else (name, text)
-        return Workbench(of_link, linked, folder)
+        with suppress(GearcadError):
+            saved = Folder(folder).spec(f"{linked}{SPECS[0]}") if packed else None
+        return Workbench(of_link, linked, folder, saved=saved)
     except ParameterError as error:
         bench = Workbench(text, name, folder)
         bench.blame(str(error))
     except GearcadError:
         bench = Workbench(text, name, folder)
-        bench.open(of_link, linked)
+        bench.open(of_link, linked, saved)
     return bench
 
 
