@@ -22,6 +22,7 @@ from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import GearDesign
 from gearcad.designs.keys import BESIDE, FIELDS, MAIN_TABLES, OF_GEAR_PAIRS, OF_RACK_PAIRS, OF_SETS, SPEEDS, DesignKind, Fields
 from gearcad.designs.pair_designs import PairDesign, RackPairDesign
+from gearcad.designs.reader import kind_of, type_of
 from gearcad.designs.spec import AUTO, CLEAR
 from gearcad.geometry import Gear
 from gearcad.geometry.gear_parts import NAMED_RACKS
@@ -56,14 +57,16 @@ _INTERNAL, _EXTERNAL = ("ring",), ("pinion", "sun", "planet")
 _MEMBERS = ("planetary.input", "planetary.output", "planetary.fixed")
 
 
-def fields_of(design: Design, tables: Mapping[str, Any]) -> list[dict[str, Any]]:
+def fields_of(design: Design | None, tables: Mapping[str, Any]) -> list[dict[str, Any]]:
     """The tables of a kind's specs in order, each with its groups of fields: what the browser makes inputs of.
 
-    `tables` are what the spec says. A train's parts are lists of tables, which stand in its text only.
+    `tables` are what the spec says; they tell the kind if they make no design. A train's parts are lists of tables, which stand
+    in its text only.
     """
-    if design.kind is DesignKind.TRAIN:
+    kind = kind_of(tables) if design is None else design.kind
+    if kind is DesignKind.TRAIN:
         return []
-    members = tuple(design.train.members) if hasattr(design, "train") else ()
+    members = tuple(design.train.members) if design is not None and hasattr(design, "train") else ()
     return [
         {
             "table": table,
@@ -71,7 +74,7 @@ def fields_of(design: Design, tables: Mapping[str, Any]) -> list[dict[str, Any]]
             "folded": table in _LATER and table not in tables,
             "groups": list(_groups(table, fields, members)),
         }
-        for table, fields in _tables(design, tables, members).items()
+        for table, fields in _tables(kind, tables, members).items()
     ]
 
 
@@ -98,16 +101,17 @@ def _speeds(members: tuple[str, ...]) -> dict[str, FieldSchema]:
     }
 
 
-def _tables(design: Design, tables: Mapping[str, Any], members: tuple[str, ...]) -> Fields:
-    if design.kind is DesignKind.PLANETARY:
+def _tables(kind: DesignKind, tables: Mapping[str, Any], members: tuple[str, ...]) -> Fields:
+    if kind is DesignKind.PLANETARY:
         from gearcad.designs.train_keys import PLANETARY
 
         found = {table: PLANETARY[table] for table in PLANETARY if table not in OF_SETS or table in tables}
         return found | {"planetary": {**found["planetary"], **_speeds(members)}}
-    beside = [table for table in BESIDE if hasattr(design, table)]
-    found = {table: FIELDS[table] for table in (*MAIN_TABLES[design.kind], *beside)}
+    made = type_of(kind)
+    beside = [table for table in BESIDE if hasattr(made, table)]
+    found = {table: FIELDS[table] for table in (*MAIN_TABLES[kind], *beside)}
     if "pair" in found:
-        others = OF_GEAR_PAIRS if design.kind is DesignKind.RACK_PAIR else OF_RACK_PAIRS
+        others = OF_GEAR_PAIRS if kind is DesignKind.RACK_PAIR else OF_RACK_PAIRS
         found["pair"] = {key: field for key, field in found["pair"].items() if key not in others}
     return found
 

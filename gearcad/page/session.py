@@ -25,7 +25,7 @@ from gearcad.page.panels.views import BodiesPanel, RollPanel, SectionPanel, Shar
 from gearcad.page.run_process import result_in_process
 from gearcad.page.runs import Runs
 from gearcad.page.words import PageLanguage, PageWords, language_of
-from gearcad.page.workbench import DESIGN, TAB, TEXT, BesideDesign, linked_bench
+from gearcad.page.workbench import DESIGN, TAB, TEXT, BesideDesign, Standing, linked_bench
 
 _SECONDS = 60.0
 """Seconds until an unclaimed handover is dropped."""
@@ -129,10 +129,17 @@ One = TypeVar("One", bound=Panel[Any])
 
 
 class Following:
-    """Updates the panels for the last design and drops results for older ones. A panel that fails shows it; others go on."""
+    """Updates the panels for the last design and drops results for older ones. A panel that fails shows it; others go on.
 
-    def __init__(self, design: Callable[[], Design], failed: str) -> None:
-        self._design, self._failed = design, failed
+    `standing` tells what the design is to the present inputs. What is of other inputs is marked, by its panel and in bands;
+    of another spec nothing is shown.
+    """
+
+    def __init__(self, design: Callable[[], Design], standing: Callable[[], Standing], words: PageWords) -> None:
+        self._design, self._failed = design, words["failed, and the page goes on"]
+        self._words, self._standing = words, standing
+        self._bands: list[ui.label] = []
+        self._failing: set[Panel[Any]] = set()
         self._faults: dict[Panel[Any], ui.label] = {}
         self._seen: dict[Panel[Any], Callable[[], bool]] = {}
         self._order: Sequence[Panel[Any]] = ()
@@ -146,6 +153,11 @@ class Following:
         self._seen[panel] = seen
         return panel
 
+    def band(self) -> None:
+        """Make a band that says of which inputs the content beside it is, unless it is of the present ones."""
+        self._bands.append(ui.label().classes("band").props("role=status"))
+        self._bands[-1].set_visibility(False)
+
     def begin(self, order: Sequence[Panel[Any]]) -> None:
         """Let these follow, the quickest first."""
         self._order = order
@@ -153,12 +165,28 @@ class Following:
     def follow(self) -> None:
         """Bring the panels up to date because the design has changed."""
         self._change += 1
-        if self._task is None or self._task.done():
+        standing = self._standing()
+        self._mark(standing)
+        if standing is Standing.OTHER:
+            for panel in self._order:
+                panel.clear()
+        elif self._task is None or self._task.done():
             self._task = background_tasks.create(self._find())
+
+    def _mark(self, standing: Standing) -> None:
+        """Mark what is of other inputs than the present ones."""
+        last = self._words["of the last good design"]
+        stale = {Standing.PRESENT: "", Standing.LAST_GOOD: last, Standing.OTHER: self._words["these inputs make no gears"]}
+        for panel in self._order:
+            panel.mark(stale[standing] or (last if panel in self._failing else ""))
+        for band in self._bands:
+            band.set_text(stale[standing])
+            band.set_visibility(standing is not Standing.PRESENT)
 
     def look(self, panel: Panel[Any]) -> None:
         """Bring the panels up to date because one of them is seen again."""
-        background_tasks.create(self._show(panel, self._design(), self._change))
+        if self._standing() is not Standing.OTHER:
+            background_tasks.create(self._show(panel, self._design(), self._change))
 
     async def compare(self, kept: Callable[[], Design | None]) -> None:
         """Let panels show their figures of the kept design beside the others."""
@@ -182,6 +210,8 @@ class Following:
         shown = 0
         while shown != self._change:
             shown, design = self._change, self._design()
+            if self._standing() is Standing.OTHER:
+                continue
             for panel in filter(self._is_seen, self._order):
                 if panel.aside(design) is not None:
                     panel.wait()
@@ -197,6 +227,8 @@ class Following:
         while shown != self._change:
             shown, design = self._change, self._design()
             await asyncio.sleep(_REST)
+            if self._standing() is Standing.OTHER:
+                continue
             for panel in filter(self._is_seen, self._order):
                 if shown == self._change and panel.aside(design) is not None:
                     await self._show(panel, design, shown)
@@ -224,9 +256,14 @@ class Following:
         except Exception as error:  # whatever it is: the other panels are as good as before
             if line is not None and not app.is_stopping:
                 line.set_text(f"{self._failed} ({type(error).__name__}: {error})"[:300])
+                self._failing.add(panel)
+                self._mark(self._standing())
             return None
         if line is not None:
             line.set_text("")
+        if panel in self._failing:
+            self._failing.discard(panel)
+            self._mark(self._standing())
         return found
 
 
@@ -245,7 +282,7 @@ class Session:
         remember(self.key, beside)
         self._client, self._has_browser = ui.context.client, False
         self._client.on_connect(self._connect)
-        following = self._following = Following(lambda: bench.design, words["failed, and the page goes on"])
+        following = self._following = Following(lambda: bench.design, lambda: bench.standing, words)
         ui.query("html").props(f"lang={words.language.value}")
         with ui.element("header").classes("bar"):
             self._bar()
@@ -261,20 +298,24 @@ class Session:
                     left.choose("text")
                 with left.under("limits"):
                     limits = following.with_line(LimitsPanel(bench, self.change, words), lambda: left.chosen == "limits")
+                    following.band()
                     left.on("limits", lambda: following.look(limits))
             with _region("middle", words["Gears"]):
                 with ui.element("div").classes("view"):
                     bodies = following.with_line(BodiesPanel(words))
+                    following.band()
                 with ui.element("div").classes("rolling"):
                     roll = following.with_line(RollPanel(words))
                 with ui.element("div").classes("view"):
                     section = following.with_line(SectionPanel(words))
+                    following.band()
             with _region("right", words["Results"]):
                 right = self._right = Tabs({"data": words["Data"], "runs": words["Runs"], "table": words["Table"]})
                 with right.under("data"):
                     shares = following.with_line(SharesPanel(words))
                     strength = following.with_line(StrengthPanel(words))
                     sheet = following.with_line(SheetPanel(words))
+                    following.band()
                 with right.under("runs"):
                     self._runs = RunsPanel(bench, words, runs, lambda: right.chosen == "runs")
                     right.on("runs", self._runs.expect)
@@ -314,12 +355,12 @@ class Session:
     def speak(self, language: PageLanguage) -> None:
         """Open the page in another language, with this workbench."""
         key = hand_over(SessionHandover(self.beside, self._runs.hand_over()))
-        ui.navigate.to(f"/?lang={language.value}&from={key}")
+        self._files.leave_for(f"/?lang={language.value}&from={key}")
 
     def _bar(self) -> None:
         words = self.words
         self._name = ui.label().classes("name").props("role=heading aria-level=1")
-        self._files = FilesPanel(self.key, self.bench, words, self.opened, self.tabled)
+        self._files = FilesPanel(self.key, self.bench, words, self.opened, self.tabled, self.follow)
         self._undo = self._button("undo", words["undo"], forth=False)
         self._redo = self._button("redo", words["redo"], forth=True)
         BesidePanel(self.beside, words, self.kept)
@@ -377,7 +418,8 @@ class Session:
             self._text.follow(self.bench)
         self._undo.set_enabled(self.bench.can_undo)
         self._redo.set_enabled(self.bench.can_redo)
-        self._name.set_text(self.bench.design.name)
+        design = self.bench.shown_design
+        self._name.set_text(self.bench.name if design is None else design.name)
         self._files.follow()
         self._runs.follow()
         self._following.follow()

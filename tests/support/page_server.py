@@ -82,6 +82,9 @@ class Tab:
         page.on("websocket", lambda socket: None if self._ours(socket.url) else self.foreign.append(socket.url))
 
     def _refuse(self, dialog: Any) -> None:
+        if dialog.type == "beforeunload":  # a design that is not saved may go
+            dialog.accept()
+            return
         self.errors.append(f"dialog: {dialog.message}")
         dialog.dismiss()
 

@@ -29,6 +29,7 @@ def _keys(words: PageWords) -> dict[str, str]:
         "Enter": words["next field, with Shift the one before; on a row of data: put on top"],
         "↑ ↓": words["step a number, with Shift by ten; walk rows of data"],
         "Esc": words["leave a field or a menu; Tab then leaves the text, too"],
+        "Ctrl+S": words["save to the file that is open"],
         "Ctrl+Z": words["undo"],
         "Ctrl+Y": words["redo"],
         "Tab": words["from part to part of the page"],
@@ -73,9 +74,17 @@ class FilesView(Element, component="gear_files.js"):
         """Show a state of the menu.
 
         Keys of the state are `specs`, `tables`, `starters` and `makes`; `making`, `saved` or `taken`; and `line`, the message
-        of a fault.
+        of a fault. `file` is the name of the file that is open, `unsaved` whether it has another text.
         """
         self.run_method("show", state)
+
+    def open(self) -> None:
+        """Open the menu, because it has a question or says what is wrong."""
+        self.run_method("open")
+
+    def leave_for(self, address: str) -> None:
+        """Open another page of this server in place of this one, without a question."""
+        self.run_method("leaveFor", address)
 
     def close(self) -> None:
         """Close the menu, so that the chosen content is visible."""
@@ -200,6 +209,10 @@ class SectionView(Element, component="gear_section.js"):
 
     def show(self, content: dict[str, Any] | None, kept: dict[str, Any] | None) -> None:
         self.run_method("show", content, kept)
+
+    def clear_content(self) -> None:
+        """Show neither a section nor the reason why there is none."""
+        self.run_method("clear")
 
 
 class SharesView(Element, component="gear_shares.js"):

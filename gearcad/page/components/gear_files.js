@@ -1,8 +1,10 @@
 // Open, save, take along: a menu. A file that is opened goes to the server by a request of its own, which bounds its size.
+const REJOINED = 2000; // ms after which a page that is connected again is not loaded again
+
 export default {
   template: `
     <details class="files" ref="menu" @keydown.esc="close">
-      <summary>{{ words.file }}</summary>
+      <summary>{{ words.file }}<b v-if="unsaved" class="unsaved" role="img" :title="words.unsaved" :aria-label="words.unsaved">●</b></summary>
       <div class="files-menu">
         <section>
           <h3>{{ words.open }}</h3>
@@ -40,11 +42,18 @@ export default {
   data() {
     return {
       specs: [], tables: [], starters: [], makes: [], making: "", name: "", taken: "", saved: "", line: "", link: "", copied: false,
+      file: "", unsaved: false,
     };
   },
   mounted() {
+    this.listening = new AbortController();
+    const { signal } = this.listening;
+    window.addEventListener("keydown", this.key, { signal });
+    window.addEventListener("beforeunload", this.ask, { signal });
+    this.$nextTick(() => window.socket.on("disconnect", this.rejoin)); // the socket is there once the page is mounted
     this.$refs.menu.addEventListener("toggle", (event) => {
-      if (event.target === this.$refs.menu && this.$refs.menu.open) this.send("look", {});
+      if (event.target === this.$refs.menu && this.$refs.menu.open && !this.asking) this.send("look", {});
+      this.asking = false;
     });
     this.outside = (event) => {
       if (!this.$refs.menu.contains(event.target)) this.$refs.menu.open = false;
@@ -53,10 +62,39 @@ export default {
   },
   unmounted() {
     document.removeEventListener("pointerdown", this.outside);
+    window.socket?.off("disconnect", this.rejoin);
+    this.listening.abort();
   },
   methods: {
     show(state) {
       Object.assign(this, state);
+      if ("unsaved" in state) document.title = `${this.unsaved ? "● " : ""}${this.file} - gearcad`;
+    },
+    key(event) {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey || event.key.toLowerCase() !== "s") return;
+      event.preventDefault();
+      window.dispatchEvent(new CustomEvent("gear-flush")); // what was typed goes before
+      this.send("save-open", {});
+    },
+    // The browser asks before a design goes that no file has, unless another page takes it over.
+    ask(event) {
+      if (this.unsaved && !this.leaving && !this.rejoining) event.preventDefault();
+    },
+    leaveFor(address) {
+      this.leaving = true;
+      window.location.assign(address);
+    },
+    // A server that has lost this page has it loaded again at once; the address and this tab keep the design.
+    rejoin() {
+      window.socket.once("connect", () => {
+        this.rejoining = true;
+        clearTimeout(this.joined);
+        this.joined = setTimeout(() => (this.rejoining = false), REJOINED);
+      });
+    },
+    open() {
+      this.asking = !this.$refs.menu.open; // what it asks stays
+      this.$refs.menu.open = true;
     },
     follow(link) {
       // The address holds the design, for who loads the page anew, and the language that was asked for; no token.

@@ -74,6 +74,10 @@ export default {
       this.$el.dataset.teeth = content ? content.bodies.map((body) => body.teeth ?? 0).join(" ") : "";
       this.draw();
     },
+    clear() {
+      this.show(null, null);
+      this.empty = false;
+    },
     // The mesh of a planet goes round with it, and so does the eye that looks at it.
     roll(event) {
       const orbit = (this.near && this.content?.meshes[0]?.orbit) || 0;

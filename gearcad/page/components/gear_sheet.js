@@ -44,9 +44,9 @@ const SheetRow = {
 export default {
   components: { SheetRow },
   template: `
-    <section class="gear-sheet" :aria-label="label" :aria-busy="waiting" @keydown="walk">
+    <section class="gear-sheet" :aria-label="label" :aria-busy="waiting" :data-stale="dataStale" @keydown="walk">
       <header>
-        <h2 v-if="content.title" :class="content.verdict">{{ content.title }}</h2>
+        <h2 v-if="content.title" :class="dataStale ? '' : content.verdict">{{ content.title }}<template v-if="dataStale"> ({{ dataStale }})</template></h2>
         <p v-if="content.reason" class="told" lang="en">{{ content.reason }}</p>
         <p v-if="content.beside" class="kept">{{ words.kept }}: {{ content.beside }}</p>
         <component :is="line.label ? 'details' : 'p'" v-for="line in content.lines" :key="line.label" class="told">
@@ -68,7 +68,7 @@ export default {
         </table>
       </details>
     </section>`,
-  props: { label: String, store: String, words: Object },
+  props: { label: String, store: String, words: Object, dataStale: String },
   data() {
     const kept = this.remembered();
     return {

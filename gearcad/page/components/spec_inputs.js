@@ -2,7 +2,7 @@
 // comes back as the line that the command line prints, and is shown at its field. One change is on its way at a time: what is
 // typed meanwhile waits, so that no server lags behind a key that is held down.
 import { toRaw } from "vue";
-import { Changes, PAUSE } from "gear-changes";
+import { Changes, PAUSE, keepUnheard, takeUnheard } from "gear-changes";
 
 const decimal = (text) => (document.documentElement.lang === "de" ? text.replaceAll(".", ",") : text);
 const LIST = /^-?\d+([.]\d+)?( -?\d+([.]\d+)?)+$/; // of numbers
@@ -44,11 +44,11 @@ const SpecField = {
 export default {
   components: { SpecField },
   template: `
-    <form class="inputs" @submit.prevent autocomplete="off" :aria-label="words.inputs">
+    <form class="inputs" :data-stale="dataStale" @submit.prevent autocomplete="off" :aria-label="words.inputs">
       <div class="find" ref="find">
         <input class="search" type="search" ref="search" v-model="wanted" :placeholder="words.search + '  /'" :aria-label="words.search"
                @keydown.esc="wanted = ''; $event.target.blur()" @keydown.enter.prevent="next($event)" />
-        <p v-if="faults.length" class="faults" role="status">{{ faults.length }} {{ faults.length === 1 ? words.fault : words.faults }}</p>
+        <p v-if="faults.length" class="faults" role="status">{{ faults.length }} {{ faults.length === 1 ? words.fault : words.faults }}<small v-if="dataStale"> · {{ dataStale }}</small></p>
         <button v-if="faultAbove" type="button" class="fault" role="alert" @click="go(fault.key)"><b v-if="fault.said">{{ fault.said }} – </b><span lang="en">{{ fault.line }}</span></button>
       </div>
       <p v-if="!shownTables.length" class="none">{{ tables.length ? words.nothing : words.textOnly }}</p>
@@ -65,7 +65,7 @@ export default {
       </details>
       <div class="hint" ref="hint" role="status">{{ hint }}</div>
     </form>`,
-  props: { tables: Array, words: Object },
+  props: { tables: Array, words: Object, dataStale: String },
   emits: ["typed", "step"],
   data() {
     return { wanted: "", drafts: {}, given: {}, used: {}, changed: [], faults: [], focused: null, readonly: false };
@@ -132,11 +132,16 @@ export default {
     this.turned();
     window.addEventListener("keydown", this.shortcut);
     window.addEventListener("gear-focus", this.led);
+    window.addEventListener("gear-flush", this.flushed);
+    window.addEventListener("pagehide", this.keep);
+    this.unheard = takeUnheard("inputs");
   },
   unmounted() {
     this.phone.removeEventListener("change", this.turned);
     window.removeEventListener("keydown", this.shortcut);
     window.removeEventListener("gear-focus", this.led);
+    window.removeEventListener("gear-flush", this.flushed);
+    window.removeEventListener("pagehide", this.keep);
     this.changes.end();
   },
   methods: {
@@ -145,6 +150,9 @@ export default {
       for (const each of Object.values(state)) Object.freeze(each); // so that Vue does not watch everything in it
       Object.assign(this, state);
       this.hear(heard);
+      const unheard = this.unheard ?? [];
+      this.unheard = null;
+      for (const { key, text } of unheard) this.type(key, text);
       for (const key of Object.keys(this.drafts))
         if (!this.pending(key) && (reveal || (this.left.has(key) && this.focused?.key !== key))) this.forget(key, reveal);
       if (!this.undoing()) for (const step of this.later.splice(0)) step();
@@ -274,6 +282,15 @@ export default {
     },
     flush(all = false) {
       while (this.queue.length && (all || !this.changes.sent.length)) this.changes.send(this.queue.shift());
+    },
+    flushed() {
+      this.flush(true);
+    },
+    // What was typed since the last undo, and was not heard.
+    keep() {
+      const all = [...this.changes.sent, ...this.queue];
+      const typed = all.slice(all.findLastIndex((change) => "forth" in change) + 1);
+      keepUnheard("inputs", typed.length ? typed.map(({ key, text }) => ({ key, text })) : null);
     },
     hear(number) {
       this.changes.hear(number);

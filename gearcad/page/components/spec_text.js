@@ -1,7 +1,7 @@
 // The text of a spec. One change is on its way at a time: what is typed meanwhile is kept apart, and stays in its place when the
 // text is changed elsewhere, as by an undo.
 import * as CM from "nicegui-codemirror";
-import { Changes, PAUSE } from "gear-changes";
+import { Changes, PAUSE, keepUnheard, takeUnheard } from "gear-changes";
 
 const ofServer = CM.Annotation.define();
 const wrong = CM.StateEffect.define(); // the number of the line that is wrong, or null
@@ -53,10 +53,16 @@ export default {
         language.of([]),
       ],
     });
+    window.addEventListener("gear-flush", this.flushed);
+    window.addEventListener("pagehide", this.keep);
+    const unheard = takeUnheard("text");
+    if (unheard !== null) this.changes.send({ text: unheard, step: ++this.typing.step });
     const toml = await CM.languages.find((each) => each.name === "TOML").load();
     this.editor.dispatch({ effects: language.reconfigure(toml) });
   },
   unmounted() {
+    window.removeEventListener("gear-flush", this.flushed);
+    window.removeEventListener("pagehide", this.keep);
     this.changes.end();
     this.editor.destroy();
   },
@@ -89,6 +95,13 @@ export default {
       this.flush(true);
       this.typing.at = -PAUSE;
       this.changes.send({ forth });
+    },
+    flushed() {
+      this.flush(true);
+    },
+    keep() {
+      const isHeard = this.local.empty && !this.changes.sent.some((change) => "text" in change);
+      keepUnheard("text", isHeard ? null : this.editor.state.doc.toString());
     },
     flush(all = false) {
       if (this.local.empty || (this.changes.sent.length && !all)) return;

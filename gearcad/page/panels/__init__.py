@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from gearcad.designs.design import Design
 
-__all__ = ["Panel"]
+if TYPE_CHECKING:
+    from nicegui.element import Element
+
+__all__ = ["Panel", "mark_stale"]
 
 Found = TypeVar("Found")
 
@@ -20,6 +23,8 @@ class Panel(ABC, Generic[Found]):
     """
 
     compares: ClassVar[bool] = False
+
+    _view: Any
 
     @abstractmethod
     def find(self, design: Design) -> Found:
@@ -40,5 +45,22 @@ class Panel(ABC, Generic[Found]):
     def show(self, found: Found) -> None:
         """Show a result. A result for an older design than the one that is shown never arrives here."""
 
+    @abstractmethod
+    def clear(self) -> None:
+        """Show nothing, because the inputs make no design."""
+
+    def mark(self, stale: str) -> None:
+        """Mark the content as that of other inputs than the present ones, in these words; "" if it is of these."""
+        mark_stale(self._view, stale)
+
     def keep(self, found: Found | None) -> None:
         """Take the result for the kept design, or None, to be shown with later results."""
+
+
+def mark_stale(view: Element, stale: str) -> None:
+    """Give an element the words for content that is of other inputs than the present ones; "" takes them from it."""
+    if view.props.get("data-stale", "") != stale:
+        view.props["data-stale"] = stale
+        if not stale:
+            del view.props["data-stale"]
+        view.update()

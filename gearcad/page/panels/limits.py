@@ -89,6 +89,9 @@ class LimitsPanel(Panel[KnownMap]):
             state["limits"] = found.fields
         self._view.show(state)
 
+    def clear(self) -> None:
+        self.show(KnownMap(None, [], ""))
+
     def _moved(self, values: Mapping[int, float]) -> None:
         """Apply new values of some of the variables."""
         if self._map is not None:

@@ -123,7 +123,7 @@ class RunsPanel:
 
     def follow(self) -> None:
         """Show which runs are of another design than that of the workbench, and what can be run on it."""
-        design = self._bench.design
+        design = self._bench.shown_design
         if design is not self._design:
             self._design = design
             self._show_kinds()
@@ -135,7 +135,8 @@ class RunsPanel:
         """Find out what runs on the design would take."""
         if self._task is not None:
             self._task.cancel()
-        self._task = background_tasks.create(self._expect(self._bench.design))
+        if (design := self._bench.shown_design) is not None:
+            self._task = background_tasks.create(self._expect(design))
 
     def hand_over(self) -> Runs:
         """Return the runs of the panel, which go on in the panel that gets them."""
@@ -190,10 +191,11 @@ class RunsPanel:
             self._timer.deactivate()
 
     def _show_kinds(self) -> None:
+        design = self._bench.shown_design
         kinds = [
             {"key": key, "words": self._names[key], **self._expected.get(key, Outlook())._asdict()}
             for key, kind in ANALYSES.items()
-            if kind.accepts(self._bench.design)
+            if design is not None and kind.accepts(design)
         ]
         if kinds != self._kinds:
             self._kinds = kinds

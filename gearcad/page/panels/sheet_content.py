@@ -289,6 +289,10 @@ class FiguresPanel(Panel[Figures]):
             self._former = found.cells
         self._view.show(shown_figures(found, self._words, self._changed, self._kept))
 
+    def clear(self) -> None:
+        self._former, self._changed = {}, {}
+        self._view.show(shown_figures(Figures((), {}), self._words))
+
     def keep(self, found: Figures | None) -> None:
         self._kept = found
 

@@ -11,9 +11,10 @@ from typing import Any
 from nicegui import background_tasks, ui
 
 from gearcad.core.errors import GearcadError, printable
-from gearcad.designs.reader import NO_DESIGNS, starter_text, starters
+from gearcad.designs.reader import NO_DESIGNS, kind_of, starter_text, starters
 from gearcad.page.components.elements import FilesView, InputsView, TextView
 from gearcad.page.fields import fields_of, given_texts, used_texts
+from gearcad.page.panels import mark_stale
 from gearcad.page.run_process import DOWNLOADS
 from gearcad.page.runs import Run, Runs, RunState, await_files
 from gearcad.page.words import PageWords
@@ -24,6 +25,7 @@ from gearcad.page.workbench import (
     TABLES,
     BesideDesign,
     Folder,
+    Standing,
     TakenError,
     Workbench,
     pack,
@@ -58,13 +60,17 @@ class InputsPanel:
 
         With `reveal` what has changed comes into sight: it was not typed here.
         """
-        layout = (bench.design.kind, *bench.design.gears, *bench.tables)
+        design = bench.shown_design
+        layout = (kind_of(bench.tables), *bench.tables) if design is None else (design.kind, *design.gears, *bench.tables)
         if layout != self._layout:
             self._layout = layout
-            self._have(fields_of(bench.design, bench.tables))
+            self._have(fields_of(design, bench.tables))
+        is_stale = bench.standing is Standing.LAST_GOOD
+        mark_stale(self._view, f"{self._words['grey']}: {self._words['of the last good design']}" if is_stale else "")
         faults = [each._asdict() | {"said": self._words.said(each.line)} for each in bench.faults()]
         given, former = given_texts(bench.tables), given_texts(bench.former)
-        used = {key: text for key, text in used_texts(bench.design, bench.tables).items() if key in self._keys}
+        all_used = {} if design is None else used_texts(design, bench.tables)
+        used = {key: text for key, text in all_used.items() if key in self._keys}
         changed = sorted(key for key in given.keys() | former.keys() if given.get(key) != former.get(key))
         self._view.show({"given": given, "used": used, "faults": faults, "changed": changed, "reveal": reveal})
 
@@ -158,10 +164,16 @@ Opened = Callable[[str, str], None]
 
 
 class FilesPanel:
-    """Follows the workbench. `opened` takes a spec's text and name, `tabled` the name and text of a table of results."""
+    """Follows the workbench. `opened` takes a spec's text and name, `tabled` the name and text of a table of results.
 
-    def __init__(self, key: str, bench: Workbench, words: PageWords, opened: Opened, tabled: Opened) -> None:
+    `saved` is called after the design was saved.
+    """
+
+    def __init__(
+        self, key: str, bench: Workbench, words: PageWords, opened: Opened, tabled: Opened, saved: Callable[[], None]
+    ) -> None:
         self._key, self._bench, self._words, self._opened, self._tabled = key, bench, words, opened, tabled
+        self._saved, self._state = saved, ("", False)
         self._folder, self._runs = Folder(bench.folder), Runs()
         self._view = FilesView(self._asked, f"/given/{key}", key, _words(words))
         self._names = _names(words)
@@ -173,11 +185,19 @@ class FilesPanel:
         await_files(key, {"spec": (LARGEST_SPEC, self._given_spec), "table": (LARGEST_TABLE, self._given_table)})
 
     def follow(self) -> None:
-        """Let the address hold the design, once nobody types any more."""
+        """Show whether the design is saved, and let the address hold it, once nobody types any more."""
+        state = (self._bench.name, not self._bench.is_saved)
+        if state != self._state:
+            self._state = state
+            self._view.show(file=state[0], unsaved=state[1])
         if self._bench.text != self._linked:
             if self._task is not None:
                 self._task.cancel()
             self._task = background_tasks.create(self._link(self._bench.text))
+
+    def leave_for(self, address: str) -> None:
+        """Open the page that takes the design over, without a question."""
+        self._view.leave_for(address)
 
     def close(self) -> None:
         """Stop because the tab was closed."""
@@ -203,8 +223,9 @@ class FilesPanel:
             "open": lambda: self._take(self._folder.spec(name), Path(name).stem),
             "begin": lambda: self._take(starter_text(name)[1], Path(starter_text(name)[0]).stem),
             "table": lambda: self._given_table(name, self._folder.find(name, TABLES, LARGEST_TABLE).read_bytes()),
-            "spec": lambda: ui.download(self._bench.text.encode(), f"{self._bench.design.name}.toml", "application/toml"),
-            "save": lambda: self._save(name, replace=told.get("replace") is True),
+            "spec": lambda: ui.download(self._bench.text.encode(), f"{self._bench.name}.toml", "application/toml"),
+            "save": lambda: self._save_as(name, replace=told.get("replace") is True),
+            "save-open": self._save_open,
             "make": lambda: self._make(str(told.get("kind"))),
             "stop": lambda: None if self._run is None else self._runs.cancel(self._run),
         }
@@ -219,13 +240,14 @@ class FilesPanel:
             self._view.show(line=error.strerror or str(error))
 
     def _show(self) -> None:
-        design = self._bench.design
+        design = self._bench.shown_design
+        kinds = [] if design is None else [key for key, kind in DOWNLOADS.items() if kind.accepts(design)]
         self._view.show(
             specs=self._folder.specs(),
             tables=self._folder.names(TABLES),
             starters=[{"name": name, "words": words} for name, words in starters().items() if _is_spec(name)],
-            makes=[{"key": key, "words": self._names[key]} for key, kind in DOWNLOADS.items() if kind.accepts(design)],
-            name=design.name,
+            makes=[{"key": key, "words": self._names[key]} for key in kinds],
+            name=self._bench.name,
         )
 
     def _take(self, text: str, name: str) -> None:
@@ -250,12 +272,39 @@ class FilesPanel:
             except GearcadError as error:
                 self._view.show(line=str(error))
 
-    def _save(self, name: str, *, replace: bool) -> None:
-        self._view.show(saved=self._folder.save(name, self._bench.text, replace=replace), specs=self._folder.specs())
+    def _save_as(self, name: str, *, replace: bool) -> None:
+        self._view.show(saved=self._save(name, replace=replace))
+
+    def _save(self, name: str, *, replace: bool) -> str:
+        """Save under a name and return that of the file. The file that is open is replaced if it has the text that it had."""
+        bench = self._bench
+        file = self._folder.save(name, bench.text, replace=replace or self._is_open(name))
+        bench.note_saved(file.removesuffix(SPECS[0]), bench.text)
+        self._view.show(specs=self._folder.specs(), name=bench.name)
+        self._saved()
+        return file
+
+    def _save_open(self) -> None:
+        """Save under the name of the file that is open. Where that must be asked, or is wrong, the menu says so."""
+        try:
+            file = self._save(self._bench.name, replace=False)
+        except (GearcadError, OSError):
+            self._show()
+            self._view.open()
+            raise
+        ui.notify(f"{self._words['saved']}: {file}")
+
+    def _is_open(self, name: str) -> bool:
+        """Return whether a name is that of the file that is open, and the file has the text that is known of it."""
+        try:
+            file = f"{name.strip().removesuffix(SPECS[0])}{SPECS[0]}"
+            return file == f"{self._bench.name}{SPECS[0]}" and self._folder.spec(file) == self._bench.saved_text
+        except GearcadError:
+            return False
 
     def _make(self, kind: str) -> None:
         bench = self._bench
-        if kind in DOWNLOADS and DOWNLOADS[kind].accepts(bench.design):
+        if kind in DOWNLOADS and bench.shown_design is not None and DOWNLOADS[kind].accepts(bench.design):
             if bench.fault is not None and bench.fault.written:
                 self._view.show(line=bench.fault.line)
                 return
@@ -319,4 +368,5 @@ def _words(words: PageWords) -> dict[str, str]:
         "link": words["Link"],
         "copy": words["copy a link that holds the design"],
         "copied": words["copied"],
+        "unsaved": words["not saved"],
     }

@@ -32,6 +32,9 @@ class SectionPanel(Panel[dict[str, Any] | None]):
     def show(self, found: dict[str, Any] | None) -> None:
         self._view.show(found, self._kept)
 
+    def clear(self) -> None:
+        self._view.clear_content()
+
     def keep(self, found: dict[str, Any] | None) -> None:
         self._kept = found
 
@@ -83,6 +86,9 @@ class BodiesPanel(Panel[Bodies]):
         surfaces = {key: content for key, content in found.surfaces.items() if key not in former}
         self._view.show(self._number, bodies, surfaces, float(found.error), self._words[found.why_not])
 
+    def clear(self) -> None:
+        self.show(Bodies())
+
 
 def _bodies_own(words: PageWords) -> dict[str, str]:
     """Return the words that the script of the bodies view uses."""
@@ -118,6 +124,9 @@ class RollPanel(Panel[float]):
         if found != self._shown:
             self._shown = found
             self._view.show(found)
+
+    def clear(self) -> None:
+        self.show(0.0)
 
 
 def _roll_own(words: PageWords) -> dict[str, str]:
@@ -158,6 +167,9 @@ class SharesPanel(Panel[dict[str, Any] | None]):
         if found is not None or self._shown:
             self._view.show(found)
         self._shown = found is not None
+
+    def clear(self) -> None:
+        self.show(None)
 
 
 def shares_of(design: Design) -> dict[str, Any] | None:

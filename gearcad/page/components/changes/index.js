@@ -4,6 +4,28 @@ const PATIENCE = 3000; // ms after which a change without an answer is sent agai
 
 export const PAUSE = 1000; // ms without a key after which typing is another step to undo
 
+// What a tab has typed and the server has not heard when the page is loaded again: it is sent then, to the same design.
+const place = (name) => `gearcad-unheard-${name}`;
+
+export function keepUnheard(name, unheard) {
+  try {
+    if (unheard) sessionStorage.setItem(place(name), JSON.stringify({ search: window.location.search, unheard }));
+    else sessionStorage.removeItem(place(name));
+  } catch {
+    // A browser that keeps nothing loses it.
+  }
+}
+
+export function takeUnheard(name) {
+  try {
+    const { search, unheard } = JSON.parse(sessionStorage.getItem(place(name))) ?? {};
+    sessionStorage.removeItem(place(name));
+    return search === window.location.search ? (unheard ?? null) : null;
+  } catch {
+    return null;
+  }
+}
+
 export class Changes {
   constructor(emit) {
     [this.emit, this.sent, this.number] = [emit, [], 0];
