@@ -133,7 +133,7 @@ class Workbench:
     ) -> None:
         self.folder, self._clock = folder, clock
         self._source = self._good_source = self._read_source = _Source(name, text if saved is None else saved)
-        self.text = text
+        self.text = self._good_text = text
         self.fault: Fault | None = None
         self.tables, where = self._tables()
         self._where: Where | None = where
@@ -164,9 +164,10 @@ class Workbench:
     @property
     def standing(self) -> Standing:
         """What the last good design is to the inputs. An input that could not be written into the text is one of them."""
-        if self.fault is None or not (self.fault.written or self.fault.key):
-            return Standing.PRESENT
-        return Standing.LAST_GOOD if self._source is self._good_source else Standing.OTHER
+        if self._source is not self._good_source:
+            return Standing.OTHER
+        is_unwritten = self.fault is not None and bool(self.fault.key)
+        return Standing.PRESENT if self.text == self._good_text and not is_unwritten else Standing.LAST_GOOD
 
     @property
     def shown_design(self) -> Design | None:
@@ -297,7 +298,7 @@ class Workbench:
             self._read_source = self._source
             self._where = where
             self.design = self._design(self.tables, where)
-            self._good, self._good_source = self.tables, self._source
+            self._good, self._good_text, self._good_source = self.tables, text, self._source
         except SpecError as error:
             self.fault = Fault(str(error), error.key)
         except GearcadError as error:

@@ -12,7 +12,7 @@ from gearcad.core.errors import GearcadError, ParameterError, SpecError
 from gearcad.core.runtime import templates
 from gearcad.designs.reader import read_spec, starter_text
 from gearcad.page.fields import LimitMap, fields_of, given_texts, limit_map, used_texts
-from gearcad.page.workbench import BesideDesign, Fault, Workbench
+from gearcad.page.workbench import BesideDesign, Fault, Standing, Workbench, linked_bench, pack
 from gearcad.sizing.geometry import Free, LimitKind
 
 
@@ -355,3 +355,66 @@ def test_all_faults_are_found() -> None:
     assert len(bench.faults()) == len(wrong) - 1
     bench.write("[pair")
     assert bench.faults() == (bench.fault,)
+
+
+NOTHING = "[gear]\nteeth = 2\n"
+"""A spec that makes no gear."""
+
+
+def test_a_fault_leaves_the_last_good_design_of_the_same_spec_only(bench: Workbench) -> None:
+    assert (bench.standing, bench.shown_design) == (Standing.PRESENT, bench.design)
+    for wrong in ("2", "1.2,3"):
+        bench.change({"gear.teeth": wrong})
+        assert (bench.standing, bench.shown_design) == (Standing.LAST_GOOD, bench.design)
+    bench.open(NOTHING, "nothing")
+    assert (bench.standing, bench.shown_design) == (Standing.OTHER, None)
+    bench.undo()
+    assert (bench.standing, bench.name) == (Standing.LAST_GOOD, "trial")
+    bench.undo()
+    assert bench.standing is Standing.PRESENT
+    for _ in range(2):
+        bench.redo()
+    assert (bench.standing, bench.name, bench.tables) == (Standing.OTHER, "nothing", {"gear": {"teeth": 2}})
+    bench.write(GEAR.format(name="mended", teeth=30), "text")
+    assert bench.standing is Standing.PRESENT
+    bench.undo()
+    assert bench.standing is Standing.LAST_GOOD
+
+
+def test_inputs_of_a_spec_that_cannot_be_read_are_none_of_another(bench: Workbench) -> None:
+    bench.open("no TOML", "broken")
+    assert (bench.standing, bench.tables) == (Standing.OTHER, {})
+    bench.blame("a line about no input")
+    assert bench.standing is Standing.OTHER
+    bench.undo()
+    bench.blame("a line about no input")
+    assert bench.standing is Standing.PRESENT
+
+
+def test_fields_of_a_spec_that_makes_nothing_are_those_of_its_kind(bench: Workbench) -> None:
+    bench.open("[planetary]\nplanets = 3\n[sun]\nteeth = 24\n", "train")
+    keys = {field["key"] for table in fields_of(None, bench.tables) for group in table["groups"] for field in group["fields"]}
+    assert {"planetary.planets", "sun.teeth"} <= keys and "gear.teeth" not in keys
+
+
+def test_a_design_is_saved_while_its_file_has_its_text(bench: Workbench) -> None:
+    assert bench.is_saved
+    bench.change({"gear.teeth": "21"}, 1)
+    changed = bench.text
+    assert not bench.is_saved
+    bench.open(GEAR.format(name="other", teeth=40), "other")
+    assert (bench.is_saved, bench.name) == (True, "other")
+    bench.undo()
+    assert (bench.is_saved, bench.name) == (False, "trial")
+    copied = bench.copied()
+    bench.note_saved("renamed", changed)
+    assert (bench.is_saved, bench.name, copied.is_saved, copied.name) == (True, "renamed", False, "trial")
+    bench.undo()
+    assert (bench.is_saved, bench.name) == (False, "renamed")
+
+
+def test_a_design_of_a_link_is_saved_if_its_file_has_its_text(bench: Workbench) -> None:
+    text = (bench.folder / "other.toml").read_text(encoding="utf-8")
+    for linked, is_saved in ((text, True), (f"# new\n{text}", False), (NOTHING, False)):
+        assert linked_bench(pack("other", linked), bench.text, "trial", bench.folder).is_saved is is_saved
+    assert linked_bench(pack("nowhere", text), bench.text, "trial", bench.folder).is_saved
