@@ -48,7 +48,8 @@ export default {
       <div class="find" ref="find">
         <input class="search" type="search" ref="search" v-model="wanted" :placeholder="words.search + '  /'" :aria-label="words.search"
                @keydown.esc="wanted = ''; $event.target.blur()" @keydown.enter.prevent="next($event)" />
-        <p v-if="faults.length" class="faults" role="status">{{ faults.length }} {{ faults.length === 1 ? words.fault : words.faults }}<small v-if="dataStale"> · {{ dataStale }}</small></p>
+        <p v-if="faults.length" class="faults" role="status">{{ faults.length }} {{ faults.length === 1 ? words.fault : words.faults }}</p>
+        <small v-if="dataStale && faults.length" class="of"> · {{ dataStale }}</small>
         <button v-if="faultAbove" type="button" class="fault" role="alert" @click="go(fault.key)"><b v-if="fault.said">{{ fault.said }} – </b><span lang="en">{{ fault.line }}</span></button>
       </div>
       <p v-if="!shownTables.length" class="none">{{ tables.length ? words.nothing : words.textOnly }}</p>

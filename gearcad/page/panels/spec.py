@@ -276,29 +276,28 @@ class FilesPanel:
         self._view.show(saved=self._save(name, replace=replace))
 
     def _save(self, name: str, *, replace: bool) -> str:
-        """Save under a name and return that of the file. The file that is open is replaced if it has the text that it had."""
+        """Save under a name, of which the file is then the one that is open, and return the name of the file."""
         bench = self._bench
-        file = self._folder.save(name, bench.text, replace=replace or self._is_open(name))
+        file = self._folder.save(name, bench.text, replace=replace)
         bench.note_saved(file.removesuffix(SPECS[0]), bench.text)
         self._view.show(specs=self._folder.specs(), name=bench.name)
         self._saved()
         return file
 
     def _save_open(self) -> None:
-        """Save under the name of the file that is open. Where that must be asked, or is wrong, the menu says so."""
+        """Save to the file that is open, at once if it has the text that is known of it. Otherwise the menu asks."""
         try:
-            file = self._save(self._bench.name, replace=False)
+            file = self._save(self._bench.name, replace=self._has_known_text())
         except (GearcadError, OSError):
             self._show()
             self._view.open()
             raise
         ui.notify(f"{self._words['saved']}: {file}")
 
-    def _is_open(self, name: str) -> bool:
-        """Return whether a name is that of the file that is open, and the file has the text that is known of it."""
+    def _has_known_text(self) -> bool:
+        """Return whether the file that is open has the text that it had when it was opened or saved."""
         try:
-            file = f"{name.strip().removesuffix(SPECS[0])}{SPECS[0]}"
-            return file == f"{self._bench.name}{SPECS[0]}" and self._folder.spec(file) == self._bench.saved_text
+            return self._folder.spec(f"{self._bench.name}{SPECS[0]}") == self._bench.saved_text
         except GearcadError:
             return False
 

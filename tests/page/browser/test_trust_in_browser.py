@@ -53,7 +53,7 @@ def test_what_is_not_of_these_inputs_is_marked(tab: Tab) -> None:
         assert verdict.inner_text() == "strength passed (of the last good design)"
         assert not verdict.get_attribute("class")
         assert tab.page.locator(".band:visible").all_inner_texts() == ["of the last good design"] * 3
-        assert "grey: of the last good design" in tab.page.inner_text(".inputs .faults")
+        assert "grey: of the last good design" in tab.page.inner_text(".inputs .find")
     tab.field(TEETH).fill("21")
     _clear(tab)
     assert tab.page.locator("[data-stale]").count() == tab.page.locator(".band:visible").count() == 0
