@@ -46,7 +46,7 @@ export default {
   template: `
     <section class="gear-sheet" :aria-label="label" :aria-busy="waiting" :data-stale="dataStale" @keydown="walk">
       <header>
-        <h2 v-if="content.title" :class="dataStale ? '' : content.verdict">{{ content.title }}<template v-if="dataStale"> ({{ dataStale }})</template></h2>
+        <h2 v-if="content.title" :class="dataStale || waiting ? '' : content.verdict">{{ content.title }}<template v-if="dataStale"> ({{ dataStale }})</template></h2>
         <p v-if="content.reason" class="told" lang="en">{{ content.reason }}</p>
         <p v-if="content.beside" class="kept">{{ words.kept }}: {{ content.beside }}</p>
         <component :is="line.label ? 'details' : 'p'" v-for="line in content.lines" :key="line.label" class="told">
