@@ -25,7 +25,7 @@ from gearcad.page.panels.views import BodiesPanel, RollPanel, SectionPanel, Shar
 from gearcad.page.run_process import result_in_process
 from gearcad.page.runs import Runs
 from gearcad.page.words import PageLanguage, PageWords, language_of
-from gearcad.page.workbench import DESIGN, TAB, TEXT, BesideDesign, Standing, linked_bench
+from gearcad.page.workbench import DESIGN, TAB, TEXT, BesideDesign, DesignStatus, linked_bench
 
 _SECONDS = 60.0
 """Seconds until an unclaimed handover is dropped."""
@@ -131,13 +131,13 @@ One = TypeVar("One", bound=Panel[Any])
 class Following:
     """Updates the panels for the last design and drops results for older ones. A panel that fails shows it; others go on.
 
-    `standing` tells what the design is to the present inputs. What is of other inputs is marked, by its panel and in bands;
+    `status` tells what the design is to the present inputs. What is of other inputs is marked, by its panel and in bands;
     of another spec nothing is shown.
     """
 
-    def __init__(self, design: Callable[[], Design], standing: Callable[[], Standing], words: PageWords) -> None:
+    def __init__(self, design: Callable[[], Design], status: Callable[[], DesignStatus], words: PageWords) -> None:
         self._design, self._failed = design, words["failed, and the page goes on"]
-        self._words, self._standing = words, standing
+        self._words, self._status = words, status
         self._bands: list[ui.label] = []
         self._failing: set[Panel[Any]] = set()
         self._faults: dict[Panel[Any], ui.label] = {}
@@ -165,27 +165,31 @@ class Following:
     def follow(self) -> None:
         """Bring the panels up to date because the design has changed."""
         self._change += 1
-        standing = self._standing()
-        self._mark(standing)
-        if standing is Standing.OTHER:
+        status = self._status()
+        self._mark(status)
+        if status is DesignStatus.OTHER:
             for panel in self._order:
                 panel.clear()
         elif self._task is None or self._task.done():
             self._task = background_tasks.create(self._find())
 
-    def _mark(self, standing: Standing) -> None:
+    def _mark(self, status: DesignStatus) -> None:
         """Mark what is of other inputs than the present ones."""
         last = self._words["of the last good design"]
-        stale = {Standing.PRESENT: "", Standing.LAST_GOOD: last, Standing.OTHER: self._words["these inputs make no gears"]}
+        stale = {
+            DesignStatus.PRESENT: "",
+            DesignStatus.LAST_GOOD: last,
+            DesignStatus.OTHER: self._words["these inputs make no gears"],
+        }
         for panel in self._order:
-            panel.mark(stale[standing] or (last if panel in self._failing else ""))
+            panel.mark(stale[status] or (last if panel in self._failing else ""))
         for band in self._bands:
-            band.set_text(stale[standing])
-            band.set_visibility(standing is not Standing.PRESENT)
+            band.set_text(stale[status])
+            band.set_visibility(status is not DesignStatus.PRESENT)
 
     def look(self, panel: Panel[Any]) -> None:
         """Bring the panels up to date because one of them is seen again."""
-        if self._standing() is not Standing.OTHER:
+        if self._status() is not DesignStatus.OTHER:
             background_tasks.create(self._show(panel, self._design(), self._change))
 
     async def compare(self, kept: Callable[[], Design | None]) -> None:
@@ -210,7 +214,7 @@ class Following:
         shown = 0
         while shown != self._change:
             shown, design = self._change, self._design()
-            if self._standing() is Standing.OTHER:
+            if self._status() is DesignStatus.OTHER:
                 continue
             for panel in filter(self._is_seen, self._order):
                 if panel.aside(design) is not None:
@@ -227,7 +231,7 @@ class Following:
         while shown != self._change:
             shown, design = self._change, self._design()
             await asyncio.sleep(_REST)
-            if self._standing() is Standing.OTHER:
+            if self._status() is DesignStatus.OTHER:
                 continue
             for panel in filter(self._is_seen, self._order):
                 if shown == self._change and panel.aside(design) is not None:
@@ -257,13 +261,13 @@ class Following:
             if line is not None and not app.is_stopping:
                 line.set_text(f"{self._failed} ({type(error).__name__}: {error})"[:300])
                 self._failing.add(panel)
-                self._mark(self._standing())
+                self._mark(self._status())
             return None
         if line is not None:
             line.set_text("")
         if panel in self._failing:
             self._failing.discard(panel)
-            self._mark(self._standing())
+            self._mark(self._status())
         return found
 
 
@@ -282,7 +286,7 @@ class Session:
         remember(self.key, beside)
         self._client, self._has_browser = ui.context.client, False
         self._client.on_connect(self._connect)
-        following = self._following = Following(lambda: bench.design, lambda: bench.standing, words)
+        following = self._following = Following(lambda: bench.design, lambda: bench.status, words)
         ui.query("html").props(f"lang={words.language.value}")
         with ui.element("header").classes("bar"):
             self._bar()

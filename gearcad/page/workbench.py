@@ -57,7 +57,7 @@ class Fault(NamedTuple):
         return int(found[1]) if found else None
 
 
-class Standing(Enum):
+class DesignStatus(Enum):
     """What the last good design of a workbench is to the present inputs: theirs, that of earlier inputs, or of another spec."""
 
     PRESENT = "present"
@@ -162,17 +162,17 @@ class Workbench:
         return self._source.saved
 
     @property
-    def standing(self) -> Standing:
+    def status(self) -> DesignStatus:
         """What the last good design is to the inputs. An input that could not be written into the text is one of them."""
         if self._source is not self._good_source:
-            return Standing.OTHER
+            return DesignStatus.OTHER
         is_unwritten = self.fault is not None and bool(self.fault.key)
-        return Standing.PRESENT if self.text == self._good_text and not is_unwritten else Standing.LAST_GOOD
+        return DesignStatus.PRESENT if self.text == self._good_text and not is_unwritten else DesignStatus.LAST_GOOD
 
     @property
     def shown_design(self) -> Design | None:
         """The last good design; None if it is of another spec than the inputs."""
-        return None if self.standing is Standing.OTHER else self.design
+        return None if self.status is DesignStatus.OTHER else self.design
 
     def faults(self) -> tuple[Fault, ...]:
         """Return the fault and those that remain once each key at fault has the value of the last good design."""

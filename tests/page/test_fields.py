@@ -12,7 +12,7 @@ from gearcad.core.errors import GearcadError, ParameterError, SpecError
 from gearcad.core.runtime import templates
 from gearcad.designs.reader import read_spec, starter_text
 from gearcad.page.fields import LimitMap, fields_of, given_texts, limit_map, used_texts
-from gearcad.page.workbench import BesideDesign, Fault, Standing, Workbench, linked_bench, pack
+from gearcad.page.workbench import BesideDesign, DesignStatus, Fault, Workbench, linked_bench, pack
 from gearcad.sizing.geometry import Free, LimitKind
 
 
@@ -362,33 +362,33 @@ NOTHING = "[gear]\nteeth = 2\n"
 
 
 def test_a_fault_leaves_the_last_good_design_of_the_same_spec_only(bench: Workbench) -> None:
-    assert (bench.standing, bench.shown_design) == (Standing.PRESENT, bench.design)
+    assert (bench.status, bench.shown_design) == (DesignStatus.PRESENT, bench.design)
     for wrong in ("2", "1.2,3"):
         bench.change({"gear.teeth": wrong})
-        assert (bench.standing, bench.shown_design) == (Standing.LAST_GOOD, bench.design)
+        assert (bench.status, bench.shown_design) == (DesignStatus.LAST_GOOD, bench.design)
     bench.open(NOTHING, "nothing")
-    assert (bench.standing, bench.shown_design) == (Standing.OTHER, None)
+    assert (bench.status, bench.shown_design) == (DesignStatus.OTHER, None)
     bench.undo()
-    assert (bench.standing, bench.name) == (Standing.LAST_GOOD, "trial")
+    assert (bench.status, bench.name) == (DesignStatus.LAST_GOOD, "trial")
     bench.undo()
-    assert bench.standing is Standing.PRESENT
+    assert bench.status is DesignStatus.PRESENT
     for _ in range(2):
         bench.redo()
-    assert (bench.standing, bench.name, bench.tables) == (Standing.OTHER, "nothing", {"gear": {"teeth": 2}})
+    assert (bench.status, bench.name, bench.tables) == (DesignStatus.OTHER, "nothing", {"gear": {"teeth": 2}})
     bench.write(GEAR.format(name="mended", teeth=30), "text")
-    assert bench.standing is Standing.PRESENT
+    assert bench.status is DesignStatus.PRESENT
     bench.undo()
-    assert bench.standing is Standing.LAST_GOOD
+    assert bench.status is DesignStatus.LAST_GOOD
 
 
 def test_inputs_of_a_spec_that_cannot_be_read_are_none_of_another(bench: Workbench) -> None:
     bench.open("no TOML", "broken")
-    assert (bench.standing, bench.tables) == (Standing.OTHER, {})
+    assert (bench.status, bench.tables) == (DesignStatus.OTHER, {})
     bench.blame("a line about no input")
-    assert bench.standing is Standing.OTHER
+    assert bench.status is DesignStatus.OTHER
     bench.undo()
     bench.blame("a line about no input")
-    assert bench.standing is Standing.PRESENT
+    assert bench.status is DesignStatus.PRESENT
 
 
 def test_fields_of_a_spec_that_makes_nothing_are_those_of_its_kind(bench: Workbench) -> None:

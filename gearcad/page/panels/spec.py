@@ -24,8 +24,8 @@ from gearcad.page.workbench import (
     SPECS,
     TABLES,
     BesideDesign,
+    DesignStatus,
     Folder,
-    Standing,
     TakenError,
     Workbench,
     pack,
@@ -65,7 +65,7 @@ class InputsPanel:
         if layout != self._layout:
             self._layout = layout
             self._have(fields_of(design, bench.tables))
-        is_stale = bench.standing is Standing.LAST_GOOD
+        is_stale = bench.status is DesignStatus.LAST_GOOD
         mark_stale(self._view, f"{self._words['grey']}: {self._words['of the last good design']}" if is_stale else "")
         faults = [each._asdict() | {"said": self._words.said(each.line)} for each in bench.faults()]
         given, former = given_texts(bench.tables), given_texts(bench.former)
