@@ -46,8 +46,8 @@ def test_type_checkers_are_told_the_same_names() -> None:
     assert set(dir(gearcad)) - set(gearcad.__all__) <= names | {name for name in dir(gearcad) if name.startswith("__")}
 
 
-MUTABLE = {"Run", "_Keeper", "_Trial", "Elimination", "_Rings"}
-"""A run of the page, and states of loops inside one function."""
+MUTABLE = {"Run", "_Source", "_Keeper", "_Trial", "Elimination", "_Rings"}
+"""A run of the page, the file that is open there, and states of loops inside one function."""
 
 
 def test_dataclasses_are_frozen() -> None:
