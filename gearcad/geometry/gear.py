@@ -18,21 +18,13 @@ from gearcad.core import symbols
 from gearcad.core.errors import GeometryError, InputError, format_number
 from gearcad.core.quantities import derive, symbols_of
 from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Role, concise
+from gearcad.geometry.curves import Curve, CurveKind, Fillet, Involute, Land
 from gearcad.geometry.feasibility import check_given, check_tool, trimming_notices
 from gearcad.geometry.gear_data import GearData, check_body, corner_notices, fillet_tool, shaper_tip, twist
 from gearcad.geometry.gear_parts import DoubleHelix
 from gearcad.geometry.inspection import Inspection, ThicknessLimits, inspection_of
 from gearcad.geometry.modification import FlankForm, check_flanks
-from gearcad.geometry.profile import (
-    LEAST_LAND,
-    Curve,
-    CurveKind,
-    Fillet,
-    InternalProfile,
-    Involute,
-    Land,
-    ToothProfile,
-)
+from gearcad.geometry.profile import LEAST_LAND, InternalProfile, ToothProfile
 from gearcad.geometry.toothed import tip_notices
 
 

@@ -22,8 +22,9 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from gearcad.core.records import Floats
+from gearcad.geometry.curves import Fillet
 from gearcad.geometry.involute import involute
-from gearcad.geometry.profile import Fillet, ToothProfile
+from gearcad.geometry.profile import ToothProfile
 
 EdgePath = Callable[[Floats], tuple[Floats, Floats]]
 """Path of an edge of a mate, by its angle from the line of centres about the mate's axis (rad). It gives the radius (mm) about

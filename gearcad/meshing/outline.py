@@ -15,8 +15,8 @@ import numpy as np
 from gearcad.core.errors import GeometryError, require_number
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
+from gearcad.geometry.curves import Curve, CurveKind, Involute
 from gearcad.geometry.gear import flank_curves
-from gearcad.geometry.profile import Curve, CurveKind, Involute
 from gearcad.rating.tooth_stiffness import outer_diameter
 
 _GRADING_FINE = 513

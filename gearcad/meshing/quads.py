@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
-from gearcad.geometry.profile import Curve, CurveKind, Land
+from gearcad.geometry.curves import Curve, CurveKind, Land
 from gearcad.meshing.fem import Element, node_places, scaled_jacobians, shape_slopes
 from gearcad.meshing.outline import (
     OTHER_SIDE,

@@ -24,8 +24,9 @@ from numpy.polynomial import Chebyshev
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import Floats, Notice, PerGear, Role
 from gearcad.geometry import Gear, ToothProfile
+from gearcad.geometry.curves import Curve, Fillet, Involute
 from gearcad.geometry.involute import involute_at_roll
-from gearcad.geometry.profile import Curve, Fillet, Involute, base_half_angle
+from gearcad.geometry.profile import base_half_angle
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.rating.root_section import VirtualGear, virtual_tool

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear, GearPair, RackPair
+from gearcad.geometry.curves import Involute
 from gearcad.geometry.gear_data import section_turn
-from gearcad.geometry.profile import Involute
 from gearcad.verification.claims import Claim, Judge
 
 Booleans = NDArray[np.bool_]

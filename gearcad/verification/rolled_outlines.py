@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear, GearPair, RackPair
-from gearcad.geometry.profile import parameters_within
+from gearcad.geometry.curves import parameters_within
 from gearcad.geometry.rack import RackProfile
 from gearcad.verification.outline_gauges import fine_chord, half_outline
 from gearcad.verification.tool_teeth import Complexes, peaks_of

@@ -12,9 +12,9 @@ import numpy as np
 
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear, Rack
+from gearcad.geometry.curves import Chamfer, Curve, Fillet, Involute, PlaneCurve
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
-from gearcad.geometry.profile import Chamfer, Curve, Fillet, Involute, PlaneCurve
 from gearcad.geometry.rack import RackCurveKind
 from gearcad.solids.body_plan import EndCone
 

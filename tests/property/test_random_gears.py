@@ -15,8 +15,8 @@ from support.strategies import HELIX, MODULE, PRESSURE_ANGLE, SHIFT, build_gear,
 from gearcad import BasicRack, Body, Gear
 from gearcad.core.errors import InputError
 from gearcad.geometry import ShaperCutter
+from gearcad.geometry.curves import CurveKind, Involute
 from gearcad.geometry.fillets import ShaperTip
-from gearcad.geometry.profile import CurveKind, Involute
 
 ROUNDING = 1e-12
 """Relative rounding of radii and angles."""

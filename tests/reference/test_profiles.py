@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 from support.cases import case, profile_cases
 
 from gearcad import BasicRack, Gear
+from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.fillets import ToolTip
-from gearcad.geometry.profile import CurveKind
 
 ANGLE = 1e-10
 """rad: what the project promises for half angles; the two references agree with each other to 1e-15 rad."""

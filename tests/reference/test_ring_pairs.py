@@ -16,10 +16,10 @@ from support.rings import Cutter, half_space_angle
 from gearcad import BasicRack, Gear, GearPair
 from gearcad.core.records import Role
 from gearcad.geometry import ShaperCutter
+from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.fillets import ShaperTip
 from gearcad.geometry.gear_data import full_corner_radius
 from gearcad.geometry.interference import InternalTips, ToothTips
-from gearcad.geometry.profile import CurveKind
 
 EXACT = 1e-10
 

@@ -16,7 +16,7 @@ from gearcad.contact.solid.cycle import SolidCycle, solid_field
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.core.records import PerGear, Role
 from gearcad.geometry import ShaperCutter
-from gearcad.geometry.profile import CurveKind
+from gearcad.geometry.curves import CurveKind
 from gearcad.meshing.outline import MeshSizes
 
 STEEL = Material()

@@ -13,7 +13,7 @@ from support.clearance import distance_to_section, section_area
 from support.samples import SAMPLES
 
 from gearcad import Body, Gear, ParameterError
-from gearcad.geometry.profile import CurveKind
+from gearcad.geometry.curves import CurveKind
 from gearcad.solids.files.dxf import gear_contour, write_dxf
 from gearcad.solids.files.points import gear_points, write_points
 

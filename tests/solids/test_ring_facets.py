@@ -15,9 +15,9 @@ from support.solids import Cone, check_closed, check_outward, check_stl
 
 from gearcad import Body, FlankModification, Gear, GearPair, GeometryError, ParameterError
 from gearcad.geometry import ShaperCutter
+from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.geometry.fillets import ShaperTip
 from gearcad.geometry.gear_data import twist
-from gearcad.geometry.profile import Curve, CurveKind
 from gearcad.solids import FileOptions, write_3mf, write_glb
 from gearcad.solids.exact.inertia import mass_properties
 from gearcad.solids.facets.tessellation import Facets, tessellate

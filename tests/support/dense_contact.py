@@ -13,7 +13,7 @@ from gearcad import FlankModification, Gear, GearPair, Material, Mounting, Relie
 from gearcad.contact.plane.pair import contact_pairs
 from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.core.records import Floats
-from gearcad.geometry.profile import CurveKind
+from gearcad.geometry.curves import CurveKind
 from support.modified import relieved
 
 _FINE, _FILLET, _COARSE, _BODY = 0.015, 0.03, 0.5, 2.0

@@ -20,9 +20,9 @@ from gearcad.drawing.views.modification_diagrams import helix_depths, modificati
 from gearcad.drawing.views.tooth_detail import detail_scale, levels_of, spread, tooth_figure, tooth_outline
 from gearcad.drawing.words import Draughting, Language, SheetWords, Size
 from gearcad.geometry import BasicRack, DoubleHelix, FlankModification, Rack, ReliefShape, ShaperCutter
+from gearcad.geometry.curves import parameters_within
 from gearcad.geometry.gear import halves
 from gearcad.geometry.gear_parts import HubSide
-from gearcad.geometry.profile import parameters_within
 from gearcad.solids import tessellate
 
 SCALE = 0.5

@@ -10,8 +10,8 @@ from scipy.optimize import brentq, minimize
 from support.samples import SAMPLES
 
 from gearcad import BasicRack, Gear, GeometryError, ParameterError
+from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.geometry.inspection import chord_below_tip
-from gearcad.geometry.profile import Curve, CurveKind
 
 LENGTH = 1e-9
 """mm, relative to a module of some mm: the measurements below are minima, found to sqrt(eps) in place, eps in length."""

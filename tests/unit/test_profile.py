@@ -11,7 +11,7 @@ from support.samples import SAMPLES
 
 from gearcad import BasicRack, Gear, GearcadError, GeometryError, ParameterError
 from gearcad.geometry import inverse_involute, involute
-from gearcad.geometry.profile import Curve, CurveKind, parameters_within
+from gearcad.geometry.curves import Curve, CurveKind, parameters_within
 
 ANGLE = 1e-10
 """rad: what the project promises for half angles."""

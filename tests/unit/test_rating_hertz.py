@@ -10,8 +10,8 @@ from support.cases import STEEL, numbers, sample_pair, swapped
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, Load, Material, ParameterError
 from gearcad.core.records import Role
+from gearcad.geometry.curves import CurveKind, Fillet
 from gearcad.geometry.fillets import ToolTip
-from gearcad.geometry.profile import CurveKind, Fillet
 from gearcad.rating import (
     Edition,
     LineContact,

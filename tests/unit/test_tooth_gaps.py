@@ -16,8 +16,8 @@ from gearcad.contact.plane.pair import contact_pairs
 from gearcad.contact.shared.line_of_action import line_of_action, nearest
 from gearcad.core.records import Floats, PerGear, Role
 from gearcad.dynamics.tooth_errors.tooth_springs import ToothPath, pair_path, standard_path
+from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.interference import RollingEdge, deepest_cut, tip_edges
-from gearcad.geometry.profile import CurveKind
 from gearcad.meshing.bodies import Element, ElementMesh, Faces
 from gearcad.meshing.bodies.body_mesh import contacts, posed, poses
 

@@ -23,8 +23,8 @@ from gearcad.core.errors import GeometryError, SolverError
 from gearcad.core.records import PerGear, Role
 from gearcad.core.runtime import Expected, Share, unheard
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.gear import refuse_halves
-from gearcad.geometry.profile import CurveKind
 from gearcad.material import Materials, of_both
 from gearcad.meshing.outline import MeshSizes
 from gearcad.meshing.quads import mesh_quads

@@ -24,7 +24,7 @@ from gearcad.drawing.options import SCALES
 from gearcad.drawing.shapes import Anchor, Arc, Box, Circle, Figure, Line, Pen, Point, Polyline, Text, Vertex
 from gearcad.drawing.words import Draughting
 from gearcad.geometry import Gear, Rack
-from gearcad.geometry.profile import PlaneCurve
+from gearcad.geometry.curves import PlaneCurve
 from gearcad.geometry.rack import FilletArc
 from gearcad.rating.tooth_stiffness import outer_diameter
 from gearcad.solids.files.dxf import Arcs, arcs_of, joined

@@ -16,9 +16,9 @@ from numpy.polynomial.legendre import leggauss
 
 from gearcad.core.records import Floats, JsonObject
 from gearcad.geometry import Gear
+from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute
 from gearcad.geometry.gear import FlankCurve, flank_curves, middle_section
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
-from gearcad.geometry.profile import Chamfer, Curve, CurveKind, Fillet, Involute
 from gearcad.meshing.bodies.element_mesh import GAP, ElementMesh, body_side, rises
 from gearcad.meshing.fem import shape_values
 

@@ -19,9 +19,9 @@ import numpy as np
 from gearcad.core.errors import SolverError, require_number
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear
+from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.gear_data import section_turn
-from gearcad.geometry.profile import Curve, CurveKind
 from gearcad.meshing.bodies.element_mesh import GAP, RIM, Cells, named_left
 from gearcad.meshing.outline import EdgeLength, MeshSizes, bent_lengths
 from gearcad.meshing.sector import load_gmsh

@@ -15,8 +15,8 @@ import numpy as np
 from gearcad.core.errors import ParameterError, require_whole
 from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.geometry import Gear
+from gearcad.geometry.curves import CurveKind, Fillet
 from gearcad.geometry.gear import FlankCurve, flank_curves
-from gearcad.geometry.profile import CurveKind, Fillet
 from gearcad.meshing.bodies.element_mesh import Cells, ElementMesh, Faces, body_side, rises
 from gearcad.meshing.bodies.sectors import ContactRefinement, Sectors, filled
 from gearcad.meshing.fem import Element, laplacian

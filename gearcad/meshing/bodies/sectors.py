@@ -13,7 +13,7 @@ import numpy as np
 from gearcad.core.errors import ParameterError, require_number
 from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.geometry import Gear
-from gearcad.geometry.profile import Curve, CurveKind, Involute
+from gearcad.geometry.curves import Curve, CurveKind, Involute
 from gearcad.meshing.bodies.element_mesh import BORE, ElementMesh
 from gearcad.meshing.fem import Element
 from gearcad.meshing.outline import (

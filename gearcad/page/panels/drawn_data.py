@@ -18,9 +18,9 @@ from gearcad.designs.gear_designs import RackDesign, ToothedDesign
 from gearcad.designs.pair_designs import PairDesign, RackPairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.geometry import Gear, Rack
+from gearcad.geometry.curves import parameters_within
 from gearcad.geometry.gear_data import first_touch, section_turn
 from gearcad.geometry.path_of_contact import PathOfContact
-from gearcad.geometry.profile import parameters_within
 from gearcad.jobs.build import given_speeds, require_bodies
 from gearcad.jobs.planetary import planetary
 from gearcad.planetary.members import SetMesh

@@ -19,10 +19,10 @@ import numpy as np
 
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Floats
+from gearcad.geometry.curves import Curve, CurveKind, Land
 from gearcad.geometry.gear import FlankCurve, Gear, flank_curves, halves
 from gearcad.geometry.gear_data import twist
 from gearcad.geometry.modification import FlankForm
-from gearcad.geometry.profile import Curve, CurveKind, Land
 from gearcad.solids.body_plan import End, gear_ends
 from gearcad.solids.exact import boundary
 from gearcad.solids.exact.boundary import (

@@ -33,9 +33,9 @@ import numpy as np
 
 from gearcad.core.records import Bools, Floats
 from gearcad.geometry import Gear
+from gearcad.geometry.curves import Curve, CurveKind, parameters_within
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.gear_data import twist
-from gearcad.geometry.profile import Curve, CurveKind, parameters_within
 from gearcad.solids.body_plan import EndCone
 
 _CONVEX = 0.75

@@ -14,8 +14,8 @@ from gearcad.core.dxf import CUT, NOT_CUT, add_layers, drawing
 from gearcad.core.errors import SolverError, require_number
 from gearcad.core.records import Floats
 from gearcad.geometry import Body, Gear
+from gearcad.geometry.curves import CurveKind, PlaneCurve
 from gearcad.geometry.gear import middle_section
-from gearcad.geometry.profile import CurveKind, PlaneCurve
 from gearcad.geometry.rack import Rack, RackCurveKind
 from gearcad.solids.body_plan import SNAP, OutlinePiece, keyway_half_angle, outline_pieces
 

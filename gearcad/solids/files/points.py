@@ -19,9 +19,9 @@ from numpy.typing import ArrayLike
 from gearcad.core.errors import require_number
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear
+from gearcad.geometry.curves import Curve, CurveKind, Fillet, Involute, Land, parameters_within
 from gearcad.geometry.fillets import ShaperTip, ToolTip
 from gearcad.geometry.gear import TurnedCurve, middle_section
-from gearcad.geometry.profile import Curve, CurveKind, Fillet, Involute, Land, parameters_within
 from gearcad.geometry.rack import Rack
 
 _NO_FLAT = 1e-9
