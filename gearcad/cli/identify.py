@@ -259,7 +259,7 @@ def _chosen(found: Identification, number: int) -> Candidate:
 
 def _write(found: Identification, chosen: Candidate, path: Path) -> None:
     from gearcad.core.output import staged_files
-    from gearcad.designs.spec_writers import write_identified
+    from gearcad.designs.spec_writers import identified_text
 
     with staged_files(path.parent) as staging:
-        write_identified(found, chosen, path.stem, staging / path.name)
+        (staging / path.name).write_text(identified_text(found, chosen, path.stem), encoding="utf-8")

@@ -1,245 +1,145 @@
-"""Options of the command `size`, and the task that they make."""
+"""Options of the command `size`, of pairs and of planetary sets, and the task of sets that they make."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from gearcad.core.errors import ParameterError, require_number
+from gearcad.core.errors import ParameterError, as_choice
+from gearcad.jobs.size_options import SIZE_OPTIONS
 
 if TYPE_CHECKING:
-    from gearcad.load import Load
     from gearcad.material import Material
-    from gearcad.rating.options import RatingOptions
-    from gearcad.sizing import SizeTask
+    from gearcad.sizing.planetary_sets import SetSizeTask
 
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
-_OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
-    ("--torque", {"type": float, "metavar": "NM", "help": "Pairs: on the pinion; or --power, of which it follows."}),
-    ("--power", {"type": float, "metavar": "KW", "help": "In place of the torque, at the speed."}),
-    ("--speed", {"type": float, "metavar": "RPM", "help": "Of the pinion."}),
-    ("--ratio", {"type": float, "metavar": "U", "help": "Teeth of the wheel over those of the pinion, 1 to 20."}),
-    ("--ratio-tolerance", {"type": float, "metavar": "%", "help": "Most deviation of the ratio.  [default: 2]"}),
-    ("--life", {"type": float, "metavar": "H", "help": "In operation.  [default: endurance limit]"}),
-    ("--application-factor", {"type": float, "metavar": "K_A", "help": "[default: 1]"}),
-    ("--material", {"metavar": "NAME", "help": 'A group and a quality of ISO 6336-5, such as "Eh MQ".'}),
-    ("--hardness", {"type": float, "metavar": "H", "help": "HV, of iron and St HBW; groups such as V need it."}),
-    ("--wheel-material", {"metavar": "NAME", "help": "[default: that of the pinion]"}),
-    ("--wheel-hardness", {"type": float, "metavar": "H", "help": "[default: that of the pinion, of the same material]"}),
-    ("--grade", {"type": int, "metavar": "Q", "help": "Accuracy grade of ISO 1328-1:1995.  [default: 6]"}),
-    ("--safety-flank", {"type": float, "metavar": "S", "help": "Required S_H.  [default: 1]"}),
-    ("--safety-root", {"type": float, "metavar": "S", "help": "Required S_F.  [default: 1.4]"}),
-    ("--safety-scuffing", {"type": float, "metavar": "S", "help": "Required; needs --rating scuffing_stage=... too."}),
-    ("--centre-distance", {"type": float, "metavar": "MM", "help": "[default: that of the shift sums, in round figures]"}),
-    ("--teeth", {"metavar": "Z:Z", "help": "Of the pinion.  [default: 14:40]"}),
-    ("--module", {"metavar": "MM", "help": "2,2.5,3; or 1:10, those of ISO 54 series I within.  [default: 1:10]"}),
-    ("--helix-angle", {"metavar": "DEG", "help": "[default: 0,8:24:2]"}),
-    ("--width-ratio", {"metavar": "B/D1", "help": "Face width over the pinion's reference diameter.  [default: 0.3:1.2:0.1]"}),
-    ("--shift", {"metavar": "X", "help": "Profile shift of the pinion.  [default: 0:0.7:0.1]"}),
-    ("--shift-sum", {"metavar": "X", "help": "Of both, about, where no centre distance is given.  [default: 0:1:0.25]"}),
-    ("--max-diameter", {"type": float, "metavar": "MM", "help": "Of any tip circle."}),
-    ("--max-mass", {"type": float, "metavar": "KG", "help": "Of both gears.  [default: 1.5 of the lightest, with --by]"}),
-    ("--max-width", {"type": float, "metavar": "B/M", "help": "Face width over module.  [default: 30]"}),
-    ("--contact-ratio", {"type": float, "metavar": "EPS", "help": "Least transverse.  [default: 1.2]"}),
-    ("--tip-thickness", {"type": float, "metavar": "S/M", "help": "Least, in modules.  [default: 0.2; Eh 0.4]"}),
-    ("--rack", {"metavar": "NAME", "help": "A, B, C or D of ISO 53.  [default: A]"}),
-    ("--by", {"metavar": "CRITERION", "help": "mass, safety, quiet, sliding or scuffing.  [default: mass]"}),
-)
 _SECOND = "Modules of ISO 54 series II within a range, too."
 _RATING = "Any key of [rating], such as helix_modification=crowning; repeat it."
-
-_FIELDS = {
-    "ratio": "ratio",
-    "ratio_tolerance": "ratio_tolerance",
-    "centre_distance": "centre_distance",
-    "max_diameter": "max_diameter",
-    "max_mass": "max_mass",
-    "max_width": "max_width_in_modules",
-    "contact_ratio": "least_contact_ratio",
-    "tip_thickness": "least_tip_thickness",
-}
-_RANGES = {"helix_angle": "helix_angles", "width_ratio": "width_ratios", "shift": "shifts", "shift_sum": "shift_sums"}
-_OF_RATING = {
-    "life": "life",
-    "grade": "accuracy_grade",
-    "safety_flank": "required_safety_flank",
-    "safety_root": "required_safety_root",
-    "safety_scuffing": "required_safety_scuffing",
-}
-_CALLED = {field: option for table in (_FIELDS, _RANGES, _OF_RATING) for option, field in table.items()} | {
-    "modules": "module",
-    "criterion": "by",
-}
-
-_MOST_VALUES = 1000
-_KILOWATTS = 30_000 / math.pi
-"""Torque (N·m) of 1 kW at 1 rpm."""
 
 
 def size_options(command: Command) -> Command:
     """The options of a task."""
     command = click.option("--rating", "rating", multiple=True, metavar="KEY=VALUE", help=_RATING)(command)
     command = click.option("--second-series", is_flag=True, help=_SECOND)(command)
-    for name, how in reversed(_OPTIONS):
-        command = click.option(name, name.lstrip("-").replace("-", "_"), **how)(command)
+    for option in reversed(SIZE_OPTIONS):
+        name = f"--{option.name.replace('_', '-')}"
+        command = click.option(name, option.name, type=option.type, metavar=option.metavar, help=option.help)(command)
     return command
 
 
-def task_of(given: Mapping[str, Any]) -> SizeTask:
-    """The task of the options that are given, under their own names in messages. Raises ParameterError."""
-    try:
-        return _task(given)
-    except ParameterError as error:
-        called = _CALLED.get(error.parameter, error.parameter)
-        raise ParameterError(called, error.value, error.permitted, error.unit) from error
+_OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
+    (
+        "--type",
+        {"metavar": "TYPES", "help": "Sets: A sun and ring, B stepped planets, C two suns, D two rings.  [default: A]"},
+    ),
+    ("--planets", {"metavar": "N[:N]", "help": "Sets: how many planets.  [default: 3:5]"}),
+    ("--input-torque", {"type": float, "metavar": "NM", "help": "Sets: on the input; --torque is its old name."}),
+    ("--output-torque", {"type": float, "metavar": "NM", "help": "Sets: on the output."}),
+    ("--ring-teeth", {"metavar": "Z[:Z]", "help": "Sets: of rings.  [default: 30:200]"}),
+    ("--fixed", {"metavar": "MEMBER", "help": "Sets: sun, ring, carrier, sun_2 or ring_2; so for --in and --out."}),
+    ("--in", {"metavar": "MEMBER", "help": "Sets: the input."}),
+    ("--out", {"metavar": "MEMBER", "help": "Sets: the output."}),
+    ("--mesh-load-factor", {"type": float, "metavar": "K_G", "help": "Sets: K_gamma.  [default: by the planets, ABS]"}),
+)
+
+_OF_PAIRS = (
+    *(
+        "centre_distance",
+        "max_mass",
+        "shift",
+        "shift_sum",
+        "max_width",
+        "contact_ratio",
+        "tip_thickness",
+        "rack",
+        "by",
+        "errors",
+    ),
+)
+"""Options of pairs that sets do not have."""
+
+_PLAIN = {"fixed": "fixed", "in": "input", "out": "output", "ratio_tolerance": "tolerance"}
+_RANGES = ("planets", "teeth", "ring_teeth")
 
 
-def _task(given: Mapping[str, Any]) -> SizeTask:
-    from gearcad.core.records import PerGear
-    from gearcad.geometry.gear_parts import NAMED_RACKS
-    from gearcad.sizing import SizeTask
+def set_options(command: Command) -> Command:
+    """The options of planetary sets."""
+    for name, how in reversed(_OPTIONS):
+        command = click.option(name, name.lstrip("-").replace("-", "_"), **how)(command)
+    text = "Planetary sets in place of pairs; speed of the input."
+    return click.option("--planetary", is_flag=True, help=text)(command)
 
-    for needed, what in (("ratio", "teeth of the wheel over those of the pinion"), ("material", 'such as "Eh MQ"')):
+
+def require_no_sets(given: Mapping[str, Any]) -> None:
+    """Raise ParameterError for an option of sets where pairs are wanted."""
+    for option, _ in _OPTIONS:
+        name = option.lstrip("-").replace("-", "_")
+        if given[name] is not None:
+            raise ParameterError(name, given[name], "applies to planetary sets only: needs --planetary")
+
+
+def set_task_of(given: Mapping[str, Any]) -> SetSizeTask:
+    """The task of the options that are given. Raises ParameterError."""
+    from gearcad.jobs.size_options import ends_of, load_of, material_of, modules_of, rating_of, values_of
+    from gearcad.planetary.members import SetType
+    from gearcad.planetary.tooth_numbers import SearchTask
+    from gearcad.sizing.planetary_sets import SetSizeTask
+
+    for name in _OF_PAIRS:
+        if given.get(name) is not None:
+            raise ParameterError(name, given[name], "applies to pairs only: leave it out with --planetary")
+    for needed, what in (("ratio", "speed of the input over that of the output"), ("material", 'such as "Eh MQ"')):
         if given[needed] is None:
             raise ParameterError(needed, None, f"must be given, {what}")
-    pinion = material_of("material", given["material"], given["hardness"])
-    wheel_hardness = given["wheel_hardness"]
-    if wheel_hardness is None and given["wheel_material"] is None:
-        wheel_hardness = given["hardness"]
-    wheel = material_of(
-        "wheel_material", given["material" if given["wheel_material"] is None else "wheel_material"], wheel_hardness
-    )
-    fields: dict[str, Any] = {field: given[name] for name, field in _FIELDS.items() if given[name] is not None}
-    fields |= {field: values_of(name, given[name]) for name, field in _RANGES.items() if given[name] is not None}
-    if given["teeth"] is not None:
-        fields["teeth"] = ends_of("teeth", given["teeth"])
+    fields: dict[str, Any] = {field: given[name] for name, field in _PLAIN.items() if given[name] is not None}
+    fields |= {name: ends_of(name, given[name]) for name in _RANGES if given[name] is not None}
+    if given["type"] is not None:
+        fields["types"] = tuple(as_choice("type", each.strip().upper(), SetType) for each in given["type"].split(","))
+    if given["helix_angle"] is not None:
+        fields["helix_angle"] = _single("helix_angle", values_of("helix_angle", given["helix_angle"]))
+    others: dict[str, Any] = {name: given[name] for name in ("mesh_load_factor", "max_diameter") if given[name] is not None}
+    if given["width_ratio"] is not None:
+        others["width_ratio"] = max(values_of("width_ratio", given["width_ratio"]))
     if given["module"] is not None or given["second_series"]:
-        fields["modules"] = modules_of("1:10" if given["module"] is None else given["module"], second=given["second_series"])
-    if given["rack"] is not None:
-        racks = {name.removeprefix("ISO53_"): rack for name, rack in NAMED_RACKS.items()}
-        if (rack := racks.get(given["rack"].upper())) is None:
-            raise ParameterError("rack", given["rack"], "must be A, B, C or D, a basic rack of ISO 53")
-        fields["rack"] = rack
-    if given["by"] is not None:
-        fields["criterion"] = given["by"]
-    return SizeTask(load=load_of(given), materials=PerGear(pinion, wheel), rating=rating_of(given), **fields)
+        others["modules"] = modules_of("0.5:50" if given["module"] is None else given["module"], second=given["second_series"])
+    torques: dict[str, Any] = {name: given[name] for name in ("input_torque", "output_torque") if given[name] is not None}
+    if len(torques) > 1 or (torques and (given["torque"] is not None or given["power"] is not None)):
+        name, value = torques.popitem()
+        permitted = "must be the only one of --input-torque, --output-torque, --power and --torque"
+        raise ParameterError(name, value, permitted, "N·m")
+    if not torques and given["torque"] is None and given["power"] is None:
+        raise ParameterError("input_torque", None, "must be given, in N·m, or --output-torque, or --power in kW")
+    load = load_of({**given, "torque": 1.0} if torques else given)
+    if not torques:
+        torques = {"torque" if given["power"] is None else "input_torque": load.torque}
+    return SetSizeTask(
+        sets=SearchTask(ratio=given["ratio"], module=1.0, **fields),
+        **torques,
+        speed=load.speed,
+        application_factor=load.application_factor,
+        material=material_of("material", given["material"], given["hardness"]),
+        ring_material=_of_rings(given),
+        rating=rating_of(given),
+        **others,
+    )
 
 
-def load_of(given: Mapping[str, Any]) -> Load:
-    from gearcad.load import Load
+def _of_rings(given: Mapping[str, Any]) -> Material | None:
+    """The one of a wheel is here that of rings."""
+    from gearcad.jobs.size_options import material_of
 
-    torque, power, speed = given["torque"], given["power"], given["speed"]
-    if speed is None:
-        raise ParameterError("speed", None, "must be given, in rpm of the pinion")
-    if (torque is None) == (power is None):
-        if torque is None:
-            raise ParameterError("torque", None, "must be given, in N·m on the pinion, or --power in kW")
-        raise ParameterError("torque", torque, "must not stand beside --power", "N·m")
-    if power is not None:
-        require_number("speed", speed, "rpm", above=0)
-        require_number("power", power, "kW", above=0)
-        torque = power * _KILOWATTS / speed
-    factor = {} if given["application_factor"] is None else {"application_factor": given["application_factor"]}
-    return Load(torque=torque, speed=speed, **factor)
-
-
-def material_of(option: str, name: str, hardness: float | None) -> Material:
-    from gearcad.material import Material, MaterialGroup, grade_of
-
-    if grade_of(name) is None:
-        groups = ", ".join(group.value for group in MaterialGroup)
-        permitted = f'must be a group and a quality (ML, MQ, ME) of ISO 6336-5, such as "Eh MQ": {groups}'
-        raise ParameterError(option, name, permitted)
-    return Material(name=name.strip(), hardness=hardness)
-
-
-def rating_of(given: Mapping[str, Any]) -> RatingOptions:
-    from gearcad.core.quantities import schema_of
-    from gearcad.rating.options import RatingOptions
-
-    fields: dict[str, Any] = {field: given[name] for name, field in _OF_RATING.items() if given[name] is not None}
-    for text in given["rating"]:
-        key, equals, value = (part.strip() for part in text.partition("="))
-        if not equals or key not in schema_of(RatingOptions):
-            raise ParameterError("rating", text, "must be KEY=VALUE with a key of [rating], such as oil_viscosity_40=320")
-        fields[key] = _value(key, value, whole=schema_of(RatingOptions)[key].whole)
-    return RatingOptions(**fields)
-
-
-def _value(key: str, text: str, *, whole: bool) -> Any:
-    """A number, two of them, a word, or true and false."""
-    if text.lower() in ("true", "false"):
-        return text.lower() == "true"
-    try:
-        numbers = [int(each) if whole else float(each) for each in text.split()]
-    except ValueError:
-        return text
-    if not numbers:
-        raise ParameterError(key, text, "must have a value")
-    return numbers[0] if len(numbers) == 1 else tuple(numbers)
-
-
-# ---------------------------------------------------------------------- ranges
-
-
-def values_of(name: str, text: str) -> tuple[float, ...]:
-    """The numbers of "0,10:25:5": single ones, and from first to last by a step. Raises ParameterError."""
-    values: list[float] = []
-    for item in text.split(","):
-        parts = [_number(name, text, each) for each in item.split(":")]
-        if len(parts) == 1:
-            values.append(float(parts[0]))
-            continue
-        if len(parts) != 3 or parts[2] <= 0 or parts[1] < parts[0]:
-            raise ParameterError(name, text, "must be numbers with commas between, or FIRST:LAST:STEP: 0,10:25:5")
-        first, last, step = parts
-        if (last - first) / step >= _MOST_VALUES:
-            raise ParameterError(name, text, f"must make at most {_MOST_VALUES} values")
-        values += [float(first + step * number) for number in range(int((last - first) / step) + 1)]
-    return tuple(values)
-
-
-def _number(name: str, text: str, part: str) -> Fraction:
-    try:
-        return Fraction(part.strip())
-    except (ValueError, ZeroDivisionError):
-        raise ParameterError(name, text, "must be numbers with commas between, or FIRST:LAST:STEP: 0,10:25:5") from None
-
-
-def ends_of(name: str, text: str) -> tuple[int, int]:
-    """Least and most of "14:40", or twice the one of "17"."""
-    try:
-        ends = [int(each) for each in text.split(":")]
-    except ValueError:
-        ends = []
-    if len(ends) not in (1, 2):
-        raise ParameterError(name, text, "must be a whole number or two, the least and the most: 14:40")
-    return ends[0], ends[-1]
-
-
-def modules_of(text: str, *, second: bool) -> tuple[float, ...]:
-    """Return the modules (mm) of a list, or those of ISO 54 in a range. Raises ParameterError.
-
-    `second` adds series II of ISO 54.
-    """
-    from gearcad.sizing import ISO_54_I, ISO_54_II
-
-    if not text.strip():
-        raise ParameterError("module", text, "must be numbers with commas between, or the least and the most: 1:10")
-    if ":" not in text:
-        return values_of("module", text)
-    parts = [float(_number("module", text, each)) for each in text.split(":")]
-    if len(parts) != 2:
-        raise ParameterError("module", text, "must be numbers with commas between, or the least and the most: 1:10")
-    series = (*ISO_54_I, *(ISO_54_II if second else ()))
-    found = tuple(float(each) for each in series if parts[0] <= each <= parts[1])
-    if not found:
-        permitted = "must have a module of ISO 54 between its ends, which are from 1 to 50 mm; or name modules: 0.5,0.7"
-        raise ParameterError("module", text, permitted)
+    if given["wheel_material"] is None and given["wheel_hardness"] is None:
+        return None
+    name, hardness = given["material" if given["wheel_material"] is None else "wheel_material"], given["wheel_hardness"]
+    found: Material = material_of("wheel_material", name, hardness)
     return found
+
+
+def _single(name: str, values: tuple[float, ...]) -> float:
+    if len(values) != 1:
+        raise ParameterError(name, list(values), "must be one number with --planetary, of the first sun or ring")
+    return values[0]

@@ -423,9 +423,8 @@ def modify(
     from gearcad.core.errors import as_choice
     from gearcad.core.output import json_text, staged_files
     from gearcad.designs import read_spec
-    from gearcad.designs.reader import edit_spec
     from gearcad.geometry import ReliefShape
-    from gearcad.jobs.modify import Modify
+    from gearcad.jobs.modify import Modify, modified_spec
 
     wanted = None if shape is None else as_choice("shape", shape, ReliefShape)
     job = Modify(torque=torque, pressure=pressure, shape=wanted)
@@ -434,8 +433,7 @@ def modify(
     require_new_file(path, force)
     with job_progress(shown=not quiet) as progress:
         proposal = job.run(design, progress)
-    text = edit_spec(spec.read_bytes().decode("utf-8-sig"), proposal.changes, proposal.notes)
-    text = text.replace(f"go to output/{design.name}/", f"go to output/{proposal.name}/")  # as starters say behind a name
+    text = modified_spec(spec.read_bytes().decode("utf-8-sig"), proposal)
     with staged_files(path.parent) as staging:
         (staging / path.name).write_text(text, encoding="utf-8", newline="")
     if as_json:

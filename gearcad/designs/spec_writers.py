@@ -354,9 +354,9 @@ def _word(value: Any) -> Any:
     return getattr(value, "value", value)
 
 
-def write_pair(sized: SizedPair, comments: list[str], path: Path) -> None:
-    """Write the spec of one of the pairs, beginning with `comments`, a line each."""
-    path.write_text(toml_text(_tables(sized), comments), encoding="utf-8")
+def sized_pair_text(sized: SizedPair, comments: Sequence[str]) -> str:
+    """Return the spec of one of the pairs, beginning with `comments`, a line each."""
+    return toml_text(_tables(sized), comments)
 
 
 def _tables(sized: SizedPair) -> Mapping[str, Mapping[str, Any]]:
@@ -584,9 +584,9 @@ def reading_of(name: str, text: str) -> float | tuple[float, float]:
     return numbers[0] if len(numbers) == 1 else (numbers[0], numbers[1])
 
 
-def write_identified(found: Identification, candidate: GearCandidate, name: str, path: Path) -> None:
-    """Write the spec of a candidate, under a name."""
-    path.write_text(toml_text({"gear": _keys(candidate, name)}, list(_identified_comments(found, candidate))), encoding="utf-8")
+def identified_text(found: Identification, candidate: GearCandidate, name: str) -> str:
+    """Return the spec of a candidate, under a name."""
+    return toml_text({"gear": _keys(candidate, name)}, list(_identified_comments(found, candidate)))
 
 
 def _keys(candidate: GearCandidate, name: str) -> dict[str, Any]:

@@ -284,6 +284,15 @@ class Modify(Job[PairDesign, Proposal]):
         return {**{name: document[name] for name in named}, **changes}
 
 
+def modified_spec(text: str, proposal: Proposal) -> str:
+    """Return the text of a spec with the modifications of a proposal for it. Raises SpecError where it cannot be edited."""
+    from gearcad.designs.reader import edit_spec
+
+    edited = edit_spec(text, proposal.changes, proposal.notes)
+    # Starters say behind a name where results go.
+    return edited.replace(f"go to output/{proposal.design.name}/", f"go to output/{proposal.name}/")
+
+
 def modify(
     subject: Design | GearPair,
     load: Load | None = None,

@@ -8,7 +8,7 @@ from pathlib import Path
 from gearcad.core.errors import require_whole
 from gearcad.core.output import json_text, staged_files
 from gearcad.core.records import JsonObject, texts
-from gearcad.designs.spec_writers import write_front, write_pair, write_pairs, write_sized_set, write_sized_sets
+from gearcad.designs.spec_writers import sized_pair_text, write_front, write_pairs, write_sized_set, write_sized_sets
 from gearcad.identify.candidates import Identification
 from gearcad.identify.measurements import Measurements, Value
 from gearcad.identify.search import identify_gear
@@ -36,18 +36,24 @@ def write_sizing(result: Sizing, folder: Path) -> list[Path]:
     with staged_files(folder, sometimes=_EVERY) as staging:
         if (best := result.best) is not None:
             write_pairs(result, staging / _TABLE)
-            write_pair(best, list(_comments(best)), staging / _BEST)
+            (staging / _BEST).write_text(pair_spec(best), encoding="utf-8")
             write_front(result, staging / _FRONT)
             save_front(result, staging / _PICTURE)
         (staging / _DOCUMENT).write_text(json_text(size_document(result)), encoding="utf-8")
     return [folder / name for name in names]
 
 
-def _comments(best: SizedPair) -> Iterator[str]:
-    """Yield comment lines with the task and the figures of the best pair."""
+def pair_spec(pair: SizedPair, place: int = 1) -> str:
+    """Return the spec of a pair that was found, the best or the one at another place, with its task and figures in comments."""
+    return sized_pair_text(pair, list(_comments(pair, place)))
+
+
+def _comments(best: SizedPair, place: int) -> Iterator[str]:
+    """Yield comment lines with the task and the figures of a pair."""
     load, rating = best.task.load, best.task.rating
     life = "the endurance limit" if rating.life is None else f"{rating.life:g} h"
-    yield f"{load.torque:g} N·m at {load.speed:g} rpm, u = {best.task.ratio:g}, {life}: best by {best.task.criterion.value}"
+    rank = "best" if place == 1 else f"number {place}"
+    yield f"{load.torque:g} N·m at {load.speed:g} rpm, u = {best.task.ratio:g}, {life}: {rank} by {best.task.criterion.value}"
     roots = " and ".join(f"{each:.3f}" for each in best.root_safeties)
     width = "" if best.least_width is None else f"; face width at least {best.least_width:.4g} mm"
     yield f"{best.mass:.3g} kg, S_H {min(best.flank_safeties):.3f}, S_F {roots}{width}"

@@ -7,9 +7,10 @@ enough to tell quiet pairs from others.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
-from typing import Any
+from functools import partial
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -22,8 +23,11 @@ from gearcad.material import Materials
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import StrengthRating, rate_strength
 from gearcad.sizing.rating import Rated
-from gearcad.sizing.search import STEP, Survey, least_width, refined, survey
+from gearcad.sizing.search import STEP, Heard, Survey, least_width, refined, survey
 from gearcad.sizing.task import Criterion, SizeTask
+
+Cloud: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
+"""Masses (kg) and margins (2, n) of variants."""
 
 _POSITIONS = 16
 _CELLS = 40
@@ -198,7 +202,7 @@ class Sizing(Pictured):
     rated: int
     removed: dict[str, int]
     unmade: tuple[str, ...]
-    cloud: np.ndarray[Any, np.dtype[np.float64]]
+    cloud: Cloud
     front: tuple[SizedPair, ...]
     strongest: SizedPair | None
     lightest: SizedPair | None
@@ -289,13 +293,30 @@ _MEMORY = 4e8
 _REFINE, _ERROR = "refinement", "transmission error"
 
 
-def search_pairs(task: SizeTask, *, count: int = 20, errors: int = 20, progress: Progress | None = None) -> Sizing:
+class PairsSoFar(NamedTuple):
+    """The best pairs of a search that goes on, best first, and masses (kg) and margins (2, n) of the best of each combination.
+
+    Pairs that are not `rated` in full may still become better ones, or go.
+    """
+
+    found: tuple[SizedPair, ...]
+    cloud: Cloud
+    rated: bool
+
+
+HeardPairs = Callable[[Callable[[], PairsSoFar]], None]
+"""Called now and then with a function that gives the best pairs so far, which costs something only when it is called."""
+
+
+def search_pairs(
+    task: SizeTask, *, count: int = 20, errors: int = 20, progress: Progress | None = None, heard: HeardPairs | None = None
+) -> Sizing:
     """The best `count` pairs for a task, the first of them, as many as `errors`, with their transmission error.
 
     By Criterion.QUIET they are in the order of that in the end, of which the lines of contact know only half.
 
     All variants of the task are gone through, and the best refined; each that is shown is rated by `rate_strength`, and left
-    out unless it passes that, too.
+    out unless it passes that, too. `heard` is offered the best so far while that goes on.
     """
     most = max(_REFINED * count, _LEAST_REFINED)
     agenda = Agenda(progress, {STEP: _seconds(task), _REFINE: most * _REFINEMENT_SECONDS, _ERROR: errors * _ERROR_SECONDS})
@@ -303,12 +324,18 @@ def search_pairs(task: SizeTask, *, count: int = 20, errors: int = 20, progress:
         lightest = survey(replace(task, criterion=Criterion.MASS)).best
         if lightest is not None:
             task = replace(task, max_mass=float(f"{REACH * lightest.mass.min():.3g}"))
-    seen = survey(task, agenda)
+    offer = partial(_offer, heard, task, count)
+    seen = survey(task, agenda, offer)
     unmade: list[str] = []
-    found = list(_judged(task, _refined(task, seen, most, agenda), count, unmade))
+    found: list[SizedPair] = []
+    cloud = _places(seen.best)
+    for each in _judged(task, _refined(task, seen, most, agenda, partial(offer, cloud=cloud)), count, unmade):
+        found.append(each)
+        _offer_rated(heard, found, cloud)
     for number in range(min(errors, len(found))):
         agenda(_ERROR, number / errors, found[number].name)
         found[number] = _with_error(found[number])
+        _offer_rated(heard, found, cloud)
     if task.criterion is Criterion.QUIET:
         found.sort(key=lambda each: math.inf if each.transmission_error is None else round(each.transmission_error, 2))
     return Sizing(
@@ -318,11 +345,34 @@ def search_pairs(task: SizeTask, *, count: int = 20, errors: int = 20, progress:
         rated=seen.rated,
         removed=seen.removed,
         unmade=tuple(unmade),
-        cloud=_places(seen.best),
+        cloud=cloud,
         front=front_pairs(task, seen.front),
         strongest=None if seen.strongest is None else SizedPair.of(task, seen.strongest),
         lightest=None if seen.lightest is None else SizedPair.of(task, seen.lightest),
     )
+
+
+def _offer(
+    heard: HeardPairs | None, task: SizeTask, count: int, best: Callable[[], Rated | None], cloud: Cloud | None = None
+) -> None:
+    """Offer the first `count` of the best variants so far as pairs, with the cloud of all of them, or of those before."""
+    if heard is None:
+        return
+
+    def pairs() -> PairsSoFar:
+        rated = best()
+        first = range(0 if rated is None else min(count, len(rated.order)))
+        assert rated is not None or not first
+        found = tuple(SizedPair.of(task, rated.picked([place]), narrowed=False) for place in first if rated is not None)
+        return PairsSoFar(found, _places(rated) if cloud is None else cloud, rated=False)
+
+    heard(pairs)
+
+
+def _offer_rated(heard: HeardPairs | None, found: list[SizedPair], cloud: Cloud) -> None:
+    """Offer pairs that are rated in full."""
+    if heard is not None:
+        heard(lambda: PairsSoFar(tuple(found), cloud, rated=True))
 
 
 def expected(task: SizeTask, count: int, errors: int) -> Expected:
@@ -336,11 +386,11 @@ def _seconds(task: SizeTask) -> float:
     return task.variants / _VARIANTS_A_SECOND
 
 
-def _refined(task: SizeTask, seen: Survey, most: int, agenda: Agenda) -> Rated | None:
+def _refined(task: SizeTask, seen: Survey, most: int, agenda: Agenda, heard: Heard) -> Rated | None:
     """The best combinations after refinement, best first."""
     if seen.best is None:
         return None
-    return refined(task, seen.best, most, lambda part: agenda(_REFINE, part))
+    return refined(task, seen.best, most, lambda part: agenda(_REFINE, part), heard)
 
 
 def _judged(task: SizeTask, best: Rated | None, count: int, unmade: list[str]) -> Iterator[SizedPair]:
@@ -386,6 +436,6 @@ def _with_error(sized: SizedPair) -> SizedPair:
     return replace(sized, transmission_error=error)
 
 
-def _places(rated: Rated | None) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+def _places(rated: Rated | None) -> Cloud:
     """Masses and margins (2, n)."""
     return np.zeros((2, 0)) if rated is None else np.array([rated.mass, rated.margin])

@@ -263,6 +263,14 @@ def front(rated: Rated) -> Bools:
 
 STEP = "variants"
 
+Heard = Callable[[Callable[[], Rated | None]], None]
+"""Called now and then with a function that gives the best variants so far, which costs something only when it is called."""
+
+
+def unheard_best(_best: Callable[[], Rated | None]) -> None:
+    """Ignore the best variants so far: a Heard for callers that do not ask."""
+
+
 WIDTH = "face width"
 CONDITIONS = (*LIMITS, WIDTH, RATED, *REQUIRED)
 """Conditions of variants, in the order in which it is asked of them."""
@@ -301,6 +309,11 @@ class _Keeper:
             joined = Rated.joined(self.front)
             self.front = [joined.picked(front(joined))]
 
+    def so_far(self) -> Rated | None:
+        """Return the best of each combination so far, best first; None where nothing meets all conditions yet."""
+        self.settle()
+        return self.best[0].picked(ranked(self.best[0], self.task.criterion)) if self.best else None
+
     def add_strongest(self, rated: Rated) -> None:
         """Add the variant of most safety, out of variants that need not be safe enough."""
         self.strongest = _search_first([*self.strongest, rated], lambda each: -each.margin)
@@ -333,8 +346,8 @@ class Survey(NamedTuple):
     lightest: Rated | None
 
 
-def survey(task: SizeTask, tell: Tell = untold) -> Survey:
-    """Go through all variants of a task."""
+def survey(task: SizeTask, tell: Tell = untold, heard: Heard = unheard_best) -> Survey:
+    """Go through all variants of a task; `heard` is offered the best of each combination so far."""
     grid, widths = VariantGrid(task), len(task.width_ratios)
     keeper, removed = _Keeper(task, grid.variants_of_a_group), dict.fromkeys(CONDITIONS, 0)
     done = rated = 0
@@ -349,6 +362,7 @@ def survey(task: SizeTask, tell: Tell = untold) -> Survey:
                 keeper.add(held)
         done += len(pairs.key)
         tell(STEP, done / len(grid))
+        heard(keeper.so_far)
     keeper.settle()
     first = [each[0] if each else None for each in (keeper.best, keeper.front, keeper.strongest, keeper.lightest)]
     return Survey(first[0], first[1], len(grid) * widths, removed, rated, first[2], first[3])
@@ -398,11 +412,13 @@ _AT_A_TIME = 24
 """Cells: some ten thousand pairs. Those that come later need only compete with what the first have become."""
 
 
-def refined(task: SizeTask, best: Rated, most: int, tell: Callable[[float], None] = lambda _: None) -> Rated:
+def refined(
+    task: SizeTask, best: Rated, most: int, tell: Callable[[float], None] = lambda _: None, heard: Heard = unheard_best
+) -> Rated:
     """The best of the best `most` cells, best first; `best` has one variant of each.
 
     By mass all cells are refined, with pairs that are light enough to become one of those; else the best `most` as they are.
-    `tell` hears what part is done.
+    `tell` hears what part is done, `heard` is offered the best so far.
     """
     by_mass = task.criterion is Criterion.MASS
     order = ranked(best, task.criterion)
@@ -414,6 +430,7 @@ def refined(task: SizeTask, best: Rated, most: int, tell: Callable[[float], None
         last = found.mass.max() if len(found.order) == most else np.inf
         made = _best_of(task, some, _dense(task, some), np.minimum(some.mass, last))
         found = _first(task, [found, made], most)
+        heard(lambda found=found: found)  # type: ignore[misc]
     shifted = _best_of(task, found, _shifted(task, found), found.mass)
     found = _of_each(task, Rated.joined([found, shifted]))
     return found.picked(ranked(found, task.criterion))

@@ -24,6 +24,11 @@ __all__ = ["ISO_54_I", "ISO_54_II", "MOST_VARIANTS", "Criterion", "SizeTask"]
 _TIP_THICKNESS, _HARD_TIP_THICKNESS = 0.2, 0.4
 """Least normal thickness of a tip, in normal modules; that of case-hardened teeth, which would be brittle."""
 
+_HELIX_ANGLES = (0.0, 8.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0, 22.0, 24.0)
+_WIDTH_RATIOS = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2)
+_SHIFTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7)
+"""What is tried unless the user says otherwise."""
+
 _MOST_VALUES = 10_000
 
 MOST_VARIANTS = 500_000_000
@@ -75,12 +80,14 @@ class SizeTask:
     rating: RatingOptions = field(default=RatingOptions())
     rack: BasicRack = field(default=ISO53_A)
     ratio_tolerance: Annotated[float, Range("%", 0.0, 50.0), Words("most deviation of the ratio")] = 2.0
-    teeth: tuple[int, int] = (14, 40)
-    modules: tuple[float, ...] = ISO_54_I[:11]
-    helix_angles: tuple[float, ...] = (0.0, 8.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0, 22.0, 24.0)
-    width_ratios: tuple[float, ...] = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2)
-    shifts: tuple[float, ...] = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7)
-    shift_sums: tuple[float, ...] = (0.0, 0.25, 0.5, 0.75, 1.0)
+    teeth: Annotated[tuple[int, int], Words("numbers of teeth of the pinion, least and most", "z_1")] = (14, 40)
+    modules: Annotated[tuple[float, ...], Words("normal modules", "m_n")] = ISO_54_I[:11]
+    helix_angles: Annotated[tuple[float, ...], Words("helix angles", "β")] = _HELIX_ANGLES
+    width_ratios: Annotated[tuple[float, ...], Words("face widths over the pinion's reference diameter", "b/d_1")] = (
+        _WIDTH_RATIOS
+    )
+    shifts: Annotated[tuple[float, ...], Words("profile shifts of the pinion", "x_1")] = _SHIFTS
+    shift_sums: Annotated[tuple[float, ...], Words("sums of the profile shifts", "x_1 + x_2")] = (0.0, 0.25, 0.5, 0.75, 1.0)
     centre_distance: Annotated[float | None, LENGTH, Words("centre distance", "a")] = None
     max_diameter: Annotated[float | None, LENGTH, Words("most diameter of a tip circle")] = None
     max_mass: Annotated[float | None, Range("kg", 0.0, None, ends="(]"), Words("most mass of both gears")] = None

@@ -11,14 +11,15 @@ import pytest
 from support.commands import invoke
 
 from gearcad import GearPair, Load, Material, PerGear
-from gearcad.cli.size_options import values_of
 from gearcad.core.errors import InputError, ParameterError
 from gearcad.geometry import Gear
 from gearcad.geometry.pair_data import profile_shift_sum, zero_backlash_centre_distance
+from gearcad.jobs.size_options import values_of
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import rate_strength
 from gearcad.sizing import Criterion, SizeTask, search_pairs
 from gearcad.sizing.geometry import ManyPairs
+from gearcad.sizing.proposals import PairsSoFar
 from gearcad.sizing.rating import Rated, line_ripple, rate_many
 from gearcad.sizing.search import (
     LIMITS,
@@ -225,6 +226,19 @@ def test_lightest_pairs_of_a_spur_task_known_from_plain_loops() -> None:
     assert found[0].mass == min(masses.values())
     for pair, mass in known.items():
         assert masses[pair] <= mass * NEARLY
+
+
+def test_a_search_tells_its_best_so_far_and_finds_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gearcad.sizing.search.CHUNK", 1 << 9)
+    quiet = search_pairs(WIDE, count=5, errors=0)
+    told: list[PairsSoFar] = []
+    heard = search_pairs(WIDE, count=5, errors=0, heard=lambda so_far: told.append(so_far()))
+    assert [each.to_dict() for each in heard.found] == [each.to_dict() for each in quiet.found]
+    assert [each.name for each in told[-1].found] == [each.name for each in quiet.found] and told[-1].rated
+    masses = [each.found[0].mass for each in told if each.found and not each.rated]
+    assert len(masses) > 3 and masses == sorted(masses, reverse=True)
+    clouds = [each.cloud.shape[1] for each in told]
+    assert clouds == sorted(clouds) and clouds[-1] == quiet.cloud.shape[1]
 
 
 def test_least_width_has_just_the_safety_that_is_required() -> None:
