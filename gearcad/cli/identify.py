@@ -12,32 +12,25 @@ from gearcad.cli.group import debug_option, require_new_file
 from gearcad.cli.job import echo_warnings, quiet_option
 from gearcad.core.errors import ParameterError
 from gearcad.core.quantities import FieldSchema, schema_of
-from gearcad.identify.measurements import ANGLES, Gauge, Measurements, Reading
+from gearcad.identify.measurements import Gauge, Measurements
 
 if TYPE_CHECKING:
-    from gearcad.identify import Candidate, Deciding, Identification
+    from gearcad.identify import Candidate, Identification
 
 
 _COLUMNS = 4
 """Candidates whose residuals are shown."""
 
-_REST = 0.01
-"""The least probability of all others that is told."""
-
-_FAR = 100.0
-"""Number of uncertainties above which the difference is not shown."""
-
-_CLEAR = 2.0
-"""Distance between candidates at which a measurement decides, in uncertainties."""
-
 
 def identification_lines(found: Identification) -> Iterator[str]:
     """Candidates, their residuals, the verdict, and what would decide."""
+    from gearcad.jobs.searches import identification_verdict
+
     yield from _aligned(_candidate_rows(found), left=(1, 10))
     yield ""
     yield from _aligned(_residual_rows(found), left=(0,))
     yield ""
-    yield from _verdict(found)
+    yield from identification_verdict(found)
 
 
 def _aligned(rows: Sequence[Sequence[str]], left: Sequence[int]) -> Iterator[str]:
@@ -75,57 +68,16 @@ def _row(number: int, each: Candidate) -> tuple[str, ...]:
 
 def _residual_rows(found: Identification) -> list[tuple[str, ...]]:
     """Readings, and how far each candidate is off, in uncertainties."""
+    from gearcad.jobs.searches import reading_text
+
     shown = found.candidates[:_COLUMNS]
     rows = [("off, in uncertainties", "read", "±", *(f"{number}" for number in range(1, len(shown) + 1)))]
     for place, each in enumerate(found.measured.readings):
         if each.value == 0:  # a spur gear: no candidate is off
             continue
         off = (f"{candidate.residuals[place]:+.1f}" for candidate in shown)
-        rows.append((found.measured.label(each), _number(each, abs(each.value)), f"{each.uncertainty:g}", *off))
+        rows.append((found.measured.label(each), reading_text(each, abs(each.value)), f"{each.uncertainty:g}", *off))
     return rows
-
-
-def _number(place: Reading, value: float) -> str:
-    return f"{value:.2f}°" if place.gauge in ANGLES else f"{value:.3f}"
-
-
-def _verdict(found: Identification) -> Iterator[str]:
-    if found.certain:
-        yield "Certain: all others together are less probable than 5 %"
-        return
-    if not found.fits:
-        yield "Not certain: no candidate fits"
-    elif not found.rivals and found.best.off_involute:
-        yield "Not certain: a gauge would not touch the flanks of 1, so that it cannot have read what was read"
-    elif not found.rivals:
-        yield f"Not certain: many others are left, each less probable than {100 * found.candidates[-1].probability:.1g} %"
-    else:
-        first, *others = (f"{number}" for number in range(1, len(found.rivals) + 2))
-        rest = f", or one that is not listed ({100 * found.unlisted:.0f} %)" if found.unlisted >= _REST else ""
-        yield f"Ambiguous: {first} or {', '.join(others)}{rest}"
-    if found.alike:
-        same = ", ".join(f"{found.candidates.index(each) + 1}" for each in found.alike)
-        yield f"The flanks of {same} are those of 1 under another name, within uncertainty: as a replacement they are alike"
-    if found.deciding:
-        apart = found.deciding[0].apart
-        yield (
-            "What would decide:"
-            if min(apart) >= _CLEAR
-            else "What would tell some of them from 1:"
-            if max(apart) >= _CLEAR
-            else "Nothing else decides at once; these tell most, measured more finely:"
-        )
-        yield from (_deciding_line(found, each) for each in found.deciding)
-
-
-def _deciding_line(found: Identification, each: Deciding) -> str:
-    label, unit = found.measured.label(each.place), "" if each.place.gauge in ANGLES else " mm"
-    values = ", ".join(f"{number}: {_number(each.place, value)}" for number, value in enumerate(each.predicted, 1))
-    how = " (gear rolled over paper)" if each.place.gauge is Gauge.TIP_HELIX_ANGLE else ""
-    if each.less is not None:
-        label = f"{found.measured.label(each.less)} and over {each.place.size:g}, their difference"
-    apart = ", ".join(f"{distance:.1f}" if distance < _FAR else f"over {_FAR:g}" for distance in each.apart)
-    return f"  {label}{how}: {values}{unit} (from 1: {apart} uncertainties)"
 
 
 Command = TypeVar("Command", bound=Callable[..., Any])

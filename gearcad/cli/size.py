@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -28,21 +27,6 @@ _SIZE_TABLE_HEADING = (
 )
 
 _WIDTH = 120
-
-_HINTS = {
-    "centre distance": "another --centre-distance, --module or --teeth",
-    "diameter": "a larger --max-diameter",
-    "undercut": "more --teeth, or a larger --shift and --shift-sum",
-    "tip thickness": "a smaller --shift or --shift-sum",
-    "contact ratio": "more --teeth, or a smaller --shift-sum or --helix-angle",
-    "interference": "another --shift",
-    "face width": "a larger --max-width, or a smaller --width-ratio",
-    "range of the rating": "sizes that ISO 1328-1 has tolerances for",
-    "flank safety": "a larger --module, --width-ratio or --centre-distance, or a harder material",
-    "root safety": "a larger --module, or fewer --teeth at the same centre distance",
-    "scuffing safety": "a thicker oil, a higher scuffing_stage, or more --helix-angle",
-}
-"""Advice for each condition, given if it removes most variants."""
 
 
 def table_lines(result: Sizing) -> Iterator[str]:
@@ -114,38 +98,6 @@ def _size_table_row(each: SizedPair) -> tuple[str, ...]:
         "" if each.transmission_error is None else f"{each.transmission_error:.2f}",
         "*" if each.front else "",
     )
-
-
-def nothing_lines(result: Sizing) -> Iterator[str]:
-    """Yield lines that say why no pair was found: what each condition removed, the safest variant, and what would help."""
-    took = ", ".join(f"{grouped(number)} by {name}" for name, number in result.removed.items() if number)
-    yield f"No pair of {grouped(result.considered)} variants meets all conditions: removed {took}"
-    last = _last_condition(result)
-    if last == "mass" and (light := result.lightest) is not None:
-        yield f"the lightest variant that is safe is {light.name}, b {light.face_width:g} mm: {light.mass:.3g} kg"
-    elif (best := result.strongest) is not None:
-        rating, flank, root = result.task.rating, min(best.flank_safeties), min(best.root_safeties)
-        required = f"{rating.required_safety_flank:g} and {rating.required_safety_root:g} are required"
-        yield f"the safest is {best.name}, b {best.face_width:g} mm: S_H {flank:.2f}, S_F {root:.2f}, where {required}"
-    for text in result.unmade[:1]:
-        yield f"{len(result.unmade)} could not be made or did not pass the full rating; the first: {text}"
-    if last is not None:
-        yield f"what would help: {_hint(last, result)}"
-
-
-def _last_condition(result: Sizing) -> str | None:
-    """Return the condition that removed the last candidates, which had met all conditions before it; None if some met all."""
-    if result.cloud.size:
-        return None
-    return next((name for name, number in reversed(result.removed.items()) if number), None)
-
-
-def _hint(condition: str, result: Sizing) -> str:
-    light = result.lightest
-    if condition != "mass" or light is None:
-        return _HINTS[condition]
-    step = 10.0 ** (math.floor(math.log10(light.mass)) - 2)
-    return f"--max-mass {math.ceil(light.mass / step) * step:.3g} or more; a harder material makes lighter pairs"
 
 
 def size_planetary(given: Mapping[str, Any], count: int, output: Path | None, *, as_json: bool, quiet: bool) -> None:
@@ -257,7 +209,7 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
     gearcad size --planetary --input-torque 300 --speed 1500 --ratio 5.2 --life 20000 --material "Eh MQ"
     """
     from gearcad.core.output import json_text
-    from gearcad.jobs.searches import size_document, write_sizing
+    from gearcad.jobs.searches import nothing_lines, size_document, write_sizing
     from gearcad.jobs.size_options import task_of
     from gearcad.sizing import search_pairs
     from gearcad.sizing.proposals import expected

@@ -1,16 +1,17 @@
-"""Job `identify`, and the files of a search for sizes."""
+"""Job `identify`, the files of a search for sizes, and what both say of their results."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from gearcad.core.errors import require_whole
 from gearcad.core.output import json_text, staged_files
-from gearcad.core.records import JsonObject, texts
+from gearcad.core.records import JsonObject, grouped, texts
 from gearcad.designs.spec_writers import sized_pair_text, write_front, write_pairs, write_sized_set, write_sized_sets
-from gearcad.identify.candidates import Identification
-from gearcad.identify.measurements import Measurements, Value
+from gearcad.identify.candidates import Deciding, Identification
+from gearcad.identify.measurements import ANGLES, Gauge, Measurements, Reading, Value
 from gearcad.identify.search import identify_gear
 from gearcad.jobs.job import with_summary
 from gearcad.plots.ratings import save_front
@@ -62,6 +63,54 @@ def _comments(best: SizedPair, place: int) -> Iterator[str]:
     if best.strength is not None:
         yield from map(str, best.strength.notices)
     yield "no backlash yet: tooth_thinning or tooth_allowance gives it"
+
+
+_HINTS = {
+    "centre distance": "another --centre-distance, --module or --teeth",
+    "diameter": "a larger --max-diameter",
+    "undercut": "more --teeth, or a larger --shift and --shift-sum",
+    "tip thickness": "a smaller --shift or --shift-sum",
+    "contact ratio": "more --teeth, or a smaller --shift-sum or --helix-angle",
+    "interference": "another --shift",
+    "face width": "a larger --max-width, or a smaller --width-ratio",
+    "range of the rating": "sizes that ISO 1328-1 has tolerances for",
+    "flank safety": "a larger --module, --width-ratio or --centre-distance, or a harder material",
+    "root safety": "a larger --module, or fewer --teeth at the same centre distance",
+    "scuffing safety": "a thicker oil, a higher scuffing_stage, or more --helix-angle",
+}
+"""Advice for each condition, given if it removes most variants."""
+
+
+def nothing_lines(result: Sizing) -> Iterator[str]:
+    """Yield lines that say why no pair was found: what each condition removed, the safest variant, and what would help."""
+    took = ", ".join(f"{grouped(number)} by {name}" for name, number in result.removed.items() if number)
+    yield f"No pair of {grouped(result.considered)} variants meets all conditions: removed {took}"
+    last = _last_condition(result)
+    if last == "mass" and (light := result.lightest) is not None:
+        yield f"the lightest variant that is safe is {light.name}, b {light.face_width:g} mm: {light.mass:.3g} kg"
+    elif (best := result.strongest) is not None:
+        rating, flank, root = result.task.rating, min(best.flank_safeties), min(best.root_safeties)
+        required = f"{rating.required_safety_flank:g} and {rating.required_safety_root:g} are required"
+        yield f"the safest is {best.name}, b {best.face_width:g} mm: S_H {flank:.2f}, S_F {root:.2f}, where {required}"
+    for text in result.unmade[:1]:
+        yield f"{len(result.unmade)} could not be made or did not pass the full rating; the first: {text}"
+    if last is not None:
+        yield f"what would help: {_hint(last, result)}"
+
+
+def _last_condition(result: Sizing) -> str | None:
+    """Return the condition that removed the last candidates, which had met all conditions before it; None if some met all."""
+    if result.cloud.size:
+        return None
+    return next((name for name, number in reversed(result.removed.items()) if number), None)
+
+
+def _hint(condition: str, result: Sizing) -> str:
+    light = result.lightest
+    if condition != "mass" or light is None:
+        return _HINTS[condition]
+    step = 10.0 ** (math.floor(math.log10(light.mass)) - 2)
+    return f"--max-mass {math.ceil(light.mass / step) * step:.3g} or more; a harder material makes lighter pairs"
 
 
 _SET_SIZES_TABLE, _SET_SIZES_BEST, _SET_SIZES_DOCUMENT = "sets.csv", "best.toml", "size.json"
@@ -157,3 +206,58 @@ def identify_measured(measurements: Measurements, count: int = 10) -> Identifica
     """
     require_whole("count", count, at_least=1, at_most=_MOST)
     return identify_gear(measurements.measured, count)
+
+
+_REST = 0.01
+"""The least probability of all others that is told."""
+
+_FAR = 100.0
+"""Number of uncertainties above which the difference is not shown."""
+
+_CLEAR = 2.0
+"""Distance between candidates at which a measurement decides, in uncertainties."""
+
+
+def reading_text(place: Reading, value: float) -> str:
+    """Return a reading as text: degrees with their sign, lengths in mm."""
+    return f"{value:.2f}°" if place.gauge in ANGLES else f"{value:.3f}"
+
+
+def identification_verdict(found: Identification) -> Iterator[str]:
+    """Yield lines that say how certain the first candidate is, and what would decide between those that are left."""
+    if found.certain:
+        yield "Certain: all others together are less probable than 5 %"
+        return
+    if not found.fits:
+        yield "Not certain: no candidate fits"
+    elif not found.rivals and found.best.off_involute:
+        yield "Not certain: a gauge would not touch the flanks of 1, so that it cannot have read what was read"
+    elif not found.rivals:
+        yield f"Not certain: many others are left, each less probable than {100 * found.candidates[-1].probability:.1g} %"
+    else:
+        first, *others = (f"{number}" for number in range(1, len(found.rivals) + 2))
+        rest = f", or one that is not listed ({100 * found.unlisted:.0f} %)" if found.unlisted >= _REST else ""
+        yield f"Ambiguous: {first} or {', '.join(others)}{rest}"
+    if found.alike:
+        same = ", ".join(f"{found.candidates.index(each) + 1}" for each in found.alike)
+        yield f"The flanks of {same} are those of 1 under another name, within uncertainty: as a replacement they are alike"
+    if found.deciding:
+        apart = found.deciding[0].apart
+        yield (
+            "What would decide:"
+            if min(apart) >= _CLEAR
+            else "What would tell some of them from 1:"
+            if max(apart) >= _CLEAR
+            else "Nothing else decides at once; these tell most, measured more finely:"
+        )
+        yield from (_deciding_line(found, each) for each in found.deciding)
+
+
+def _deciding_line(found: Identification, each: Deciding) -> str:
+    label, unit = found.measured.label(each.place), "" if each.place.gauge in ANGLES else " mm"
+    values = ", ".join(f"{number}: {reading_text(each.place, value)}" for number, value in enumerate(each.predicted, 1))
+    how = " (gear rolled over paper)" if each.place.gauge is Gauge.TIP_HELIX_ANGLE else ""
+    if each.less is not None:
+        label = f"{found.measured.label(each.less)} and over {each.place.size:g}, their difference"
+    apart = ", ".join(f"{distance:.1f}" if distance < _FAR else f"over {_FAR:g}" for distance in each.apart)
+    return f"  {label}{how}: {values}{unit} (from 1: {apart} uncertainties)"

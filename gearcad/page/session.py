@@ -15,6 +15,7 @@ from nicegui import app, background_tasks, run, ui
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
 from gearcad.page.components.elements import BarView
+from gearcad.page.folder import DESIGN, TAB
 from gearcad.page.panels import Panel
 from gearcad.page.panels.limits import LimitsPanel
 from gearcad.page.panels.runs import RunsPanel
@@ -25,7 +26,7 @@ from gearcad.page.panels.views import BodiesPanel, RollPanel, SectionPanel, Shar
 from gearcad.page.run_process import result_in_process
 from gearcad.page.runs import Runs
 from gearcad.page.words import PageLanguage, PageWords, language_of
-from gearcad.page.workbench import DESIGN, TAB, TEXT, BesideDesign, DesignStatus, linked_bench
+from gearcad.page.workbench import TEXT, BesideDesign, DesignStatus, linked_bench
 
 _SECONDS = 60.0
 """Seconds until an unclaimed handover is dropped."""

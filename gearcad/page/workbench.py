@@ -1,28 +1,26 @@
-"""Workbench: the text of a spec that is changed key by key, links, the folder of specs, and a second design beside it."""
+"""Workbench: the text of a spec that is changed key by key, and a second design beside it."""
 
 from __future__ import annotations
 
-import base64
-import binascii
 import copy
 import re
 import time
 import tomllib
-import zlib
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from enum import Enum
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from gearcad.core.errors import GearcadError, ParameterError, SpecError
-from gearcad.core.output import staged_files
 from gearcad.designs.cells import CellReader, Layout
-from gearcad.designs.design import Design, Where, files_only_in, require_plain_name, spec_text, tables_of_text
-from gearcad.designs.keys import MAIN_TABLES, Cell
-from gearcad.designs.reader import design_from_tables, edit_spec
+from gearcad.designs.design import Design, Where, files_only_in, tables_of_text
+from gearcad.designs.keys import Cell
+from gearcad.designs.reader import design_from_tables, edit_spec, starter_text
 from gearcad.designs.train_keys import TEXTS, general_key
+from gearcad.page.folder import SPECS, Folder, unpack
 from gearcad.page.run_process import design_of
 
 _MOST_STEPS = 1000
@@ -120,7 +118,8 @@ class Workbench:
 
     `tables` are what the text says, as far as it can be read at all, and `former` what the one before said. A change is a step:
     it can be undone and redone. What is typed in one place without a pause is one step. Files it names must be in `folder`.
-    `saved` is the text of the file that is open (None: this one). Raises SpecError for a first text that makes nothing.
+    `saved` is the text of the file that is open (None: this one). Raises SpecError for a first text that makes nothing. Without
+    any text the workbench is empty: it waits for a design, and has none to show.
     """
 
     def __init__(
@@ -135,10 +134,15 @@ class Workbench:
         self._source = self._good_source = self._read_source = _Source(name, text if saved is None else saved)
         self.text = self._good_text = text
         self.fault: Fault | None = None
-        self.tables, where = self._tables()
-        self._where: Where | None = where
+        self._where: Where | None = None
+        self.tables: dict[str, Any] = {}
+        if self.is_empty:
+            self._good_source = _Source("", "")  # of another spec: never shown
+            self.design = _unseen_design()
+        else:
+            self.tables, self._where = self._tables()
+            self.design = self._design(self.tables, self._where)
         self.former = self._good = self.tables
-        self.design = self._design(self.tables, where)
         self._back: list[_Version] = []
         self._forth: list[_Version] = []
         self._place, self._typed = "", 0.0
@@ -155,6 +159,11 @@ class Workbench:
     def is_saved(self) -> bool:
         """Whether the file that is open has this text."""
         return self.text == self._source.saved
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing was begun yet: there is no text, and no file with one."""
+        return not (self.text.strip() or self._source.saved.strip())
 
     @property
     def saved_text(self) -> str:
@@ -291,8 +300,11 @@ class Workbench:
     def _take(self, text: str) -> None:
         self.text, self.fault = text, None
         self._where = None
-        if self._source is not self._read_source:
+        if self._source is not self._read_source or self.is_empty:
             self.tables = {}
+        if self.is_empty:
+            self._read_source = self._source
+            return
         try:
             self.tables, where = self._tables()
             self._read_source = self._source
@@ -311,6 +323,12 @@ class Workbench:
     def _design(self, tables: dict[str, Any], where: Where) -> Design:
         with files_only_in(self.folder):
             return design_from_tables(tables, where=where, default_name=self.name)
+
+
+@cache
+def _unseen_design() -> Design:
+    """Return a design for a workbench that is empty, which shows none."""
+    return design_of(starter_text("spur")[1], "none", Path())
 
 
 def _restore(tables: dict[str, Any], key: str, good: Mapping[str, Any]) -> bool:
@@ -337,48 +355,6 @@ def _value(key: str, typed: str) -> Cell | None:
     return value == "true" if is_switch else value
 
 
-DESIGN = "design"
-"""Name of the design's parameter in the address."""
-
-TAB = "tab"
-"""Name of the parameter that finds the steps of a page that is loaded again."""
-
-LONGEST = 8000
-"""Characters of a link: what browsers, servers and mails let through."""
-
-LARGEST_TEXT = 1 << 18
-"""Largest size (bytes) of the text that a link unfolds to."""
-
-_NO_LINK = "is no link of this page, or not all of it"
-_BETWEEN = "\0"
-
-
-def pack(name: str, text: str) -> str:
-    """Return the part of the address that holds a design. Raises ParameterError for a text too long for an address."""
-    packed = base64.urlsafe_b64encode(zlib.compress(f"{name}{_BETWEEN}{text}".encode(), 9)).decode("ascii").rstrip("=")
-    if len(packed) > LONGEST:
-        raise ParameterError(DESIGN, name, f"must fit into {LONGEST} characters of a link: save it to a file")
-    return packed
-
-
-def unpack(packed: str) -> tuple[str, str]:
-    """Name and text of the design in a link. Raises ParameterError for anything else, and for what unfolds to too much."""
-    try:
-        if len(packed) > LONGEST or not packed.isascii():
-            raise ValueError
-        opened = zlib.decompressobj()
-        content = opened.decompress(base64.b64decode(packed + "=" * (-len(packed) % 4), b"-_", validate=True), LARGEST_TEXT)
-        if not opened.eof or opened.unused_data:
-            raise ValueError
-        name, between, text = content.decode("utf-8").partition(_BETWEEN)
-    except (ValueError, binascii.Error, zlib.error) as error:
-        raise ParameterError(DESIGN, packed, _NO_LINK) from error
-    if not between:
-        raise ParameterError(DESIGN, packed, _NO_LINK)
-    require_plain_name(name)
-    return name, text
-
-
 def linked_bench(packed: str, text: str, name: str, folder: Path) -> Workbench:
     """A workbench with the design of a link, or with this text where there is none.
 
@@ -398,91 +374,6 @@ def linked_bench(packed: str, text: str, name: str, folder: Path) -> Workbench:
         bench = Workbench(text, name, folder)
         bench.open(of_link, linked, saved)
     return bench
-
-
-LARGEST_SPEC = 1 << 18
-LARGEST_TABLE = 1 << 25
-"""Bytes of a file that the page opens."""
-
-SPECS, TABLES = (".toml",), (".csv", ".tsv")
-
-_MOST_LISTED = 500
-
-_KINDS = "|".join(sorted({tables[0] for tables in MAIN_TABLES.values()}))
-_MAIN = re.compile(rf"^\s*(?:\[\s*(?:{_KINDS})\s*[].]|(?:{_KINDS})\s*\.)".encode(), re.MULTILINE)
-"""A line of a spec, and of no other TOML that lies beside one."""
-
-
-class Folder:
-    """Files right in `path`, by their names. What a browser sends is looked up among these, and never used as a path."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-
-    def specs(self) -> list[str]:
-        """Return the names of the specs in the folder, whether they make gears or not; no other TOML files."""
-        return [name for name in self.names(SPECS) if self._is_spec(name)]
-
-    def names(self, suffixes: Collection[str]) -> list[str]:
-        """Files with these suffixes, in the order of their names; none that a link finds elsewhere."""
-        try:
-            found = sorted(each.name for each in self.path.iterdir() if each.suffix.lower() in suffixes and self._has(each))
-        except OSError:
-            return []
-        return found[:_MOST_LISTED]
-
-    def find(self, name: str, suffixes: Collection[str], largest: int) -> Path:
-        """The path of one of these files. Raises ParameterError for any other, and for one that is too large."""
-        if name not in self.names(suffixes):
-            raise ParameterError("file", name, "must be one of those in the folder of the page")
-        path = self.path / name
-        if path.stat().st_size > largest:
-            raise ParameterError("file", name, f"must be smaller than {largest // 1024} kB")
-        return path
-
-    def spec(self, name: str) -> str:
-        """The text of one of its specs. Raises ParameterError, SpecError."""
-        return spec_text(self.find(name, SPECS, LARGEST_SPEC))
-
-    def save(self, name: str, text: str, *, replace: bool) -> str:
-        """Write a spec under a plain name, and return that of its file.
-
-        Raises ParameterError for a name that is none or that is taken, unless it may be replaced, OutputError where nothing
-        can be written.
-        """
-        name = name.strip().removesuffix(SPECS[0])
-        require_plain_name(name)
-        file = f"{name}{SPECS[0]}"
-        require_plain_name(file)
-        if not replace and file.casefold() in {each.name.casefold() for each in self.path.iterdir()}:
-            raise TakenError("name", file, "is there; replace it, or give another name")
-        with staged_files(self.path) as staging:
-            (staging / file).write_bytes(text.encode("utf-8"))
-        return file
-
-    def _is_spec(self, name: str) -> bool:
-        try:
-            with (self.path / name).open("rb") as file:
-                return _MAIN.search(file.read(LARGEST_SPEC)) is not None
-        except OSError:
-            return False
-
-    def _has(self, path: Path) -> bool:
-        return not path.name.startswith(".") and path.is_file() and path.resolve().is_relative_to(self.path.resolve())
-
-
-class TakenError(ParameterError):
-    """A name under which there is a file."""
-
-
-def text_of(content: bytes, name: str) -> str:
-    """Return the text of a spec file that a browser has sent. Raises SpecError."""
-    if len(content) > LARGEST_SPEC:
-        raise SpecError(f"{name}: is no spec: it has more than {LARGEST_SPEC // 1024} kB")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise SpecError(f"{name}: is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
 
 
 class KeptDesign(NamedTuple):

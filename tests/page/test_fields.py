@@ -12,7 +12,8 @@ from gearcad.core.errors import GearcadError, ParameterError, SpecError
 from gearcad.core.runtime import templates
 from gearcad.designs.reader import read_spec, starter_text
 from gearcad.page.fields import LimitMap, fields_of, given_texts, limit_map, used_texts
-from gearcad.page.workbench import BesideDesign, DesignStatus, Fault, Workbench, linked_bench, pack
+from gearcad.page.folder import pack
+from gearcad.page.workbench import BesideDesign, DesignStatus, Fault, Workbench, linked_bench
 from gearcad.sizing.geometry import Free, LimitKind
 
 

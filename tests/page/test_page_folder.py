@@ -12,20 +12,9 @@ from gearcad.core.errors import GearcadError, ParameterError, SpecError
 from gearcad.core.runtime import templates
 from gearcad.designs.design import LONGEST_NAME
 from gearcad.designs.reader import starter_text, starters
+from gearcad.page.folder import LARGEST_SPEC, LARGEST_TEXT, LONGEST, SPECS, TABLES, Folder, TakenError, pack, text_of, unpack
 from gearcad.page.runs import add_given, await_files
-from gearcad.page.workbench import (
-    LARGEST_SPEC,
-    LARGEST_TEXT,
-    LONGEST,
-    SPECS,
-    TABLES,
-    Folder,
-    TakenError,
-    linked_bench,
-    pack,
-    text_of,
-    unpack,
-)
+from gearcad.page.workbench import linked_bench
 
 PAIR = starter_text("fzg-c")[1]
 NO_NAMES = [

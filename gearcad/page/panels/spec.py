@@ -14,23 +14,12 @@ from gearcad.core.errors import GearcadError, printable
 from gearcad.designs.reader import NO_DESIGNS, kind_of, starter_text, starters
 from gearcad.page.components.elements import FilesView, InputsView, TextView
 from gearcad.page.fields import fields_of, given_texts, used_texts
+from gearcad.page.folder import LARGEST_SPEC, LARGEST_TABLE, SPECS, TABLES, Folder, TakenError, pack, text_of
 from gearcad.page.panels import mark_stale
 from gearcad.page.run_process import DOWNLOADS
 from gearcad.page.runs import Run, Runs, RunState, await_files
 from gearcad.page.words import PageWords
-from gearcad.page.workbench import (
-    LARGEST_SPEC,
-    LARGEST_TABLE,
-    SPECS,
-    TABLES,
-    BesideDesign,
-    DesignStatus,
-    Folder,
-    TakenError,
-    Workbench,
-    pack,
-    text_of,
-)
+from gearcad.page.workbench import BesideDesign, DesignStatus, Workbench
 
 
 class InputsPanel:

@@ -20,8 +20,9 @@ from support.processes import wait_until
 
 from gearcad.designs.reader import starter_text
 from gearcad.page.fields import fields_of
+from gearcad.page.folder import pack
 from gearcad.page.session import Session
-from gearcad.page.workbench import Workbench, pack
+from gearcad.page.workbench import Workbench
 
 SCRIPT = "<img src=x onerror=alert(1)><script>alert(1)</script>"
 TEETH = "pinion.teeth"

@@ -6,7 +6,7 @@ import pytest
 from support.page_server import DESK
 from support.specs import starter_specs
 
-from gearcad.page.workbench import pack
+from gearcad.page.folder import pack
 
 SIZES = ((1280, 800), (1440, 900), (1920, 1080), (390, 844))
 """Widths and heights (px) of windows."""

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from gearcad.designs.reader import starter_text
-from gearcad.page.workbench import pack
+from gearcad.page.folder import pack
 
 VOLVO = starter_text("volvo-13-44")
 RESULTS = (

@@ -3,7 +3,7 @@
 from typing import Any
 
 from gearcad.designs.reader import starter_text
-from gearcad.page.workbench import pack
+from gearcad.page.folder import pack
 
 LEAST_WIDTH = 100
 """Pixels in which the words of a quantity can be read."""

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from support.page_server import Tab, serve
 
-from gearcad.page.workbench import pack
+from gearcad.page.folder import pack
 
 TEETH = "pinion.teeth"
 PANES = (".scene", ".gear-section", ".gear-roll", ".gear-sheet >> nth=0", ".gear-sheet >> nth=1")
