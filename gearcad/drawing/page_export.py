@@ -460,6 +460,7 @@ def _draw_to(path: PDFPathObject, start: Vertex, end: Vertex) -> None:
 
 
 @cache
+@cache
 def pdf_font() -> str:
     """Return the name of the font of the sheets, registered with the library."""
     from reportlab.pdfbase.pdfmetrics import registerFont

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -25,7 +25,8 @@ from gearcad.jobs.strength import Check, Rate
 from gearcad.jobs.verification_sheets import judge_sheets, make_sheets
 from gearcad.jobs.verification_solvers import MESH_FORMATS, judge_by_calculix, judge_meshes
 from gearcad.report.document import heading
-from gearcad.report.verification import verification_html, write_verification_pdf
+from gearcad.report.verification import verification_html
+from gearcad.report.verification_pdf import write_verification_pdf
 from gearcad.solids import FileOptions, Format
 from gearcad.verification.assemblies import PlacedMesh
 from gearcad.verification.calculix import calculix_version
@@ -33,10 +34,11 @@ from gearcad.verification.claims import Claim, Judge, VerificationLevel, timed
 from gearcad.verification.claims import ClaimSubject as About
 from gearcad.verification.drawings import judge_section, judge_sections
 from gearcad.verification.exact_parts import ExactPart
-from gearcad.verification.facets import SUBJECTS, judge_facets
+from gearcad.verification.facets import SUBJECTS, JudgedFacets, judge_facets
 from gearcad.verification.geometry import judge_gear, judge_pair, judge_rack
 from gearcad.verification.result import Verification
 from gearcad.verification.step import judge_step
+from gearcad.verification.step_entities import JudgedSolids
 from gearcad.verification.strength import judge_check, judge_rating
 from gearcad.version import __version__
 
@@ -206,17 +208,24 @@ def _of_files(
     exact: Mapping[str, ExactPart],
 ) -> Iterator[_Stage]:
     """What is judged of level files: every file."""
-    options = FileOptions()
+    options, judged = FileOptions(), _Judged()
     for kind in FORMATS:
         effort = _EFFORTS.get(kind, 1.0)
         for name, product in parts.items():
-            claims = partial(_of_part, kind=kind, product=product, exact=exact, options=options)
+            claims = partial(_of_part, kind=kind, product=product, exact=exact, options=options, judged=judged)
             path = folder / f"{name}.{kind.value}"
             yield _Stage(path.name, effort, partial(_of_file, path, kind, claims))
         if assembly is not None and _assembled(design, kind):
             path = folder / f"assembly.{kind.value}"
             claims = partial(
-                _of_assembly, kind=kind, design=design, parts=parts, assembly=assembly, exact=exact, options=options
+                _of_assembly,
+                kind=kind,
+                design=design,
+                parts=parts,
+                assembly=assembly,
+                exact=exact,
+                options=options,
+                judged=judged,
             )
             yield _Stage(path.name, 2 * effort, partial(_of_file, path, kind, claims))
 
@@ -259,16 +268,29 @@ def _part(product: PartProduct) -> Gear | Rack:
     return getattr(product, "gear", None) or product.rack  # type: ignore[union-attr]
 
 
+@dataclass(frozen=True)
+class _Judged:
+    """Solids and facets that were judged in files before: an assembly has those of its parts."""
+
+    solids: JudgedSolids = field(default_factory=JudgedSolids)
+    facets: JudgedFacets = field(default_factory=dict)
+
+
 def _of_part(
-    path: Path, kind: Format, product: PartProduct, exact: Mapping[str, ExactPart], options: FileOptions
+    path: Path,
+    kind: Format,
+    product: PartProduct,
+    exact: Mapping[str, ExactPart],
+    options: FileOptions,
+    judged: _Judged,
 ) -> Iterator[Claim]:
     if kind is Format.STEP:
-        yield from judge_step(path, product.solid(), exact)
+        yield from judge_step(path, product.solid(), exact, judged=judged.solids)
     elif kind is Format.DXF:
         yield from judge_section(path, exact[product.name])
     else:
-        named = kind is not Format.STL
-        yield from judge_facets(path, {product.name: exact[product.name]}, options.chord_error, names=named)
+        own, named = {product.name: exact[product.name]}, kind is not Format.STL
+        yield from judge_facets(path, own, options.chord_error, names=named, judged=judged.facets)
 
 
 def _of_assembly(
@@ -279,14 +301,15 @@ def _of_assembly(
     assembly: AssemblyProduct,
     exact: Mapping[str, ExactPart],
     options: FileOptions,
+    judged: _Judged,
 ) -> Iterator[Claim]:
     meshes = _meshes(design, parts)
     if kind is Format.STEP:
-        yield from judge_step(path, assembly.solid(), exact, meshes)
+        yield from judge_step(path, assembly.solid(), exact, meshes, judged.solids)
     elif kind is Format.DXF:
         yield from judge_sections(path, _counts(design, parts))
     else:
-        yield from judge_facets(path, exact, options.chord_error, meshes)
+        yield from judge_facets(path, exact, options.chord_error, meshes, judged=judged.facets)
 
 
 def _counts(design: ToothedDesign, parts: Mapping[str, PartProduct]) -> dict[str, int]:

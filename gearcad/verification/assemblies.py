@@ -11,15 +11,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gearcad.core.records import Floats
+from gearcad.core.records import Bools, Floats
 from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.curves import Involute
 from gearcad.geometry.gear_data import section_turn
 from gearcad.verification.claims import Claim, Judge
-
-Booleans = NDArray[np.bool_]
 
 OUTLINES = "exact outlines"
 """Name of the judge."""
@@ -116,7 +113,7 @@ def _gaps(pair: GearPair | RackPair, one: PlacedPart, two: PlacedPart, sections:
     return np.array(gaps)
 
 
-def _outline(gear: Gear) -> tuple[Floats, Booleans]:
+def _outline(gear: Gear) -> tuple[Floats, Bools]:
     """Outline (n, 2) of all teeth in mm, unturned, and which of its points (n,) are on flanks."""
     s = np.linspace(0.0, 1.0, _POINTS)
     half = np.concatenate([curve.points(s) for curve in gear.profile.curves])
@@ -145,7 +142,7 @@ def _section(gear: Gear, outline: Floats, part: PlacedPart, z: float) -> Floats:
     return _turned(outline, turn) + part.offset[:2]
 
 
-def _gear_gaps(pair: GearPair, points: Floats, flank: Booleans, mate: PlacedPart, z: float) -> Floats:
+def _gear_gaps(pair: GearPair, points: Floats, flank: Bools, mate: PlacedPart, z: float) -> Floats:
     """Gaps (2, 2) in mm at the working circle on both sides of the mate's teeth, negative where teeth overlap."""
     wheel = pair.wheel
     turn = mate.rotation + _helix(wheel, z - float(mate.offset[2]))
@@ -162,7 +159,7 @@ def _gear_gaps(pair: GearPair, points: Floats, flank: Booleans, mate: PlacedPart
     return _least(clear, angle > 0, flank) * abs(pair.working_pitch_diameters.wheel) / 2
 
 
-def _rack_gaps(pair: RackPair, points: Floats, flank: Booleans, mate: PlacedPart, z: float) -> Floats:
+def _rack_gaps(pair: RackPair, points: Floats, flank: Bools, mate: PlacedPart, z: float) -> Floats:
     """Gaps (2, 2) in mm along the rack on both sides of its teeth, negative where teeth overlap."""
     rack = pair.rack
     own = _turned(points - mate.offset[:2], -mate.rotation)
@@ -175,7 +172,7 @@ def _rack_gaps(pair: RackPair, points: Floats, flank: Booleans, mate: PlacedPart
     return _least(clear, along > 0, flank[inside] & (height > -rack.profile.form_depth))
 
 
-def _least(clear: Floats, left: Booleans, flank: Booleans) -> Floats:
+def _least(clear: Floats, left: Bools, flank: Bools) -> Floats:
     """Least clearances (2, 2): of all points and of those on flanks, on the left and on the right side of teeth."""
     every = np.ones_like(flank)
     return np.array([[clear[of & side].min(initial=np.inf) for side in (left, ~left)] for of in (every, flank)])

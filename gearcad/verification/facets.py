@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +35,10 @@ _LEAST = 1e-5
 
 _BODY = 1.05
 """Factor on the chord error for the middle of a triangle: it is bounded for the sides of triangles."""
+
+
+JudgedFacets = dict[tuple[str, str, str], list[Claim]]
+"""Claims about bodies that were judged before, by the kind of file, the part and the digest of the facets."""
 
 
 @dataclass(frozen=True)
@@ -72,10 +77,12 @@ def judge_facets(
     meshes: Sequence[PlacedMesh] = (),
     *,
     names: bool = True,
+    judged: JudgedFacets | None = None,
 ) -> Iterator[Claim]:
     """Judge every body of a file against the parts that it should have, by their names; of an assembly also the `meshes`.
 
     `chord_error` (mm) bounds how far facets may be off. `names`: whether the file has the names of its parts (STL has not).
+    The same facets as those of a body that was `judged` in a file of this kind have the same claims; others are added.
     """
     ending = path.suffix[1:]
     judge = Judge(SUBJECTS[ending], VerificationLevel.FILES, path.name, "trimesh")
@@ -93,10 +100,24 @@ def judge_facets(
     for name, part in parts.items():
         if name in bodies:
             of_part = Judge(judge.subject, judge.level, path.name if len(parts) == 1 else f"{path.name}: {name}", judge.name)
-            yield from _judge_body(of_part, bodies[name].mesh, part, ending, chord_error)
+            key, before = (ending, name, _digest(bodies[name].mesh)), judged if judged is not None else {}
+            if key in before:
+                yield from (replace(claim, where=of_part.where) for claim in before[key])
+                continue
+            before[key] = []
+            for claim in _judge_body(of_part, bodies[name].mesh, part, ending, chord_error):
+                before[key].append(claim)
+                yield claim
     placed = [PlacedPart(part.name, part.place[:3]) for part in found]
     places = Judge(judge.subject, judge.level, path.name, OUTLINES)
     yield from judge_places(places, meshes, placed, rounding=_PLACE[ending])
+
+
+def _digest(mesh: Trimesh) -> str:
+    """Digest of the vertices and triangles of a body."""
+    found = hashlib.sha256(np.ascontiguousarray(mesh.vertices).tobytes())
+    found.update(np.ascontiguousarray(mesh.faces).tobytes())
+    return found.hexdigest()
 
 
 def _judge_body(judge: Judge, mesh: Trimesh, part: ExactPart, ending: str, chord_error: float) -> Iterator[Claim]:

@@ -31,7 +31,8 @@ _GAUGE_HEIGHTS = 17
 _GAUGE_ROUNDS = 6
 """Heights of sections that a gauge touches, and how often they close in on the place where it does."""
 
-_GOLDEN = (math.sqrt(5) - 1) / 2
+_LEAN = 1e-6
+"""Angle (rad) to which the lean of a pin at rest is found; the radius of its axis changes with the square of it."""
 
 
 def fine_chord(module: float) -> float:
@@ -54,22 +55,6 @@ def _on_flank(gear: Gear, outline: Complexes) -> Complexes:
     on_land = np.r_[False, np.abs(np.diff(np.abs(flank))) < slack]  # the tip land has the radius of the flank's end
     kept: Complexes = flank[~on_land]
     return kept
-
-
-def _least_by_golden_section(function: Callable[[float], float], low: float, high: float, rounds: int = 44) -> float:
-    """Return the least value between `low` and `high` of a function with one minimum."""
-    one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-    at_one, at_other = function(one), function(other)
-    for _ in range(rounds):
-        if at_one < at_other:
-            high, other, at_other = other, one, at_one
-            one = high - _GOLDEN * (high - low)
-            at_one = function(one)
-        else:
-            low, one, at_one = one, other, at_other
-            other = low + _GOLDEN * (high - low)
-            at_other = function(other)
-    return min(at_one, at_other)
 
 
 @dataclass(frozen=True)
@@ -131,6 +116,8 @@ class OutlineGauges:
 
     def pin_centre(self, diameter: float) -> float:
         """Return the radius (mm) of the axis of a pin at rest in a space of an external gear, inclined freely."""
+        from scipy.optimize import minimize_scalar
+
         if not self.twist:
             return self.ball_centre(diameter)
         hand = math.copysign(1.0, self.twist)
@@ -139,7 +126,8 @@ class OutlineGauges:
             cosine, sine = math.cos(lean), hand * math.sin(lean)
             return self._rest(diameter, lambda across, z: (across * cosine - z * sine) ** 2, diameter)
 
-        return _least_by_golden_section(resting, 0.0, math.radians(85), 28)
+        least = minimize_scalar(resting, bounds=(0.0, math.radians(85)), method="bounded", options={"xatol": _LEAN})
+        return float(least.fun)
 
     @cached_property
     def _space(self) -> Complexes:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from gearcad.solids.exact.tooth_layout import accuracy_for
 from gearcad.verification.assemblies import OUTLINES, PlacedMesh, PlacedPart, judge_places
 from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.exact_parts import ExactPart
+from gearcad.verification.step_entities import JudgedSolids
 from gearcad.verification.surfaces import ExactSurface
 
 _SAME = 1e-6
@@ -29,8 +31,8 @@ _FITS = 4
 _LEAST = 1e-6
 """Distance (mm) of corners from the exact surface that is permitted: the kernel's own is 1e-7 mm."""
 
-_ROOT = 1e-12
-"""Share of the size of a solid below which a centre counts as on the axis."""
+_OF_SPHERE = [1, 1, 3, 2]
+"""Solids, faces, edges and vertices of a sphere as the kernel has it: a seam, and both poles."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +54,11 @@ class StepNode:
             yield from child.parts()
 
 
-def read_step(path: Path) -> list[StepNode]:
-    """Return the free products of a STEP file with their trees, read by the CAD kernel. Raises ValueError if it cannot."""
+def read_step(path: Path, content: bytes | None = None) -> list[StepNode]:
+    """Return the free products of a STEP file with their trees, read by the CAD kernel. Raises ValueError if it cannot.
+
+    With `content` the kernel reads the file, and makes the products of this text.
+    """
     from OCP.IFSelect import IFSelect_RetDone
     from OCP.STEPCAFControl import STEPCAFControl_Reader
     from OCP.TCollection import TCollection_ExtendedString
@@ -66,7 +71,11 @@ def read_step(path: Path) -> list[StepNode]:
     XCAFApp_Application.GetApplication_s().InitDocument(document)
     reader.SetNameMode(True)
     reader.SetColorMode(True)
-    if reader.ReadFile(str(path)) != IFSelect_RetDone or not reader.Transfer(document):
+    read = reader.ReadFile(str(path)) == IFSelect_RetDone
+    if read and content is not None:
+        reader = STEPCAFControl_Reader()
+        read = reader.ReadStream(path.name, BytesIO(content)) == IFSelect_RetDone
+    if not read or not reader.Transfer(document):
         raise ValueError("the CAD kernel cannot read it")
     labels = TDF_LabelSequence()
     XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(labels)
@@ -114,15 +123,24 @@ def _on_screen(light: float) -> float:
 
 
 def judge_step(
-    path: Path, product: Product, parts: Mapping[str, ExactPart], meshes: Sequence[PlacedMesh] = ()
+    path: Path,
+    product: Product,
+    parts: Mapping[str, ExactPart],
+    meshes: Sequence[PlacedMesh] = (),
+    judged: JudgedSolids | None = None,
 ) -> Iterator[Claim]:
     """Judge a STEP file that should hold a product; `parts` are its gears and racks by their names as products.
 
-    `meshes` are those of an assembly, whose gears must be in their places.
+    `meshes` are those of an assembly, whose gears must be in their places. Solids that are among those `judged`, entity for
+    entity, have the same claims; others are added to them.
     """
     judge = Judge(ClaimSubject.STEP, VerificationLevel.FILES, path.name, "Open CASCADE")
+    judged = JudgedSolids() if judged is None else judged
+    products = _solid_products(product)
     try:
-        nodes = read_step(path)
+        entities = judged.read(path.read_bytes())
+        known = judged.known(entities, [made.name for made in products])
+        nodes = read_step(path, entities.without_solids() if entities is not None and known else None)
     except Exception as error:  # the kernel may raise anything for a broken file
         yield judge.holds("is read", False, place=f"{type(error).__name__}: {error}")
         return
@@ -130,7 +148,7 @@ def judge_step(
     found: dict[str, StepNode] = {}
     for node in (part for root in nodes for part in root.parts()):
         found.setdefault(node.product, node)
-    for made in _solid_products(product):
+    for made in products:
         where = path.name if isinstance(product, SolidProduct) else f"{path.name}: {made.name}"
         of_part = Judge(judge.subject, judge.level, where, judge.name)
         if made.name not in found:
@@ -138,7 +156,16 @@ def judge_step(
             continue
         node = found[made.name]
         yield of_part.equal("colour", _hex(made.colour), _hex(node.colour))
-        yield from _judge_solid(of_part, node.shape, made, parts.get(made.name))
+        if entities is not None and known:
+            again = judged.of_sphere(entities, _sphere(node.shape), made.name, where)
+            yield from [of_part.holds("has the solid of its part alone", False)] if again is None else again
+            continue
+        claims = list[Claim]()
+        for claim in _judge_solid(of_part, node.shape, made, parts.get(made.name)):
+            claims.append(claim)
+            yield claim
+        if entities is not None and len(products) == 1 == len(entities.solids):
+            judged.claims[entities.forms[entities.solids[0]], made.name] = claims
     placed = [part for root in nodes for part in _placed(root)]
     yield from judge_places(Judge(judge.subject, judge.level, path.name, OUTLINES), meshes, placed)
 
@@ -208,8 +235,7 @@ def _judge_solid(judge: Judge, shape: Any, made: SolidProduct, part: ExactPart |
     yield judge.holds("is valid (BRepCheck)", bool(BRepCheck_Analyzer(shape).IsValid()))
     yield judge.holds("is closed", len(shells) == 1 and _closed(shape))
     exact = part.moments if part is not None else moments(made.boundary)
-    found, area = GProp_GProps(), GProp_GProps()
-    BRepGProp.VolumeProperties_s(shape, found)
+    found, area = _volume(shape), GProp_GProps()
     yield judge.near("volume", exact.volume, found.Mass(), _SAME, "", relative=True)
     if part is None:
         return
@@ -224,6 +250,24 @@ def _judge_solid(judge: Judge, shape: Any, made: SolidProduct, part: ExactPart |
         polar = found.MomentOfInertia(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)))
         yield judge.near("moment of inertia about the axis", exact.polar, polar, _SAME, "", relative=True)
     yield from _judge_faces(judge, shape, part)
+
+
+def _sphere(shape: Any) -> float:
+    """Volume (mm³) of a shape that is nothing but a sphere, else 0."""
+    from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_SOLID, TopAbs_VERTEX
+
+    counts = [len(_within(shape, kind)) for kind in (TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE, TopAbs_VERTEX)]
+    return float(_volume(shape).Mass()) if counts == _OF_SPHERE else 0.0
+
+
+def _volume(shape: Any) -> Any:
+    """Properties of the volume of a shape, as the kernel has them."""
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    found = GProp_GProps()
+    BRepGProp.VolumeProperties_s(shape, found)
+    return found
 
 
 def _within(shape: Any, kind: Any) -> list[Any]:
@@ -334,7 +378,8 @@ def _samples(knots: list[float], degree: int) -> Floats:
 
 
 def _coordinates(point: Any) -> tuple[float, float, float]:
-    return point.X(), point.Y(), point.Z()
+    coordinates: tuple[float, float, float] = point.Coord()
+    return coordinates
 
 
 def _place(surface: ExactSurface, points: Floats, off: Floats) -> str:

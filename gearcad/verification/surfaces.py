@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from gearcad.core.records import Floats, Wholes
+from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.geometry import Gear, Rack
 from gearcad.geometry.curves import Chamfer, Curve, Fillet, Involute, PlaneCurve
 from gearcad.geometry.gear import FlankCurve, flank_curves
@@ -20,6 +20,12 @@ from gearcad.solids.body_plan import EndCone
 
 _STEPS = 4
 """Newton's steps from the curve's point on the same radius: a point that is nearly on it is there after one."""
+
+_STILL = 1e-9
+"""Step of a curve's parameter after which no other is needed."""
+
+_BESIDE = 0.02
+"""Distance (mm) from the radii of a piece at which points within those of another are held against it too: more than facets."""
 
 _SMALL = 1e-6
 """Step of a curve's parameter over which its speed is taken."""
@@ -113,19 +119,34 @@ class GearSurface:
         return flank_curves(self.gear)
 
     def _from_teeth(self, points: Floats) -> Floats:
-        """Distances (k, n) in mm from the k pieces of the flanks; infinite for points farther than a module from one."""
+        """Distances (k, n) in mm from the k pieces of the flanks; infinite for points farther than a module from one.
+
+        Points within the radii of some pieces have finite distances from these alone.
+        """
         found = np.full((len(self._pieces), len(points)), np.inf)
         radius, angle = self._section(points)
         angle = angle - self._pitch * np.rint(angle / self._pitch)
+        beside = np.where(self._within(radius), _BESIDE, self.gear.normal_module)
         for number, piece in enumerate(self._pieces):
-            low, high = sorted(float(piece.curve.polar(end)[0]) for end in (0.0, 1.0))
-            near = (radius > low - self.gear.normal_module) & (radius < high + self.gear.normal_module)
+            low, high = self._radii[number]
+            near = (radius > low - beside) & (radius < high + beside)
             for left in (True, False):
                 chosen = np.flatnonzero(near & ((angle >= 0) == left))
                 for start in range(0, len(chosen), _CHUNK):
                     which = chosen[start : start + _CHUNK]
                     found[number, which] = self._from_piece(piece, left, radius[which], angle[which], points[which, 2])
         return found
+
+    @cached_property
+    def _radii(self) -> list[tuple[float, float]]:
+        """Least and greatest radius (mm) of each piece."""
+        ends = [sorted(float(piece.curve.polar(end)[0]) for end in (0.0, 1.0)) for piece in self._pieces]
+        return [(low, high) for low, high in ends]
+
+    def _within(self, radius: Floats) -> Bools:
+        """Which radii (mm) are those of a piece."""
+        within: Bools = np.any([(radius >= low) & (radius <= high) for low, high in self._radii], axis=0)
+        return within
 
     def _section(self, points: Floats) -> tuple[Floats, Floats]:
         """Radii (mm) and angles (rad) of points, turned back by the helix."""
@@ -137,15 +158,17 @@ class GearSurface:
         gear, curve, sense = self.gear, piece.curve, 1 if left else -1
         height = height_in_half(gear, z)
         angle = sense * angle
-        s = _on_radius(curve, radius)
-        for last in (*[False] * _STEPS, True):
+        s, moved = _on_radius(curve, radius), 1.0
+        for step in range(_STEPS + 1):
             turned = angle - sense * piece.turn(gear.flank_form, s, height, left=left)
             off = np.stack([radius * np.cos(turned), radius * np.sin(turned)], -1) - curve.points(s)
             heading = curve.direction(s)
             along = off[:, 0] * np.cos(heading) + off[:, 1] * np.sin(heading)
             across = off[:, 1] * np.cos(heading) - off[:, 0] * np.sin(heading)
-            if not last:
-                s = np.clip(s + along / _speed(curve, s), 0.0, 1.0)
+            if step == _STEPS or moved < _STILL:
+                break
+            nearer = np.clip(s + along / _speed(curve, s), 0.0, 1.0)
+            moved, s = float(np.abs(nearer - s).max(initial=0.0)), nearer
         # The section cuts the surface at a slant: the way to it in space is shorter than in the section.
         slant = twist(gear) * radius * np.cos(heading - curve.polar(s)[1])
         distance: Floats = np.hypot(np.abs(across) / np.hypot(1.0, slant), np.where((s > 0) & (s < 1), 0.0, along))

@@ -16,12 +16,15 @@ from gearcad import Body, FlankModification, Gear, GearPair
 from gearcad.designs import PairDesign
 from gearcad.jobs.build import products_of
 from gearcad.solids import FileOptions
+from gearcad.solids.exact.solid import SolidProduct
+from gearcad.verification import step
 from gearcad.verification.assemblies import PlacedMesh
-from gearcad.verification.claims import Claim
+from gearcad.verification.claims import Claim, Judge
 from gearcad.verification.drawings import judge_section
 from gearcad.verification.exact_parts import ExactPart
 from gearcad.verification.facets import judge_facets
 from gearcad.verification.step import judge_step
+from gearcad.verification.step_entities import JudgedSolids
 
 PINION = Gear(
     teeth=12,
@@ -261,6 +264,75 @@ def test_a_file_that_was_tampered_with_fails(
     assert path.read_bytes() != (made / name).read_bytes()
     failed = [each for each in claims(path) if each.passed is False]
     assert any(re.search(claim, each.quantity) for each in failed), [each.text for each in failed]
+
+
+# ---------------------------------------------------------------------- solids of an assembly that its parts have too
+
+
+def of_assembly(folder: Path) -> tuple[list[Claim], int]:
+    """Judge both parts and the assembly together; return the claims about it, and how many of its solids were judged anew."""
+    options = FileOptions()
+    parts, assembly = products_of(DESIGN, options)
+    exact, judged = {product.name: ExactPart(product.gear) for product in parts.values()}, JudgedSolids()
+    for name, product in parts.items():
+        assert all(claim.passed for claim in judge_step(folder / f"{name}.step", product.solid(), exact, judged=judged))
+    solids: list[object] = []
+    judge_solid = step._judge_solid
+
+    def counted(judge: Judge, shape: object, made: SolidProduct, part: ExactPart | None) -> Iterator[Claim]:
+        solids.append(shape)
+        return judge_solid(judge, shape, made, part)
+
+    meshes = [PlacedMesh(PAIR, parts["pinion"].name, parts["wheel"].name)]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(step, "_judge_solid", counted)
+        found = list(judge_step(folder / "assembly.step", assembly.solid(), exact, meshes, judged))
+    return found, len(solids)
+
+
+def test_an_assembly_has_the_claims_of_the_solids_of_its_parts(made: Path) -> None:
+    """Equal to what the kernel finds in the assembly alone, without a second look at either solid."""
+    found, anew = of_assembly(made)
+    assert anew == 0
+    assert found == list(claims(made / "assembly.step"))
+
+
+def second_solid(path: Path) -> None:
+    """A solid twice in one product: the eye sees one."""
+    text = path.read_text()
+    solid = re.search(r"#(\d+)=(MANIFOLD_SOLID_BREP\('',#\d+\));", text)
+    assert solid is not None
+    number = max(map(int, re.findall(r"#(\d+)=", text))) + 1
+    text = text.replace("ENDSEC;\nEND-ISO", f"#{number}={solid[2]};\nENDSEC;\nEND-ISO")
+    path.write_text(re.sub(rf"(ADVANCED_BREP_SHAPE_REPRESENTATION\('',\(#\d+,#{solid[1]})\)", rf"\g<1>,#{number})", text))
+
+
+def to_inches(path: Path) -> None:
+    """All lengths are inches by the header."""
+    text = path.read_text()
+    metre = "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))"
+    assert metre in text
+    number = max(map(int, re.findall(r"#(\d+)=", text))) + 1
+    inch = f"(CONVERSION_BASED_UNIT('INCH',#{number + 1})LENGTH_UNIT()NAMED_UNIT(#{number + 2}))"
+    more = (
+        f"#{number + 1}=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#{number});",
+        f"#{number + 2}=DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);",
+        f"#{number}={metre};",
+    )
+    text = text.replace(metre, inch, 1)
+    path.write_text(text.replace("ENDSEC;\nEND-ISO", "\n".join(more) + "\nENDSEC;\nEND-ISO"))
+
+
+@pytest.mark.parametrize("tamper", [move_pole, second_solid, to_inches, widen_bore, paint, shift_wheel, swap_names])
+def test_an_assembly_that_was_tampered_with_fails_beside_its_parts(
+    made: Path, tmp_path: Path, tamper: Callable[[Path], None]
+) -> None:
+    for name in ("pinion.step", "wheel.step", "assembly.step"):
+        (tmp_path / name).write_bytes((made / name).read_bytes())
+    tamper(tmp_path / "assembly.step")
+    assert (tmp_path / "assembly.step").read_bytes() != (made / "assembly.step").read_bytes()
+    found, _ = of_assembly(tmp_path)
+    assert [each.text for each in found if each.passed is False]
 
 
 def test_a_gear_of_other_modifications_is_not_this_gear(made: Path) -> None:
