@@ -49,6 +49,7 @@ from __future__ import annotations
 
 import lazy_loader
 
+from gearcad.callable_room import HOMES
 from gearcad.version import __version__ as __version__
 
 TYPE_CHECKING = False  # typing takes four times as long to import as all of this
@@ -57,8 +58,16 @@ if TYPE_CHECKING:
 
     from gearcad.designs import Design
 
-_CALLABLE_ROOMS = ("check", "dynamics", "identify", "planetary", "stiffness")
-"""Names of the packages that can also be called as functions."""
+_CALLABLE_ROOMS = {
+    "check": "jobs.strength",
+    "dynamics": "jobs.dynamics",
+    "identify": "jobs.searches",
+    "planetary": "jobs.planetary",
+    "stiffness": "jobs.strength",
+}
+"""Packages that can also be called as functions, and the module in which the function stands."""
+
+HOMES.update({name: f"{__name__}.{home}" for name, home in (*_CALLABLE_ROOMS.items(), ("shown_in_notebook", "plots.first"))})
 
 _ROOMS = ("batch", "contact", "designs", "jobs", "meshing", "plots", "rating", "sizing", "solids")
 

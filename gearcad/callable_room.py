@@ -1,11 +1,24 @@
-"""CallableRoom: a room that is also the verb of its name, `gearcad.check(pair, load)` beside `gearcad.check.CheckOptions`."""
+"""Rooms that are also the verb of their name, `gearcad.check(pair, load)`; functions of higher rooms that lower ones call."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from importlib import import_module
 from types import ModuleType
-from typing import Any
+
+TYPE_CHECKING = False  # typing takes longer to import than all of this
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+
+HOMES: dict[str, str] = {}
+"""Full name of the module of each function that lower rooms call by its name. The package fills it: no import points up."""
+
+
+def function_of(name: str) -> Callable[..., Any]:
+    """Return the function of this name in HOMES; its module is imported when it is asked for."""
+    function: Callable[..., Any] = getattr(import_module(HOMES[name]), name)
+    return function
 
 
 class CallableRoom(ModuleType):
@@ -14,10 +27,7 @@ class CallableRoom(ModuleType):
     @property
     def __wrapped__(self) -> Callable[..., Any]:
         """The function of the verb, whose signature `inspect.signature` takes for that of the room."""
-        verb = self.__name__.rpartition(".")[2]
-        module = import_module("gearcad.jobs").module_of(verb)
-        function: Callable[..., Any] = getattr(import_module(f"gearcad.jobs.{module}"), verb)
-        return function
+        return function_of(self.__name__.rpartition(".")[2])
 
     def __call__(self, *arguments: Any, **options: Any) -> Any:
         """Call the verb."""

@@ -17,8 +17,9 @@ from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.core.errors import format_number
 from gearcad.core.records import Notice, PerGear, Role
 from gearcad.geometry import Gear
+from gearcad.geometry.gear_data import RING_RIM_LIMIT
 from gearcad.material import Limit, Material, by_gear
-from gearcad.rating.tooth_stiffness import RIM_LIMIT, RING_RIM_LIMIT
+from gearcad.rating.tooth_stiffness import RIM_LIMIT
 
 if TYPE_CHECKING:
     from gearcad.check.convergence import Convergence

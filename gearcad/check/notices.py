@@ -10,7 +10,7 @@ from gearcad.check.task import CheckTask
 from gearcad.contact.shared.loaded import Cycle
 from gearcad.core.records import Notice
 from gearcad.geometry import Gear
-from gearcad.rating.tooth_stiffness import RING_RIM_LIMIT
+from gearcad.geometry.gear_data import RING_RIM_LIMIT
 
 __all__ = ["common_notices", "elastic_end"]
 

@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, fields, replace
 from enum import Enum
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gearcad.callable_room import function_of
 from gearcad.core.errors import InputError
 
 if TYPE_CHECKING:
@@ -206,7 +206,7 @@ class Pictured:
     """A result that a notebook shows as its first picture, which `plots` draws when it is asked for."""
 
     def _repr_html_(self) -> str:
-        html: str = import_module("gearcad.plots.first").shown_in_notebook(self)
+        html: str = function_of("shown_in_notebook")(self)
         return html
 
 

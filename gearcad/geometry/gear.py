@@ -20,7 +20,16 @@ from gearcad.core.quantities import derive, symbols_of
 from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Role, concise
 from gearcad.geometry.curves import Curve, CurveKind, Fillet, Involute, Land
 from gearcad.geometry.feasibility import check_given, check_tool, trimming_notices
-from gearcad.geometry.gear_data import GearData, check_body, corner_notices, fillet_tool, shaper_tip, twist
+from gearcad.geometry.gear_data import (
+    RING_RIM_LIMIT,
+    GearData,
+    check_body,
+    corner_notices,
+    fillet_tool,
+    outer_diameter,
+    shaper_tip,
+    twist,
+)
 from gearcad.geometry.gear_parts import DoubleHelix
 from gearcad.geometry.inspection import Inspection, ThicknessLimits, inspection_of
 from gearcad.geometry.modification import FlankForm, check_flanks
@@ -70,10 +79,7 @@ CHORD_ERROR = 0.2
 
 _OF_GEAR = "teeth normal_module helix_angle profile_shift face_width reference_diameter tip_diameter root_diameter".split()
 
-_RIM = 3.5
-"""Thickness (normal modules) with which a rim is drawn that was not given: from there on Y_B of ISO 6336-3 is 1."""
-
-_NO_RIM = f"no body.rim_diameter is given: drawn with {_RIM:g} m_n outside the root circle"
+_NO_RIM = f"no body.rim_diameter is given: drawn with {RING_RIM_LIMIT:g} m_n outside the root circle"
 
 _FLAT = 'style="width:auto;border-collapse:collapse"'
 
@@ -160,9 +166,7 @@ def drawing(view: tuple[float, float, float, float], shapes: Callable[[float], s
 
 def _outside(gear: GearData) -> float:
     """Diameter (mm) of what surrounds a gear: its tip circle, or the rim of a ring, which is drawn somewhere if not given."""
-    if not gear.internal:
-        return gear.tip_diameter
-    return gear.body.rim_diameter or 2 * _RIM * gear.normal_module - gear.root_diameter
+    return outer_diameter(gear) if gear.internal else gear.tip_diameter
 
 
 def gear_shapes(gear: GearData, profile: ToothProfile, pose: Pose, pixel: float) -> Iterator[str]:

@@ -295,6 +295,16 @@ def _check_gap(gear: GearData) -> None:
         raise GeometryError("double_helix.gap_diameter", gear.gap_diameter, permitted, "mm")
 
 
+RING_RIM_LIMIT = 3.5
+"""Thickness of a ring's rim, in normal modules, from which it is as stiff as a solid body (ISO 6336-1, clause 9)."""
+
+
+def outer_diameter(ring: GearData) -> float:
+    """Return the diameter (mm) of a ring's rim or, where none is given, of a rim that is as stiff as a solid body."""
+    rim = ring.body.rim_diameter
+    return abs(ring.root_diameter) + 2 * RING_RIM_LIMIT * ring.normal_module if rim is None else rim
+
+
 def least_rim_diameter(gear: GearData) -> float:
     """Least rim diameter (mm) of a ring, with some wall outside its root circle."""
     return abs(gear.root_diameter) + 2 * LEAST_RIM * gear.normal_module

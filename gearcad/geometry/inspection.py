@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 from gearcad.core.errors import GeometryError, at_least, at_most, require_number, require_whole
 from gearcad.core.records import Notice
 from gearcad.geometry.fits import ToothAllowance
-from gearcad.geometry.involute import inverse_involute, involute, root_between
-from gearcad.geometry.profile import base_half_angle
+from gearcad.geometry.involute import base_half_angle, inverse_involute, involute, root_between
 
 if TYPE_CHECKING:
     from gearcad.geometry.gear_data import GearData

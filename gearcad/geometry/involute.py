@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearcad.core.errors import ParameterError, SolverError
 from gearcad.core.records import Floats
-from gearcad.core.values import Values, larger, root, with_sign
+from gearcad.core.values import Values, degrees, larger, root, with_sign
 
 _MAX_NEWTON_STEPS = 60
 
@@ -46,6 +46,13 @@ def tangent_length(diameter: Values, base_diameter: Values) -> Values:
     """
     square = larger((diameter - base_diameter) * (diameter + base_diameter), 0.0)
     return with_sign(root(square) / 2, base_diameter)
+
+
+def base_half_angle(
+    teeth: Values, normal_thickness: Values, normal_module: Values, transverse_pressure_angle: Values
+) -> Values:
+    """Half tooth angle on the base circle in degrees: s_n/(m_n z) + inv alpha_t (ISO 21771)."""
+    return degrees(normal_thickness / (normal_module * teeth) + involute(transverse_pressure_angle))
 
 
 @overload

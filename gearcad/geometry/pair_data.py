@@ -28,9 +28,8 @@ from gearcad.core.values import (
 )
 from gearcad.geometry.fits import Backlash, BacklashLimits, backlash, centre_distance_allowance, settled
 from gearcad.geometry.gear import Gear
-from gearcad.geometry.involute import inverse_involute, involute, root_between, tangent_length
+from gearcad.geometry.involute import base_half_angle, inverse_involute, involute, root_between, tangent_length
 from gearcad.geometry.path_of_contact import BaseTangent, Mated, MatedPair, PathOfContact
-from gearcad.geometry.profile import base_half_angle
 from gearcad.geometry.toothed import GearSizes
 
 _FULL = PerGear(1.0, 1.0)

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from gearcad.core.records import Floats, Notice, PerGear, texts
 from gearcad.core.values import Values, hypot, larger, magnitude, radians, sin, smaller, tan, with_sign
-from gearcad.geometry.gear import Gear
+from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.involute import tangent_length
 
 
@@ -234,7 +234,7 @@ class Mated(Generic[Values]):
 class MatedPair(Mated[float]):
     """Usable path of contact, lines of contact and notices in words, shared by gear pairs and pinion-rack pairs."""
 
-    pinion: Gear
+    pinion: GearData
 
     @property
     def usable_path(self) -> tuple[float, float]:

@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike
 
 from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, require_number
 from gearcad.core.records import Floats
-from gearcad.core.values import Values, degrees
 from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute, Land, parameters_within
-from gearcad.geometry.involute import inverse_involute, involute, involute_at_roll, root_between
+from gearcad.geometry.involute import inverse_involute, involute_at_roll, root_between
 
 if TYPE_CHECKING:
     from gearcad.geometry.fillets import FilletTool
@@ -305,13 +304,6 @@ class ToothProfile:
         radius = np.asarray(radius, float)
         tangent = np.sqrt((radius - base) * (radius + base)) / base
         return math.radians(self.base_half_angle) - self._side * involute_at_roll(tangent)
-
-
-def base_half_angle(
-    teeth: Values, normal_thickness: Values, normal_module: Values, transverse_pressure_angle: Values
-) -> Values:
-    """Half tooth angle on the base circle in degrees: s_n/(m_n z) + inv alpha_t (ISO 21771)."""
-    return degrees(normal_thickness / (normal_module * teeth) + involute(transverse_pressure_angle))
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

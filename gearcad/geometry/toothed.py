@@ -16,7 +16,7 @@ from gearcad.core.quantities import Range, Words, require_fields
 from gearcad.core.records import Notice, texts
 from gearcad.core.values import Values, arcsin, arctan, cos, degrees, radians, sin
 from gearcad.geometry.gear_parts import BasicRack, full_root_radius
-from gearcad.geometry.profile import base_half_angle
+from gearcad.geometry.involute import base_half_angle
 
 FaceWidth = Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("face width", "b", "4.1")]
 HelixAngle = Annotated[float, Range("deg", -75, 75), Words("helix angle (right hand +)", "β", "4.2")]

@@ -17,7 +17,7 @@ from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind, Involute
 from gearcad.geometry.gear import flank_curves
-from gearcad.rating.tooth_stiffness import outer_diameter
+from gearcad.geometry.gear_data import outer_diameter
 
 _GRADING_FINE = 513
 """Points at which a line is sampled to measure and to grade it."""

@@ -12,12 +12,11 @@ import numpy as np
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear, GearPair, RackPair
-from gearcad.geometry.gear_data import shaped, twist
+from gearcad.geometry.gear_data import outer_diameter, shaped, twist
 from gearcad.geometry.involute import involute, root_between
 from gearcad.meshing.bodies.element_mesh import ElementMesh
 from gearcad.meshing.fem import ElementShape
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared
-from gearcad.rating.tooth_stiffness import outer_diameter
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

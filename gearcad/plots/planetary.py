@@ -14,12 +14,11 @@ from gearcad.dynamics.planetary.load_sharing import LoadSharing
 from gearcad.dynamics.planetary.planetary_excitation import PlanetMeshStiffness
 from gearcad.dynamics.planetary.planetary_statics import TorsionalStiffness, TwistSource
 from gearcad.geometry import Gear
-from gearcad.geometry.gear_data import section_turn
+from gearcad.geometry.gear_data import outer_diameter, section_turn
 from gearcad.planetary import MeshPhases, PairStage, PlanetaryTrain, Rim, SetMesh, TrainPose
 from gearcad.planetary.power import PowerFlow
 from gearcad.plots.gears import fill_gear
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, SERIES, legend_above, new_figure, plain, prepared, short
-from gearcad.rating.tooth_stiffness import outer_diameter
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -19,14 +19,12 @@ from typing import Generic
 from gearcad.core.records import Notice, PerGear
 from gearcad.core.values import Values, cos, fourth_root, radians, smaller
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.gear_data import RING_RIM_LIMIT
 from gearcad.material import Material
 from gearcad.rating.editions import Edition
 
 RIM_LIMIT = 1.2
 """Ratio s_R/h_t (external gears) from which on a rim is as stiff as a solid body."""
-
-RING_RIM_LIMIT = 3.5
-"""Ratio s_R/m_n (rings) from which on a rim is as stiff as a solid body."""
 
 THINNEST = 0.5
 """Ratio s_R/h_t above which the standard asks rims to stay."""
@@ -52,12 +50,6 @@ def ring_rim_ratio(gear: Gear) -> float | None:
     if body.rim_thickness:
         return body.rim_thickness / gear.normal_module
     return None if body.rim_diameter is None else (body.rim_diameter + gear.root_diameter) / 2 / gear.normal_module
-
-
-def outer_diameter(ring: Gear) -> float:
-    """Diameter (mm) of a ring's rim or, where none is given, of one as good as a solid body."""
-    rim = ring.body.rim_diameter
-    return ring.profile.root_diameter + 2 * RING_RIM_LIMIT * ring.normal_module if rim is None else rim
 
 
 def ring_rim_factor(ratio: float, edition: Edition) -> float:

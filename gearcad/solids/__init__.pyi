@@ -8,11 +8,11 @@ from .facets.tessellation import tessellate as tessellate
 from .facets.tessellation import tessellate_rack as tessellate_rack
 from .files.dxf import write_dxf as write_dxf
 from .files.dxf import write_rack_dxf as write_rack_dxf
-from .files.formats import FileOptions as FileOptions
 from .files.formats import Format as Format
 from .files.formats import write_stl as write_stl
 from .files.points import write_points as write_points
 from .files.points import write_rack_points as write_rack_points
+from .files.products import FileOptions as FileOptions
 from .files.scenes import ScenePart as ScenePart
 from .files.scenes import write_3mf as write_3mf
 from .files.scenes import write_glb as write_glb

@@ -25,8 +25,7 @@ from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import Floats, Notice, PerGear, Role
 from gearcad.geometry import Gear, ToothProfile
 from gearcad.geometry.curves import Curve, Fillet, Involute
-from gearcad.geometry.involute import involute_at_roll
-from gearcad.geometry.profile import base_half_angle
+from gearcad.geometry.involute import base_half_angle, involute_at_roll
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.rating.root_section import VirtualGear, virtual_tool

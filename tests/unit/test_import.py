@@ -46,6 +46,30 @@ def test_type_checkers_are_told_the_same_names() -> None:
     assert set(dir(gearcad)) - set(gearcad.__all__) <= names | {name for name in dir(gearcad) if name.startswith("__")}
 
 
+def _modules_of_texts(tree: ast.AST) -> set[str]:
+    """The modules of gearcad that a file imports by a text, `import_module("gearcad.plots")`, up to its first variable part."""
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "import_module"]
+    texts = [call.args[0].values[0] if isinstance(call.args[0], ast.JoinedStr) else call.args[0] for call in calls]
+    return {text.value for text in texts if isinstance(text, ast.Constant) and str(text.value).startswith("gearcad")}
+
+
+def test_imports_by_a_text_point_down_too() -> None:
+    """`lint-imports` does not see them."""
+    project = Path(gearcad.__file__).parents[1]
+    with (project / "pyproject.toml").open("rb") as file:
+        contracts = tomllib.load(file)["tool"]["importlinter"]["contracts"]
+    layers = next(each["layers"] for each in contracts if each["type"] == "layers")
+    floors = {room.strip(): -floor for floor, layer in enumerate(layers) for room in layer.split("|")}
+    up, seen = [], 0
+    for path in sorted(Path(gearcad.__file__).parent.rglob("*.py")):
+        own = ".".join(path.relative_to(project).with_suffix("").parts[:2])
+        for module in _modules_of_texts(ast.parse(path.read_text(encoding="utf-8"))):
+            room = ".".join(module.rstrip(".").split(".")[:2])
+            seen += 1
+            up += [(own, module)] if room in floors and floors[room] > floors[own] else []
+    assert (up, seen > 2) == ([], True)
+
+
 MUTABLE = {"Run", "_Source", "_Keeper", "_Trial", "Elimination", "_Rings"}
 """A run of the page, the file that is open there, and states of loops inside one function."""
 

@@ -29,8 +29,7 @@ from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.shapes import Box, Circle, Figure, Hatching, Line, Pen, Point, Polyline, Shape, Text
 from gearcad.drawing.words import Draughting, Size
 from gearcad.geometry import Gear
-from gearcad.geometry.gear_data import section_turn
-from gearcad.rating.tooth_stiffness import outer_diameter
+from gearcad.geometry.gear_data import outer_diameter, section_turn
 from gearcad.solids.body_plan import EndCone
 
 Corner = tuple[float, float]

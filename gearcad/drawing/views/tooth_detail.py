@@ -25,8 +25,8 @@ from gearcad.drawing.shapes import Anchor, Arc, Box, Circle, Figure, Line, Pen, 
 from gearcad.drawing.words import Draughting
 from gearcad.geometry import Gear, Rack
 from gearcad.geometry.curves import PlaneCurve
+from gearcad.geometry.gear_data import outer_diameter
 from gearcad.geometry.rack import FilletArc
-from gearcad.rating.tooth_stiffness import outer_diameter
 from gearcad.solids.files.dxf import Arcs, arcs_of, joined
 
 ACCURACY = 0.0005

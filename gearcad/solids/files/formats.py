@@ -10,39 +10,15 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from gearcad.core.errors import require_number, require_switch
 from gearcad.core.records import Floats
 from gearcad.solids.facets.tessellation import Facets
 
 if TYPE_CHECKING:
-    from gearcad.solids.files.products import GearProduct, PairProduct, RackPairProduct, RackProduct
+    from gearcad.solids.files.products import FileOptions, GearProduct, PairProduct, RackPairProduct, RackProduct
     from gearcad.solids.files.train_products import CarrierProduct, TrainProduct
 
     PartProduct: TypeAlias = GearProduct | RackProduct
     AssemblyProduct: TypeAlias = PairProduct | RackPairProduct | TrainProduct
-
-
-@dataclass(frozen=True, kw_only=True)
-class FileOptions:
-    """Options of files; a format names the options that matter to it.
-
-    `chord_error` (mm) bounds the facets; `bracket` puts a pair on two shafts with a bracket; `circles` draws the tip,
-    reference, base and root circles beside a section. Of a planetary train, `carrier` makes a carrier with pins, `exploded`
-    moves members apart along the axis, and `turning` lets the scene turn. Raises ParameterError for a chord error that is not
-    positive.
-    """
-
-    chord_error: float = 0.005
-    bracket: bool = False
-    circles: bool = False
-    carrier: bool = False
-    exploded: bool = False
-    turning: bool = False
-
-    def __post_init__(self) -> None:
-        require_number("chord_error", self.chord_error, "mm", above=0)
-        for name in ("bracket", "circles", "carrier", "exploded", "turning"):
-            require_switch(name, getattr(self, name))
 
 
 class Format(Enum):
@@ -94,7 +70,6 @@ def _step(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -
 
 
 def _stl(product: PartProduct | CarrierProduct, path: Path) -> None:
-
     write_stl(product.facets, path)
 
 

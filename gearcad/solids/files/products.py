@@ -1,4 +1,4 @@
-"""Products of gears, pairs and racks: names, colours, solids and facets that files hold."""
+"""Products of gears, pairs and racks: names, colours, solids and facets that files hold; the options of these files."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
+from gearcad.core.errors import require_number, require_switch
 from gearcad.core.records import PerGear, Role
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.rack import Rack
@@ -16,9 +17,31 @@ from gearcad.solids.exact.rack_solid import rack_boundary
 from gearcad.solids.exact.solid import AssembledProduct, SolidProduct, gear_boundary
 from gearcad.solids.facets.tessellation import Facets, tessellate, tessellate_rack
 from gearcad.solids.files.dxf import write_rack_dxf
-from gearcad.solids.files.formats import FileOptions
 from gearcad.solids.files.points import write_rack_points
 from gearcad.solids.files.scenes import ScenePart
+
+
+@dataclass(frozen=True, kw_only=True)
+class FileOptions:
+    """Options of files; a format names the options that matter to it.
+
+    `chord_error` (mm) bounds the facets; `bracket` puts a pair on two shafts with a bracket; `circles` draws the tip,
+    reference, base and root circles beside a section. Of a planetary train, `carrier` makes a carrier with pins, `exploded`
+    moves members apart along the axis, and `turning` lets the scene turn. Raises ParameterError for a chord error that is not
+    positive.
+    """
+
+    chord_error: float = 0.005
+    bracket: bool = False
+    circles: bool = False
+    carrier: bool = False
+    exploded: bool = False
+    turning: bool = False
+
+    def __post_init__(self) -> None:
+        require_number("chord_error", self.chord_error, "mm", above=0)
+        for name in ("bracket", "circles", "carrier", "exploded", "turning"):
+            require_switch(name, getattr(self, name))
 
 
 @dataclass(frozen=True, kw_only=True)

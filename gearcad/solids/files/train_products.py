@@ -32,8 +32,7 @@ from gearcad.solids.exact.solid import (
 from gearcad.solids.exact.teeth import tube
 from gearcad.solids.facets.tessellation import Facets
 from gearcad.solids.files.dxf import draw_circles, draw_section, extent_of, gear_contour
-from gearcad.solids.files.formats import FileOptions
-from gearcad.solids.files.products import GearProduct
+from gearcad.solids.files.products import FileOptions, GearProduct
 from gearcad.solids.files.scenes import ScenePart, Turning
 from gearcad.solids.train_plan import CarrierPlan, Standing, TrainLayout, TrainPlan
 
