@@ -8,6 +8,7 @@ source means that the quantity is our own.
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 __all__ = [
@@ -19,6 +20,7 @@ __all__ = [
     "DYNAMICS",
     "GEAR",
     "GEAR_RATING",
+    "INDEX",
     "LOAD_FACTOR_DETAILS",
     "MESH",
     "MODIFY",
@@ -41,6 +43,12 @@ __all__ = [
 ]
 
 
+INDEX = r"_((?:[^\s*/,;)]|,(?=[^\W\d_]))*[^\s*/,;).:])"
+"""Pattern of the index of a symbol with the mark before it, such as `_n` in m_n."""
+
+_INDEX = re.compile(INDEX)
+
+
 class Symbol(NamedTuple):
     """Symbol of one quantity: the standard's symbol, its unit ("" for numbers), the clause, and plain words."""
 
@@ -48,6 +56,12 @@ class Symbol(NamedTuple):
     unit: str
     source: str
     words: str
+
+    @property
+    def parts(self) -> tuple[tuple[str, str], ...]:
+        """The symbol in pieces, each a text and the index behind it: F_t K_A/b is ("F", "t"), (" K", "A"), ("/b", "")."""
+        pieces = [*_INDEX.split(self.symbol), ""]
+        return tuple(each for each in zip(pieces[::2], pieces[1::2], strict=True) if any(each))
 
 
 GEAR = {

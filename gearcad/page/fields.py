@@ -22,6 +22,8 @@ from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import GearDesign
 from gearcad.designs.keys import BESIDE, FIELDS, MAIN_TABLES, OF_GEAR_PAIRS, OF_RACK_PAIRS, OF_SETS, SPEEDS, DesignKind, Fields
 from gearcad.designs.pair_designs import PairDesign, RackPairDesign
+from gearcad.designs.planetary_designs import PlanetaryDesign
+from gearcad.designs.ranking import gear_tables, ranked_rows
 from gearcad.designs.reader import kind_of, type_of
 from gearcad.designs.spec import AUTO, CLEAR
 from gearcad.geometry import Gear
@@ -61,12 +63,10 @@ def fields_of(design: Design | None, tables: Mapping[str, Any]) -> list[dict[str
     """The tables of a kind's specs in order, each with its groups of fields: what the browser makes inputs of.
 
     `tables` are what the spec says; they tell the kind if they make no design. A train's parts are lists of tables, which stand
-    in its text only.
+    in its text only: of a train these are the keys that are of no part.
     """
     kind = kind_of(tables) if design is None else design.kind
-    if kind is DesignKind.TRAIN:
-        return []
-    members = tuple(design.train.members) if design is not None and hasattr(design, "train") else ()
+    members = tuple(design.train.members) if isinstance(design, PlanetaryDesign) else ()
     return [
         {
             "table": table,
@@ -76,6 +76,17 @@ def fields_of(design: Design | None, tables: Mapping[str, Any]) -> list[dict[str
         }
         for table, fields in _tables(kind, tables, members).items()
     ]
+
+
+def ranked_fields(design: Design | None, tables: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the inputs that matter most, which the browser shows first: titles of the gears' columns, and keys by rows.
+
+    The fields of these keys are those of `fields_of`; a row of one key is that of all gears.
+    """
+    kind = kind_of(tables) if design is None else design.kind
+    known = {f"{table}.{key}" for table, fields in _tables(kind, tables, ()).items() for key in fields}
+    rows = [{"keys": list(row.keys), "shared": row.shared} for row in ranked_rows(kind, tables, known)]
+    return {"columns": [table_title(table) for table in gear_tables(kind, tables)], "rows": rows}
 
 
 def table_title(table: str) -> str:
@@ -107,6 +118,10 @@ def _tables(kind: DesignKind, tables: Mapping[str, Any], members: tuple[str, ...
 
         found = {table: PLANETARY[table] for table in PLANETARY if table not in OF_SETS or table in tables}
         return found | {"planetary": {**found["planetary"], **_speeds(members)}}
+    if kind is DesignKind.TRAIN:
+        from gearcad.designs.train_keys import MAIN, TRAIN
+
+        return {table: TRAIN[table] for table in (MAIN, "dynamics")}
     made = type_of(kind)
     beside = [table for table in BESIDE if hasattr(made, table)]
     found = {table: FIELDS[table] for table in (*MAIN_TABLES[kind], *beside)}
@@ -140,6 +155,7 @@ def _field(key: str, field: FieldSchema, members: tuple[str, ...]) -> dict[str, 
         "key": key,
         "words": words_of(key, field),
         "symbol": symbol.symbol,
+        "parts": symbol.parts,
         "unit": "°" if symbol.unit == "deg" else symbol.unit,
         "source": symbol.source,
         "choices": _choices(field),

@@ -295,7 +295,7 @@ class Session:
             with _region("left", words["Inputs"]):
                 left = self._left = Tabs({"inputs": words["Inputs"], "text": words["Text"], "limits": words["Limits"]})
                 with left.under("inputs"):
-                    self._inputs = InputsPanel(self.typed, self.step, words)
+                    self._inputs = InputsPanel(bench, self.typed, self.hold, self.step, words)
                 with left.under("text"):
                     self._text = TextPanel(self.written, self.step, words)
                 left.on("text", lambda: self._text.follow(bench))
@@ -383,8 +383,13 @@ class Session:
         return button
 
     def typed(self, key: str, text: str, step: int) -> None:
-        """Write the text that was typed into the field of a key, as part of a step."""
-        self.change({key: text}, step)
+        """Write the text that was typed into the field of a key, as part of a step, and what follows from it."""
+        self.bench.change({key: text}, step, self._inputs.holds.followers(key, text))
+        self.follow()
+
+    def hold(self, what: str) -> None:
+        """Hold the centre distance, the profile shifts or the ratio, as a step."""
+        self.change(self._inputs.holds.press(what))
 
     def change(self, given: Mapping[str, str], step: int | None = None) -> None:
         """Write values that were typed or moved under keys of the spec."""
@@ -418,7 +423,7 @@ class Session:
 
     def follow(self, reveal: bool = False) -> None:
         """Show what the workbench has: inputs at once, all else as it is found."""
-        self._inputs.follow(self.bench, reveal)
+        self._inputs.follow(reveal)
         if self._left.chosen == "text":
             self._text.follow(self.bench)
         self._undo.set_enabled(self.bench.can_undo)

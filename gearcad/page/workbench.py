@@ -207,8 +207,8 @@ class Workbench:
     def can_redo(self) -> bool:
         return bool(self._forth)
 
-    def change(self, given: Mapping[str, str], step: int | None = None) -> bool:
-        """Write what was typed under its keys, "" to leave a key out; whether the text is another one now.
+    def change(self, given: Mapping[str, str], step: int | None = None, followers: Mapping[str, str] | None = None) -> bool:
+        """Write what was typed under its keys, "" to leave a key out, and what follows; whether the text is another one now.
 
         Texts of one `step` are undone together, however late they come; without a number the pause between them decides.
         What makes no gear stays in the text, as its fault does; the last good design stays too. What cannot be written there
@@ -219,7 +219,7 @@ class Workbench:
             self._fields = self._fields_before = _FieldText(self.text)
         before = self._fields_before if self._goes_on(place, step) else self._fields
         try:
-            fields = before.changed({key: _value(key, typed) for key, typed in given.items()})
+            fields = before.changed({key: _value(key, typed) for key, typed in {**given, **(followers or {})}.items()})
             text = fields.text
         except GearcadError as error:
             self.fault = Fault(str(error), next(iter(given), ""), written=False)

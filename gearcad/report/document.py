@@ -55,10 +55,7 @@ _KNOWN = {
 
 _NAME = re.compile(r"(?<!\w)[A-Za-z]+(?:_[A-Za-z0-9]+)+(?!\w)")
 
-_KEY_OR_INDEX = re.compile(
-    r"(?<![\w.])((?:[a-z]+\.)*[a-z]{2,}[a-z0-9]*(?:_[a-z0-9]+)+)(?!\w)"
-    r"|_((?:[^\s*/,;)]|,(?=[^\W\d_]))*[^\s*/,;).:])"
-)
+_KEY_OR_INDEX = re.compile(rf"(?<![\w.])((?:[a-z]+\.)*[a-z]{{2,}}[a-z0-9]*(?:_[a-z0-9]+)+)(?!\w)|{symbols.INDEX}")
 
 
 def written(text: str) -> str:

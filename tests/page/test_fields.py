@@ -69,9 +69,13 @@ def test_pairs_and_racks_have_distances_of_their_own() -> None:
     assert ("pair.centre_distance" in racks, "pair.mounting_distance" in racks) == (False, True)
 
 
-def test_a_train_is_edited_as_text() -> None:
-    bench = Workbench((Path(templates()) / "train-1-stage.toml").read_text(encoding="utf-8"), "train", templates())
-    assert fields_of(bench.design, bench.tables) == []
+def test_parts_of_a_train_are_edited_as_text() -> None:
+    bench = _bench("train-1-stage")
+    fields = _fields(bench)
+    assert {key.partition(".")[0] for key in fields} == {"train", "dynamics"}
+    assert not [key for key in fields if key.startswith(("train.mesh", "train.shaft", "train.inertia"))]
+    bench.change({"train.speed": "900", "dynamics.speed_to": "4000"})
+    assert (bench.fault, bench.tables["train"]["speed"], bench.tables["dynamics"]["speed_to"]) == (None, 900, 4000)
 
 
 GEAR = '[gear]\nname = "{name}"\nteeth = {teeth}\nnormal_module = 2.0\nface_width = 10.0\n'

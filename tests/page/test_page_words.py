@@ -59,7 +59,7 @@ def test_germans_are_words_of_their_own() -> None:
 def _words_of_inputs() -> set[str]:
     """Tables, parts and keys of all specs."""
     found = {part_title(SPEEDS)}
-    for tables in (FIELDS, PLANETARY):
+    for tables in (FIELDS, PLANETARY, {table: TRAIN[table] for table in (MAIN, "dynamics")}):
         for table, fields in tables.items():
             found.add(table_title(table))
             for key, field in fields.items():

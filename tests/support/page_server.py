@@ -21,6 +21,8 @@ SPARING = (
 )
 """Where the processor draws, it draws pages quickest without a graphics card's ways, and one process is quicker than many."""
 
+_OPENED = "field => { for (let at = field.closest('details'); at; at = at.parentElement.closest('details')) at.open = true; }"
+
 DESK = {"width": 1280, "height": 800}
 
 TOLD = "told.txt"
@@ -92,8 +94,10 @@ class Tab:
         return url.startswith((self.address, self.address.replace("http", "ws", 1), "data:", "blob:"))
 
     def field(self, key: str) -> Any:
-        """The input of a key."""
-        return self.page.locator(f'[data-key="{key}"] :is(input, select)').first
+        """The input of a key, whose tables and groups are opened."""
+        found = self.page.locator(f'[data-key="{key}"] :is(input, select)').first
+        found.evaluate(_OPENED)
+        return found
 
     def shown(self) -> str:
         """What is told from the bodies that the scene shows now."""

@@ -132,14 +132,23 @@ class TextView(_Typed, component="spec_text.js", esm={"gear-changes": "changes"}
 
 
 class InputsView(_Typed, component="spec_inputs.js", esm={"gear-changes": "changes"}):
-    """Fields of a spec: calls `changed(key, text, step)` with what is typed, and `step(forth)` for keys that undo or redo.
+    """Fields of a spec: calls `changed(key, text, step)` with what is typed, `hold(what)` for a switch, and `step(forth)` for
+    keys that undo or redo.
 
     `words` are those of the fields, in the language of the page. `show` takes what is `given` and `used` under which key, which
-    keys have `changed`, and the `fault`, if there is one; with `reveal` what has changed comes into sight, and drafts go.
+    keys have `changed`, and the `faults`; with `reveal` what has changed comes into sight, and drafts go. `ranked` are the rows
+    that come first, `holds` the switches with a `note`, and `why` the reasons of what follows from other inputs.
     """
 
-    def __init__(self, changed: Callable[[str, str, int], None], step: Callable[[bool], None], words: dict[str, str]) -> None:
+    def __init__(
+        self,
+        changed: Callable[[str, str, int], None],
+        hold: Callable[[str], None],
+        step: Callable[[bool], None],
+        words: dict[str, str],
+    ) -> None:
         super().__init__(lambda change: changed(str(change["key"]), str(change["text"]), int(change["step"])), step)
+        self.on("hold", lambda event: hold(str(event.args.get("what"))))
         self._props["words"], self._props["tables"] = words, []
 
     def have(self, tables: list[dict[str, Any]]) -> None:

@@ -7,32 +7,52 @@ import { Changes, PAUSE, keepUnheard, takeUnheard } from "gear-changes";
 const decimal = (text) => (document.documentElement.lang === "de" ? text.replaceAll(".", ",") : text);
 const LIST = /^-?\d+([.]\d+)?( -?\d+([.]\d+)?)+$/; // of numbers
 
+const MOST = 3; // columns of gears beside each other
+
 const PHONE = "(max-width: 640px)";
+
+// A symbol with its indices below the line.
+const GearSymbol = {
+  template: `<template v-for="([text, index], at) in parts" :key="at">{{ text }}<sub v-if="index">{{ index }}</sub></template>`,
+  props: { parts: Array },
+};
 
 // One field. Its part of the page stays as it is while all that it is given does.
 const SpecField = {
   template: `
-    <div :data-key="field.key" class="field" :class="{ changed, wrong: !!fault, given: given !== undefined }">
-      <label :for="'in-' + field.key" :title="field.words"><span>{{ field.words }}</span><i v-if="field.symbol">{{ field.symbol }}</i></label>
-      <select v-if="field.choices.length" :id="'in-' + field.key" :value="draft ?? given ?? ''" :disabled="readonly"
-              :aria-invalid="!!fault" @focus="form.focused = field" @change="form.type(field.key, $event.target.value)" @blur="form.leave(field.key)" @keydown="form.choose($event)">
-        <option value="">{{ used ?? "" }}</option>
-        <option v-if="given && !field.choices.includes(given)">{{ given }}</option>
-        <option v-for="word in field.choices" :key="word" :value="word">{{ word }}</option>
-      </select>
-      <input v-else :id="'in-' + field.key" type="text" spellcheck="false" :class="{ words: !field.number }"
-             :readonly="readonly" :value="draft ?? shown(given ?? '')" :placeholder="shown(used ?? '')"
-             :list="field.offered.length ? 'of-' + field.key : null" :aria-invalid="!!fault"
-             @focus="form.focused = field" @input="form.type(field.key, $event.target.value)" @blur="form.leave(field.key)"
-             @keydown="form.press(field, $event)" />
-      <button v-if="given !== undefined && !readonly" type="button" class="out" tabindex="-1" :title="form.words.out"
-              :aria-label="form.words.out + ': ' + field.words" @click="form.out(field.key)">×</button>
-      <span v-else />
-      <span class="unit">{{ field.unit }}</span>
+    <div :data-key="field.key" class="field" :class="{ changed, wrong: !!fault, given: given !== undefined, cell, follows: why && !isNumber }">
+      <label v-if="!cell" :for="'in-' + field.key" :title="field.words"><span>{{ field.words }}</span><i v-if="field.symbol"><gear-symbol :parts="field.parts" /></i></label>
+      <span class="box" :title="why || null" :data-gear="gear || null" :style="cell ? { gridColumn: 'span ' + cell } : null">
+        <select v-if="field.choices.length" :id="'in-' + field.key" :value="draft ?? given ?? ''" :disabled="readonly" :aria-label="name"
+                :aria-invalid="!!fault" @focus="form.focused = field" @change="form.type(field.key, $event.target.value)" @blur="form.leave(field.key)" @keydown="form.choose($event)">
+          <option value="">{{ used ?? "" }}</option>
+          <option v-if="given && !field.choices.includes(given)">{{ given }}</option>
+          <option v-for="word in field.choices" :key="word" :value="word">{{ word }}</option>
+        </select>
+        <input v-else :id="'in-' + field.key" type="text" spellcheck="false" :class="{ words: !field.number && !cell }" :aria-label="name"
+               :readonly="readonly" :value="draft ?? shown(given ?? '')" :placeholder="shown(used ?? '')"
+               :list="field.offered.length ? 'of-' + field.key : null" :aria-invalid="!!fault"
+               @focus="form.focused = field" @input="form.type(field.key, $event.target.value)" @blur="form.leave(field.key)"
+               @keydown="form.press(field, $event)" />
+        <button v-if="given !== undefined && !readonly" type="button" class="out" tabindex="-1" :title="form.words.out"
+                :aria-label="form.words.out + ': ' + field.words" @click="form.out(field.key)">×</button>
+        <small v-if="field.number && given !== undefined && !isNumber && used && used !== given" class="used">{{ shown(used) }}</small>
+      </span>
+      <span v-if="!cell" class="unit">{{ field.unit }}</span>
       <datalist v-if="field.offered.length" :id="'of-' + field.key"><option v-for="word in field.offered" :key="word" :value="word" /></datalist>
       <span v-if="fault" class="fault" role="alert"><b v-if="said">{{ said }} – </b><span lang="en">{{ fault }}</span></span>
     </div>`,
-  props: { form: Object, field: Object, given: null, used: null, draft: null, changed: Boolean, fault: String, said: String, readonly: Boolean },
+  components: { GearSymbol },
+  // A cell stands in a row of its own quantity, over so many columns; why it follows from other inputs, if it does.
+  props: { form: Object, field: Object, given: null, used: null, draft: null, changed: Boolean, fault: String, said: String, readonly: Boolean, cell: Number, gear: String, why: String },
+  computed: {
+    isNumber() {
+      return this.given !== undefined && !Number.isNaN(Number(this.given));
+    },
+    name() {
+      return this.cell ? [this.field.words, this.gear].filter(Boolean).join(", ") : null;
+    },
+  },
   methods: {
     // Numbers have the decimal sign of the page, and may be typed with either.
     shown(text) {
@@ -42,7 +62,7 @@ const SpecField = {
 };
 
 export default {
-  components: { SpecField },
+  components: { GearSymbol, SpecField },
   template: `
     <form class="inputs" :data-stale="dataStale" @submit.prevent autocomplete="off" :aria-label="words.inputs">
       <div class="find" ref="find">
@@ -52,8 +72,25 @@ export default {
         <small v-if="dataStale && faults.length" class="of"> · {{ dataStale }}</small>
         <button v-if="faultAbove" type="button" class="fault" role="alert" @click="go(fault.key)"><b v-if="fault.said">{{ fault.said }} – </b><span lang="en">{{ fault.line }}</span></button>
       </div>
-      <p v-if="!shownTables.length" class="none">{{ tables.length ? words.nothing : words.textOnly }}</p>
-      <details v-for="table in shownTables" :key="table.table" :open="wanted !== '' || !table.folded" class="table">
+      <section v-if="firstRows.length" class="ranked" :class="{ many: ranked.columns.length > 2, captioned: ranked.columns.length > MOST }" :style="{ '--gears': columns }" :aria-label="words.first">
+        <div v-if="ranked.columns.length > 1 && ranked.columns.length <= MOST" class="row head"><span class="name" /><span v-for="title in ranked.columns" :key="title" class="gear">{{ title }}</span><span class="unit" /></div>
+        <div v-for="row in firstRows" :key="row.keys.join()" class="row" :class="[row.shared ? 'shared' : 'own', { text: !row.first.number }]">
+          <span class="name" :title="row.first.words"><span>{{ row.first.words }}</span><i v-if="row.first.symbol"><gear-symbol :parts="row.first.parts" /></i></span>
+          <template v-for="(field, at) in row.fields" :key="at">
+            <spec-field v-if="field" :form="me" :field="field" :given="given[field.key]" :used="used[field.key]" :cell="row.shared ? columns : 1"
+                        :gear="row.shared ? '' : ranked.columns[at]" :draft="drafts[field.key]" :changed="isChanged(field)" :fault="faultAt(field.key)?.line ?? ''"
+                        :said="faultAt(field.key)?.said ?? ''" :readonly="readonly" :why="why[field.key] ?? ''" />
+            <span v-else class="box" />
+          </template>
+          <span class="unit">{{ row.first.unit }}</span>
+        </div>
+        <div v-if="holds.length" class="row"><div class="holds" role="group" :aria-label="words.hold"><span>{{ words.hold }}</span>
+          <button v-for="hold in holds" :key="hold.what" type="button" :aria-pressed="hold.on" :title="hold.title" :aria-label="hold.title" :disabled="readonly" @click="pressHold(hold.what)"><i>{{ hold.what }}</i></button>
+          <small role="status">{{ note.join(" ") }}</small></div></div>
+      </section>
+      <p v-if="!shownTables.length" class="none">{{ words.nothing }}</p>
+      <p v-else-if="tables[0].table === 'train'" class="none">{{ words.textOnly }}</p>
+      <details v-for="table in shownTables" :key="table.table" :open="wanted !== '' || !(table.folded || firstRows.length)" class="table">
         <summary>{{ table.title }}<b v-if="count(table)">{{ count(table) }}</b></summary>
         <component v-for="family in families(table)" :key="family.part" :is="family.title && !wanted ? 'details' : 'div'" class="family">
         <summary v-if="family.title && !wanted" :class="{ changed: family.groups.some((group) => group.fields.some(isChanged)) }">{{ family.title }}<b v-if="count(family)">{{ count(family) }}</b></summary>
@@ -67,9 +104,9 @@ export default {
       <div class="hint" ref="hint" role="status">{{ hint }}</div>
     </form>`,
   props: { tables: Array, words: Object, dataStale: String },
-  emits: ["typed", "step"],
+  emits: ["typed", "step", "hold"],
   data() {
-    return { wanted: "", drafts: {}, given: {}, used: {}, changed: [], faults: [], focused: null, readonly: false };
+    return { MOST, ranked: { columns: [], rows: [] }, holds: [], note: [], why: {}, wanted: "", drafts: {}, given: {}, used: {}, changed: [], faults: [], focused: null, readonly: false };
   },
   computed: {
     me() {
@@ -82,11 +119,24 @@ export default {
     keys() {
       return new Set(this.ownTables.flatMap((table) => table.groups.flatMap((group) => group.fields.map((field) => field.key))));
     },
+    columns() {
+      const gears = Math.max(this.ranked.columns.length, 1);
+      return gears > MOST ? 2 : gears;
+    },
+    // The inputs that matter most, which stand first unless one searches.
+    firstRows() {
+      if (this.wanted.trim()) return [];
+      const fields = new Map(this.ownTables.flatMap((table) => table.groups.flatMap((group) => group.fields.map((field) => [field.key, field]))));
+      const rows = this.ranked.rows.map(({ keys, shared }) => ({ keys, shared, fields: keys.map((key) => fields.get(key)) }));
+      return rows.map((row) => ({ ...row, first: row.fields.find(Boolean) })).filter((row) => row.first);
+    },
+    // All others in their tables, or what is found.
     shownTables() {
       const parts = this.wanted.trim().toLowerCase().split(/\s+/);
-      if (!parts[0]) return this.ownTables;
+      const first = new Set(this.firstRows.flatMap((row) => row.keys));
       const fits = (table, group) => (field) => {
-        const said = `${field.key} ${field.words} ${field.symbol} ${table.title} ${group.family} ${group.title}`.replaceAll("\u00ad", "").toLowerCase();
+        if (first.has(field.key)) return false;
+        const said = `${field.key} ${field.words} ${field.symbol} ${field.symbol.replaceAll("_", "")} ${table.title} ${group.family} ${group.title}`.replaceAll("\u00ad", "").toLowerCase();
         return parts.every((part) => said.includes(part));
       };
       return this.ownTables
@@ -109,7 +159,7 @@ export default {
     hint() {
       const field = this.focused;
       if (!field) return "";
-      const said = [field.key];
+      const said = this.why[field.key] ? [field.key, this.why[field.key]] : [field.key];
       if (field.least !== null || field.most !== null)
         said.push(this.range(field));
       if (field.offered.length && field.offered.length < 8) said.push(field.offered.join(", "));
@@ -199,11 +249,18 @@ export default {
       }
       return place;
     },
-    // Scroll as far as needed: the field is below the search and above the hint.
+    // Scroll as far as needed: the field, and what is wrong with it, is below the search and above the hint.
     bring(place) {
       const [find, hint] = [this.$refs.find, this.$refs.hint].map((each) => each.offsetHeight + 2);
-      place.style.scrollMargin = `${find}px 0 ${hint}px`;
-      place.scrollIntoView({ block: "nearest" });
+      for (const each of [place.querySelector(".box"), place.querySelector(".fault")].filter(Boolean)) {
+        each.style.scrollMargin = `${find}px 0 ${hint}px`;
+        each.scrollIntoView({ block: "nearest" });
+      }
+    },
+    pressHold(what) {
+      this.flush(true);
+      this.typing.key = "";
+      this.$emit("hold", { what });
     },
     // What is told elsewhere leads to the field that it is about.
     led(event) {

@@ -13,9 +13,10 @@ from nicegui import background_tasks, ui
 from gearcad.core.errors import GearcadError, printable
 from gearcad.designs.reader import NO_DESIGNS, kind_of, starter_text, starters
 from gearcad.page.components.elements import FilesView, InputsView, TextView
-from gearcad.page.fields import fields_of, given_texts, used_texts
+from gearcad.page.fields import fields_of, given_texts, ranked_fields, used_texts
 from gearcad.page.folder import LARGEST_SPEC, LARGEST_TABLE, SPECS, TABLES, Folder, TakenError, pack, text_of
 from gearcad.page.panels import mark_stale
+from gearcad.page.panels.holds import HoldSwitches
 from gearcad.page.run_process import DOWNLOADS
 from gearcad.page.runs import Run, Runs, RunState, await_files
 from gearcad.page.words import PageWords
@@ -25,13 +26,21 @@ from gearcad.page.workbench import BesideDesign, DesignStatus, Workbench
 class InputsPanel:
     """Follows the workbench itself, not the last good design: what is wrong must be seen where it was typed."""
 
-    def __init__(self, changed: Callable[[str, str, int], None], step: Callable[[bool], None], words: PageWords) -> None:
-        self._words = words
+    def __init__(
+        self,
+        bench: Workbench,
+        changed: Callable[[str, str, int], None],
+        hold: Callable[[str], None],
+        step: Callable[[bool], None],
+        words: PageWords,
+    ) -> None:
+        self._bench, self._words = bench, words
+        self.holds = HoldSwitches(bench, words)
         own = {
             "inputs": words["inputs of the spec"],
             "search": words["find a key"],
             "nothing": words["no key has these words"],
-            "textOnly": words["This kind of spec is edited as text."],
+            "textOnly": words["Inertias, shafts and meshes of a train are edited as text."],
             "out": words["leave out of the spec"],
             "shared": words["as in"],
             "fault": words["fault"],
@@ -39,16 +48,20 @@ class InputsPanel:
             "or": words["or"],
             "size": words["size"],
             "clause": words["clause"],
+            "hold": words["hold"],
+            "first": words["Main inputs"],
         }
-        self._view = InputsView(changed, step, own)
+        self._view = InputsView(changed, hold, step, own)
         self._layout: Any = None
+        self._ranked: dict[str, Any] = {}
         self._keys: frozenset[str] = frozenset()
 
-    def follow(self, bench: Workbench, reveal: bool = False) -> None:
+    def follow(self, reveal: bool = False) -> None:
         """Show what the text says, what the last good design uses where it says nothing, and what is wrong.
 
         With `reveal` what has changed comes into sight: it was not typed here.
         """
+        bench = self._bench
         design = bench.shown_design
         layout = (kind_of(bench.tables), *bench.tables) if design is None else (design.kind, *design.gears, *bench.tables)
         if layout != self._layout:
@@ -61,7 +74,17 @@ class InputsPanel:
         all_used = {} if design is None else used_texts(design, bench.tables)
         used = {key: text for key, text in all_used.items() if key in self._keys}
         changed = sorted(key for key in given.keys() | former.keys() if given.get(key) != former.get(key))
-        self._view.show({"given": given, "used": used, "faults": faults, "changed": changed, "reveal": reveal})
+        ranked = self._first_inputs(ranked_fields(design, bench.tables))
+        own = {"given": given, "used": used, "faults": faults, "changed": changed, "reveal": reveal}
+        self._view.show(own | ranked | self.holds.state())
+
+    def _first_inputs(self, ranked: dict[str, Any]) -> dict[str, Any]:
+        """Return the part of the state that says which inputs come first, if these are other ones than before."""
+        ranked["columns"] = [self._words[title] for title in ranked["columns"]]
+        if ranked == self._ranked:
+            return {}
+        self._ranked = ranked
+        return {"ranked": ranked}
 
     def _have(self, tables: list[dict[str, Any]]) -> None:
         """Make the fields, in the language of the page."""

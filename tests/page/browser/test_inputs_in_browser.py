@@ -251,3 +251,47 @@ def test_steps_survive_a_reload(tab: Any) -> None:
         _has(tab, SHIFT, value)
     tab.page.get_by_role("button", name="redo").click()
     _has(tab, SHIFT, "0.31")
+
+
+def test_main_inputs_come_first_and_the_rest_is_found(tab: Any) -> None:
+    visible = "all => all.filter(each => each.checkVisibility()).map(each => each.dataset.key)"
+    keys = tab.page.eval_on_selector_all(".inputs .field", "all => all.map(each => each.dataset.key)")
+    assert len(keys) == len(set(keys))
+    shown = tab.page.eval_on_selector_all(
+        ".inputs .field :is(input, select)", visible.replace("each.dataset", "each.closest('.field').dataset")
+    )
+    assert shown[:3] == ["pinion.teeth", "wheel.teeth", "pair.normal_module"]
+    assert len(shown) == 13
+    for words, key in (
+        ("rating.life", "rating.life"),
+        ("tip alteration wheel", "wheel.tip_alteration"),
+        ("Rz", "pair.flank_roughness"),
+    ):
+        tab.page.fill(".inputs .search", words)
+        tab.page.locator(f'[data-key="{key}"] input').wait_for(state="visible")
+        assert tab.page.locator(".inputs .ranked").count() == 0
+    tab.page.fill(".inputs .search", "")
+    tab.page.wait_for_selector(".inputs .ranked")
+    assert tab.page.locator(".inputs .ranked sub").count() > 2
+
+
+def test_switches_hold_by_the_keyboard_and_say_what_follows(tab: Any) -> None:
+    hold = tab.page.locator(".inputs .holds button")
+    wheel = tab.page.locator('[data-key="wheel.profile_shift"]')
+    assert hold.evaluate_all("all => all.map(each => each.ariaPressed)") == ["true", "false", "false"]
+    assert wheel.locator(".used").inner_text() == "0.145986"
+    assert wheel.locator(".box").get_attribute("title") == "follows from the centre distance"
+    hold.nth(1).focus()
+    tab.page.keyboard.press("Enter")
+    tab.page.wait_for_selector('.inputs .holds button[aria-pressed="true"]:nth-of-type(2)')
+    _has(tab, "pair.centre_distance", "")
+    assert tab.field("pair.centre_distance").get_attribute("placeholder") == "97"
+    assert tab.page.inner_text(".inputs .holds small") == "The centre distance follows."
+    hold.nth(2).click()
+    tab.page.wait_for_selector('.inputs .holds button[aria-pressed="true"]:nth-of-type(3)')
+    tab.field("pinion.teeth").fill("25")
+    _has(tab, "wheel.teeth", "51")
+    tab.page.keyboard.press("Escape")
+    for key, value in (("wheel.teeth", "43"), ("pair.centre_distance", "97")):
+        tab.page.get_by_role("button", name="undo").click()
+        _has(tab, key, value)

@@ -95,7 +95,7 @@ def test_a_link_that_makes_no_gears_shows_none(tab: Tab, text: str) -> None:
     own = [
         field for field in tab.page.eval_on_selector_all(".inputs .field input", "all => all.map(each => each.value)") if field
     ]
-    assert own == {"[pair]": ["2"], "[plane": ["3", "24"]}.get(text[:6], [])
+    assert own == {"[pair]": ["2"], "[plane": ["24", "3"]}.get(text[:6], [])
 
 
 def test_a_comment_survives_its_value(tab: Tab) -> None:
