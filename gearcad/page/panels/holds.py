@@ -25,7 +25,7 @@ class HoldSwitches:
         self._ratio_of = ""
 
     def followers(self, key: str, text: str) -> dict[str, str]:
-        """Return the teeth that follow from what is typed into the field of a key, by their keys; none unless a ratio is held."""
+        """Return the teeth that follow from what is typed for a key, by their keys; none unless a ratio is held."""
         if self._ratio is None or not _is_whole(text):
             return {}
         return {each: str(count) for each, count in self._ratio.followers(key, int(text)).items()}
