@@ -377,7 +377,7 @@ STRENGTH_FIGURES = {
     "permissible_torque": Symbol("T_1", "N·m", "ISO 6336-1", "torque on the pinion with the required safeties"),
     "life": Symbol("", "h", "ISO 6336-6", "life at the required safeties; empty without end"),
     "life_infinite": Symbol("", "", "ISO 6336-6", "whether that is without end"),
-    **_LOAD_FACTORS,
+    **{key: symbol for key, symbol in STRENGTH_FACTORS.items() if key not in ("K_A", "K_gamma")},  # which are inputs
     **{key: STRENGTH[key] for key in ("sigma_H", "sigma_HG", "sigma_F", "sigma_FG")},
 }
 """Symbols of a rating in a table of results."""

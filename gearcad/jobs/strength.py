@@ -17,7 +17,7 @@ from gearcad.core.errors import ParameterError, SolverError, require_whole
 from gearcad.core.quantities import with_assumed
 from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Expected, Progress, one_thread
-from gearcad.core.symbols import STIFFNESS, STRENGTH_FACTORS, STRENGTH_FIGURES
+from gearcad.core.symbols import STIFFNESS, STRENGTH_FIGURES
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 from gearcad.geometry import GearPair
@@ -133,7 +133,7 @@ _VERDICT = ("passed", "strength")
 def rate_columns(document: Mapping[str, Any]) -> JsonObject:
     """Return the figures of a rate.json for one line of a table.
 
-    They are the verdict, safeties of each gear and the least, torque, life, scuffing, load factors and stresses. Of a planetary
+    They are the verdict, safeties of each gear and the least, torque, life, scuffing, factors and stresses. Of a planetary
     train they are the verdict, the least safeties and the life of all its meshes. A life without end is no number: it has a
     column.
     """
@@ -148,7 +148,7 @@ def rate_columns(document: Mapping[str, Any]) -> JsonObject:
         **_least_of(document),
         "S_int": safety["scuffing"]["integral"],
         "S_B": safety["scuffing"]["flash"],
-        **{symbol: document["factors"].get(symbol) for symbol in STRENGTH_FIGURES if symbol in STRENGTH_FACTORS},
+        **{symbol: factor for symbol, factor in document["factors"].items() if symbol in STRENGTH_FIGURES},
         **{symbol: stress for symbol, stress in document["stresses"].items() if symbol in STRENGTH_FIGURES},
         **warnings,
     }

@@ -25,6 +25,7 @@ from gearcad.designs.design import Design, files_only_in, tables_of_text
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.reader import design_from_tables
 from gearcad.jobs.job import Job
+from gearcad.solids import Format
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,19 +134,14 @@ ANALYSES = {
 }
 """Jobs that solve, in the order in which users need them."""
 
-DOWNLOADS = {
-    "step": RunKind(job=_build("step"), taken="*.step"),
-    "stl": RunKind(job=_build("stl"), taken="*.stl"),
-    "3mf": RunKind(job=_build("3mf"), taken="*.3mf"),
-    "glb": RunKind(job=_build("glb"), taken="*.glb"),
-    "dxf": RunKind(job=_build("dxf"), taken="*.dxf"),
-    "csv": RunKind(job=_build("csv"), taken="*.csv"),
+DOWNLOADS: dict[str, RunKind] = {
+    **{each.value: RunKind(job=_build(each.value), taken=f"*.{each.value}") for each in Format if each is not Format.PNG},
     "drawing-pdf": RunKind(job=_draw("pdf"), taken="*.pdf"),
     "drawing-dxf": RunKind(job=_draw("dxf"), taken="*.dxf"),
     "drawing-svg": RunKind(job=_draw("svg"), taken="*.svg"),
     "data": RunKind(job=_data, taken="data.json"),
 }
-"""Kinds of runs that make files for download."""
+"""Kinds of runs that make files for download: every format of solids, whose pictures the page has already, and drawings."""
 
 RUNS = ANALYSES | DOWNLOADS
 

@@ -185,7 +185,7 @@ def test_a_spec_is_sent_from_batch_to_build(tmp_path: Path) -> None:
 
 def test_build_refuses_unknown_formats_before_anything_is_written(tmp_path: Path) -> None:
     result = run("build", str(starter(tmp_path)), "--format", "step,iges", status=2)
-    assert result.stderr.startswith("Error: format = 'iges': must be one of 'step', 'stl', '3mf', 'glb', 'png', 'dxf', 'csv'")
+    assert result.stderr.startswith("Error: format = 'iges': must be one of 'step', 'stl', ")
     assert not Path("output").exists()
 
 

@@ -11,8 +11,11 @@ from support.page_server import awaited
 
 from gearcad.designs.reader import starter_text
 from gearcad.page.panels.runs import changes_between, figures_beside, verb_of
+from gearcad.page.panels.spec import _names
+from gearcad.page.run_process import DOWNLOADS
 from gearcad.page.runs import Runs, RunState
 from gearcad.page.words import PageLanguage, PageWords
+from gearcad.solids import Format
 
 pytest.importorskip("nicegui")
 pytest.importorskip("httpx")
@@ -103,3 +106,10 @@ def test_files_are_taken_along_under_the_name_of_the_design(runs: Runs, client: 
     assert several.headers["content-disposition"] == 'attachment; filename="reducer-21-43-rate.zip"'
     with zipfile.ZipFile(BytesIO(several.content)) as archive:
         assert archive.namelist() == ["rate.json", "rate.html"]
+
+
+def test_every_format_of_solids_can_be_downloaded_under_a_name() -> None:
+    assert {"step", "stl", "3mf", "glb", "dxf", "csv"} <= DOWNLOADS.keys()
+    assert {each.value for each in Format} - DOWNLOADS.keys() == {"png"}, "the page has pictures"
+    assert DOWNLOADS.keys() <= _names(ENGLISH).keys()
+    assert (_names(ENGLISH)["3mf"], _names(ENGLISH)["dxf"]) == ("3MF", "contours (DXF)")

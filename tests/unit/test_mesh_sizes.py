@@ -31,7 +31,7 @@ from gearcad.meshing.bodies.quality import measure_side, measure_whole
 from gearcad.meshing.bodies.section_mesh import mesh_section
 from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.fem import Element
-from gearcad.meshing.outline import MeshSizes
+from gearcad.meshing.outline import MeshSizes, held_radius
 from gearcad.solids.exact.inertia import mass_properties
 
 GEARS = {
@@ -306,6 +306,15 @@ def test_straight_edges_are_off_by_their_bulge() -> None:
     bulges = lengths**2 / 8 / np.sqrt(middles**2 - gear.base_diameter**2 / 4)
     found = deviations(only(mesh, "left_flank"), gear)
     assert found.between == pytest.approx(1000 * bulges.max(), rel=0.02) and found.worst == "left_flank_0"
+
+
+@pytest.mark.parametrize("teeth", [8, 20, 29, 47])
+def test_of_the_two_alike_sides_of_a_symmetric_tooth_the_first_is_named_whatever_rounding_says(teeth: int) -> None:
+    gear = Gear(teeth=teeth, normal_module=2, face_width=10, profile_shift=0.3)
+    mesh = mesh_section(gear, teeth=1, held_radius=held_radius(gear), sizes=MeshSizes(), element=Element.QUAD8)
+    found = deviations(mesh, gear)
+    part = found.worst.partition("_")[2]
+    assert found.worst == next(name for name in mesh.sides if name.endswith(part)), "both sides are off by the same"
 
 
 @pytest.mark.parametrize(

@@ -12,9 +12,9 @@ from gearcad.core.quantities import symbols_of
 from gearcad.core.records import PerGear, Role
 from gearcad.core.symbols import STRENGTH, STRENGTH_FACTORS, STRENGTH_FIGURES, Symbol
 from gearcad.designs import read_spec
+from gearcad.jobs.strength import rate_columns
 from gearcad.material import Material
 from gearcad.rating import RatingOptions
-from gearcad.rating.load_factors import LOAD_FACTORS
 from gearcad.rating.strength import StrengthRating, task
 from gearcad.rating.strength.duty import Resistance
 from gearcad.rating.strength.permissible import flank_resistance
@@ -60,7 +60,10 @@ def test_every_factor_has_a_symbol(rating: StrengthRating) -> None:
     assert found == list(rating.to_dict()["factors"])
     assert sorted(found) == sorted(STRENGTH_FACTORS)
     inputs = {"K_A", "K_gamma"}  # which have columns of their own
-    assert set(LOAD_FACTORS) - inputs == {symbol for symbol in STRENGTH_FIGURES if symbol in STRENGTH_FACTORS}
+    assert set(STRENGTH_FACTORS) - inputs == {symbol for symbol in STRENGTH_FIGURES if symbol in STRENGTH_FACTORS}
+    columns = rate_columns(rating.to_dict())
+    assert set(STRENGTH_FACTORS) - inputs <= columns.keys()
+    assert columns["Z_L"] == rating.to_dict()["factors"]["Z_L"] and columns["Z_L"].keys() == {"pinion", "wheel"}
 
 
 def test_each_part_cites_its_own_standard(rating: StrengthRating) -> None:

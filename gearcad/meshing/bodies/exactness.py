@@ -113,6 +113,10 @@ class Deviations:
         return {"nodes": self.nodes, "between_nodes": self.between, "worst": self.worst}
 
 
+_ALIKE = 1e-6
+"""Relative difference by rounding of the deviations of both sides of a symmetric tooth, of which the first is named."""
+
+
 def deviations(mesh: ElementMesh, gear: Gear) -> Deviations:
     """Measure the flanks and fillets of a gear's section, which is that at mid face width, or body; distances are normal ones.
 
@@ -123,8 +127,9 @@ def deviations(mesh: ElementMesh, gear: Gear) -> Deviations:
     for name, surface in _surfaces(mesh, gear, solid=solid):
         nodes = max(nodes, float(surface.distances(mesh.points[mesh.nodes(name)]).max()))
         off = 1000 * max(float(surface.distances(samples).max()) for samples in face_samples(mesh, name))
-        if off > between or not worst:
-            between, worst = off, name
+        if off > between * (1 + _ALIKE) or not worst:
+            worst = name
+        between = max(between, off)
     return Deviations(nodes, between, worst)
 
 

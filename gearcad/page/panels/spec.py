@@ -21,6 +21,7 @@ from gearcad.page.run_process import DOWNLOADS
 from gearcad.page.runs import Run, Runs, RunState, await_files
 from gearcad.page.words import PageWords
 from gearcad.page.workbench import BesideDesign, DesignStatus, Workbench
+from gearcad.solids import Format
 
 
 class InputsPanel:
@@ -349,10 +350,7 @@ def _stem(name: str) -> str:
 
 def _names(words: PageWords) -> dict[str, str]:
     return {
-        "step": "STEP",
-        "stl": "STL",
-        "3mf": "3MF",
-        "glb": "GLB",
+        **{each.value: each.value.upper() for each in Format},
         "dxf": words["contours (DXF)"],
         "csv": words["points (CSV)"],
         "drawing-pdf": words["drawing (PDF)"],
