@@ -12,6 +12,7 @@ from typing import Any, ClassVar, NamedTuple, TypeVar
 
 from nicegui import app, background_tasks, run, ui
 
+from gearcad.core.units import UnitSystem
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
 from gearcad.page.components.elements import BarView
@@ -335,11 +336,12 @@ class Session:
 
     @classmethod
     def of(cls, text: str, name: str, folder: Path) -> Session:
-        """Return the page for the browser's request, with the workbench of the page in the other language that it replaces, if
-        any.
+        """Return the page for the browser's request, with the workbench of the page that it replaces, in another language or
+        other units, if any.
         """
         query, headers = ui.context.client.request.query_params, ui.context.client.request.headers
-        words = PageWords.of(language_of(query.get("lang"), headers.get("accept-language", "")))
+        units = UnitSystem.INCH if query.get("units") == UnitSystem.INCH.value else UnitSystem.METRIC
+        words = PageWords.of(language_of(query.get("lang"), headers.get("accept-language", "")), units)
         if (found := take_over(query.get("from", ""))) is not None:
             return cls(found.beside, words, found.runs)
         linked = BesideDesign(linked_bench(query.get(DESIGN, ""), text, name, folder))
@@ -357,10 +359,10 @@ class Session:
         """Note that a browser shows this page."""
         self._has_browser = True
 
-    def speak(self, language: PageLanguage) -> None:
-        """Open the page in another language, with this workbench."""
+    def reopen(self, language: PageLanguage, units: UnitSystem) -> None:
+        """Open the page in another language or other units, with this workbench."""
         key = hand_over(SessionHandover(self.beside, self._runs.hand_over()))
-        self._files.leave_for(f"/?lang={language.value}&from={key}")
+        self._files.leave_for(f"/?lang={language.value}&units={units.value}&from={key}")
 
     def _bar(self) -> None:
         words = self.words
@@ -370,11 +372,18 @@ class Session:
         self._redo = self._button("redo", words["redo"], forth=True)
         BesidePanel(self.beside, words, self.kept)
         ui.element("div").classes("rest")
+        titles = {UnitSystem.METRIC: words["millimetres and newtons"], UnitSystem.INCH: words["inches and pounds"]}
+        for units, title in titles.items():
+            self._choice(units.value, title, words.language, units)
         for language in PageLanguage:
-            spoken = ui.button(language.value, on_click=lambda _, language=language: self.speak(language))
-            spoken.props["title"] = spoken.props["aria-label"] = language.endonym
-            spoken.props("flat dense").classes("language").set_enabled(language is not words.language)
+            self._choice(language.value.upper(), language.endonym, language, words.units)
         BarView(words)
+
+    def _choice(self, text: str, title: str, language: PageLanguage, units: UnitSystem) -> None:
+        """Make a button that opens the page in a language and in units, unless these are its own."""
+        button = ui.button(text, on_click=lambda: self.reopen(language, units)).props("flat dense no-caps").classes("language")
+        button.props["title"] = button.props["aria-label"] = title
+        button.set_enabled((language, units) != (self.words.language, self.words.units))
 
     def _button(self, icon: str, words: str, *, forth: bool) -> ui.button:
         """One that undoes or redoes, and says so."""
@@ -384,7 +393,7 @@ class Session:
 
     def typed(self, key: str, text: str, step: int) -> None:
         """Write the text that was typed into the field of a key, as part of a step, and what follows from it."""
-        self.bench.change({key: text}, step, self._inputs.holds.followers(key, text))
+        self.bench.change({key: self._inputs.stored(key, text)}, step, self._inputs.holds.followers(key, text))
         self.follow()
 
     def hold(self, what: str) -> None:

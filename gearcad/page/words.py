@@ -11,6 +11,7 @@ from functools import cache
 from typing import Any
 
 from gearcad.core.runtime import templates
+from gearcad.core.units import UnitSystem
 
 __all__ = ["PageLanguage", "PageWords", "language_of"]
 
@@ -46,7 +47,7 @@ class PageWords:
 
     Fields and derived quantities are found by the words that the schema and `symbols` have for them. What has no other words
     stays English, as messages do: of these it has what `notices` are about, by their codes, and what is `permitted`, by
-    patterns of the ends of lines.
+    patterns of the ends of lines. `units` are those in which numbers are shown and typed.
     """
 
     language: PageLanguage
@@ -54,9 +55,10 @@ class PageWords:
     parts: tuple[str, ...] = field(default=(), repr=False)
     notices: Mapping[str, str] = field(default_factory=dict, repr=False)
     permitted: Mapping[str, str] = field(default_factory=dict, repr=False)
+    units: UnitSystem = UnitSystem.METRIC
 
     @classmethod
-    def of(cls, language: PageLanguage) -> PageWords:
+    def of(cls, language: PageLanguage, units: UnitSystem = UnitSystem.METRIC) -> PageWords:
         """Return the words of a language from the shipped template."""
         tables = _tables()
         code = language.value
@@ -66,6 +68,7 @@ class PageWords:
             tuple(tables[_PARTS].get(code, "").split()),
             tables[_NOTICES].get(code, {}),
             tables[_PERMITTED].get(code, {}),
+            units,
         )
 
     def __getitem__(self, english: str) -> str:

@@ -9,6 +9,7 @@ import pytest
 from support.specs import TEMPLATES
 
 from gearcad.core.records import Notice
+from gearcad.core.units import UnitSystem
 from gearcad.designs.design import Design
 from gearcad.designs.reader import design_from_tables, read_spec
 from gearcad.jobs.strength import Rate
@@ -18,6 +19,7 @@ from gearcad.page.panels.sheet_content import (
     called,
     cells_of,
     changed_cells,
+    figures_in,
     quantity_in,
     shown_figures,
     shown_notices,
@@ -243,3 +245,32 @@ def test_a_verdict_is_coloured_and_stands_beside_that_of_a_kept_design() -> None
     shown = shown_figures(failed, PageWords.of(PageLanguage.ENGLISH), kept=passed)
     assert shown["title"].startswith("strength NOT passed")
     assert shown["beside"] == passed.title
+
+
+def test_values_in_inches_are_those_in_mm_and_words_and_modules_stay() -> None:
+    found = sheet_figures(starter("volvo-13-44"))
+    inches = figures_in(found, UnitSystem.INCH)
+    rows = shown_rows(shown_figures(inches, PageWords.of(PageLanguage.ENGLISH, UnitSystem.INCH)))
+    compared = 0
+    for place, cell in found.cells.items():
+        other, unit = inches.cells[place], rows[place[0]]["unit"]
+        if unit == "in":
+            assert isinstance(cell.value, float)
+            assert other.value == pytest.approx(cell.value / 25.4, rel=1e-15)
+            assert float(other.text) == pytest.approx(other.value, abs=1e-5)
+            compared += 1
+        elif not unit.startswith(("lb", "ks", "µin")):
+            assert other == cell
+    assert compared > 40
+    assert (rows["gear.normal_module"]["unit"], rows["gear.normal_module"]["cells"][0]["text"]) == ("mm", "2.5000")
+    assert rows["pair.centre_distance"]["cells"][0]["text"] == "3.14961"
+    assert rows["load.torque"]["cells"][0]["text"] == "1947"  # lbf·in of 220 N·m
+    assert figures_in(found, UnitSystem.METRIC) is found
+
+
+def test_stresses_and_forces_of_a_rating_in_inches() -> None:
+    found = strength_figures(starter("reducer-21-43"))
+    inches = figures_in(found, UnitSystem.INCH)
+    rows = shown_rows(shown_figures(inches, ENGLISH))
+    sigma = next(row for row in rows.values() if row["symbol"] == "σ_Hlim")
+    assert (sigma["unit"], sigma["cells"][0]["text"]) == ("ksi", "217.6")  # 1500 MPa

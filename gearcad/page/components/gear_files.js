@@ -105,6 +105,7 @@ export default {
       const query = kept.toString();
       this.link = link ? `${window.location.origin}${window.location.pathname}?${query}` : "";
       this.copied = false;
+      if (asked.get("units")) kept.set("units", asked.get("units")); // those of the reader
       kept.set("tab", this.tab); // not in the link: the steps of this tab are its own
       window.history.replaceState(window.history.state, "", window.location.pathname + `?${kept}`);
     },

@@ -37,6 +37,7 @@ const SpecField = {
         <button v-if="given !== undefined && !readonly" type="button" class="out" tabindex="-1" :title="form.words.out"
                 :aria-label="form.words.out + ': ' + field.words" @click="form.out(field.key)">×</button>
         <small v-if="field.number && given !== undefined && !isNumber && used && used !== given" class="used">{{ shown(used) }}</small>
+        <small v-if="beside" class="used"><gear-symbol :parts="beside" /></small>
       </span>
       <span v-if="!cell" class="unit">{{ field.unit }}</span>
       <datalist v-if="field.offered.length" :id="'of-' + field.key"><option v-for="word in field.offered" :key="word" :value="word" /></datalist>
@@ -44,7 +45,7 @@ const SpecField = {
     </div>`,
   components: { GearSymbol },
   // A cell stands in a row of its own quantity, over so many columns; why it follows from other inputs, if it does.
-  props: { form: Object, field: Object, given: null, used: null, draft: null, changed: Boolean, fault: String, said: String, readonly: Boolean, cell: Number, gear: String, why: String },
+  props: { form: Object, field: Object, given: null, used: null, draft: null, changed: Boolean, fault: String, said: String, readonly: Boolean, cell: Number, gear: String, why: String, beside: Array },
   computed: {
     isNumber() {
       return this.given !== undefined && !Number.isNaN(Number(this.given));
@@ -79,7 +80,7 @@ export default {
           <template v-for="(field, at) in row.fields" :key="at">
             <spec-field v-if="field" :form="me" :field="field" :given="given[field.key]" :used="used[field.key]" :cell="row.shared ? columns : 1"
                         :gear="row.shared ? '' : ranked.columns[at]" :draft="drafts[field.key]" :changed="isChanged(field)" :fault="faultAt(field.key)?.line ?? ''"
-                        :said="faultAt(field.key)?.said ?? ''" :readonly="readonly" :why="why[field.key] ?? ''" />
+                        :said="faultAt(field.key)?.said ?? ''" :readonly="readonly" :why="why[field.key] ?? ''" :beside="beside[field.key]" />
             <span v-else class="box" />
           </template>
           <span class="unit">{{ row.first.unit }}</span>
@@ -106,7 +107,7 @@ export default {
   props: { tables: Array, words: Object, dataStale: String },
   emits: ["typed", "step", "hold"],
   data() {
-    return { MOST, ranked: { columns: [], rows: [] }, holds: [], note: [], why: {}, wanted: "", drafts: {}, given: {}, used: {}, changed: [], faults: [], focused: null, readonly: false };
+    return { MOST, ranked: { columns: [], rows: [] }, holds: [], note: [], why: {}, beside: {}, wanted: "", drafts: {}, given: {}, used: {}, changed: [], faults: [], focused: null, readonly: false };
   },
   computed: {
     me() {

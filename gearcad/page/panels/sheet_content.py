@@ -7,8 +7,9 @@ import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gearcad.core.errors import GearcadError, InputError
+from gearcad.core.errors import GearcadError, InputError, format_number
 from gearcad.core.records import Notice
+from gearcad.core.units import ShownUnit, UnitSystem, shown_unit
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
 from gearcad.designs.planetary_designs import PlanetaryDesign
@@ -169,8 +170,7 @@ def _kept_text(cell: SheetCell, kept: SheetCell | None, words: PageWords) -> dic
 
 def _difference(cell: SheetCell, kept: SheetCell) -> str:
     """Return the difference of two cells with as many decimals as are shown; "" unless both are finite numbers."""
-    numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in (cell.value, kept.value))
-    if not numbers or not all(math.isfinite(each.value) for each in (cell, kept)):
+    if not all(map(_is_number, (cell.value, kept.value))) or not all(math.isfinite(each.value) for each in (cell, kept)):
         return ""
     decimals = max(len(each.text.partition(".")[2]) for each in (cell, kept))
     difference = cell.value - kept.value
@@ -256,6 +256,54 @@ def figures(sections: tuple[Section, ...], **others: Any) -> Figures:
     return Figures(sections, cells_of(sections), **others)
 
 
+def figures_in(found: Figures, system: UnitSystem) -> Figures:
+    """Return figures in other units than those of documents."""
+    if system is UnitSystem.METRIC:
+        return found
+    sections = tuple(_section_in(section, system) for section in found.sections)
+    return found._replace(sections=sections, cells=cells_of(sections))
+
+
+def _section_in(section: Section, system: UnitSystem) -> Section:
+    blocks = tuple(each._replace(rows=tuple(_row_in(row, system) for row in each.rows)) for each in section.blocks)
+    return section._replace(blocks=blocks)
+
+
+def _row_in(row: Row, system: UnitSystem) -> Row:
+    """Return a row in other units; texts keep their words."""
+    unit = shown_unit(system, row.symbol.unit, row.key)
+    if unit is None:
+        return row
+    values = tuple(unit.of(each) if _is_number(each) else each for each in row.values)
+    return row._replace(
+        symbol=row.symbol._replace(unit=unit.name),
+        values=values,
+        texts=tuple(_text_in(text, unit) for text in row.texts),
+    )
+
+
+_PLAIN_NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+_FIXED_DECIMALS = 4
+"""Decimals of numbers of a data sheet, which are all in line; other numbers have as many significant digits."""
+
+
+def _text_in(text: str, unit: ShownUnit) -> str:
+    """Return the text of numbers in another unit: in line where they were, and no finer than they were."""
+    finer = max(round(math.log10(unit.size)), -_FIXED_DECIMALS)
+
+    def other(found: re.Match[str]) -> str:
+        number, (_, _, decimals) = unit.of(float(found[0])), found[0].partition(".")
+        if len(decimals) == _FIXED_DECIMALS and decimals.isdecimal():
+            return f"{round(number, _FIXED_DECIMALS + finer) + 0.0:.{_FIXED_DECIMALS + finer}f}"
+        return format_number(float(f"{number:.{_FIXED_DECIMALS}g}"))
+
+    return _PLAIN_NUMBER.sub(other, text)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
 class FiguresPanel(Panel[Figures]):
     """Tables of figures: those that the last step changed beside what they were; below them those of a kept design."""
 
@@ -284,6 +332,7 @@ class FiguresPanel(Panel[Figures]):
         self._kept: Figures | None = None
 
     def show(self, found: Figures) -> None:
+        found = figures_in(found, self._words.units)
         if found.cells != self._former:
             self._changed = changed_cells(found.cells, self._former)
             self._former = found.cells
@@ -294,7 +343,7 @@ class FiguresPanel(Panel[Figures]):
         self._view.show(shown_figures(Figures((), {}), self._words))
 
     def keep(self, found: Figures | None) -> None:
-        self._kept = found
+        self._kept = None if found is None else figures_in(found, self._words.units)
 
     def wait(self) -> None:
         self._view.wait()

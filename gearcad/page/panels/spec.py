@@ -11,6 +11,9 @@ from typing import Any
 from nicegui import background_tasks, ui
 
 from gearcad.core.errors import GearcadError, printable
+from gearcad.core.units import ShownUnit, UnitSystem, shown_unit
+from gearcad.designs.design import Design
+from gearcad.designs.keys import GEAR_FIELDS
 from gearcad.designs.reader import NO_DESIGNS, kind_of, starter_text, starters
 from gearcad.page.components.elements import FilesView, InputsView, TextView
 from gearcad.page.fields import fields_of, given_texts, ranked_fields, used_texts
@@ -56,6 +59,7 @@ class InputsPanel:
         self._layout: Any = None
         self._ranked: dict[str, Any] = {}
         self._keys: frozenset[str] = frozenset()
+        self._units: dict[str, ShownUnit] = {}
 
     def follow(self, reveal: bool = False) -> None:
         """Show what the text says, what the last good design uses where it says nothing, and what is wrong.
@@ -76,8 +80,29 @@ class InputsPanel:
         used = {key: text for key, text in all_used.items() if key in self._keys}
         changed = sorted(key for key in given.keys() | former.keys() if given.get(key) != former.get(key))
         ranked = self._first_inputs(ranked_fields(design, bench.tables))
-        own = {"given": given, "used": used, "faults": faults, "changed": changed, "reveal": reveal}
-        self._view.show(own | ranked | self.holds.state())
+        own = {"given": self._shown(given), "used": self._shown(used), "faults": faults, "changed": changed, "reveal": reveal}
+        self._view.show(own | ranked | self.holds.state() | {"beside": self._pitches(design)})
+
+    def stored(self, key: str, text: str) -> str:
+        """Return what was typed for a key in the units of specs. The text that is shown means the value behind it."""
+        unit = self._units.get(key)
+        if unit is None:
+            return text
+        return unit.stored(text, tuple(given_texts(each).get(key, "") for each in (self._bench.tables, self._bench.former)))
+
+    def _shown(self, texts: Mapping[str, str]) -> dict[str, str]:
+        """Return texts of values by their keys, in the units of the page."""
+        return {key: self._units[key].shown(text) if key in self._units else text for key, text in texts.items()}
+
+    def _pitches(self, design: Design | None) -> dict[str, Any]:
+        """Return what stands beside modules in inches, by the keys of these: the normal diametral pitch of the first gear."""
+        gear = next(iter(design.gears.values()), None) if design is not None else None
+        if self._words.units is UnitSystem.METRIC or gear is None:
+            return {}
+        pitch = GEAR_FIELDS["normal_diametral_pitch"].symbol
+        text = self._words.number(f"{gear.normal_diametral_pitch:.5g}")
+        parts = [*pitch.parts, (f" = {text} {pitch.unit}", "")]
+        return {key: parts for row in self._ranked["rows"] for key in row["keys"] if key.endswith(".normal_module")}
 
     def _first_inputs(self, ranked: dict[str, Any]) -> dict[str, Any]:
         """Return the part of the state that says which inputs come first, if these are other ones than before."""
@@ -90,6 +115,7 @@ class InputsPanel:
     def _have(self, tables: list[dict[str, Any]]) -> None:
         """Make the fields, in the language of the page."""
         words = self._words
+        self._units.clear()
         self._keys = frozenset(field["key"] for table in tables for group in table["groups"] for field in group["fields"])
         for table in tables:
             table["title"] = words[table["title"]]
@@ -98,7 +124,16 @@ class InputsPanel:
                 group["title"] = ": ".join(words[title] for title in group.pop("titles"))
                 for field in group["fields"]:
                     field["words"] = words.divided(words[field["words"]])
+                    self._convert(field)
         self._view.have(tables)
+
+    def _convert(self, field: dict[str, Any]) -> None:
+        """Let a field have unit and bounds in the units of the page."""
+        unit = shown_unit(self._words.units, field["unit"], field["key"])
+        if unit is not None:
+            self._units[field["key"]] = unit
+            bounds = {name: field[name] for name in ("least", "most", "negative") if field[name] is not None}
+            field |= {"unit": unit.name, **{name: float(f"{unit.of(bound):.6g}") for name, bound in bounds.items()}}
 
 
 class TextPanel:

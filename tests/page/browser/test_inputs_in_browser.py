@@ -295,3 +295,29 @@ def test_switches_hold_by_the_keyboard_and_say_what_follows(tab: Any) -> None:
     for key, value in (("wheel.teeth", "43"), ("pair.centre_distance", "97")):
         tab.page.get_by_role("button", name="undo").click()
         _has(tab, key, value)
+
+
+def test_inches_are_shown_and_typed_and_the_spec_stays_in_mm(tab: Any) -> None:
+    tab.page.get_by_role("button", name="inches and pounds").click()
+    tab.page.wait_for_function("document.querySelector('[data-key=\"pair.centre_distance\"] input')?.value === '3.818898'")
+    tab.page.wait_for_selector(".scene[data-shown]")
+    assert tab.page.inner_text('.row:has([data-key="pair.centre_distance"]) > .unit') == "in"
+    assert "Pnd = 8.4667 1/inch" in tab.page.inner_text(".inputs .ranked").replace("\n", "")
+    tab.field("pair.face_width")  # opened
+    tab.field("pinion.face_width").fill("1.25")
+    tab.page.wait_for_selector('[data-key="pinion.face_width"].changed')
+    distance = tab.field("pair.centre_distance")
+    for _ in range(3):
+        distance.fill("")
+        distance.fill("3.818898")  # as it was shown
+        tab.page.keyboard.press("Tab")
+    tab.page.click(".left .q-tab:nth-child(2)")
+    tab.page.wait_for_function("document.querySelector('.cm-content')?.textContent.includes('face_width = 31.75')")
+    assert "centre_distance = 97.0" in tab.page.inner_text(".cm-content")
+    tab.page.wait_for_function("window.location.search.includes('units=in') && window.location.search.includes('tab=')")
+    tab.page.wait_for_timeout(PAUSE)
+    tab.page.reload()
+    tab.page.wait_for_selector(".scene[data-shown]")
+    _has(tab, "pinion.face_width", "1.25")
+    tab.page.get_by_role("button", name="millimetres and newtons").click()
+    _has(tab, "pinion.face_width", "31.75")

@@ -1,0 +1,124 @@
+"""Units in which numbers are shown and typed: those of the documents, or inches, pounds and what is made of them.
+
+All that is stored is in the units of the documents. This is the only table of other units: each has a name, and its size, an
+exact fraction, in a unit of the documents.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from enum import StrEnum
+from fractions import Fraction
+from functools import lru_cache
+from types import MappingProxyType
+from typing import NamedTuple
+
+__all__ = ["ShownUnit", "UnitSystem", "shown_unit"]
+
+_INCH = Fraction("25.4")
+"""mm, exact (ISO 80000-3)."""
+
+_POUND, _POUND_FORCE = Fraction("0.45359237"), Fraction("4.4482216152605")
+"""kg and N, exact (ISO 80000-4, Annex)."""
+
+_MILLI = Fraction(1, 1000)
+
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,3})?")
+
+_DIGITS, _SHORT_DIGITS = 12, 7
+"""Significant digits of numbers that somebody may have typed, and of all others."""
+
+
+class UnitSystem(StrEnum):
+    """Units of what is shown and typed, by the unit of length."""
+
+    METRIC = "mm"
+    INCH = "in"
+
+
+class ShownUnit(NamedTuple):
+    """A unit by its name, and its size in the unit of the documents."""
+
+    name: str
+    size: Fraction
+
+    def of(self, stored: float) -> float:
+        """Return a number of the documents in this unit."""
+        return float(Fraction(stored) / self.size) if math.isfinite(stored) else stored
+
+    def shown(self, stored: str) -> str:
+        """Return the text of a number, or of several, of the documents in this unit; other texts as they are.
+
+        What was typed in this unit has its digits again; all other numbers have seven digits.
+        """
+        return " ".join(_shown(each, self.size) for each in stored.split(" "))
+
+    def stored(self, shown: str, former: tuple[str, ...] = ()) -> str:
+        """Return what was typed in this unit as text in the unit of the documents; what is no number as it is.
+
+        What `former` texts of the documents are shown as means these, with all their digits.
+        """
+        plain = shown.strip().replace("−", "-").replace(",", ".")
+        same = next((each for each in former if each and self.shown(each) == plain), None)
+        if same is not None:
+            return same
+        numbers = plain.split()
+        if not numbers or not all(map(_NUMBER.fullmatch, numbers)):
+            return shown
+        return " ".join(_plain(float(Fraction(each) * self.size)) for each in numbers)
+
+
+@lru_cache(maxsize=4096)
+def _shown(stored: str, size: Fraction) -> str:
+    if not _NUMBER.fullmatch(stored):
+        return stored
+    exact = Fraction(stored) / size
+    text = f"{float(exact):.{_DIGITS}g}"
+    if float(Fraction(text) * size) != float(stored):
+        text = f"{float(exact):.{_SHORT_DIGITS}g}"
+    return _plain(float(text))
+
+
+def _plain(number: float) -> str:
+    return repr(number + 0.0).removesuffix(".0")
+
+
+_INCHES = MappingProxyType(
+    {
+        unit: ShownUnit(name, size)
+        for unit, name, size in (
+            ("mm", "in", _INCH),
+            ("µm", "µin", _INCH * _MILLI),
+            ("N", "lbf", _POUND_FORCE),
+            ("N·m", "lbf·in", _POUND_FORCE * _INCH * _MILLI),
+            ("MPa", "ksi", 1000 * _POUND_FORCE / _INCH**2),
+            ("N/mm", "lbf/in", _POUND_FORCE / _INCH),
+            ("N/µm", "lbf/µin", _POUND_FORCE / (_INCH * _MILLI)),
+            ("N/(mm·µm)", "lbf/(in·µin)", _POUND_FORCE / (_INCH**2 * _MILLI)),
+            ("mm·µm/N", "in·µin/lbf", _INCH**2 * _MILLI / _POUND_FORCE),
+            ("m/s", "ft/s", 12 * _INCH * _MILLI),
+            ("kg", "lb", _POUND),
+            ("kg/mm", "lb/in", _POUND / _INCH),
+            ("kg/m³", "lb/in³", _POUND / (_INCH * _MILLI) ** 3),
+            ("kg·m²", "lb·in²", _POUND * (_INCH * _MILLI) ** 2),
+            ("N·m/rad", "lbf·in/rad", _POUND_FORCE * _INCH * _MILLI),
+            ("N·s/m", "lbf·s/in", _POUND_FORCE / (_INCH * _MILLI)),
+            ("N·m·s/rad", "lbf·in·s/rad", _POUND_FORCE * _INCH * _MILLI),
+        )
+    }
+)
+"""Units in place of those of the documents. Temperatures, viscosities (mm²/s is cSt) and modules, which are mm, stay."""
+
+_MODULES = ("normal_module", "transverse_module")
+"""Quantities in mm whose counterpart is a pitch of its own, P_nd = 25.4 mm/m_n."""
+
+
+def shown_unit(system: UnitSystem, unit: str, key: str = "") -> ShownUnit | None:
+    """Return the unit in which a quantity is shown that documents have in `unit`; None where that is the same.
+
+    `key` is the quantity's own, such as "gear.transverse_module".
+    """
+    if system is UnitSystem.METRIC or key.rpartition(".")[2] in _MODULES:
+        return None
+    return _INCHES.get(unit)
