@@ -40,6 +40,7 @@ __all__ = [
     "STRENGTH_FIGURES",
     "TOLERANCES",
     "Symbol",
+    "parts_of",
 ]
 
 
@@ -60,8 +61,13 @@ class Symbol(NamedTuple):
     @property
     def parts(self) -> tuple[tuple[str, str], ...]:
         """The symbol in pieces, each a text and the index behind it: F_t K_A/b is ("F", "t"), (" K", "A"), ("/b", "")."""
-        pieces = [*_INDEX.split(self.symbol), ""]
-        return tuple(each for each in zip(pieces[::2], pieces[1::2], strict=True) if any(each))
+        return parts_of(self.symbol)
+
+
+def parts_of(text: str) -> tuple[tuple[str, str], ...]:
+    """Return words with symbols in them in pieces, each a text and the index behind it."""
+    pieces = [*_INDEX.split(text), ""]
+    return tuple(each for each in zip(pieces[::2], pieces[1::2], strict=True) if any(each))
 
 
 GEAR = {

@@ -9,6 +9,7 @@ import pytest
 from support.specs import TEMPLATES
 
 from gearcad.core.records import Notice
+from gearcad.core.symbols import parts_of
 from gearcad.core.units import UnitSystem
 from gearcad.designs.design import Design
 from gearcad.designs.reader import design_from_tables, read_spec
@@ -274,3 +275,30 @@ def test_stresses_and_forces_of_a_rating_in_inches() -> None:
     rows = shown_rows(shown_figures(inches, ENGLISH))
     sigma = next(row for row in rows.values() if row["symbol"] == "σ_Hlim")
     assert (sigma["unit"], sigma["cells"][0]["text"]) == ("ksi", "217.6")  # 1500 MPa
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("m_n", (("m", "n"),)),
+        ("F_t K_A/b", (("F", "t"), (" K", "A"), ("/b", ""))),
+        ("h_aP*", (("h", "aP"), ("*", ""))),
+        ("σ_Hlim", (("σ", "Hlim"),)),
+        ("Θ_S - Θ_B", (("Θ", "S"), (" - Θ", "B"))),
+        ("T1A", (("T1A", ""),)),
+        ("", ()),
+    ],
+)
+def test_indices_of_symbols_stand_apart(text: str, parts: tuple[tuple[str, str], ...]) -> None:
+    assert parts_of(text) == parts
+
+
+def test_no_symbol_of_a_sheet_has_an_underscore_left_and_clauses_name_their_standard() -> None:
+    for found in (sheet_figures(starter("volvo-13-44")), strength_figures(starter("reducer-21-43"))):
+        for row in shown_rows(shown_figures(found, GERMAN)).values():
+            assert not any("_" in text + index for parts in row["parts"] for text, index in parts), row
+            assert "".join(f"{text}_{index}" if index else text for text, index in row["parts"][1]) == row["symbol"]
+    rows = shown_rows(shown_figures(sheet_figures(starter("volvo-13-44")), GERMAN))
+    assert rows["pair.transverse_contact_ratio"]["source"] == "ISO 21771, Abschnitt 5.4"
+    assert rows["gear.span_measurement"]["source"] == "ISO 21771, Annex A"
+    assert rows["gear.thickness_limits.allowance_upper"]["source"] == "DIN 3967"

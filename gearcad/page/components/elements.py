@@ -131,7 +131,7 @@ class TextView(_Typed, component="spec_text.js", esm={"gear-changes": "changes"}
         self._props["label"] = label
 
 
-class InputsView(_Typed, component="spec_inputs.js", esm={"gear-changes": "changes"}):
+class InputsView(_Typed, component="spec_inputs.js", esm={"gear-changes": "changes", "gear-symbols": "symbols"}):
     """Fields of a spec: calls `changed(key, text, step)` with what is typed, `hold(what)` for a switch, and `step(forth)` for
     keys that undo or redo.
 
@@ -191,7 +191,7 @@ class RollView(Element, component="gear_roll.js"):
         self.run_method("show", pitch)
 
 
-class RunsView(Element, component="gear_runs.js"):
+class RunsView(Element, component="gear_runs.js", esm={"gear-symbols": "symbols"}):
     """Calls `start(kind)` and `cancel(number)`; `words` are the page's own."""
 
     def __init__(self, start: Callable[[str], None], cancel: Callable[[int], None], words: dict[str, str], limits: str) -> None:
@@ -239,7 +239,7 @@ class SharesView(Element, component="gear_shares.js"):
         self.run_method("wait")
 
 
-class SheetView(Element, component="gear_sheet.js"):
+class SheetView(Element, component="gear_sheet.js", esm={"gear-symbols": "symbols"}):
     """Shows what `gearcad.page.panels.sheet_content` makes; `words` are the page's own, in its language.
 
     `store` is the name under which the browser keeps what is folded and what is pinned.

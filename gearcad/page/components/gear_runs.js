@@ -1,5 +1,8 @@
 // What can be run on the design, how far it is, and the figures of runs beside each other. Nothing is computed here.
+import { GearSymbol } from "gear-symbols";
+
 export default {
+  components: { GearSymbol },
   template: `
     <section class="runs" :aria-label="words.title">
       <div class="run-kinds">
@@ -39,7 +42,7 @@ export default {
           </tr></thead>
           <tbody>
             <tr v-for="row in rowsOf(table)" :key="row.key" :class="{ differs: row.differs }" :title="row.words + ' (' + row.key + ')'">
-              <th scope="row"><i v-if="row.symbol">{{ row.symbol }}</i>{{ row.words }}</th><td class="unit">{{ row.unit }}</td>
+              <th scope="row"><i v-if="row.symbol.length"><gear-symbol :parts="row.symbol" /></i>{{ row.words }}</th><td class="unit">{{ row.unit }}</td>
               <td v-for="(cell, at) in row.cells" :key="at">{{ cell }}</td>
             </tr>
           </tbody>

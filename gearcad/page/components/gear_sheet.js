@@ -1,5 +1,8 @@
 // Blocks of quantities as tables: words, symbol, unit, values. What changed by the last step stands beside what it was, and what a
-// kept design has in lines below. Rows are walked by the arrow keys; Enter puts one on top, or takes it from there.
+// kept design has in lines below. Rows are walked by the arrow keys; Enter puts one on top, or takes it from there. Values of gears
+// stand under their gear, those of the mesh across all of them.
+import { GearSymbol } from "gear-symbols";
+
 const NUMBER = /^([^\p{L}\d]*\d+)([.,]\d+)?(e[+-]?\d+)?$/u;
 const FEW = 3;
 const LONG = 6; // characters of a unit
@@ -17,20 +20,21 @@ const SheetRow = {
   template: `
     <tbody>
       <tr :data-row="row.key" :title="hint" :tabindex="stop ? 0 : -1" @focus="sheet.at = place" @dblclick="sheet.pin(row.key)">
-        <th scope="row">{{ row.words }}</th><td class="symbol">{{ row.symbol }}</td><td class="unit">{{ divided(row.unit) }}</td>
-        <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former }" :colspan="span" :data-column="row.cells.length > 1 ? columns[number] : null">
+        <th scope="row"><gear-symbol :parts="row.parts[0]" /></th><td class="symbol"><gear-symbol :parts="row.parts[1]" /></td><td class="unit">{{ divided(row.unit) }}</td>
+        <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former, across: sheet.gears > 1 && row.cells.length === 1 }" :colspan="span" :data-column="row.cells.length > 1 ? columns[number] : null">
           <del v-if="cell.former" :class="{ number: split(cell.former)[1] !== null }">{{ cell.former }}</del> <span :class="{ number: split(cell.text)[1] !== null }"><span class="whole">{{ split(cell.text)[0] }}</span
           ><span class="rest" :style="{ minWidth: rest + 'ch' }" v-if="split(cell.text)[1] !== null">{{ split(cell.text)[1] }}</span></span>
         </td>
       </tr>
       <tr v-if="row.cells.some((cell) => cell.kept)" class="kept">
         <th scope="row" colspan="3">{{ sheet.words.kept }} <small>({{ sheet.words.difference }})</small></th>
-        <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ none: !cell.kept }" :colspan="span" :data-column="row.cells.length > 1 ? columns[number] : null">
+        <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ none: !cell.kept, across: sheet.gears > 1 && row.cells.length === 1 }" :colspan="span" :data-column="row.cells.length > 1 ? columns[number] : null">
           <small v-if="cell.difference" class="number">({{ cell.difference }})</small> <span :class="{ number: split(cell.kept ?? '')[1] !== null }"><span class="whole">{{ split(cell.kept ?? "")[0] }}</span
           ><span class="rest" :style="{ minWidth: rest + 'ch' }" v-if="split(cell.kept ?? '')[1] !== null">{{ split(cell.kept)[1] }}</span></span>
         </td>
       </tr>
     </tbody>`,
+  components: { GearSymbol },
   props: { sheet: Object, row: Object, place: String, hint: String, stop: Boolean, columns: Array, span: Number, rest: Number },
   methods: {
     split,
@@ -115,6 +119,10 @@ export default {
     },
     me() {
       return this;
+    },
+    // Columns of the table of most gears: what is of the mesh stands across these.
+    gears() {
+      return Math.max(0, ...this.content.sections.map((section) => section.columns.length));
     },
     // The row of each block that the tab key comes to.
     stops() {

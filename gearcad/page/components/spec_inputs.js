@@ -3,6 +3,7 @@
 // typed meanwhile waits, so that no server lags behind a key that is held down.
 import { toRaw } from "vue";
 import { Changes, PAUSE, keepUnheard, takeUnheard } from "gear-changes";
+import { GearSymbol } from "gear-symbols";
 
 const decimal = (text) => (document.documentElement.lang === "de" ? text.replaceAll(".", ",") : text);
 const LIST = /^-?\d+([.]\d+)?( -?\d+([.]\d+)?)+$/; // of numbers
@@ -11,17 +12,11 @@ const MOST = 3; // columns of gears beside each other
 
 const PHONE = "(max-width: 640px)";
 
-// A symbol with its indices below the line.
-const GearSymbol = {
-  template: `<template v-for="([text, index], at) in parts" :key="at">{{ text }}<sub v-if="index">{{ index }}</sub></template>`,
-  props: { parts: Array },
-};
-
 // One field. Its part of the page stays as it is while all that it is given does.
 const SpecField = {
   template: `
     <div :data-key="field.key" class="field" :class="{ changed, wrong: !!fault, given: given !== undefined, cell, follows: why && !isNumber }">
-      <label v-if="!cell" :for="'in-' + field.key" :title="field.words"><span>{{ field.words }}</span><i v-if="field.symbol"><gear-symbol :parts="field.parts" /></i></label>
+      <label v-if="!cell" :for="'in-' + field.key" :title="[field.words, field.source].filter(Boolean).join(' · ')"><span>{{ field.words }}</span><i v-if="field.symbol"><gear-symbol :parts="field.parts" /></i></label>
       <span class="box" :title="why || null" :data-gear="gear || null" :style="cell ? { gridColumn: 'span ' + cell } : null">
         <select v-if="field.choices.length" :id="'in-' + field.key" :value="draft ?? given ?? ''" :disabled="readonly" :aria-label="name"
                 :aria-invalid="!!fault" @focus="form.focused = field" @change="form.type(field.key, $event.target.value)" @blur="form.leave(field.key)" @keydown="form.choose($event)">
@@ -76,7 +71,7 @@ export default {
       <section v-if="firstRows.length" class="ranked" :class="{ many: ranked.columns.length > 2, captioned: ranked.columns.length > MOST }" :style="{ '--gears': columns }" :aria-label="words.first">
         <div v-if="ranked.columns.length > 1 && ranked.columns.length <= MOST" class="row head"><span class="name" /><span v-for="title in ranked.columns" :key="title" class="gear">{{ title }}</span><span class="unit" /></div>
         <div v-for="row in firstRows" :key="row.keys.join()" class="row" :class="[row.shared ? 'shared' : 'own', { text: !row.first.number }]">
-          <span class="name" :title="row.first.words"><span>{{ row.first.words }}</span><i v-if="row.first.symbol"><gear-symbol :parts="row.first.parts" /></i></span>
+          <span class="name" :title="[row.first.words, row.first.source].filter(Boolean).join(' · ')"><span>{{ row.first.words }}</span><i v-if="row.first.symbol"><gear-symbol :parts="row.first.parts" /></i></span>
           <template v-for="(field, at) in row.fields" :key="at">
             <spec-field v-if="field" :form="me" :field="field" :given="given[field.key]" :used="used[field.key]" :cell="row.shared ? columns : 1"
                         :gear="row.shared ? '' : ranked.columns[at]" :draft="drafts[field.key]" :changed="isChanged(field)" :fault="faultAt(field.key)?.line ?? ''"
@@ -164,7 +159,7 @@ export default {
       if (field.least !== null || field.most !== null)
         said.push(this.range(field));
       if (field.offered.length && field.offered.length < 8) said.push(field.offered.join(", "));
-      if (field.source) said.push(/^\d/.test(field.source) ? `ISO 21771, ${this.words.clause} ${field.source}` : field.source);
+      if (field.source) said.push(field.source);
       const shared = `pair.${field.key.slice(field.key.indexOf(".") + 1)}`;
       if (!(field.key in this.given) && field.key !== shared && shared in this.given) said.push(`${this.words.shared} ${shared}`);
       return said.join(" · ");

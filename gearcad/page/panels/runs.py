@@ -52,7 +52,7 @@ def figures_beside(runs: Sequence[Run], words: PageWords) -> list[dict[str, Any]
             {
                 "key": key,
                 "words": words.divided(f"{words.table.get(owner.capitalize(), owner)}: {said}" if owner else said),
-                "symbol": symbol.symbol if symbol else "",
+                "symbol": symbol.parts if symbol else (),
                 "unit": symbol.unit if symbol else "",
                 "cells": cells,
                 "differs": len(set(cells)) > 1,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearcad.core.errors import GearcadError, InputError, format_number
 from gearcad.core.records import Notice
+from gearcad.core.symbols import parts_of
 from gearcad.core.units import ShownUnit, UnitSystem, shown_unit
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
@@ -69,6 +70,11 @@ def quantity_in(words: PageWords, english: str) -> str:
     if english not in words.table and (found := _OF_A_GEAR.fullmatch(english)) and found[1] in words.table:
         return f"{words[found[1]]} ({called(words, found[2])})"
     return words[english]
+
+
+def clause_in(words: PageWords, source: str) -> str:
+    """Return the source of a quantity in the language of the page: a clause alone is one of ISO 21771."""
+    return f"ISO 21771, {words['clause']} {source}" if source[:1].isdigit() else source.replace("Annex", "ISO 21771, Annex")
 
 
 _OTHER_TITLES = {"Mesh": "Gear mesh"}
@@ -144,12 +150,14 @@ def _places(row: Row, section: Section) -> Iterator[tuple[tuple[str, str], Sheet
 
 
 def _row(row: Row, section: Section, words: PageWords, changed: Mapping[tuple[str, str], str], kept: Cells) -> dict[str, Any]:
+    name = words.divided(quantity_in(words, row.symbol.words))
     return {
         "key": row.key,
-        "words": words.divided(quantity_in(words, row.symbol.words)),
+        "words": name,
         "symbol": row.symbol.symbol,
+        "parts": [parts_of(name), row.symbol.parts],
         "unit": "°" if row.symbol.unit == "deg" else row.symbol.unit,
-        "source": row.symbol.source,
+        "source": clause_in(words, row.symbol.source),
         "cells": [
             {
                 "text": value_in(words, cell.text),

@@ -20,6 +20,7 @@ from gearcad.page.fields import fields_of, given_texts, ranked_fields, used_text
 from gearcad.page.folder import LARGEST_SPEC, LARGEST_TABLE, SPECS, TABLES, Folder, TakenError, pack, text_of
 from gearcad.page.panels import mark_stale
 from gearcad.page.panels.holds import HoldSwitches
+from gearcad.page.panels.sheet_content import clause_in
 from gearcad.page.run_process import DOWNLOADS
 from gearcad.page.runs import Run, Runs, RunState, await_files
 from gearcad.page.words import PageWords
@@ -51,7 +52,6 @@ class InputsPanel:
             "faults": words["faults"],
             "or": words["or"],
             "size": words["size"],
-            "clause": words["clause"],
             "hold": words["hold"],
             "first": words["Main inputs"],
         }
@@ -124,6 +124,7 @@ class InputsPanel:
                 group["title"] = ": ".join(words[title] for title in group.pop("titles"))
                 for field in group["fields"]:
                     field["words"] = words.divided(words[field["words"]])
+                    field["source"] = clause_in(words, field["source"])
                     self._convert(field)
         self._view.have(tables)
 

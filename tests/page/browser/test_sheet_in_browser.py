@@ -190,3 +190,20 @@ def test_a_rack_is_drawn_at_once_however_near_one_looks(tab: Any) -> None:
     for _ in range(NEARER):
         tab.page.keyboard.press("+")
     tab.page.screenshot(timeout=QUICK)
+
+
+def test_values_of_the_mesh_stand_across_those_of_gears_under_their_gear(tab: Any) -> None:
+    tab.page.wait_for_selector('[data-row="safety.scuffing.integral"], [data-row="strength.safety.scuffing.integral"]')
+    places = """() => {
+      const middle = (each) => { const box = each.getBoundingClientRect(); return (box.left + box.right) / 2; };
+      const row = (key) => document.querySelector(`[data-row="strength.safety.${key}"]`);
+      const gears = [...row("flank").querySelectorAll(".value")].map(middle);
+      const mesh = row("scuffing.integral").querySelectorAll(".value");
+      return [gears, [...mesh].map(middle), mesh[0].colSpan, row("flank").querySelector(".symbol").innerHTML];
+    }"""
+    gears, mesh, span, symbol = tab.page.evaluate(places)
+    assert (len(gears), len(mesh), span) == (2, 1, 2)
+    assert gears[0] < mesh[0] < gears[1]
+    assert "<sub>H</sub>" in symbol
+    title = tab.page.get_attribute('[data-row="pair.total_contact_ratio"]', "title")
+    assert "ISO 21771, clause 5.4" in title
