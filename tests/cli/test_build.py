@@ -5,7 +5,10 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from importlib import import_module
+from inspect import getmembers, isfunction, signature
 from pathlib import Path
+from pkgutil import iter_modules
 from typing import Any
 
 import pytest
@@ -17,7 +20,7 @@ from gearcad import GeometryError, ParameterError, SolverError
 from gearcad.designs import read_spec
 from gearcad.designs.design import Design
 from gearcad.jobs.build import Build, build
-from gearcad.solids import FileOptions, Format
+from gearcad.solids import FileOptions, Format, files
 from gearcad.solids.files import products
 
 PAIR = ["pinion", "wheel"]
@@ -52,16 +55,10 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
         return make
 
-    for home in (
-        "step.write_product",
-        "formats.write_stl",
-        "scenes.write_3mf",
-        "scenes.write_glb",
-        "studio.write_picture",
-        "dxf.write_dxf",
-        "points.write_points",
-    ):
-        monkeypatch.setattr(f"gearcad.solids.files.{home}", writer(home, 1))
+    for module in (import_module(f"{files.__name__}.{each.name}") for each in iter_modules(files.__path__)):
+        for name, function in getmembers(module, isfunction):
+            if name.startswith("write_") and function.__module__ == module.__name__:
+                monkeypatch.setattr(module, name, writer(name, list(signature(function).parameters).index("path")))
     for name in ("gear_boundary", "pair_product", "tessellate"):
         monkeypatch.setattr(products, name, maker(name))
     return calls
