@@ -1,10 +1,13 @@
 """What stands around the code is true: paths that CONTRIBUTING.md names, libraries of the image, forms, what is to be cited."""
 
 import re
+import sys
 import tomllib
 from pathlib import Path
+from types import CodeType, FrameType
 
 import pytest
+from support.commands import run
 
 ROOT = Path(__file__).parents[2]
 
@@ -28,6 +31,32 @@ def test_every_path_that_is_named_is_there() -> None:
         r"`(\w+)`", text("CONTRIBUTING.md").split("in folders of these names:")[1].split(". A tolerance")[0]
     ):
         assert (ROOT / "tests" / folder).is_dir(), folder
+
+
+WAYS = dict(re.findall(r"\n## From .*: `gearcad (\w+) pair\.toml`\n\n((?:\d+\. .*\n)+)", text("gearcad/README.md")))
+"""The two ways through the house, as the map has them: numbered lines by the verb of the command."""
+
+
+@pytest.mark.parametrize("verb", ["build", pytest.param("check", marks=pytest.mark.long)])
+def test_a_command_goes_the_way_that_the_map_shows(verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    steps = re.findall(r"^\d+\. `(\S+)` `(\S+)`", WAYS[verb], re.MULTILINE)
+    coarse = '[check]\nconvergence = "off"\npositions = 12\n'
+    (tmp_path / "pair.toml").write_text(text("templates/fzg-c.toml") + coarse, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    entered: dict[int, CodeType] = {}
+
+    def note(frame: FrameType, event: str, _: object) -> None:
+        if event == "call":
+            entered.setdefault(id(frame.f_code), frame.f_code)
+
+    before = sys.getprofile()
+    sys.setprofile(note)
+    try:
+        run(verb, "pair.toml", "--quiet")
+    finally:
+        sys.setprofile(before)
+    found = [(code.co_filename.removeprefix(f"{ROOT}/gearcad/"), code.co_qualname) for code in entered.values()]
+    assert [each for each in found if each in steps] == steps and len(steps) == 10
 
 
 def test_the_image_has_the_libraries_that_the_readme_installs() -> None:
