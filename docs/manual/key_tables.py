@@ -13,7 +13,7 @@ from gearcad.identify import Measurements
 __all__ = ["key_tables"]
 
 _PARTS = ("rack", "cutter", "double_helix", "body", "modification")
-_BESIDE = ("material", "load", "mounting", "rating", "check", "mesh", "dynamics", "drawing")
+_BESIDE = ("material", "load", "mounting", "rating", "check", "mesh", "dynamics", "drawing", "verify")
 
 
 @cache

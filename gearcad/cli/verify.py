@@ -27,12 +27,16 @@ _MOST_MOVED = 20
 @click.argument("design", type=click.Path(path_type=Path))
 @output_option
 @click.option(
-    "--level", default="files", show_default=True, help="files, strength (with finite elements and rating), or full (CalculiX)."
+    "--level",
+    help="files, strength (with finite elements and rating), or full (CalculiX).  [default: that of [verify], or files]",
 )
 @click.option("--files", "judged", type=click.Path(path_type=Path), metavar="DIR", help="Judge the files in this folder.")
 @click.option("--baseline", type=click.Path(path_type=Path), metavar="DIR|CSV", help="Compare all figures with an earlier run.")
 @click.option(
-    "--tolerance", default=1e-6, show_default=True, metavar="X", help="Relative change of a figure that is no change."
+    "--tolerance",
+    type=float,
+    metavar="X",
+    help="Relative change of a figure that is no change.  [default: that of [verify], or 1e-6]",
 )
 @click.option("--junit", type=click.Path(path_type=Path), metavar="FILE", help="Write the claims as test cases (JUnit XML).")
 @click.option("-j", "--jobs", type=int, metavar="N", help="Processes at work on a table.  [default: the cores]")
@@ -43,10 +47,10 @@ _MOST_MOVED = 20
 def verify(
     design: Path,
     output: Path | None,
-    level: str,
+    level: str | None,
     judged: Path | None,
     baseline: Path | None,
-    tolerance: float,
+    tolerance: float | None,
     junit: Path | None,
     jobs: int | None,
     cluster: str | None,
@@ -66,11 +70,11 @@ def verify(
     failed, a required safety is not reached, or a figure moved from the baseline.
     """
     from gearcad.jobs.verification import Verify
-    from gearcad.verification.claims import VerificationLevel
+    from gearcad.verification.claims import VerificationLevel, VerificationOptions
 
-    chosen = as_choice("level", level.lower(), VerificationLevel)
-    if not 0 <= tolerance < 1:
-        raise ParameterError("tolerance", tolerance, "must be from 0 to below 1")
+    chosen = None if level is None else as_choice("level", level.lower(), VerificationLevel)
+    if tolerance is not None:
+        VerificationOptions(tolerance=tolerance)
     before = _before(baseline)
     if design.suffix.lower() in _TABLES:
         if judged is not None:
@@ -102,7 +106,7 @@ def verify(
     result = perform(job, design, output, show_claims, as_json=as_json, quiet=quiet)
     if junit is not None:
         _write_junit(junit, [job.document(result)])
-    moved = _moved(before, _figures([job.document(result)]), tolerance)
+    moved = _moved(before, _figures([job.document(result)]), [job.document(result)], tolerance)
     _tell_moved(moved)
     if result.passed is False or result.strength is False or moved:
         click.get_current_context().exit(1)
@@ -151,7 +155,7 @@ def _verify_table(
     output: Path | None,
     level: Any,
     before: Mapping[str, Any] | None,
-    tolerance: float,
+    tolerance: float | None,
     junit: Path | None,
     jobs: int | None,
     cluster: str | None,
@@ -178,7 +182,7 @@ def _verify_table(
         )
     documents = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob(f"*/{DOCUMENT}"))]
     now = read_figures(folder / RESULTS) if baseline_of_table else _figures(documents)
-    moved = _moved(before, now, tolerance)
+    moved = _moved(before, now, documents, tolerance)
     with staged_files(folder) as staging:
         (staging / "junit.xml").write_text(junit_xml(documents, summary.errors), encoding="utf-8")
         (staging / "index.html").write_text(verification_index(table.stem, documents, summary.errors, moved), encoding="utf-8")
@@ -212,13 +216,21 @@ def _figures(documents: Iterable[dict[str, Any]]) -> dict[str, Any]:
     return {str(document["name"]): figures_of(document) for document in documents}
 
 
-def _moved(before: Mapping[str, Any] | None, now: Mapping[str, Any], tolerance: float) -> list[MovedFigure]:
-    """Return the quantities that differ from the baseline, the greatest change first."""
+def _moved(
+    before: Mapping[str, Any] | None,
+    now: Mapping[str, Any],
+    documents: Iterable[dict[str, Any]],
+    tolerance: float | None,
+) -> list[MovedFigure]:
+    """Return the quantities that differ from the baseline, the greatest change first.
+
+    Without a tolerance it is that of each design, as its document has it.
+    """
     if before is None:
         return []
-    from gearcad.verification.baseline import compare
+    from gearcad.verification.baseline import compare, tolerance_of
 
-    return compare(before, now, tolerance)
+    return compare(before, now, {str(each["name"]): tolerance_of(each) for each in documents}, tolerance)
 
 
 def _tell_moved(moved: list[MovedFigure]) -> None:

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from gearcad.meshing.options import MeshOptions
     from gearcad.mounting import Mounting
     from gearcad.rating.options import RatingOptions
+    from gearcad.verification.claims import VerificationOptions
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +35,7 @@ class ToothedDesign(Design):
     """A design with teeth; a table beside them, such as [material], is a field of its name, None where a spec says nothing."""
 
     drawing: DrawingOptions | None = None
+    verify: VerificationOptions | None = None
     drawings: Mapping[str, PartDrawing] = field(default_factory=dict)
     """Options that belong to the sheet of one gear only, by the gears' names in `gears`."""
 
@@ -113,6 +115,7 @@ class Inputs(TypedDict, total=False):
     dynamics: DynamicsOptions
     rating: RatingOptions
     drawing: DrawingOptions
+    verify: VerificationOptions
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -200,8 +203,8 @@ class RackDesign(ToothedDesign):
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
-        """The values of a spec of [rack], [material] and [drawing]. Raises SpecError."""
-        require_tables_of_racks(tables, where, DesignKind.RACK, ("material", "drawing"))
+        """The values of a spec of [rack], [material], [drawing] and [verify]. Raises SpecError."""
+        require_tables_of_racks(tables, where, DesignKind.RACK, ("material", "drawing", "verify"))
         return Spec.of(tables, where)
 
     @property

@@ -81,6 +81,7 @@ _HOMES = {
     "dynamics": "dynamics.options.DynamicsOptions",
     "rating": "rating.options.RatingOptions",
     "drawing": "drawing.options.DrawingOptions",
+    "verify": "verification.claims.VerificationOptions",
 }
 
 

@@ -309,7 +309,7 @@ class PairSpec(Spec):
         return replace(pair, wheel=replace(pair.wheel, tip_alteration=given.value + change))
 
 
-_BESIDE = ("material", "load", "rating", "drawing")
+_BESIDE = ("material", "load", "rating", "drawing", "verify")
 _GEARS = ("pinion", "rack")
 
 

@@ -244,9 +244,9 @@ MOST_ROWS = 1_000_000
 """Rows of the largest study: beyond it a number was mistyped, or one table is not the way."""
 
 _BESIDE = {
-    DesignKind.GEAR: ("material", "load", "drawing"),
-    DesignKind.RACK: ("material", "drawing"),
-    DesignKind.RACK_PAIR: ("material", "load", "rating", "drawing"),
+    DesignKind.GEAR: ("material", "load", "drawing", "verify"),
+    DesignKind.RACK: ("material", "drawing", "verify"),
+    DesignKind.RACK_PAIR: ("material", "load", "rating", "drawing", "verify"),
 }
 """Tables beside those of the teeth whose keys may vary; a pair has all others."""
 

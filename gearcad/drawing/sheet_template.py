@@ -236,6 +236,12 @@ def _no_words() -> dict[str, dict[str, str]]:
     return {each.value: {} for each in Language}
 
 
+@cache
+def _shipped() -> dict[str, Any]:
+    """Return the content of the shipped template, which is not to be changed."""
+    return tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
+
+
 @dataclass(frozen=True, kw_only=True)
 class SheetTemplate:
     """Sizes of a sheet's frame and tables, the cells of its title block by their names, and words that replace the shipped
@@ -256,7 +262,7 @@ class SheetTemplate:
         """Return the shipped template, with its entries replaced by those of a file. Raises SpecError that names file and
         key.
         """
-        shipped = tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
+        shipped = _shipped()
         if file is None:
             return cls._made(shipped)
         own = _read(file)

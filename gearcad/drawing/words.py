@@ -6,6 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cache
 from typing import Any, Self
 
 from gearcad.core.errors import ParameterError
@@ -30,6 +31,12 @@ class Language(StrEnum):
 _FILE = "drawing_words.toml"
 
 
+@cache
+def _shipped() -> dict[str, Any]:
+    """Return the content of the shipped template, which is not to be changed."""
+    return tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
+
+
 @dataclass(frozen=True)
 class SheetWords:
     """The words of one language. A key is the heading of a part of the template and a name in it: "data.normal_module"."""
@@ -40,11 +47,8 @@ class SheetWords:
     @classmethod
     def of(cls, language: Language) -> Self:
         """Return the words of a language from the shipped template."""
-        content = tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
-        labels = {
-            f"{part}.{name}": in_each[language.value] for part, entries in content.items() for name, in_each in entries.items()
-        }
-        return cls(language, labels)
+        entries = ((f"{part}.{name}", in_each) for part, named in _shipped().items() for name, in_each in named.items())
+        return cls(language, {key: in_each[language.value] for key, in_each in entries})
 
     def __getitem__(self, key: str) -> str:
         return self.labels[key]

@@ -30,7 +30,7 @@ from gearcad.report.verification_pdf import write_verification_pdf
 from gearcad.solids import FileOptions, Format
 from gearcad.verification.assemblies import PlacedMesh
 from gearcad.verification.calculix import calculix_version
-from gearcad.verification.claims import Claim, Judge, VerificationLevel, timed
+from gearcad.verification.claims import Claim, Judge, VerificationLevel, VerificationOptions, timed
 from gearcad.verification.claims import ClaimSubject as About
 from gearcad.verification.drawings import judge_section, judge_sections
 from gearcad.verification.exact_parts import ExactPart
@@ -53,7 +53,9 @@ FORMATS = (Format.STEP, Format.STL, Format.THREE_MF, Format.GLB, Format.DXF)
 
 @dataclass(frozen=True, kw_only=True)
 class Verify(Job[ToothedDesign, Verification]):
-    """Verification of a design at a level. With `folder` the files there are judged, else those that are made now.
+    """Verification of a design at a level; without one at that of the design's [verify].
+
+    With `folder` the files there are judged, else those that are made now.
 
     With `keep` the files that were made and judged are written beside the evidence.
     """
@@ -62,12 +64,18 @@ class Verify(Job[ToothedDesign, Verification]):
     accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "there are no teeth"
 
-    level: VerificationLevel = VerificationLevel.FILES
+    level: VerificationLevel | None = None
     folder: str = ""
     keep: bool = True
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "level", as_choice("level", self.level, VerificationLevel))
+        if self.level is not None:
+            object.__setattr__(self, "level", as_choice("level", self.level, VerificationLevel))
+
+    def level_of(self, design: ToothedDesign) -> VerificationLevel:
+        """Return the level of this job, else that of the design's [verify]."""
+        own = design.verify or VerificationOptions()
+        return VerificationLevel(own.level) if self.level is None else self.level
 
     @one_thread()
     def run(self, design: Design, progress: Progress | None = None) -> Verification:
@@ -84,7 +92,7 @@ class Verify(Job[ToothedDesign, Verification]):
             contents = {name: (folder / name).read_bytes() for name in names}
         return Verification(
             name=design.name,
-            level=self.level,
+            level=self.level_of(design),
             claims=tuple(claims),
             contents=contents,
             spec=Data().document(design),
@@ -111,15 +119,16 @@ class Verify(Job[ToothedDesign, Verification]):
         yield from _of_files(design, folder, parts, assembly, exact)
         of_parts = {name: exact[product.name] for name, product in parts.items()}
         yield _Stage("drawings", 1.0, partial(_of_sheets, design, folder, of_parts, drawn=not self.folder))
-        sections = _SECTIONS if self.level.includes(VerificationLevel.FULL) else 1
+        level = self.level_of(design)
+        sections = _SECTIONS if level.includes(VerificationLevel.FULL) else 1
         for name, product in parts.items():
             yield _Stage(f"geometry of {name}", 0.3, partial(_of_geometry, _part(product), name, sections))
         for mesh in _meshes(design, parts):
             where = f"{mesh.pinion} and {mesh.mate}"
             yield _Stage(f"geometry of {where}", 0.2, partial(judge_pair, mesh.pair, where))
-        if self.level.includes(VerificationLevel.STRENGTH):
+        if level.includes(VerificationLevel.STRENGTH):
             yield _Stage("contact and strength", 20.0, partial(_of_strength, design))
-        if self.level.includes(VerificationLevel.FULL):
+        if level.includes(VerificationLevel.FULL):
             yield _Stage("meshes", 10.0, partial(judge_meshes, design, folder, of_parts, made=not self.folder))
             yield _Stage("CalculiX", 60.0, partial(judge_by_calculix, design))
 
@@ -381,14 +390,15 @@ def verify(
     subject: Subject,
     load: Load | TrainLoad | None = None,
     *,
-    level: VerificationLevel | str = VerificationLevel.FILES,
+    level: VerificationLevel | str | None = None,
     progress: Progress | None = None,
     **inputs: Unpack[Inputs],
 ) -> Verification:
     """Verify a design: every claim about its files and its figures is judged by something that did not make it.
 
     Level "files" judges STEP, STL, 3MF, GLB and DXF files, and the geometry; "strength" also contact, root stress and strength,
-    "full" also meshes and CalculiX. What nothing judged is named with its reason, and never counts as passed.
+    "full" also meshes and CalculiX. Without a level it is that of the design's [verify], or of the VerificationOptions given as
+    `verify`. What nothing judged is named with its reason, and never counts as passed.
 
     >>> from gearcad import Gear
     >>> verify(Gear(teeth=20, normal_module=2, face_width=20)).passed

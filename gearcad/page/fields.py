@@ -43,7 +43,7 @@ _TITLES = {
 }
 """Titles of parts that are not their names."""
 
-_LATER = ("mounting", "mesh", "dynamics", "drawing", "check", "rating")
+_LATER = ("mounting", "mesh", "dynamics", "drawing", "check", "rating", "verify")
 """Tables that users need later, which the page shows folded if the spec does not have them."""
 
 _GRADES = tuple(f"{group} {quality}" for group in MaterialGroup for quality in MaterialQuality)

@@ -76,7 +76,7 @@ def indexed(text: str) -> Markup:
 @cache
 def _indexed_symbols() -> re.Pattern[str]:
     """Return the pattern of all symbols that have an index, such as K_γ and σ_H0."""
-    every = {*_KNOWN.values()}
+    every = {*_KNOWN.values(), "m_n"}
     tables = [each for each in vars(symbols).values() if isinstance(each, dict)]
     while tables:
         for each in tables.pop().values():

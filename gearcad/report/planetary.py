@@ -51,7 +51,7 @@ from gearcad.plots.planetary_vibration import (
 from gearcad.rating.load_factors import LOAD_FACTORS
 from gearcad.rating.nominal_rating import Rating
 from gearcad.rating.strength import FactorGroup, StrengthRating
-from gearcad.report.document import ReportFigure, ReportRow, figure_address, page_html, sentences
+from gearcad.report.document import ReportFigure, ReportRow, figure_address, page_html, sentences, written
 from gearcad.report.dynamics_tables import WordTable
 from gearcad.report.planetary_tables import (
     assembly_rows,
@@ -349,22 +349,52 @@ _FACTORS = ("mesh", *(STRENGTH_FACTORS[key].symbol for key in LOAD_FACTORS))
 _SCUFFING = ("mesh", "risk", "θ_int, °C", "θ_intS, °C", "S_int", "Θ_B, °C", "Θ_S, °C", "S_B")
 
 
+_SAFETIES = ("mesh", "gear", "safety", "verdict", "value", "minimum")
+_ASSUMED = ("assumed", "meshes")
+
+
 def section_of_strength(strength: TrainStrength) -> ReportSection:
-    """Safeties, load factors, scuffing; what was assumed, and what was not judged."""
+    """Safeties with their verdicts, stresses, load factors, scuffing; what was assumed, and what was not judged."""
     factors = [
         (mesh, *map(_text, each.factors[FactorGroup.LOAD].values()))
         for mesh, each in strength.meshes.items()
         if each.load_factors is not None
     ]
     scuffed = [(mesh, *_scuffing(each)) for mesh, each in strength.meshes.items() if each.scuffing is not None]
-    tables = [ReportTable("", grid=WordTable(_GEARS, list(_rows(strength)), 2), symbols=True)]
+    tables = [ReportTable("", grid=WordTable(_SAFETIES, list(_safeties(strength)), 4))] if strength.asked else []
+    tables.append(ReportTable("Stresses and life", grid=WordTable(_GEARS, list(_rows(strength)), 2), symbols=True))
     if factors:
         tables.append(ReportTable("Load factors", grid=WordTable(_FACTORS, factors), symbols=True))
     if scuffed:
         tables.append(ReportTable("Scuffing", grid=WordTable(_SCUFFING, scuffed, 2), symbols=True))
+    if assumed := list(_assumed(strength)):
+        tables.append(ReportTable("Assumed", grid=WordTable(_ASSUMED, assumed, 2)))
     missing = tuple(said("not_judged", name, why) for name, why in strength.not_judged.items())
     words = tuple(filter(None, (said("strength_words", strength), *missing, said("strength_note", strength))))
     return ReportSection("Strength", words=words, tables=tuple(tables) if strength.meshes else ())
+
+
+def _safeties(strength: TrainStrength) -> Iterator[tuple[str, ...]]:
+    """Yield a row for each flank and root in each mesh, and for the scuffing of a mesh where a safety is required."""
+    for mesh, rating in strength.meshes.items():
+        for gear, of in strength.members.items():
+            for words, parts in (("flank, S_H", of.flank), ("root, S_F", of.root)):
+                if (part := parts.get(mesh)) is not None:
+                    yield mesh, gear, words, part.verdict.value, _safety(part.safety), _safety(part.required)
+        if (required := rating.options.required_safety_scuffing) is not None:
+            found = None if rating.scuffing is None else rating.scuffing.integral_safety
+            yield mesh, "both", "scuffing, S_int", rating.scuffing_verdict.value, _safety(found), _safety(required)
+
+
+def _safety(value: float | None) -> str:
+    return _NONE if value is None else f"{value:.3f}"
+
+
+def _assumed(strength: TrainStrength) -> Iterator[tuple[str, str]]:
+    """Yield each assumed input with the meshes in which it was assumed."""
+    for text in strength.assumed:
+        meshes = [mesh for mesh, each in strength.meshes.items() if text in each.assumed]
+        yield written(text), "all" if len(meshes) == len(strength.meshes) else ", ".join(meshes)
 
 
 def _rows(strength: TrainStrength) -> Iterator[tuple[str, ...]]:

@@ -6,6 +6,7 @@ All are made of the documents (verify.json), so that the rows of a table need no
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 from xml.etree import ElementTree
@@ -27,6 +28,14 @@ def strength_words(document: Document) -> str:
     return "not part of level files" if document["level"] == "files" else VERDICTS[document["strength"]]
 
 
+def conclusion_words(document: Document) -> str:
+    """Return the verdict on claims, and on strength where it failed, as a sentence without its full stop."""
+    passed = {True: "All claims passed", False: "Claims FAILED", None: "Nothing was judged"}[document["passed"]]
+    if document["strength"] is not False:
+        return passed
+    return f"{passed.replace('All claims', 'All claims on files and figures')}; strength FAILED"
+
+
 def verification_html(document: Document, head: Mapping[str, str], subject: Gear | GearPair | None = None) -> str:
     """Return the page of a verification: verdict, what was judged by whom, a picture of a gear or pair, all claims."""
     return page_html(
@@ -35,10 +44,13 @@ def verification_html(document: Document, head: Mapping[str, str], subject: Gear
         of=document,
         strength=strength_words(document),
         head=head,
+        conclusion=conclusion_words(document),
         subjects=judged_subjects(document),
+        timed=any(claim["seconds"] for claim in document["claims"]),
         failed=[claim_texts(claim) for claim in document["claims"] if claim["passed"] is False],
         not_judged=unjudged_reasons(document),
-        claims=[claim_texts(claim) for claim in document["claims"]],
+        safeties=safety_texts(document),
+        groups=claim_groups(document),
         picture_of_design=None if subject is None else _picture(subject),
     )
 
@@ -62,6 +74,37 @@ def judged_subjects(document: Document) -> list[dict[str, Any]]:
     return [of | {"judges": ", ".join(of["judges"]), "seconds": f"{of['seconds']:.2f}"} for of in found.values()]
 
 
+@dataclass(frozen=True)
+class ClaimGroup:
+    """Claims of one subject about one thing by one judge, as texts; `first` is true of the first group of its subject."""
+
+    subject: str
+    where: str
+    judge: str
+    first: bool
+    claims: Sequence[Mapping[str, str]]
+
+
+def claim_groups(document: Document, *, failed_first: bool = False) -> list[ClaimGroup]:
+    """Return the claims in groups, in their order, or those that failed before all others; safeties are left out."""
+    found: dict[tuple[bool, str, str, str], list[dict[str, str]]] = {}
+    for claim in document["claims"]:
+        if not _is_safety(claim):
+            passed = not (failed_first and claim["passed"] is False)
+            key = (passed, str(claim["claim"]), str(claim["where"]), str(claim["judge"]))
+            found.setdefault(key, []).append(claim_texts(claim))
+    groups, subject = list[ClaimGroup](), ""
+    for (_, of, where, judge), claims in sorted(found.items(), key=lambda group: group[0][0]):
+        groups.append(ClaimGroup(of, where, judge, of != subject, claims))
+        subject = of
+    return groups
+
+
+def _is_safety(claim: Document) -> bool:
+    """Return whether a claim is on a safety that has a value."""
+    return claim["claim"] == "strength" and claim["computed"] is not None
+
+
 def unjudged_reasons(document: Document) -> dict[str, str]:
     """Return what was not judged, by the reason."""
     found: dict[str, dict[str, None]] = {}
@@ -77,12 +120,12 @@ def safety_texts(document: Document) -> list[tuple[str, str, str, str, str]]:
         (
             str(claim["where"]),
             str(claim["quantity"]).removeprefix("safety, ").removeprefix("safety "),
-            figure_text(claim["computed"]),
-            figure_text(claim["reference"]),
+            f"{claim['computed']:.3f}",
+            f"{claim['reference']:.3f}" if isinstance(claim["reference"], int | float) else figure_text(claim["reference"]),
             VERDICTS[claim["passed"]],
         )
         for claim in document["claims"]
-        if claim["claim"] == "strength" and claim["computed"] is not None
+        if _is_safety(claim)
     ]
 
 
@@ -94,8 +137,8 @@ def claim_texts(claim: Document) -> dict[str, str]:
         "quantity": str(claim["quantity"]),
         "computed": figure_text(claim["computed"]),
         "reference": figure_text(claim["reference"]),
-        "deviation": figure_text(claim["deviation"]),
-        "permitted": figure_text(claim["permitted"]),
+        "deviation": figure_text(claim["deviation"], _FEW),
+        "permitted": figure_text(claim["permitted"], _FEW),
         "unit": str(claim["unit"]),
         "judge": str(claim["judge"]),
         "verdict": VERDICTS[claim["passed"]],
@@ -103,17 +146,28 @@ def claim_texts(claim: Document) -> dict[str, str]:
     }
 
 
-def figure_text(value: float | str | None) -> str:
-    """A value of a claim with sensible digits."""
+_NOTHING = 1e-12
+"""Deviation that is rounding of numbers, whatever its unit."""
+
+
+_MANY, _FEW = 6, 3
+"""Significant digits of values, and of deviations."""
+
+
+def figure_text(value: float | str | None, digits: int = _MANY) -> str:
+    """A value of a claim with so many significant digits, without those behind the decimal point of large numbers."""
     if value is None:
         return ""
     if isinstance(value, bool | str):
         return str(value) if len(str(value)) <= 80 else f"{str(value)[:77]}..."
     if isinstance(value, int) or (float(value).is_integer() and abs(value) < 1e15):
         return f"{int(value):,}".replace(",", "\u202f")
-    if abs(value) >= 1e5:
-        return f"{value:,.0f}".replace(",", "\u202f")
-    return f"{value:.2g}" if abs(value) < 1e-2 else f"{value:.6g}"
+    if abs(value) >= 1e4:
+        whole = len(f"{abs(value):.0f}")
+        return f"{value:,.{max(digits - whole, 0)}f}".replace(",", "\u202f")
+    if 0 < abs(value) < _NOTHING:
+        return "< 1e-12"
+    return f"{value:.2g}" if abs(value) < 1e-2 else f"{value:.{digits}g}"
 
 
 # -------------------------------------------------------------------------------------------------- tables of designs

@@ -13,7 +13,8 @@ from gearcad.report.document import symbolic
 from gearcad.report.verification import (
     VERDICTS,
     Document,
-    claim_texts,
+    claim_groups,
+    conclusion_words,
     judged_subjects,
     safety_texts,
     strength_words,
@@ -31,9 +32,12 @@ _MARGIN = 16.0
 _SIZE, _LEADING, _PADDING = 7.0, 8.5, 2.0
 """Size of the letters in tables, distance of lines, and space beside a text, in points."""
 
-_SUBJECTS, _FILES = (28.0, 90.0, 20.0, 20.0, 20.0), (45.0, 133.0)
-_CLAIMS, _SAFETIES = (17.0, 35.0, 44.0, 32.0, 24.0, 26.0), (60.0, 58.0, 20.0, 20.0, 20.0)
+_SUBJECTS, _FILES = (26.0, 87.0, 20.0, 20.0, 20.0), (45.0, 128.0)
+_CLAIMS, _SAFETIES = (59.0, 28.0, 28.0, 18.0, 20.0, 20.0), (58.0, 55.0, 18.0, 20.0, 22.0)
 """Widths in mm of the columns of the tables."""
+
+_ROOM = 40.0
+"""Height (mm) below which a table begins on the next page."""
 
 _LONGEST = 400
 """Letters of a text in a table: a row must fit on a page."""
@@ -54,7 +58,7 @@ def write_verification_pdf(document: Document, head: Mapping[str, str], path: Pa
         pagesize=A4,
         leftMargin=margin,
         rightMargin=margin,
-        topMargin=margin + 18 * mm,
+        topMargin=margin + 8 * mm,
         bottomMargin=margin,
         title=f"{document['name']}: verification",
         author=head.get("author", ""),
@@ -92,24 +96,23 @@ def _story(document: Document) -> Iterable[Flowable]:
     """The content of the PDF."""
     from reportlab.lib.styles import ParagraphStyle
     from reportlab.lib.units import mm
-    from reportlab.platypus import Paragraph, Spacer
+    from reportlab.platypus import CondPageBreak, Paragraph, Spacer
 
     from gearcad.drawing.page_export import pdf_font
 
     plain = ParagraphStyle("plain", fontName=pdf_font(), fontSize=9, leading=12, spaceAfter=4)
     title = ParagraphStyle("title", parent=plain, fontSize=15, leading=19)
-    section = ParagraphStyle("section", parent=plain, fontSize=11, leading=14, spaceBefore=10, keepWithNext=1)
+    section = ParagraphStyle("section", parent=plain, fontSize=11, leading=14, spaceBefore=10)
     counts = document["counts"]
-    yield Paragraph(escape(f"{document['name']}: {_verdict(document)}"), title)
+    yield Paragraph(escape(f"{document['name']}: {conclusion_words(document)}"), title)
     yield Paragraph(
         f"{counts['passed']} claims passed, {counts['failed']} failed, {counts['not judged']} not judged. Strength: "
         f"{strength_words(document)}. Each claim was judged by something that did not make it.",
         plain,
     )
     yield Paragraph("What was judged, and by whom", section)
-    rows = [("claim", "judges", "passed", "failed", "not judged")]
-    rows += [(of["name"], of["judges"], *map(str, of["counts"])) for of in judged_subjects(document)]
-    yield _table(rows, _SUBJECTS, numbers=(2, 3, 4))
+    subjects = [(of["name"], of["judges"], *map(str, of["counts"])) for of in judged_subjects(document)]
+    yield _table([("claim", "judges", "passed", "failed", "not judged"), *subjects], _SUBJECTS, numbers=(2, 3, 4))
     yield Paragraph(escape("Versions: " + ", ".join(f"{name} {found}" for name, found in document["judges"].items())), plain)
     if safeties := safety_texts(document):
         yield Paragraph("Strength", section)
@@ -122,41 +125,69 @@ def _story(document: Document) -> Iterable[Flowable]:
         yield Paragraph("Warnings", section)
         for warning in document["warnings"]:
             yield Paragraph(str(symbolic(str(warning))), plain)
+    yield CondPageBreak(_ROOM * mm)
     yield Paragraph("Claims", section)
-    lines = sorted((claim_texts(claim) for claim in document["claims"]), key=lambda line: line["verdict"] != VERDICTS[False])
-    heads = ("claim", "of", "quantity", "deviation / permitted", "judge", "verdict")
-    table = [(line["claim"], line["where"], line["quantity"], _share(line), line["judge"], _said(line)) for line in lines]
-    yield _table([heads, *table], _CLAIMS)
+    rows: list[tuple[str, ...]] = [("quantity", "told", "found", "deviation", "permitted", "verdict")]
+    groups, reasons_of_failures = list[int](), list[int]()
+    for group in claim_groups(document, failed_first=True):
+        groups.append(len(rows))
+        rows.append((f"{group.subject} · {group.where}, by {group.judge}", *[""] * 5))
+        for claim in group.claims:
+            rows.append(_row(claim))
+            if claim["verdict"] == VERDICTS[False] and claim["reason"]:
+                reasons_of_failures.append(len(rows))
+                rows.append((claim["reason"], *[""] * 5))
+    yield _table(rows, _CLAIMS, numbers=(1, 2, 3, 4), groups=groups, notes=reasons_of_failures)
     if files := list(document["files"].items()):
         yield Paragraph("Files (SHA-256)", section)
         yield _table(files, _FILES, heading=False)
     yield Spacer(1, 2 * mm)
 
 
-def _verdict(document: Document) -> str:
-    return {True: "all claims passed", False: "claims FAILED", None: "nothing was judged"}[document["passed"]]
-
-
-def _share(line: Mapping[str, str]) -> str:
-    """The deviation beside what is permitted, or both values where they differ."""
-    if line["deviation"]:
-        return f"{line['deviation']} / {line['permitted']} {line['unit']}".strip()
-    return " / ".join(dict.fromkeys(filter(None, (line["computed"], line["reference"]))))
-
-
-def _said(line: Mapping[str, str]) -> str:
-    return f"{line['verdict']}: {line['reason']}" if line["reason"] and line["verdict"] != VERDICTS[None] else line["verdict"]
+def _row(claim: Mapping[str, str]) -> tuple[str, ...]:
+    """A claim as a row of a table."""
+    permitted = f"{claim['permitted']} {claim['unit']}" if claim["permitted"] and claim["unit"] else claim["permitted"]
+    return claim["quantity"], claim["computed"], claim["reference"], claim["deviation"], permitted, claim["verdict"]
 
 
 def _table(
-    rows: Sequence[Sequence[str]], widths: Sequence[float], *, numbers: Sequence[int] = (), heading: bool = True
+    rows: Sequence[Sequence[str]],
+    widths: Sequence[float],
+    *,
+    numbers: Sequence[int] = (),
+    groups: Sequence[int] = (),
+    notes: Sequence[int] = (),
+    heading: bool = True,
 ) -> Flowable:
-    """Return a table with columns of these widths (mm), those of `numbers` with their texts at the right."""
+    """Return a table with columns of these widths (mm), those of `numbers` with their texts at the right.
+
+    The rows `groups` are headings over all columns, which do not stand last on a page; the rows `notes` are texts over all
+    columns about the rows above them. Rows whose last text is a failure, and their notes, are red.
+    """
     from reportlab.lib.units import mm
     from reportlab.platypus import Table
 
-    cells = [[_cell(text, width * mm - 2 * _PADDING) for text, width in zip(row, widths, strict=True)] for row in rows]
+    heads, whole = {*groups, *notes}, sum(widths)
+    cells = [
+        [
+            _cell(text, (whole if number in heads else width) * mm - 3 * _PADDING)
+            for text, width in zip(row, widths, strict=True)
+        ]
+        for number, row in enumerate(rows)
+    ]
     style = [*_style(heading=heading), *(("ALIGN", (column, 0), (column, -1), "RIGHT") for column in numbers)]
+    for row in groups:
+        style += [
+            ("SPAN", (0, row), (-1, row)),
+            ("ALIGN", (0, row), (0, row), "LEFT"),
+            ("TOPPADDING", (0, row), (-1, row), 7.0),
+            ("NOSPLIT", (0, row), (-1, min(row + 1, len(rows) - 1))),
+        ]
+    failed = [number for number, row in enumerate(rows) if row[-1] == VERDICTS[False]]
+    style += [("TEXTCOLOR", (0, row), (-1, row), _red()) for row in (*failed, *notes)]
+    style += [("SPAN", (0, row), (-1, row)) for row in notes]
+    style += [("ALIGN", (0, row), (0, row), "LEFT") for row in notes]
+    style += [("NOSPLIT", (0, row - 1), (-1, row)) for row in notes]
     return Table(cells, colWidths=[width * mm for width in widths], repeatRows=int(heading), style=style)
 
 
@@ -205,6 +236,12 @@ def _lines(text: str, width: float) -> list[str]:
     return [*lines, line]
 
 
+def _red() -> Any:
+    from reportlab.lib.colors import Color
+
+    return Color(0.7, 0.22, 0.0)
+
+
 def _style(*, heading: bool) -> list[tuple[Any, ...]]:
     """Letters, lines and spaces of a table."""
     from reportlab.lib.colors import Color
@@ -216,7 +253,8 @@ def _style(*, heading: bool) -> list[tuple[Any, ...]]:
         ("FONT", (0, 0), (-1, -1), pdf_font(), _SIZE, _LEADING),
         ("LINEBELOW", (0, 0), (-1, -1), 0.3, grey),
         ("VALIGN", (0, 0), (-1, -1), "TOP"),
-        ("LEFTPADDING", (0, 0), (-1, -1), _PADDING),
+        ("LEFTPADDING", (0, 0), (-2, -1), _PADDING),
+        ("LEFTPADDING", (-1, 0), (-1, -1), 2 * _PADDING),
         ("RIGHTPADDING", (0, 0), (-1, -1), _PADDING),
         ("TOPPADDING", (0, 0), (-1, -1), 1.5),
         ("BOTTOMPADDING", (0, 0), (-1, -1), 1.5),

@@ -5,18 +5,26 @@ from __future__ import annotations
 import csv
 import json
 import math
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from gearcad.core.errors import ParameterError
+from gearcad.verification.claims import TOLERANCE
 
 DOCUMENT = "verify.json"
 RESULTS = "results.csv"
 
 _NO_FIGURES = ("seconds", "gearcad", "files", "judges", "counts")
 """Entries of documents that may differ between two runs of one design; ends of columns of results."""
+
+_OWN_OPTIONS = ("verify.level", "verify.tolerance")
+"""Columns with the options of a verification, which are no figures."""
+
+_DEVIATION = re.compile(r"verify\.(?!strength: )[^:]+: .+: ")
+"""Columns with a deviation of two figures; it is mostly rounding, whose relative change means nothing."""
 
 Figures = Mapping[str, float | str | bool | None]
 """Figures by their paths in a document, or by the column of a table."""
@@ -57,7 +65,7 @@ def _shown(value: float | str | bool | None) -> str:
 
 def figures_of(document: Mapping[str, Any]) -> dict[str, float | str | bool | None]:
     """Return the figures of a verify.json by their paths: inputs, derived values, and what the claims say and measure."""
-    found = dict(_leaves("spec", document.get("spec", {})))
+    found = dict(_leaves("spec", {key: value for key, value in document.get("spec", {}).items() if key != "verify"}))
     found |= {name: document.get(name) for name in ("passed", "strength")}
     for claim in document.get("claims", ()):
         path = ": ".join((claim["claim"], claim["where"], claim["quantity"]))
@@ -110,7 +118,11 @@ def _of_table(path: Path) -> Iterator[tuple[str, Figures]]:
     for row in csv.DictReader(text.splitlines(), delimiter=dialect):
         if "name" not in row:
             raise ParameterError("baseline", str(path), "must have a column name, as a table of results has")
-        kept = {key: value for key, value in row.items() if key and key.rpartition(".")[2] not in _NO_FIGURES}
+        kept = {
+            key: value
+            for key, value in row.items()
+            if key and key not in _OWN_OPTIONS and key.rpartition(".")[2] not in _NO_FIGURES
+        }
         cells = {key: _cell(value, dialect) for key, value in kept.items() if not key.startswith("files.")}
         yield str(row["name"]), cells
 
@@ -126,10 +138,28 @@ def _cell(text: str | None, dialect: str) -> float | str | bool | None:
         return text
 
 
-def compare(before: Mapping[str, Figures], now: Mapping[str, Figures], tolerance: float) -> list[MovedFigure]:
-    """Return what has moved by more than a relative `tolerance`, the greatest change first.
+def tolerance_of(document: Mapping[str, Any]) -> float:
+    """Return the relative change that is no change by [verify] of the design of a verify.json."""
+    own = document.get("spec", {}).get("verify") or {}
+    return float(own.get("tolerance", TOLERANCE))
 
-    Designs and figures that only one of both has have moved too.
+
+def _rounding(moved: MovedFigure, tolerance: float) -> bool:
+    """Return whether a figure is a deviation that has changed by no more than the tolerance, as a share or in its unit."""
+    both = (moved.before, moved.now)
+    if not _DEVIATION.match(moved.figure) or any(isinstance(value, bool | str | None) for value in both):
+        return False
+    one, two = (float(value or 0.0) for value in both)
+    return abs(two - one) <= tolerance
+
+
+def compare(
+    before: Mapping[str, Figures], now: Mapping[str, Figures], tolerances: Mapping[str, float], given: float | None = None
+) -> list[MovedFigure]:
+    """Return what has moved by more than a relative tolerance, the greatest change first.
+
+    It is the one that is `given` for all, else that of the design in `tolerances`. Designs and figures that only one of both
+    has have moved too.
     """
     moved = []
     for design in dict.fromkeys([*before, *now]):
@@ -137,8 +167,9 @@ def compare(before: Mapping[str, Figures], now: Mapping[str, Figures], tolerance
             moved.append(MovedFigure(design, "design", design if design in before else None, design if design in now else None))
             continue
         old, new = before[design], now[design]
+        tolerance = tolerances.get(design, TOLERANCE) if given is None else given
         for figure in dict.fromkeys([*old, *new]):
             each = MovedFigure(design, figure, old.get(figure), new.get(figure))
-            if each.before != each.now and not abs(each.change) <= tolerance:
+            if each.before != each.now and not abs(each.change) <= tolerance and not _rounding(each, tolerance):
                 moved.append(each)
     return sorted(moved, key=lambda each: -abs(each.change))

@@ -7,7 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from time import perf_counter
-from typing import Any
+from typing import Annotated, Any
+
+from gearcad.core.quantities import Member, Range, Words, require_fields
+from gearcad.core.records import concise
 
 
 class VerificationLevel(Enum):
@@ -21,6 +24,26 @@ class VerificationLevel(Enum):
         """Return whether a verification at this level has the claims of the other level."""
         levels = list(VerificationLevel)
         return levels.index(other) <= levels.index(self)
+
+
+TOLERANCE = 1e-6
+"""Relative change of a figure from a baseline that is no change, unless another is given."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class VerificationOptions:
+    """Options of a verification: what is judged, and the relative change of a figure from a baseline that is no change.
+
+    Raises ParameterError.
+    """
+
+    level: Annotated[str, Member(VerificationLevel), Words("extent of the verification")] = VerificationLevel.FILES.value
+    tolerance: Annotated[float, Range("", 0.0, 0.999), Words("relative change from a baseline that is no change")] = TOLERANCE
+
+    __repr__ = concise
+
+    def __post_init__(self) -> None:
+        require_fields(self)
 
 
 class ClaimSubject(Enum):
@@ -66,7 +89,9 @@ class Claim:
     @property
     def text(self) -> str:
         """The claim in one line: what, where, the deviation beside what is permitted, and the reason."""
-        if self.deviation is not None and self.permitted is not None:
+        if self.subject is ClaimSubject.STRENGTH and isinstance(self.computed, float):
+            said = f": {self.computed:.4g} of {self.reference} required"
+        elif self.deviation is not None and self.permitted is not None:
             said = f": {self.deviation:.4g} of {self.permitted:.4g} {self.unit} permitted".replace("  ", " ")
         elif self.computed is not None or self.reference is not None:
             said = f": {self.computed} told, {self.reference} found"

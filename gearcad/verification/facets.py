@@ -37,8 +37,8 @@ _BODY = 1.05
 """Factor on the chord error for the middle of a triangle: it is bounded for the sides of triangles."""
 
 
-JudgedFacets = dict[tuple[str, str, str], list[Claim]]
-"""Claims about bodies that were judged before, by the kind of file, the part and the digest of the facets."""
+JudgedFacets = dict[tuple[tuple[float, float], str, str], list[Claim]]
+"""Claims about bodies that were judged before, by the rounding of the file, the part and the digest of the facets."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def judge_facets(
     """Judge every body of a file against the parts that it should have, by their names; of an assembly also the `meshes`.
 
     `chord_error` (mm) bounds how far facets may be off. `names`: whether the file has the names of its parts (STL has not).
-    The same facets as those of a body that was `judged` in a file of this kind have the same claims; others are added.
+    The same facets as those of a body that was `judged` in a file of the same rounding have the same claims; others are added.
     """
     ending = path.suffix[1:]
     judge = Judge(SUBJECTS[ending], VerificationLevel.FILES, path.name, "trimesh")
@@ -100,9 +100,9 @@ def judge_facets(
     for name, part in parts.items():
         if name in bodies:
             of_part = Judge(judge.subject, judge.level, path.name if len(parts) == 1 else f"{path.name}: {name}", judge.name)
-            key, before = (ending, name, _digest(bodies[name].mesh)), judged if judged is not None else {}
+            key, before = (_written(ending), name, _digest(bodies[name].mesh)), judged if judged is not None else {}
             if key in before:
-                yield from (replace(claim, where=of_part.where) for claim in before[key])
+                yield from (replace(claim, subject=of_part.subject, where=of_part.where) for claim in before[key])
                 continue
             before[key] = []
             for claim in _judge_body(of_part, bodies[name].mesh, part, ending, chord_error):
@@ -113,10 +113,20 @@ def judge_facets(
     yield from judge_places(places, meshes, placed, rounding=_PLACE[ending])
 
 
+def _written(ending: str) -> tuple[float, float]:
+    """How files of an ending round coordinates: as a share, and in mm."""
+    return _ROUNDING[ending], _LAST_DIGIT[ending]
+
+
 def _digest(mesh: Trimesh) -> str:
-    """Digest of the vertices and triangles of a body."""
-    found = hashlib.sha256(np.ascontiguousarray(mesh.vertices).tobytes())
-    found.update(np.ascontiguousarray(mesh.faces).tobytes())
+    """Digest of the triangles of a body and of how they share vertices, whose order does not matter."""
+    flat = np.asarray(mesh.faces).ravel()
+    _, first, number = np.unique(flat, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # vertices by the first triangle that has them
+    shared = np.argsort(order)[number]
+    found = hashlib.sha256(np.ascontiguousarray(mesh.vertices[flat[first[order]]], float).tobytes())
+    found.update(np.ascontiguousarray(shared, np.int64).tobytes())
+    found.update(str(len(mesh.vertices)).encode())
     return found.hexdigest()
 
 
@@ -126,7 +136,8 @@ def _judge_body(judge: Judge, mesh: Trimesh, part: ExactPart, ending: str, chord
         yield judge.holds("has facets", False)
         return
     size = float(np.abs(mesh.vertices).max())
-    permitted = _LEAST + _ROUNDING[ending] * size * np.sqrt(3) + _LAST_DIGIT[ending]
+    share, digit = _written(ending)
+    permitted = _LEAST + share * size * np.sqrt(3) + digit
     closed = bool(mesh.is_watertight)
     yield judge.holds("is watertight", closed, place="" if closed else _open_edge(mesh))
     yield judge.holds("triangles are turned outwards", bool(mesh.is_winding_consistent) and mesh.volume > 0)

@@ -114,6 +114,48 @@ def test_baseline_tells_what_moved_the_greatest_first(made: Path, tmp_path: Path
     assert sizes == sorted(sizes, reverse=True)
 
 
+def test_tolerance_of_the_spec_holds_and_the_option_wins(made: Path, tmp_path: Path) -> None:
+    """A face width that is 0.001 % less: volumes move by as much, which 0.01 % permits and 0.0001 % does not."""
+    spec = tmp_path / "small.toml"
+    narrower = SPEC.replace("face_width = 10.0", "face_width = 9.9999")
+
+    def moved(text: str, *options: str) -> list[str]:
+        spec.write_text(text)
+        told = run(spec, "-o", tmp_path / "out", "--baseline", made / "out", "--quiet", *options)
+        found = [line for line in told.output.splitlines() if line.startswith("Moved")]
+        assert told.exit_code == bool(found), told.output
+        return found
+
+    assert any("STEP: pinion.step: volume" in line for line in moved(narrower))
+    assert moved(f"{narrower}\n[verify]\ntolerance = 1e-4\n") == []
+    assert moved(f"{narrower}\n[verify]\ntolerance = 1e-4\n", "--tolerance", "1e-6")
+    assert moved(f"{narrower}\n[verify]\ntolerance = 1e-6\n", "--tolerance", "1e-4") == []
+
+
+def test_level_of_the_spec_holds_and_the_option_wins(tmp_path: Path) -> None:
+    spec = tmp_path / "gear.toml"
+    spec.write_text('[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 10.0\n[verify]\nlevel = "strength"\n')
+    for options, level in (((), "strength"), (("--level", "files"), "files")):
+        assert run(spec, "-o", tmp_path / "out", "--quiet", *options).exit_code == 0
+        assert json.loads((tmp_path / "out" / "verify.json").read_text())["level"] == level
+
+
+def test_each_row_has_the_tolerance_of_its_column(tmp_path: Path) -> None:
+    heading, one, two = TABLE.splitlines()
+    path = tmp_path / "gears.csv"
+
+    def moved(width: str, *options: object) -> set[str]:
+        rows = (f"{line.replace(',8,', f',{width},')},{tolerance}" for line, tolerance in ((one, "1e-3"), (two, "1e-6")))
+        path.write_text("\n".join((f"{heading},verify.tolerance", *rows, "")))
+        told = run(path, "-o", tmp_path / width, "-j", 1, "--quiet", *options)
+        return {line.split(": ")[1] for line in told.output.splitlines() if line.startswith("Moved: ")}
+
+    assert moved("8") == set()
+    assert moved("8.001", "--baseline", tmp_path / "8") == {"two"}
+    assert moved("8.001", "--baseline", tmp_path / "8" / "results.csv") == {"two"}
+    assert moved("8.001", "--baseline", tmp_path / "8", "--tolerance", "1e-3") == set()
+
+
 @pytest.fixture(scope="module")
 def table(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("table")
@@ -150,7 +192,7 @@ def test_results_of_a_table_are_a_baseline(table: Path) -> None:
     ("arguments", "message"),
     [
         (("--level", "most"), "level = 'most': must be one of 'files', 'strength', 'full'"),
-        (("--tolerance", "2"), "tolerance = 2: must be from 0 to below 1"),
+        (("--tolerance", "2"), "tolerance = 2: must be a number at least 0 and at most 0.999"),
         (("--baseline", "nowhere"), "baseline = 'nowhere': must be a folder of an earlier run, or its results.csv"),
         (("--files", "nowhere"), "files = 'nowhere': must be a folder with the files of the design"),
         (("-j", "2"), "jobs = 2: needs a design table: a spec is one design"),
