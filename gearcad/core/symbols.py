@@ -9,9 +9,11 @@ source means that the quantity is our own.
 from __future__ import annotations
 
 import re
+from enum import Enum
 from typing import NamedTuple
 
 __all__ = [
+    "BODY",
     "CHECK",
     "CHECK_COLUMNS",
     "COURSES",
@@ -39,6 +41,7 @@ __all__ = [
     "STRENGTH_FACTORS",
     "STRENGTH_FIGURES",
     "TOLERANCES",
+    "Better",
     "Symbol",
     "parts_of",
 ]
@@ -50,13 +53,24 @@ INDEX = r"_((?:[^\s*/,;)]|,(?=[^\W\d_]))*[^\s*/,;).:])"
 _INDEX = re.compile(INDEX)
 
 
+class Better(Enum):
+    """The better one of two values of a quantity."""
+
+    HIGHER = "higher"
+    LOWER = "lower"
+
+
 class Symbol(NamedTuple):
-    """Symbol of one quantity: the standard's symbol, its unit ("" for numbers), the clause, and plain words."""
+    """Symbol of one quantity: the standard's symbol, its unit ("" for numbers), the clause, and plain words.
+
+    `better` says which of two values is the better one, where that is known whatever the design.
+    """
 
     symbol: str
     unit: str
     source: str
     words: str
+    better: Better | None = None
 
     @property
     def parts(self) -> tuple[tuple[str, str], ...]:
@@ -151,7 +165,7 @@ PAIR = {
     "specific_sliding.wheel_A": Symbol("ζ_A2", "", "5.4", "specific sliding at A, wheel"),
     "specific_sliding.pinion_E": Symbol("ζ_E1", "", "5.4", "specific sliding at E, pinion"),
     "specific_sliding.wheel_E": Symbol("ζ_E2", "", "5.4", "specific sliding at E, wheel"),
-    "specific_sliding.greatest": Symbol("ζ", "", "5.4", "specific sliding, greatest"),
+    "specific_sliding.greatest": Symbol("ζ", "", "5.4", "specific sliding, greatest", Better.LOWER),
     "contact_line_lengths.minimum": Symbol("", "mm", "5.4", "contact lines, least total length"),
     "contact_line_lengths.mean": Symbol("", "mm", "5.4", "contact lines, mean total length"),
     "contact_line_lengths.maximum": Symbol("", "mm", "5.4", "contact lines, greatest total length"),
@@ -168,6 +182,11 @@ COURSES: dict[str, Symbol] = {
     "specific_sliding_path.wheel": Symbol("ζ_2", "", "5.4", "specific sliding along the path, wheel"),
 }
 """Lists along the path of contact in the document of a pair."""
+
+BODY = {
+    "mass": Symbol("m", "kg", "", "mass of the solid", Better.LOWER),
+}
+"""Symbols of what follows from the solid of a gear and its material."""
 
 RACK = {
     "transverse_module": GEAR["transverse_module"],
@@ -213,10 +232,10 @@ PLANETARY = {
     "positions": Symbol("q", "", "", "places where planets fit"),
     "free_tip_distance": Symbol("", "mm", "", "distance between planets' tips"),
     "ratio": Symbol("i", "", "", "ratio, speed of input over output"),
-    "efficiency": Symbol("η", "", "", "efficiency from input to output"),
+    "efficiency": Symbol("η", "", "", "efficiency from input to output", Better.HIGHER),
     "efficiency_back": Symbol("η", "", "", "efficiency from output to input"),
     "planet_speed_relative": Symbol("", "rpm", "", "speed of a planet on its pin"),
-    "mesh_load_factor": Symbol("K_γ", "", "ISO 6336-1", "greatest share of a planet, 1 where all carry alike"),
+    "mesh_load_factor": Symbol("K_γ", "", "ISO 6336-1", "greatest share of a planet, 1 where all carry alike", Better.LOWER),
     "torsional_stiffness": Symbol("", "N·m/rad", "", "torsional stiffness at the output"),
     "frequency_1": Symbol("f_1", "Hz", "", "first natural frequency"),
     "frequency_2": Symbol("f_2", "Hz", "", "second natural frequency"),
@@ -288,8 +307,8 @@ GEAR_RATING = {
     **_ROOT_FACTORS,
     "b": Symbol("b", "mm", "ISO 6336-3, 5", "width that carries at the root"),
     "sigma_F0": Symbol("σ_F0", "MPa", "ISO 6336-3, 5", "nominal root stress"),
-    "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with K_A"),
-    "sigma_F": Symbol("σ_F", "MPa", "ISO 6336-3, 5", "root stress with K_A"),
+    "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with K_A", Better.LOWER),
+    "sigma_F": Symbol("σ_F", "MPa", "ISO 6336-3, 5", "root stress with K_A", Better.LOWER),
 }
 
 _OF_FLANKS = {
@@ -323,11 +342,11 @@ TOLERANCES = {
 """Symbols of flank tolerances, by the editions of 1995 and of 2013."""
 
 _LOAD_FACTORS = {
-    "K_v": Symbol("K_v", "", "ISO 6336-1, 6", "dynamic factor"),
-    "K_Hbeta": Symbol("K_Hβ", "", "ISO 6336-1, 7", "face load factor of contact"),
-    "K_Fbeta": Symbol("K_Fβ", "", "ISO 6336-1, 7", "face load factor of the root"),
-    "K_Halpha": Symbol("K_Hα", "", "ISO 6336-1, 8", "transverse load factor of contact"),
-    "K_Falpha": Symbol("K_Fα", "", "ISO 6336-1, 8", "transverse load factor of the root"),
+    "K_v": Symbol("K_v", "", "ISO 6336-1, 6", "dynamic factor", Better.LOWER),
+    "K_Hbeta": Symbol("K_Hβ", "", "ISO 6336-1, 7", "face load factor of contact", Better.LOWER),
+    "K_Fbeta": Symbol("K_Fβ", "", "ISO 6336-1, 7", "face load factor of the root", Better.LOWER),
+    "K_Halpha": Symbol("K_Hα", "", "ISO 6336-1, 8", "transverse load factor of contact", Better.LOWER),
+    "K_Falpha": Symbol("K_Fα", "", "ISO 6336-1, 8", "transverse load factor of the root", Better.LOWER),
 }
 
 STRENGTH_FACTORS = {
@@ -356,17 +375,17 @@ STRENGTH = {
     "sigma_Hlim": Symbol("σ_Hlim", "MPa", "ISO 6336-5", "endurance limit of contact stress"),
     "sigma_Flim": Symbol("σ_Flim", "MPa", "ISO 6336-5", "endurance limit of root stress"),
     "sigma_H0": RATING["sigma_H0"],
-    "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with all load factors"),
+    "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with all load factors", Better.LOWER),
     "sigma_HG": Symbol("σ_HG", "MPa", "ISO 6336-2, 5", "pitting stress limit"),
     "sigma_HP": Symbol("σ_HP", "MPa", "ISO 6336-2, 5", "permissible contact stress"),
     "sigma_F0": GEAR_RATING["sigma_F0"],
-    "sigma_F": Symbol("σ_F", "MPa", "ISO 6336-3, 5", "root stress with all load factors"),
+    "sigma_F": Symbol("σ_F", "MPa", "ISO 6336-3, 5", "root stress with all load factors", Better.LOWER),
     "sigma_FG": Symbol("σ_FG", "MPa", "ISO 6336-3, 5", "root stress limit"),
     "sigma_FP": Symbol("σ_FP", "MPa", "ISO 6336-3, 5", "permissible root stress"),
-    "S_H": Symbol("S_H", "", "ISO 6336-2, 5", "safety of the flank against pitting"),
-    "S_F": Symbol("S_F", "", "ISO 6336-3, 5", "safety of the root against breakage"),
-    "S_int": Symbol("S_int", "", "ISO/TR 13989-2", "safety against scuffing, integral temperature"),
-    "S_B": Symbol("S_B", "", "ISO/TR 13989-1", "safety against scuffing, flash temperature"),
+    "S_H": Symbol("S_H", "", "ISO 6336-2, 5", "safety of the flank against pitting", Better.HIGHER),
+    "S_F": Symbol("S_F", "", "ISO 6336-3, 5", "safety of the root against breakage", Better.HIGHER),
+    "S_int": Symbol("S_int", "", "ISO/TR 13989-2", "safety against scuffing, integral temperature", Better.HIGHER),
+    "S_B": Symbol("S_B", "", "ISO/TR 13989-1", "safety against scuffing, flash temperature", Better.HIGHER),
     "N_L": Symbol("N_L", "", "ISO 6336-2, 11", "load cycles of a tooth"),
 }
 """Symbols of a full rating: symbols, clauses and words of its factors, stresses and safeties."""

@@ -18,6 +18,7 @@ from gearcad.designs.keys import DesignKind
 from gearcad.page.components.elements import BarView
 from gearcad.page.folder import DESIGN, TAB
 from gearcad.page.panels import Panel
+from gearcad.page.panels.compare import ComparePanel
 from gearcad.page.panels.limits import LimitsPanel
 from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.sheet_content import StrengthPanel
@@ -27,7 +28,7 @@ from gearcad.page.panels.views import BodiesPanel, RollPanel, SectionPanel, Shar
 from gearcad.page.run_process import result_in_process
 from gearcad.page.runs import Runs
 from gearcad.page.words import PageLanguage, PageWords, language_of
-from gearcad.page.workbench import TEXT, BesideDesign, DesignStatus, linked_bench
+from gearcad.page.workbench import TEXT, BesideDesign, DesignStatus, KeptDesign, linked_bench
 
 _SECONDS = 60.0
 """Seconds until an unclaimed handover is dropped."""
@@ -148,6 +149,7 @@ class Following:
         self._change = 0
         self._task: asyncio.Task[None] | None = None
         self._later: asyncio.Task[None] | None = None
+        self._kept: dict[tuple[int, int], tuple[Design, tuple[Any]]] = {}
 
     def with_line(self, panel: One, seen: Callable[[], bool] = lambda: True) -> One:
         """A panel, which follows while it is seen, and after it the place of the line that tells where it fails."""
@@ -194,16 +196,29 @@ class Following:
         if self._status() is not DesignStatus.OTHER:
             background_tasks.create(self._show(panel, self._design(), self._change))
 
-    async def compare(self, kept: Callable[[], Design | None]) -> None:
-        """Let panels show their figures of the kept design beside the others."""
-        design = kept()
+    async def compare(self, kept: Callable[[], tuple[KeptDesign, ...]]) -> None:
+        """Let panels show their figures of the last kept design beside the others, and some panels those of all."""
+        designs = kept()
         for panel in self._order:
-            if panel.compares:
-                found = None if design is None else await self._found(panel, design)
-                if design is not kept():
-                    return
-                panel.keep(found[0] if found else None)
+            if not (panel.compares or panel.keeps_all):
+                continue
+            wanted = designs if panel.keeps_all else designs[-1:]
+            found = [(each.design.name, await self._found_once(panel, each.design)) for each in wanted]
+            if designs != kept():
+                return
+            if panel.keeps_all:
+                panel.keep_all([(name, each[0]) for name, each in found if each is not None])
+            else:
+                panel.keep(found[0][1][0] if found and found[0][1] else None)
+        self._kept = {at: each for at, each in self._kept.items() if any(each[0] is one.design for one in designs)}
         self.follow()
+
+    async def _found_once(self, panel: Panel[Any], design: Design) -> tuple[Any] | None:
+        """Return the content of a panel for a kept design, which is found once while the design is kept."""
+        place = (id(panel), id(design))
+        if place not in self._kept and (found := await self._found(panel, design)) is not None:
+            self._kept[place] = (design, found)
+        return self._kept[place][1] if place in self._kept else None
 
     def end(self) -> None:
         """Stop following because the tab was closed."""
@@ -316,7 +331,7 @@ class Session:
                     section = following.with_line(SectionPanel(words))
                     following.band()
             with _region("right", words["Results"]):
-                right = self._right = Tabs({"data": words["Data"], "runs": words["Runs"], "table": words["Table"]})
+                right = self._right = Tabs(_right_titles(words))
                 with right.under("data"):
                     shares = following.with_line(SharesPanel(words))
                     strength = following.with_line(StrengthPanel(words))
@@ -325,14 +340,21 @@ class Session:
                 with right.under("runs"):
                     self._runs = RunsPanel(bench, words, runs, lambda: right.chosen == "runs")
                     right.on("runs", self._runs.expect)
+                with right.under("compare"):
+                    compare = following.with_line(
+                        ComparePanel(words, lambda: bench.name, self._beside),
+                        lambda: right.chosen == "compare" and bool(beside.all),
+                    )
+                    following.band()
+                    right.on("compare", lambda: following.look(compare))
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
-        following.begin((section, roll, bodies, sheet, strength, limits, shares))
+        following.begin((section, roll, bodies, sheet, strength, limits, shares, compare))
         self.open.add(self)
         ui.context.client.on_delete(self.leave)
         self.follow()
         if beside.kept is not None:
-            background_tasks.create(following.compare(lambda: beside.design))
+            background_tasks.create(following.compare(lambda: beside.all))
 
     @classmethod
     def of(cls, text: str, name: str, folder: Path) -> Session:
@@ -370,7 +392,7 @@ class Session:
         self._files = FilesPanel(self.key, self.bench, words, self.opened, self.tabled, self.follow)
         self._undo = self._button("undo", words["undo"], forth=False)
         self._redo = self._button("redo", words["redo"], forth=True)
-        BesidePanel(self.beside, words, self.kept)
+        self._beside = BesidePanel(self.beside, words, self.kept)
         ui.element("div").classes("rest")
         titles = {UnitSystem.METRIC: words["millimetres and newtons"], UnitSystem.INCH: words["inches and pounds"]}
         for units, title in titles.items():
@@ -418,7 +440,7 @@ class Session:
     def kept(self) -> None:
         """Another design is beside this one, or none; it may have changed places with it."""
         self.follow(reveal=True)
-        background_tasks.create(self._following.compare(lambda: self.beside.design))
+        background_tasks.create(self._following.compare(lambda: self.beside.all))
 
     def tabled(self, text: str, name: str) -> None:
         """Show a table of results that the user opened."""
@@ -455,6 +477,10 @@ class Session:
         """Close all sessions because the server ends."""
         for each in tuple(cls.open):
             each.leave()
+
+
+def _right_titles(words: PageWords) -> dict[str, str]:
+    return {"data": words["Data"], "runs": words["Runs"], "compare": words["Compare"], "table": words["Table"]}
 
 
 def _region(place: str, label: str) -> ui.element:

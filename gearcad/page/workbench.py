@@ -384,46 +384,69 @@ class KeptDesign(NamedTuple):
     design: Design
 
 
+MOST_DESIGNS = 5
+"""Largest number of designs that are compared, with the one that is edited."""
+
+
 class BesideDesign:
-    """The design `kept` beside that of a workbench `bench`, if there is one."""
+    """The designs that are kept beside that of a workbench `bench`; the last, `kept`, is shown in all panels."""
 
     def __init__(self, bench: Workbench) -> None:
         self.bench, self.folder = bench, Folder(bench.folder)
-        self.kept: KeptDesign | None = None
+        self.all: tuple[KeptDesign, ...] = ()
+
+    @property
+    def kept(self) -> KeptDesign | None:
+        return self.all[-1] if self.all else None
 
     @property
     def design(self) -> Design | None:
         return None if self.kept is None else self.kept.design
 
     def keep(self) -> None:
-        """Keep the design that is edited. Raises SpecError while its text makes none."""
-        self.kept = self._present()
+        """Keep the design that is edited. Raises SpecError while its text makes none, ParameterError beside too many."""
+        self._add(self._present())
 
     def open(self, file: str) -> None:
         """Keep that of a spec in the folder. Raises ParameterError, SpecError."""
         text, name = self.folder.spec(file), file.removesuffix(".toml")
-        self.kept = KeptDesign(text, name, design_of(text, name, self.folder.path))
+        self._add(KeptDesign(text, name, design_of(text, name, self.folder.path)))
 
-    def swap(self) -> None:
-        """Edit the kept design, as a step that can be undone, and keep the edited one. Raises SpecError if that is not a
+    def _add(self, kept: KeptDesign) -> None:
+        """Keep a design as the last one; one that is kept already only changes its place."""
+        others = tuple(each for each in self.all if (each.text, each.name) != (kept.text, kept.name))
+        if len(others) >= MOST_DESIGNS - 1:
+            raise ParameterError("designs", len(others) + 2, f"must be at most {MOST_DESIGNS}: let go of one first")
+        self.all = (*others, kept)
+
+    def swap(self, at: int = -1) -> None:
+        """Edit a kept design, as a step that can be undone, and keep the edited one. Raises SpecError if that is not a
         design.
         """
-        if (kept := self.kept) is not None:
-            self.kept = self._present()
+        if self.all:
+            kept = self.all[at]
+            self.all = _with(self.all, at, self._present())
             self.bench.open(kept.text, kept.name)
 
     def copied(self) -> BesideDesign:
         """Return one of its own with a copy of the workbench."""
         other = BesideDesign(self.bench.copied())
-        other.kept = self.kept
+        other.all = self.all
         return other
 
-    def let_go(self) -> None:
-        """Let the kept design go."""
-        self.kept = None
+    def let_go(self, at: int = -1) -> None:
+        """Let a kept design go."""
+        if self.all:
+            self.all = _with(self.all, at)
 
     def _present(self) -> KeptDesign:
         bench = self.bench
         if bench.fault is not None and bench.fault.written:
             raise SpecError(bench.fault.line, bench.fault.key)
         return KeptDesign(bench.text, bench.name, bench.design)
+
+
+def _with(kept: tuple[KeptDesign, ...], at: int, *others: KeptDesign) -> tuple[KeptDesign, ...]:
+    """Return the kept designs with others in place of one of them."""
+    place = range(len(kept))[at]
+    return (*kept[:place], *others, *kept[place + 1 :])

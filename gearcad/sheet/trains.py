@@ -10,7 +10,7 @@ from gearcad.core import symbols
 from gearcad.core.errors import format_number
 from gearcad.core.quantities import symbols_of
 from gearcad.core.records import PerGear, Role, is_assumed
-from gearcad.core.symbols import Symbol
+from gearcad.core.symbols import Better, Symbol
 from gearcad.designs.train_keys import MAIN, TORQUES, TRAIN, TRAIN_PARTS
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
@@ -86,9 +86,9 @@ LONGEST_LIFE = 1e6
 """Hours above which a life is told as more than that."""
 
 _PART_SYMBOLS = {
-    "permissible_torque": Symbol("T_1", "N·m", "", "torque on the pinion at the required safety"),
-    "life": Symbol("", "h", "", "life at the required safety"),
-    "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety"),
+    "permissible_torque": Symbol("T_1", "N·m", "", "torque on the pinion at the required safety", Better.HIGHER),
+    "life": Symbol("", "h", "", "life at the required safety", Better.HIGHER),
+    "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety", Better.LOWER),
 }
 
 _CYCLES = {RatedPart.FLANK: "ISO 6336-2, 11", RatedPart.ROOT: "ISO 6336-3, 12"}
@@ -199,7 +199,7 @@ def train_strength_sections(strength: TrainStrength) -> tuple[Section, ...]:
         least = [gear.least(part) for part in RatedPart]
         texts = tuple(ABSENT if each is None else f"{_text(each.safety)} ({each.mesh})" for each in least)
         values = tuple(None if each is None else each.safety for each in least)
-        rows.append(Row(f"least.{name}", Symbol("", "", "", name), values, texts))
+        rows.append(Row(f"least.{name}", Symbol("", "", "", name, Better.HIGHER), values, texts))
     sections = [Section(tuple(f"S_{part.index}" for part in RatedPart), block("Least safeties", filter(_is_known, rows)))]
     for name, rating in strength.meshes.items():
         sections += strength_sections(rating, name)

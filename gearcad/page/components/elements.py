@@ -209,6 +209,24 @@ class RunsView(Element, component="gear_runs.js", esm={"gear-symbols": "symbols"
         self.run_method("tell", number, told)
 
 
+class CompareView(Element, component="gear_compare.js", esm={"gear-symbols": "symbols"}):
+    """A table of designs; calls `swap(place)` and `let_go(place)` for those that are kept. `words` are its own."""
+
+    def __init__(self, swap: Callable[[int], None], let_go: Callable[[int], None], words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["words"] = words
+        self.on("swap", lambda event: swap(int(event.args.get("at", -1))))
+        self.on("go", lambda event: let_go(int(event.args.get("at", -1))))
+
+    def show(self, names: Sequence[str], rows: Sequence[Mapping[str, Any]]) -> None:
+        """Show designs by their `names`, the edited one first, and `rows` of what differs, a cell for each of them."""
+        self.run_method("show", list(names), list(rows))
+
+    def wait(self) -> None:
+        """Tell that what is shown is of an older design."""
+        self.run_method("wait")
+
+
 class SectionView(Element, component="gear_section.js"):
     """Draws what `gearcad.page.panels.drawn_data` finds; `label` says to those who cannot see it what it is."""
 

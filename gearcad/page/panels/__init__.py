@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from gearcad.designs.design import Design
@@ -19,10 +19,11 @@ Found = TypeVar("Found")
 class Panel(ABC, Generic[Found]):
     """A part of the page that follows the design. It is built at the place where NiceGUI puts elements when it is made.
 
-    A panel that `compares` shows a kept design next to the present one.
+    A panel that `compares` shows a kept design next to the present one, one that `keeps_all` shows all that are kept.
     """
 
     compares: ClassVar[bool] = False
+    keeps_all: ClassVar[bool] = False
 
     _view: Any
 
@@ -55,6 +56,9 @@ class Panel(ABC, Generic[Found]):
 
     def keep(self, found: Found | None) -> None:
         """Take the result for the kept design, or None, to be shown with later results."""
+
+    def keep_all(self, found: Sequence[tuple[str, Found]]) -> None:
+        """Take the names of all kept designs with their results, to be shown with later results."""
 
 
 def mark_stale(view: Element, stale: str) -> None:

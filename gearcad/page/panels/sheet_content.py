@@ -121,7 +121,7 @@ def shown_sections(
             "blocks": [
                 {
                     "id": " ".join(filter(None, (section.name, *section.columns, block.title))),
-                    "title": ": ".join(filter(None, (called(words, section.name), _title(block.title, words)))),
+                    "title": ": ".join(filter(None, (called(words, section.name), title_of(block.title, words)))),
                     "folded": block.title in folded,
                     "rows": [_row(row, section, words, before, beside) for row in block.rows],
                 }
@@ -132,7 +132,7 @@ def shown_sections(
     ]
 
 
-def _title(title: str, words: PageWords) -> str:
+def title_of(title: str, words: PageWords) -> str:
     """Return the title of a block in the language of the page: its subject, or the gear that it describes."""
     known = words[_OTHER_TITLES.get(title, title)]
     return called(words, title) if known == title else known
@@ -268,8 +268,13 @@ def figures_in(found: Figures, system: UnitSystem) -> Figures:
     """Return figures in other units than those of documents."""
     if system is UnitSystem.METRIC:
         return found
-    sections = tuple(_section_in(section, system) for section in found.sections)
+    sections = sections_in(found.sections, system)
     return found._replace(sections=sections, cells=cells_of(sections))
+
+
+def sections_in(sections: Iterable[Section], system: UnitSystem) -> tuple[Section, ...]:
+    """Return sections in other units than those of documents."""
+    return tuple(_section_in(section, system) for section in sections)
 
 
 def _section_in(section: Section, system: UnitSystem) -> Section:

@@ -196,10 +196,21 @@ class BesidePanel:
         self._show("")
         self._changed()
 
+    def swap(self, at: int) -> None:
+        """Edit a kept design, and keep the edited one in its place."""
+        if 0 <= at < len(self._beside.all):
+            self._do(partial(self._beside.swap, at))
+
+    def let_go(self, at: int) -> None:
+        """Let a kept design go."""
+        if 0 <= at < len(self._beside.all):
+            self._do(partial(self._beside.let_go, at))
+
     def _show(self, line: str) -> None:
-        kept = self._beside.kept
+        kept, others = self._beside.kept, len(self._beside.all) - 1
         self._shown.set_visibility(kept is not None)
-        self._name.set_text("" if kept is None else f"{self._words['kept']}: {kept.design.name}")
+        more = f" (+{others})" if others > 0 else ""
+        self._name.set_text("" if kept is None else f"{self._words['kept']}: {kept.design.name}{more}")
         self._line.set_text(line)
 
 

@@ -207,3 +207,28 @@ def test_values_of_the_mesh_stand_across_those_of_gears_under_their_gear(tab: An
     assert "<sub>H</sub>" in symbol
     title = tab.page.get_attribute('[data-row="pair.total_contact_ratio"]', "title")
     assert "ISO 21771, clause 5.4" in title
+
+
+def test_designs_are_compared_swapped_and_let_go(tab: Any) -> None:
+    for width in ("28", "30"):
+        tab.page.get_by_role("button", name="Beside").click()
+        tab.page.get_by_text("keep this design").click()
+        tab.page.wait_for_selector(".beside-kept", state="visible")
+        tab.field("pinion.face_width").fill(width)
+        tab.page.wait_for_selector(f'tr[data-row="gear.face_width"] .value:has-text("{width}.0000")', state="attached")
+    tab.page.get_by_role("tab", name="Compare").click()
+    row = tab.page.locator('[data-compared="gear.face_width pinion"]')
+    tab.page.wait_for_function(
+        "document.querySelector('[data-compared=\"gear.face_width pinion\"]')?.innerText.includes('30.0000')"
+    )
+    assert row.locator("td").all_inner_texts() == ["30.0000", "25.0000", "28.0000"]
+    assert tab.page.locator('[data-compared="mass pinion"] td').nth(1).get_attribute("class") == "best"
+    assert tab.page.locator('[data-compared="pair.centre_distance"]').count() == 0
+    tab.page.locator(".compare thead th").nth(1).get_by_role("button").first.click()
+    tab.page.wait_for_function("document.querySelector('[data-key=\"pinion.face_width\"] input').value === ''")
+    tab.page.wait_for_function(
+        "document.querySelector('[data-compared=\"gear.face_width pinion\"] td')?.innerText === '25.0000'"
+    )
+    assert row.locator("td").all_inner_texts() == ["25.0000", "30.0000", "28.0000"]
+    tab.page.locator(".compare thead th").nth(2).get_by_role("button").last.click()
+    tab.page.wait_for_function("document.querySelectorAll('.compare thead th[scope=col]').length === 2")
