@@ -32,7 +32,7 @@ const SpecField = {
         <button v-if="given !== undefined && !readonly" type="button" class="out" tabindex="-1" :title="form.words.out"
                 :aria-label="form.words.out + ': ' + field.words" @click="form.out(field.key)">×</button>
         <small v-if="field.number && given !== undefined && !isNumber && used && used !== given" class="used">{{ shown(used) }}</small>
-        <small v-if="beside" class="used"><gear-symbol :parts="beside" /></small>
+        <small v-if="beside" class="used pitch"><gear-symbol :parts="beside" /></small>
       </span>
       <span v-if="!cell" class="unit">{{ field.unit }}</span>
       <datalist v-if="field.offered.length" :id="'of-' + field.key"><option v-for="word in field.offered" :key="word" :value="word" /></datalist>
