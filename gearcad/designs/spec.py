@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeVar
 
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, format_number, shown
-from gearcad.core.quantities import FieldSchema, schema_of
+from gearcad.core.quantities import FieldSchema, parts_of, schema_of
 from gearcad.core.records import PerGear, Role, naming
 from gearcad.designs.design import Where, require_plain_name, require_sane_tables
 from gearcad.designs.keys import ALTERNATIVES, FIELDS, GEAR_FIELDS, PARTS, PARTS_BESIDE, SHARED, explain_unknown_key, field_of
@@ -23,6 +23,7 @@ from gearcad.geometry import (
     BasicRack,
     Gear,
     GearPair,
+    ShaperCutter,
     ShiftSplit,
     profile_shift_sum,
     split_profile_shift,
@@ -261,7 +262,7 @@ _SWITCH = {"true": True, "false": False}
 _OWN = ("material", "drawing")
 """Tables of a gear's own, which are read by themselves."""
 
-_TABLES_OF_GEAR = (*PARTS, *_OWN)
+_TABLES_OF_GEAR: Mapping[str, type[Any] | None] = {**PARTS, **dict.fromkeys(_OWN)}
 
 Simple = TypeVar("Simple")
 
@@ -382,7 +383,11 @@ class Spec:
 
     def giving_way(self, owner: str) -> set[str]:
         """Return the fields that an owner does not share, because it has them or an alternative to them."""
-        given = [each for each in ALTERNATIVES if any(f"{owner}.{field}" in self.values for field in each)]
+        given: list[tuple[str, ...]] = [
+            each for each in ALTERNATIVES if any(f"{owner}.{field}" in self.values for field in each)
+        ]
+        if any(key.startswith(f"{owner}.premachining.") for key in self.values):
+            given.append(_OTHER_TOOLS)
         return {field for each in given for field in each}
 
     def fields_of(self, owner: str) -> dict[str, Any]:
@@ -430,8 +435,21 @@ class Spec:
         for part, kind in kinds.items():
             if part not in inputs:
                 with _within(part):
-                    inputs[part] = kind(**parts[part])
+                    inputs[part] = kind(**_with_parts(parts[part], parts_of(kind)))
+        _refuse_other_tools(given)
         return inputs
+
+
+_OTHER_TOOLS = ("rack.dedendum", "rack.root_radius", *(f"cutter.{name}" for name in schema_of(ShaperCutter)))
+"""Keys of a tool that makes the whole tooth, which one that cuts before finishing replaces."""
+
+
+def _refuse_other_tools(given: Mapping[str, Any]) -> None:
+    """Raise GeometryError for keys of another tool beside those of one that cuts before finishing."""
+    if any(key.startswith("premachining.") for key in given):
+        for key in _OTHER_TOOLS:
+            if key in given:
+                raise GeometryError(key, given[key], "must be left out: the tool of premachining makes the root")
 
 
 @contextmanager
@@ -459,11 +477,12 @@ def _missing(fields: Mapping[str, FieldSchema]) -> dict[str, Any]:
     return {key: None for key, field in fields.items() if field.required}
 
 
-def _entries(content: Mapping[str, Any], parts: Collection[str]) -> Iterator[tuple[str, Any]]:
+def _entries(content: Mapping[str, Any], parts: Mapping[str, type[Any] | None]) -> Iterator[tuple[str, Any]]:
     """Keys and values of one table, those of its parts, such as `rack` and `body`, joined to them with a dot."""
     for field, value in content.items():
         if field in parts and isinstance(value, Mapping):
-            yield from ((f"{field}.{inner}", item) for inner, item in value.items())
+            kind = parts[field]
+            yield from ((f"{field}.{inner}", item) for inner, item in _entries(value, parts_of(kind) if kind else {}))
         else:
             yield field, value
 

@@ -13,8 +13,8 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import accuracy_grade_of, flank_roughness
 from gearcad.drawing.words import SheetWords, kind_of, titled
 from gearcad.geometry import NAMED_RACKS, FlankModification, Gear, Rack, RackPair, ReliefShape
-from gearcad.geometry.gear_data import corner_radius, shaped
 from gearcad.geometry.gear_parts import HALF_PITCH
+from gearcad.geometry.gear_tools import corner_radius, shaped
 from gearcad.geometry.modification import TransitionSource
 from gearcad.rating.tolerances import Accuracy, covered, gear_tolerances
 
@@ -309,7 +309,7 @@ def cutter_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the row of the corner radius that makes the fillets of a shaped gear or a ring. Rows of the shaper cutter follow
     if there is one.
     """
-    cutter = gear.cutter
+    cutter = gear.root_cutter
     if shaped(gear):
         yield write.length("corner_radius", corner_radius(gear) * gear.normal_module, "ρ_a0")
     if cutter.teeth is None or gear.cutter_tip_diameter is None:

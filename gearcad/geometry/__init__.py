@@ -1,6 +1,6 @@
 """Exact geometry of cylindrical gears: numpy, and scipy inside functions. Lengths in mm, angles in degrees."""
 
-from gearcad.geometry.gear import Gear, Pose, RackPose
+from gearcad.geometry.gear import Gear
 from gearcad.geometry.gear_parts import (
     ISO53_A,
     ISO53_B,
@@ -13,6 +13,7 @@ from gearcad.geometry.gear_parts import (
     HubSide,
     ShaperCutter,
 )
+from gearcad.geometry.gear_pictures import Pose, RackPose
 from gearcad.geometry.inspection import Inspection, RackInspection
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.modification import FlankForm, FlankModification, ReliefShape

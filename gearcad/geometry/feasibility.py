@@ -17,16 +17,18 @@ from gearcad.core.quantities import is_given
 from gearcad.core.records import Floats, Notice
 from gearcad.geometry.fillets import ShaperTip
 from gearcad.geometry.fits import derive_thinning, require_allowance
-from gearcad.geometry.gear_data import (
-    GearData,
+from gearcad.geometry.gear_data import GearData
+from gearcad.geometry.gear_parts import LEAST_FEATURE, Body, DoubleHelix, ShaperCutter, derive_module
+from gearcad.geometry.gear_tools import (
     corner_radius,
     full_corner_radius,
     generating_involute,
     line_of_generation,
+    precut_tip,
     shaped,
     shaper_tip,
+    tool_pressure_angle,
 )
-from gearcad.geometry.gear_parts import LEAST_FEATURE, Body, DoubleHelix, ShaperCutter, derive_module
 from gearcad.geometry.interference import InternalTips, ToothTips
 from gearcad.geometry.involute import inverse_involute, involute, tangent_length
 from gearcad.geometry.modification import FlankModification
@@ -42,7 +44,7 @@ def check_shaper(gear: GearData) -> None:
 
     The cutter must fit inside its ring, roll on it, reach its root, and generate its flanks up to the tips.
     """
-    teeth, cutter = gear.cutter.teeth, gear.cutter
+    teeth, cutter = gear.root_cutter.teeth, gear.root_cutter
     if gear.internal and teeth is not None and teeth >= gear.tooth_count:
         permitted = f"must be at most {gear.tooth_count - 1}: the cutter works inside a ring of {gear.tooth_count} teeth"
         raise GeometryError("cutter.teeth", teeth, permitted)
@@ -72,12 +74,12 @@ def cutter_fits(gear: GearData) -> bool:
 
 def _least_radius(gear: GearData) -> float:
     """Return the least radius of the corner, in normal modules, that leaves a visible fillet at a form root."""
-    return 0.0 if gear.cutter.teeth else LEAST_FEATURE / gear.normal_module
+    return 0.0 if gear.root_cutter.teeth else LEAST_FEATURE / gear.normal_module
 
 
 def _terms(gear: GearData) -> str:
     """Return, in words, the condition under which the cutter's corner has room."""
-    teeth = gear.cutter.teeth
+    teeth = gear.root_cutter.teeth
     return "for a space of that depth" if teeth is None else f"for a cutter of {teeth} teeth that reaches the root circle"
 
 
@@ -86,14 +88,14 @@ def _check_shift(gear: GearData, teeth: int) -> None:
     tangent = math.tan(math.radians(gear.rack.pressure_angle))
     least = -(math.pi / 2 + gear.tooth_thinning / gear.normal_module) / (2 * tangent)
     limit = -gear.profile_shift - involute(gear.transverse_pressure_angle) * (gear.teeth + teeth) / (2 * tangent)
-    if gear.cutter.profile_shift <= least:
+    if gear.root_cutter.profile_shift <= least:
         permitted = f"must be above {at_least(least)}: no tooth of the cutter on its reference circle"
     elif generating_involute(gear, teeth) <= 0:
         side = f"below {at_most(limit)}" if gear.internal else f"above {at_least(limit)}"
         permitted = f"must be {side}: the cutter meshes with these teeth at no centre distance"
     else:
         return
-    raise GeometryError("cutter.profile_shift", gear.cutter.profile_shift, permitted)
+    raise GeometryError("cutter.profile_shift", gear.root_cutter.profile_shift, permitted)
 
 
 def _cannot_reach(gear: GearData) -> GeometryError:
@@ -102,7 +104,7 @@ def _cannot_reach(gear: GearData) -> GeometryError:
     The root circle is inside the cutter's base circle, or beyond where its flanks meet.
     """
     tip = shaper_tip(gear, 0.0)
-    owner = "the flanks of the space" if gear.cutter.teeth is None else "the cutter's flanks"
+    owner = "the flanks of the space" if gear.root_cutter.teeth is None else "the cutter's flanks"
     if shallow := tip.tip_radius <= tip.base_radius:
         radius, why = tip.base_radius, f"where {owner} begin"
     else:
@@ -153,6 +155,8 @@ def _check_generated(gear: GearData, teeth: int) -> None:
 def _cut_by(gear: GearData, teeth: int) -> GearData:
     """Return the gear, unchecked, with another number of teeth of its cutter."""
     given = {each.name: getattr(gear, each.name) for each in fields(GearData)}
+    if gear.premachining.present:
+        return GearData(**given | {"premachining": replace(gear.premachining, cutter_teeth=teeth)})
     return GearData(**given | {"cutter": replace(gear.cutter, teeth=teeth)})
 
 
@@ -194,7 +198,7 @@ def trimming_notices(gear: GearData, profile: ToothProfile) -> Iterator[Notice]:
     """Yield a notice if the cutter of a ring trims the ring's tips, as it rolls or as it is fed in. Yield nothing without a
     cutter.
     """
-    teeth = gear.cutter.teeth
+    teeth = gear.root_cutter.teeth
     if not gear.internal or teeth is None:
         return
     tips, least = _tips(gear, profile, teeth), -_ROUNDING * gear.normal_module
@@ -216,9 +220,8 @@ def _tips(gear: GearData, profile: ToothProfile, teeth: int) -> InternalTips:
 
 def _fewer(gear: GearData, profile: ToothProfile, margin: Callable[[InternalTips], float]) -> str:
     """Return, in words, the largest number of teeth of a cutter that would not trim."""
-    plain = GearData(**{each.name: getattr(gear, each.name) for each in fields(GearData)})
-    for teeth in range((gear.cutter.teeth or 0) - 1, 2, -1):
-        other = replace(plain, cutter=replace(gear.cutter, teeth=teeth))
+    for teeth in range((gear.root_cutter.teeth or 0) - 1, 2, -1):
+        other = _cut_by(gear, teeth)
         if not cutter_fits(other):
             return ""
         if margin(_tips(other, profile, teeth)) >= 0:
@@ -293,7 +296,73 @@ def check_tool(gear: GearData) -> None:
     _check_thickness(gear)
     if gear.internal:
         _check_base_circle(gear)
-    (check_shaper if shaped(gear) else _check_hob)(gear)
+    if gear.premachining.present:
+        _check_premachining(gear)
+    else:
+        (check_shaper if shaped(gear) else _check_hob)(gear)
+
+
+_OF_PREMACHINING = {
+    "rack.dedendum": "premachining.tool_addendum",
+    "rack.root_radius": "premachining.tool_tip_radius",
+    "cutter.teeth": "premachining.cutter_teeth",
+    "cutter.profile_shift": "premachining.cutter_profile_shift",
+    "cutter.tip_radius": "premachining.tool_tip_radius",
+}
+"""Keys of the tool that cuts before finishing, by those of a tool that makes all."""
+
+
+def _check_premachining(gear: GearData) -> None:
+    """Raise GeometryError unless the tool that cuts before finishing can exist, and is the only one of the root."""
+    if gear.cutter.present:
+        raise GeometryError("cutter.teeth", gear.cutter.teeth, "must be left out: premachining has the tool of the root")
+    if is_given(gear.root_diameter):
+        permitted = "must be left out: it follows from premachining.tool_addendum"
+        raise GeometryError("root_diameter", gear.root_diameter, permitted, "mm")
+    if gear.premachining.topping is not None:
+        for name, given, unit in (
+            ("tip_diameter", is_given(gear.tip_diameter), "mm"),
+            ("tip_alteration", gear.tip_alteration != 0, ""),
+        ):
+            if given:
+                permitted = "must be left out: the tips follow from premachining.topping"
+                raise GeometryError(name, getattr(gear, name), permitted, unit)
+    if gear.premachining.semi_topping.present and gear.body.tip_chamfer:
+        permitted = "must be left out: the tips are chamfered by premachining.semi_topping"
+        raise GeometryError("body.tip_chamfer", gear.body.tip_chamfer, permitted, "mm")
+    thin = gear.transverse_pitch * gear.helix_cosine - gear.normal_tooth_thickness
+    most = thin * math.cos(math.radians(gear.rack.pressure_angle)) / 2
+    if gear.stock >= most:
+        permitted = f"must be below {at_most(most)} mm: no space is left between the teeth that are cut before"
+        raise GeometryError("premachining.stock", gear.stock, permitted, "mm")
+    if gear.premachining.protuberance_angle is not None:
+        angle = tool_pressure_angle(gear)
+        if gear.premachining.protuberance_angle >= angle:
+            permitted = f"must be below {angle:.6g} deg, the pressure angle of the tool"
+            raise GeometryError("premachining.protuberance_angle", gear.premachining.protuberance_angle, permitted, "deg")
+    if shaped(gear):
+        try:
+            check_shaper(gear)
+        except GeometryError as error:
+            name = _OF_PREMACHINING.get(error.parameter, error.parameter)
+            raise GeometryError(name, error.value, error.permitted, error.unit) from None
+        return
+    _check_precut_hob(gear)
+
+
+def _check_precut_hob(gear: GearData) -> None:
+    """Raise GeometryError unless both roundings fit the tip of the hob that cuts before finishing."""
+    tip = precut_tip(gear)
+    if tip.u >= 0:
+        return
+    m, angle = gear.normal_module, tip.pressure_angle
+    most = gear.root_radius + tip.u * math.cos(angle) / (1 - math.sin(angle)) / m
+    if most > 0:
+        permitted = f"must be at most {at_most(most, 4)} (full radius) for this addendum, protuberance and stock"
+        raise GeometryError("premachining.tool_tip_radius", gear.root_radius, permitted)
+    less = gear.tool_addendum + (tip.u - tip.radius * (math.tan(angle) - 1 / math.cos(angle))) / math.tan(angle) / m
+    permitted = f"must be at most {at_most(less, 4)}, where the flanks of the tool meet"
+    raise GeometryError("premachining.tool_addendum", gear.tool_addendum, permitted)
 
 
 def _check_base_circle(gear: GearData) -> None:

@@ -46,13 +46,26 @@ class FilletTool(Protocol):
         """Radius (mm) of the root form circle where nothing is undercut."""
 
 
+class ProtuberanceCut(NamedTuple):
+    """Involute that the flank of a protuberance cuts: base radius (mm), half tooth angle there, rolls (rad) of its ends.
+
+    The first roll is negative where the end of the tip arc is too deep to touch it.
+    """
+
+    base_radius: float
+    base_half_angle: float
+    first: float
+    last: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class ToolTip:
     """The rounded tip corner of a hob or rack, set to cut one gear.
 
     `radius` of the tip (mm, normal section), `u` and `v` of its centre (mm), `pressure_angle` (normal) and
     `helix_angle` in radians, `reference_radius` r of the gear (mm). The tip arc runs over
-    theta = 0 (its deepest point) ... `last_angle` (where the straight flank begins).
+    theta = 0 (its deepest point) ... `last_angle` (where the straight flank begins). With a `protuberance` (mm) the arc stands
+    out of the flank by it, and runs on to a straight flank at `protuberance_angle` (rad).
     """
 
     radius: float
@@ -61,6 +74,8 @@ class ToolTip:
     pressure_angle: float
     helix_angle: float
     reference_radius: float
+    protuberance: float = 0.0
+    protuberance_angle: float | None = None
 
     @classmethod
     def cutting(
@@ -92,8 +107,47 @@ class ToolTip:
 
     @property
     def last_angle(self) -> float:
-        """theta where the tip arc joins the straight flank: pi/2 - a_n."""
+        """theta where the tip arc ends: at the straight flank, pi/2 - a_n, or that of the protuberance, pi/2 - a_pr."""
+        return math.pi / 2 - (self.pressure_angle if self.protuberance_angle is None else self.protuberance_angle)
+
+    @property
+    def tangent_angle(self) -> float:
+        """theta where the tip arc is farthest out across the flank: pi/2 - a_n."""
         return math.pi / 2 - self.pressure_angle
+
+    @cached_property
+    def sine(self) -> float:
+        """Sine of the transverse pressure angle of the tool."""
+        return math.sin(math.atan(math.tan(self.pressure_angle) / math.cos(self.helix_angle)))
+
+    def flank_at(self, v: float) -> float:
+        """Return u (mm) of the straight flank at a height v (mm): the tip arc stands out of it by the protuberance."""
+        angle = self.pressure_angle
+        touched = self.u + self.radius * math.cos(angle) + (v - self.v + self.radius * math.sin(angle)) * math.tan(angle)
+        return touched - self.protuberance / math.cos(angle)
+
+    def protuberance_flank(self, half_pitch: float) -> ProtuberanceCut | None:
+        """Return what the straight flank of the protuberance cuts: an involute of the base radius r cos a_pr,t.
+
+        It begins at the end of the tip arc and ends where it meets the tool's flank. None where all of it lies too deep to cut.
+        `half_pitch` of the gear in radians.
+        """
+        if self.protuberance_angle is None:
+            return None
+        angle, cosine, r = self.protuberance_angle, math.cos(self.helix_angle), self.reference_radius
+        u, v = self.u + self.radius * math.cos(angle), self.v - self.radius * math.sin(angle)
+        own, slope = math.tan(self.pressure_angle), math.tan(angle)
+        end = (u - v * slope - self.flank_at(0.0)) / (own - slope)
+        transverse = math.atan(slope / cosine)
+        sine, base = math.sin(transverse), r * math.cos(transverse)
+
+        def roll_length(depth: float) -> float:
+            return r * sine + depth / sine
+
+        if roll_length(end) <= 0:
+            return None
+        half_angle = half_pitch - (u - v * slope) / (cosine * r) + math.tan(transverse) - transverse
+        return ProtuberanceCut(base, half_angle, roll_length(v) / base, roll_length(end) / base)
 
     @property
     def flank_depth(self) -> float:
@@ -164,6 +218,10 @@ far below it.
 """
 
 
+_FLANK_PLACES = 257
+"""Places along the flank of a cutter's protuberance that are compared with its flank."""
+
+
 class _Normal(NamedTuple):
     """The normal of the corner: its direction delta from the middle's radial line (rad), and length |p'|/rho of the tangent.
 
@@ -198,7 +256,9 @@ class ShaperTip:
     base circle) of the cutter, `centre_distance` a_0 (mm) from the gear's axis to the cutter's, `root_radius` r_f (mm) of the
     gear, `teeth` of gear and `cutter_teeth`. An `internal` gear may be its own counterpart: centre distance 0, nothing rolls,
     the corner is the fillet.
-    The corner runs over theta = 0 (its outermost point) ... `last_angle` (where the cutter's involute begins).
+    The corner runs over theta = 0 (its outermost point) ... `last_angle` (where the cutter's involute begins). With a
+    `protuberance_angle` (rad, to the radial line through the middle of the corner) the involute that the corner touches stands
+    out of the cutter's flank, and the corner runs on to the straight flank of the protuberance.
     """
 
     radius: float
@@ -210,6 +270,7 @@ class ShaperTip:
     teeth: float
     cutter_teeth: float
     internal: bool
+    protuberance_angle: float | None = None
 
     # ------------------------------------------------------------------ the cutter
 
@@ -258,7 +319,35 @@ class ShaperTip:
 
     @cached_property
     def last_angle(self) -> float:
-        """theta where the corner joins the cutter's involute: its normal touches the base circle, h = r_b0."""
+        """theta where the corner ends: at the cutter's involute, or at the flank of a protuberance, pi/2 - a_pr."""
+        if self.protuberance_angle is None:
+            return self.tangent_angle
+        end = math.pi / 2 - self.protuberance_angle
+        if not self.rolls or float(self._moment(end)[0]) <= self.working_radius:
+            return end
+        # Beyond this place the normal of the corner does not come through the pitch point any more.
+        limit = root_between(lambda theta: float(self._moment(theta)[0]) - self.working_radius, self.tangent_angle, end)
+        return limit * (1 - _ROUNDING)
+
+    def protuberance_is_covered(self, residual_angle: float, protuberance_angle: float) -> bool:
+        """Return whether the straight flank of the protuberance stays inside the flank that finishes, and meets its own.
+
+        The angles (rad) are those by which the corner's involute stands out of the two, on the base circle of the cutter.
+        """
+        if self.protuberance_angle is None:
+            return True
+        along, across = self._corner(np.array(math.pi / 2 - self.protuberance_angle))
+        way = np.linspace(0.0, float(along) - self.base_radius, _FLANK_PLACES)
+        along, across = along - way, across + way * math.tan(self.protuberance_angle) / self._c
+        radius = np.maximum(np.hypot(along, across), self.base_radius)
+        roll = np.sqrt((radius - self.base_radius) * (radius + self.base_radius)) / self.base_radius
+        out = self.middle_angle + np.arctan2(across, along) - (self.base_half_angle - (roll - np.arctan(roll)))
+        meets = np.flatnonzero(out <= -protuberance_angle)
+        return len(meets) > 0 and bool(np.all(out[: meets[0] + 1] <= -residual_angle))
+
+    @cached_property
+    def tangent_angle(self) -> float:
+        """theta where the corner touches the cutter's involute: its normal touches the base circle, h = r_b0."""
         if self.radius == 0:
             # A sharp edge turns from the tip circle's normal to the involute's: sin delta = r_b0/r_a0.
             return math.atan2(self.base_radius, self._c * self._root_of(self.tip_radius))
@@ -280,7 +369,7 @@ class ShaperTip:
     @cached_property
     def _join(self) -> tuple[float, float]:
         """Radius (mm) and angle from the corner's middle (rad) of the join, on the cutter."""
-        along, across = self._corner(np.array(self.last_angle))
+        along, across = self._corner(np.array(self.tangent_angle))
         return float(np.hypot(along, across)), float(np.arctan2(across, along))
 
     @cached_property

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
-from html import escape
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -14,202 +13,20 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
-from gearcad.core import symbols
 from gearcad.core.errors import GeometryError, InputError, format_number
-from gearcad.core.quantities import derive, symbols_of
-from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Role, concise
-from gearcad.geometry.curves import Curve, CurveKind, Fillet, Involute, Land
+from gearcad.core.quantities import derive
+from gearcad.core.records import Floats, JsonObject, Notice, concise
+from gearcad.geometry.curves import Curve, CurveKind, Involute, Land
 from gearcad.geometry.feasibility import check_given, check_tool, trimming_notices
-from gearcad.geometry.gear_data import (
-    RING_RIM_LIMIT,
-    GearData,
-    check_body,
-    corner_notices,
-    fillet_tool,
-    outer_diameter,
-    shaper_tip,
-    twist,
-)
+from gearcad.geometry.gear_data import GearData, check_body
 from gearcad.geometry.gear_parts import DoubleHelix
+from gearcad.geometry.gear_pictures import gear_html
+from gearcad.geometry.gear_tools import chamfering_ramp, corner_notices, fillet_tool, root_outline, shaper_tip
 from gearcad.geometry.inspection import Inspection, ThicknessLimits, inspection_of
-from gearcad.geometry.modification import FlankForm, check_flanks
+from gearcad.geometry.modification import FlankForm, FlankModification, check_flanks
+from gearcad.geometry.premachining import Finishing
 from gearcad.geometry.profile import LEAST_LAND, InternalProfile, ToothProfile
 from gearcad.geometry.toothed import tip_notices
-
-
-class Pose(NamedTuple):
-    """Place of the wheel beside a pinion that stands unturned at the origin, teeth from z = 0 to its face width.
-
-    `rotation` of the wheel about its own axis (degrees, counter-clockwise seen from +z), then its shift along x (the
-    centre distance) and along z (mm).
-    """
-
-    rotation: float
-    x: float
-    z: float
-
-
-def wheel_pose(*, teeth: PerGear[int], centre_distance: float, z: float, turn: float) -> Pose:
-    """Pose of a wheel that begins at height `z` (mm), where the pinion's section is turned by `turn` (degrees).
-
-    A ring stands at minus x: like the pinion's, the teeth of it that mesh are on its side of +x.
-    """
-    facing = 0.0 if teeth.wheel > 0 and teeth.wheel % 2 else 180 / abs(teeth.wheel)
-    return Pose(facing - turn / (teeth.wheel / teeth.pinion), centre_distance, z)
-
-
-class RackPose(NamedTuple):
-    """Place of a rack beside a pinion that stands at the origin, teeth from z = 0 to its face width.
-
-    `rotation` of the rack about z (degrees: its tips then face the pinion), then its shift (mm) along x (the mounting
-    distance), y (its travel, from where its own x = 0 is) and z.
-    """
-
-    rotation: float
-    x: float
-    y: float
-    z: float
-
-
-_PIXELS = 240
-"""Length (pixels) of the longer side of a picture."""
-
-CHORD_ERROR = 0.2
-"""Pixels that a polygon may be off the outline."""
-
-_OF_GEAR = "teeth normal_module helix_angle profile_shift face_width reference_diameter tip_diameter root_diameter".split()
-
-_NO_RIM = f"no body.rim_diameter is given: drawn with {RING_RIM_LIMIT:g} m_n outside the root circle"
-
-_FLAT = 'style="width:auto;border-collapse:collapse"'
-
-
-def gear_html(gear: GearData, profile: ToothProfile) -> str:
-    """A picture of the gear from +z, and a table."""
-    written = symbols_of(GearData) | symbols.GEAR
-    rows = ((written[name], [getattr(gear, name)]) for name in _looked_up(gear))
-    return sheet(gear.name, _svg([_Placed(gear, profile, Pose(0.0, 0.0, 0.0))]), [], rows)
-
-
-def pair_html(
-    name: str,
-    gears: PerGear[GearData],
-    profiles: PerGear[ToothProfile],
-    wheel: Pose,
-    figures: Iterable[tuple[symbols.Symbol, float]],
-) -> str:
-    """A picture of the pair in mesh from +z, the wheel at its pose, and a table with figures of the pair."""
-    written = symbols_of(GearData) | symbols.GEAR
-    rows = [(written[key], [getattr(gear, key) for gear in gears]) for key in _looked_up(*gears)]
-    rows += [(symbol, [value]) for symbol, value in figures]
-    poses = PerGear(Pose(0.0, 0.0, 0.0), wheel)
-    picture = _svg([_Placed(*each) for each in zip(gears, profiles, poses, strict=True)])
-    return sheet(name, picture, [role.value for role in Role], rows)
-
-
-def _looked_up(*gears: GearData) -> list[str]:
-    """The figures of gears; of a ring the profile shift in the other sign too, as many know it."""
-    ring = any(gear.internal for gear in gears)
-    return [key for name in _OF_GEAR for key in ((name, "profile_shift_khk") if ring and name == "profile_shift" else (name,))]
-
-
-class _Placed(NamedTuple):
-    """A gear where a picture shows it."""
-
-    gear: GearData
-    profile: ToothProfile
-    pose: Pose
-
-
-def sheet(name: str, picture: str, headings: list[str], rows: Iterable[tuple[symbols.Symbol, list[float | None]]]) -> str:
-    """A picture beside a table of figures, a column for each heading."""
-    columns = len(headings) or 1
-    head = "".join(f"<th>{escape(heading)}</th>" for heading in headings)
-    lines = [f"<tr><th>{escape(name)}</th><th></th>{head}</tr>"]
-    for symbol, values in rows:
-        span = f' colspan="{columns}"' if len(values) < columns else ""
-        cells = "".join(f"<td{span}>{_value_text(value, symbol.unit)}</td>" for value in values)
-        lines.append(f"<tr><td>{escape(symbol.words)}</td><td>{escape(symbol.symbol)}</td>{cells}</tr>")
-    table = f"<table cellpadding=3 {_FLAT}>{''.join(lines)}</table>"
-    return f'<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:center">{picture}{table}</div>'
-
-
-def _value_text(value: float | None, unit: str) -> str:
-    if value is None:
-        return "-"
-    # What is left of a difference is no figure; adding zero makes -0.0 a plain zero.
-    return f"{round(value, 9) + 0.0:.6g}{' ' if unit else ''}{escape(unit)}"
-
-
-def _svg(placed: list[_Placed]) -> str:
-    """Sections of gears where they stand, the section of the first one at its z = 0, as seen from +z; in mm."""
-    left = min(pose.x - _outside(gear) / 2 for gear, _, pose in placed)
-    right = max(pose.x + _outside(gear) / 2 for gear, _, pose in placed)
-    height = max(_outside(gear) for gear, _, _ in placed)
-
-    def shapes(pixel: float) -> str:
-        return "".join(shape for each in placed for shape in gear_shapes(*each, pixel))
-
-    return drawing((left, -height / 2, right - left, height), shapes)
-
-
-def drawing(view: tuple[float, float, float, float], shapes: Callable[[float], str]) -> str:
-    """An SVG of what is in a view (left, top, width, height in mm, y down), whose shapes are drawn for the size of a pixel."""
-    left, top, width, height = view
-    scale = _PIXELS / max(width, height)
-    box = f"{left:.6g} {top:.6g} {width:.6g} {height:.6g}"
-    size = f'width="{width * scale:.0f}" height="{height * scale:.0f}"'
-    style = f'fill="currentColor" fill-opacity=".15" stroke="currentColor" stroke-width="{1 / scale:.3g}"'
-    drawn = shapes(1 / scale)
-    return f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{box}" overflow="visible"><g {style}>{drawn}</g></svg>'
-
-
-def _outside(gear: GearData) -> float:
-    """Diameter (mm) of what surrounds a gear: its tip circle, or the rim of a ring, which is drawn somewhere if not given."""
-    return outer_diameter(gear) if gear.internal else gear.tip_diameter
-
-
-def gear_shapes(gear: GearData, profile: ToothProfile, pose: Pose, pixel: float) -> Iterator[str]:
-    """The outline with its bore or rim, and the reference circle; `pixel` is its size (mm)."""
-    # Seen at the pinion's z = 0, a helical wheel that begins at another height is turned by then.
-    turn = math.radians(pose.rotation) - twist(gear, pose.z)
-    cosine, sine = math.cos(turn), math.sin(turn)
-    turned = profile.contour(CHORD_ERROR * pixel) @ np.array([[cosine, sine], [-sine, cosine]])
-    outline = polygon(turned + np.array([pose.x, 0.0]), pixel)
-    rim = _circle(_outside(gear) / 2, pose.x)
-    if not gear.internal:
-        yield f'<path fill-rule="evenodd" d="{outline}{_circle(gear.body.bore / 2, pose.x)}"/>'
-    elif gear.body.rim_diameter is not None:
-        yield f'<path fill-rule="evenodd" d="{outline}{rim}{_bolt_holes(gear, pose.x, turn)}"/>'
-    else:
-        yield f'<path fill-rule="evenodd" stroke="none" d="{outline}{rim}"/><path fill="none" d="{outline}"/>'
-        yield f'<path fill="none" stroke-dasharray="{2 * pixel:.3g}" d="{rim}"><title>{_NO_RIM}</title></path>'
-    yield (
-        f'<circle cx="{pose.x:.6g}" cy="0" r="{abs(gear.reference_diameter) / 2:.6g}" fill="none" stroke-opacity=".5"'
-        f' stroke-dasharray="{8 * pixel:.3g} {2 * pixel:.3g} {pixel:.3g} {2 * pixel:.3g}"/>'
-    )
-
-
-def _bolt_holes(gear: GearData, x: float, turn: float) -> str:
-    """The bolt holes of a ring, the first in the middle of tooth 0, as paths; y is down."""
-    body = gear.body
-    angles = turn + 2 * math.pi / max(body.bolt_holes, 1) * np.arange(body.bolt_holes)
-    centres = zip(np.cos(angles).tolist(), np.sin(angles).tolist(), strict=True)
-    half = body.bolt_circle / 2
-    return "".join(_circle(body.bolt_diameter / 2, x + half * cosine, -half * sine) for cosine, sine in centres)
-
-
-def polygon(points: Floats, pixel: float) -> str:
-    """A closed path, to a tenth of a pixel; y is down in an SVG."""
-    digits = max(0, 1 - math.floor(math.log10(pixel)))
-    return "M" + " ".join(f"{x:.{digits}f},{-y:.{digits}f}" for x, y in points.tolist()) + "Z"
-
-
-def _circle(radius: float, x: float, y: float = 0.0) -> str:
-    """A path, empty for no radius; y is down."""
-    arc = f"a{radius:.6g},{radius:.6g} 0 1 0"
-    return f"M{x - radius:.6g},{y:.6g}{arc} {2 * radius:.6g},0{arc} {-2 * radius:.6g},0Z" if radius else ""
-
 
 _DERIVED = (
     "transverse_module transverse_pressure_angle base_helix_angle reference_diameter base_diameter tip_form_diameter "
@@ -221,6 +38,20 @@ _OF_RINGS = (
     "profile_shift_khk span_spaces span_measurement span_contact_diameter ball_diameter between_balls between_pins".split()
 )
 """Properties in a document beside the inputs: of all gears, of external ones and of rings."""
+
+
+_UNDERCUT_PLACES = 2049
+"""Places along a fillet at which the residual undercut is looked at."""
+
+
+def _peak(values: Floats) -> float:
+    """Return the greatest of values in equal steps, by the parabola through it and its neighbours."""
+    at = int(np.argmax(values))
+    if not 0 < at < len(values) - 1:
+        return float(values[at])
+    before, here, after = values[at - 1 : at + 2]
+    bend = before - 2 * here + after
+    return float(here - (after - before) ** 2 / (8 * bend)) if bend else float(here)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -250,6 +81,9 @@ class Gear(GearData):
         try:
             self.profile  # noqa: B018 - built now, so that a gear that exists has teeth
         except InputError as error:
+            if error.parameter == "ramp":
+                height = self.premachining.semi_topping.height
+                raise GeometryError("premachining.semi_topping.height", height, error.permitted, "mm") from None
             raise error.within("body") if error.parameter == "tip_chamfer" else error from None
         check_body(self)
         try:
@@ -272,6 +106,8 @@ class Gear(GearData):
             base_half_angle=self.base_half_angle * self._side,
             tool=fillet_tool(self),
             tip_chamfer=self.body.tip_chamfer,
+            root=root_outline(self),
+            ramp=chamfering_ramp(self),
         )
 
     @property
@@ -385,7 +221,9 @@ class Gear(GearData):
         return (*self._notices_of_teeth(), *of_inspection)
 
     def _notices_of_teeth(self) -> Iterator[Notice]:
-        if self.undercut:
+        if self.premachining.present:
+            yield from self._notices_of_premachining()
+        elif self.undercut:
             yield Notice("undercut", f"undercut: the involute begins at diameter {self.form_diameter:.4f} mm")
         yield from tip_notices(self)
         yield from corner_notices(self)
@@ -394,15 +232,106 @@ class Gear(GearData):
             text = "web: it counts in the rating alone (C_R, Y_B); the solid and its elements are a full disc"
             yield Notice("web-not-modelled", text)
 
+    def _notices_of_premachining(self) -> Iterator[Notice]:
+        begins = f"the finished flank begins at diameter {self.form_diameter:.4f} mm"
+        if self.residual_undercut > 0 and self.undercut:
+            reach = f"{self.greatest_undercut:.4f} mm deep (protuberance less stock {self.residual_undercut:.4f} mm)"
+            yield Notice("residual-undercut", f"residual undercut: {begins}, above an undercut {reach}")
+        elif self.residual_undercut < 0:
+            left = -self.residual_undercut
+            yield Notice("grinding-notch", f"grinding notch: {begins}, where the wheel leaves a step of {left:.4f} mm")
+        elif self.undercut:
+            yield Notice("undercut", f"undercut: the involute begins at diameter {self.form_diameter:.4f} mm")
+
     def _repr_html_(self) -> str:
         return gear_html(self, self.profile)
+
+    # ------------------------------------------------------------------ before the flanks are finished
+
+    @cached_property
+    def precut(self) -> Gear:
+        """The gear before its flanks are finished; itself where they are cut in one step."""
+        if not self.premachining.present:
+            return self
+        given = {each.name: getattr(self, each.name) for each in fields(self)}
+        before = {"tooth_allowance": None, "modification": FlankModification(), "finishing": Finishing()}
+        return PrecutGear(**given | before | {"tooth_thinning": float(self.tooth_thinning)})
+
+    @property
+    def residual_undercut(self) -> float:
+        """s_pr = p_r - q (mm): how far the tool's tip reaches into the finished flank; negative where stock is left, or 0."""
+        return self.premachining.protuberance - self.stock
+
+    @cached_property
+    def greatest_undercut(self) -> float:
+        """Greatest distance (mm, along the circle) of the fillet inside the finished flank, were that to go on to the root."""
+        flank = self.profile.involute
+        radius, half = self.profile.fillet.polar(np.linspace(0.0, 1.0, _UNDERCUT_PLACES))
+        outside = radius >= flank.base_radius
+        on_flank = flank.half_angle(np.maximum(radius, flank.base_radius))
+        depth = np.where(outside, radius * (on_flank - half), 0.0)
+        return max(float(_peak(depth)), 0.0)
+
+    def _premachining_document(self) -> JsonObject:
+        """Inputs of the pre-cutting tool and what it leaves (mm)."""
+        pre, before = self.premachining, self.precut
+        size = "between_balls" if self.internal else "over_balls"
+        document = asdict(pre) | {
+            "stock": self.stock,
+            "residual_undercut": self.residual_undercut,
+            "greatest_undercut": self.greatest_undercut,
+            "root_diameter": self.root_diameter,
+            "root_form_diameter": None if self.residual_undercut < 0 else self._free_form_diameter(self.stock),
+            "precut": {
+                "normal_tooth_thickness": before.normal_tooth_thickness,
+                "span_teeth": before.span_teeth,
+                "span_measurement": before.span_measurement,
+                "ball_diameter": before.ball_diameter,
+                size: before.between_balls if self.internal else before.over_balls,
+                "tip_thickness": before.tip_thickness,
+                "tip_diameter": before.tip_diameter,
+                "form_diameter": before.form_diameter,
+            },
+        }
+        if pre.stock_tolerance:
+            stocks = (self.stock - pre.stock_tolerance, self.stock + pre.stock_tolerance)
+            residual = [pre.protuberance - stock for stock in stocks]
+            document["range"] = {
+                "stock": list(stocks),
+                "residual_undercut": residual,
+                "root_form_diameter": [
+                    None if left < 0 else self._free_form_diameter(stock) for left, stock in zip(residual, stocks, strict=True)
+                ],
+            }
+        return document
+
+    def _free_form_diameter(self, stock: float) -> float:
+        """Root form diameter (mm) where the wheel runs free of a root that was cut with a stock (mm)."""
+        return self.with_stock(stock).form_diameter
+
+    def with_stock(self, stock: float) -> Gear:
+        """Return the gear cut with another stock (mm) on its flanks. Its wheel runs free of the root where nothing stops it."""
+        pre = replace(self.premachining, tool_addendum=self.tool_addendum, stock=stock, stock_tolerance=0.0)
+        free = stock <= self.premachining.protuberance
+        return replace(self, premachining=pre, finishing=Finishing() if free else self.finishing)
+
+    def can_have_stock(self, stock: float) -> bool:
+        """Return whether the tools leave a root with a stock (mm)."""
+        try:
+            self.with_stock(stock)
+        except GeometryError:
+            return False
+        return True
 
     def to_dict(self) -> JsonObject:
         """Inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
         parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix", "body")}
         parts["body"]["hub_side"] = self.body.hub_side.value
         parts["modification"] = self.flank_form.to_dict()
-        inputs = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in parts}
+        two_steps = {"premachining", "finishing"}
+        inputs = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in parts.keys() | two_steps}
+        if self.premachining.present:
+            parts |= {"premachining": self._premachining_document(), "finishing": asdict(self.finishing)}
         names = (*_DERIVED, *(_OF_RINGS if self.internal else _OF_EXTERNAL))
         derived = {name: getattr(self, name) for name in names}
         if math.isinf(self.lead):
@@ -411,6 +340,34 @@ class Gear(GearData):
             derived["thickness_limits"] = self.thickness_limits.to_dict()
         warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}
         return {**inputs, **parts, **derived, **warnings}
+
+
+class PrecutGear(Gear):
+    """A gear as its pre-cutting tool leaves it: thicker by the stock on each flank, without what finishing modifies.
+
+    Obtained as `gear.precut`.
+    """
+
+    @property
+    def stock(self) -> float:
+        """0 mm: nothing of these teeth is finished yet."""
+        return 0.0
+
+    @property
+    def _left(self) -> float:
+        """Normal tooth thickness (mm) of the stock on both flanks."""
+        stock = self.premachining.stock_of(self.normal_module)
+        return 2 * stock / math.cos(math.radians(self.rack.pressure_angle))
+
+    @property
+    def normal_tooth_thickness(self) -> float:
+        """Normal tooth thickness s_n (mm) on the reference circle, with the stock."""
+        return super().normal_tooth_thickness + self._left
+
+    @property
+    def root_thinning(self) -> float:
+        """Reduction of the normal tooth thickness (mm); negative where the stock is more than it."""
+        return self.tooth_thinning - self._left
 
 
 class Half(NamedTuple):
@@ -485,10 +442,11 @@ def flank_curves(gear: Gear) -> list[FlankCurve]:
     """
     form, found = gear.flank_form, list[FlankCurve]()
     for curve in gear.profile.curves:
-        if isinstance(curve, Fillet):
+        if curve.kind is CurveKind.FILLET:
             if _is_point(curve):
                 continue
-            found.append(FlankCurve(curve, form.first, form.first, gear.modification.present and not _root_land_stays(gear)))
+            fading = not found and gear.modification.present and not _root_land_stays(gear)
+            found.append(FlankCurve(curve, form.first, form.first, fading))
         elif curve.kind is CurveKind.CHAMFER:
             found.append(FlankCurve(curve, form.last, form.last))
         elif isinstance(curve, Involute):

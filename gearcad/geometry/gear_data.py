@@ -1,6 +1,4 @@
-"""GearData: what is given of a gear, the sizes that follow by formula (ISO 21771), and the tool that cuts its teeth.
-
-A tooth that is thinned comes from a thicker tooth of the tool. Angles are radians in here.
+"""GearData: what is given of a gear, the sizes that follow by formula (ISO 21771), and checks of its body.
 
 Raises GeometryError, whose limits can be used as they are printed.
 """
@@ -8,21 +6,19 @@ Raises GeometryError, whose limits can be used as they are printed.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Annotated
 
 import numpy as np
 
 from gearcad.core.errors import GeometryError, at_least, at_most
 from gearcad.core.quantities import NOT_GIVEN, Derived, Range, Whole, Words, is_given
-from gearcad.core.records import Floats, Notice
-from gearcad.geometry.fillets import FilletTool, ShaperTip, ToolTip
+from gearcad.core.records import Floats
 from gearcad.geometry.fits import ToothAllowance, tooth_thickness_allowance
 from gearcad.geometry.gear_parts import ISO53_A, BasicRack, Body, DoubleHelix, NormalDiametralPitch, NormalModule, ShaperCutter
-from gearcad.geometry.involute import inverse_involute, involute, root_between
 from gearcad.geometry.modification import FlankModification
+from gearcad.geometry.premachining import Finishing, Premachining
 from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.toothed import FaceWidth, GearSizes, HelixAngle, TipAlteration, ToothedPart, ToothThinning
 
@@ -62,6 +58,8 @@ class GearData(GearSizes[float], ToothedPart):
     root_roughness: Annotated[float | None, _ROUGHNESS, Words("roughness of the roots", "Rz")] = None
     rack: BasicRack = field(default=ISO53_A)
     cutter: ShaperCutter = field(default=ShaperCutter())
+    premachining: Premachining = field(default=Premachining())
+    finishing: Finishing = field(default=Finishing())
     double_helix: DoubleHelix = field(default=DoubleHelix())
     body: Body = field(default=Body())
     modification: FlankModification = field(default=FlankModification())
@@ -87,6 +85,47 @@ class GearData(GearSizes[float], ToothedPart):
     def given_root_diameter(self) -> float | None:
         """Root diameter d_f that is prescribed; None where it follows from the rack."""
         return self.root_diameter if is_given(self.root_diameter) else None
+
+    @property
+    def tool_addendum(self) -> float:
+        """Addendum of the tool that cuts the roots, in normal modules."""
+        return self.premachining.addendum_of(self.normal_module) if self.premachining.present else self.rack.dedendum
+
+    @property
+    def standard_tip_diameter(self) -> float:
+        """d_a = d + 2 m_n (h_aP + x + k), or d + 2 (x m_n + h_fP0) where the root of the tool cuts the tips."""
+        topping = self.premachining.topping
+        if topping is None:
+            return super().standard_tip_diameter
+        return self.reference_diameter + 2 * (self.profile_shift * self.normal_module + topping)
+
+    @property
+    def root_radius(self) -> float:
+        """Radius of the tip of the tool that cuts the roots, in normal modules, with "full" resolved."""
+        return super().root_radius if self.premachining.tool_tip_radius is None else self.premachining.tool_tip_radius
+
+    @property
+    def root_cutter(self) -> ShaperCutter:
+        """Shaper cutter that makes the roots, be it before the flanks are finished; without teeth there is none."""
+        pre = self.premachining
+        if not pre.present:
+            return self.cutter
+        return ShaperCutter(teeth=pre.cutter_teeth, profile_shift=pre.cutter_profile_shift, tip_radius=pre.tool_tip_radius)
+
+    @property
+    def root_thinning(self) -> float:
+        """Reduction of the normal tooth thickness (mm) of the teeth as they are described here."""
+        return self.tooth_thinning
+
+    @property
+    def stock(self) -> float:
+        """Stock q (mm, normal) on each flank of these teeth; 0 where nothing is finished."""
+        return self.premachining.stock_of(self.normal_module) if self.premachining.present else 0.0
+
+    @property
+    def stock_angle(self) -> float:
+        """Half tooth angle (rad) of the stock on one flank: q/(r_b cos beta_b)."""
+        return self.stock / (abs(self.base_diameter) / 2 * math.cos(math.radians(self.base_helix_angle)))
 
     @cached_property
     def thickness_allowance(self) -> ToothAllowance | None:
@@ -145,118 +184,6 @@ def section_turn(gear: GearData, heights: Floats) -> Floats:
     pitch = 2 * math.pi / gear.tooth_count
     on: Floats = turned + np.where(heights > gear.face_width / 2, pitch * gear.double_helix.offset, 0.0)
     return on
-
-
-_ROUNDING = 1e-14
-"""Share by which the full radius is taken less, for both corners to fit."""
-
-
-def shaped(gear: GearData) -> bool:
-    """Whether the fillets are those of a cutter's corner, not of a rack: on rings, and where a shaper cutter is named."""
-    return gear.internal or gear.cutter.teeth is not None
-
-
-def fillet_tool(gear: GearData) -> FilletTool:
-    """The rounded tip of what cuts the fillets, once the tool is known to be feasible."""
-    if shaped(gear):
-        return shaper_tip(gear, corner_radius(gear))
-    m, shift = gear.normal_module, gear.profile_shift * gear.normal_module
-    return ToolTip.cutting(
-        normal_module=m,
-        pressure_angle=math.radians(gear.rack.pressure_angle),
-        helix_angle=math.radians(gear.helix_angle),
-        reference_radius=gear.reference_diameter / 2,
-        depth=gear.dedendum * m - shift,
-        shift=shift,
-        radius=gear.root_radius * m,
-        thinning=gear.tooth_thinning,
-    )
-
-
-def generating_involute(gear: GearData, teeth: int) -> float:
-    """inv alpha_w0 = inv alpha_t + 2 tan alpha_n (x + x_0)/(z + z_0); not above 0 where a cutter of z_0 teeth cannot work."""
-    shift = 2 * math.tan(math.radians(gear.rack.pressure_angle)) * (gear.profile_shift + gear.cutter.profile_shift)
-    return involute(gear.transverse_pressure_angle) + shift / (gear.teeth + teeth)
-
-
-def line_of_generation(gear: GearData, teeth: int) -> float:
-    """a_0 sin alpha_w0 (mm): the line of action between the base circles of the gear and a cutter of z_0 teeth."""
-    working = math.radians(inverse_involute(generating_involute(gear, teeth)))
-    return abs(1 + teeth / gear.teeth) * abs(gear.base_diameter) / 2 * math.tan(working)
-
-
-def shaper_tip(gear: GearData, radius: float) -> ShaperTip:
-    """The cutter's corner of a radius in normal modules, as it is set to reach the root circle.
-
-    Without a cutter that of the ring's own counterpart, which has |z| teeth, the profile shift -x and the ring's axis.
-    """
-    m, teeth, own = gear.normal_module, gear.cutter.teeth or gear.tooth_count, gear.cutter.teeth is None
-    angle, root = math.radians(gear.transverse_pressure_angle), abs(gear.root_diameter) / 2
-    apart = 0.0 if own else _centre_distance(gear, teeth)
-    shift = -gear.profile_shift if own else gear.cutter.profile_shift
-    thickness = m * (math.pi / 2 + 2 * shift * math.tan(math.radians(gear.rack.pressure_angle))) + gear.tooth_thinning
-    return ShaperTip(
-        radius=radius * m,
-        base_radius=teeth * gear.transverse_module / 2 * math.cos(angle),
-        base_half_angle=thickness / (m * teeth) + involute(gear.transverse_pressure_angle),
-        helix_angle=math.radians(gear.helix_angle),
-        centre_distance=apart,
-        root_radius=root,
-        teeth=gear.tooth_count,
-        cutter_teeth=teeth,
-        internal=gear.internal,
-    )
-
-
-def _centre_distance(gear: GearData, teeth: int) -> float:
-    """a_0 = |z + z_0| m_t cos alpha_t/(2 cos alpha_w0), a magnitude (mm)."""
-    working = math.radians(inverse_involute(generating_involute(gear, teeth)))
-    angle = math.radians(gear.transverse_pressure_angle)
-    return abs(gear.teeth + teeth) * gear.transverse_module / 2 * math.cos(angle) / math.cos(working)
-
-
-@lru_cache(maxsize=4)
-def full_corner_radius(gear: GearData) -> float:
-    """Largest radius of the corner (in normal modules), where both corners of the cutter's tip meet: psi_M = 0.
-
-    Negative where even a sharp cutter's flanks meet before its tip circle, or that lies inside its base circle.
-    """
-    sharp, m = shaper_tip(gear, 0.0), gear.normal_module
-    most = (sharp.tip_radius - sharp.base_radius) / m * (1 - _ROUNDING)
-    if most < 0 or sharp.middle_angle < 0:
-        return -1.0
-
-    def room(radius: float) -> float:
-        return shaper_tip(gear, radius).middle_angle
-
-    if room(most) >= 0:  # the corner then reaches down to the cutter's base circle
-        return most
-
-    return root_between(room, 0.0, most, xtol=1e-15, rtol=8.9e-16) * (1 - _ROUNDING)
-
-
-def corner_radius(gear: GearData) -> float:
-    """Radius of the corner in normal modules: the cutter's own, else the rack's or the full one, whichever is smaller."""
-    if gear.cutter.tip_radius is not None:
-        return gear.cutter.tip_radius
-    full = full_corner_radius(gear)
-    return full if gear.rack.root_radius == "full" else min(float(gear.rack.root_radius), full)
-
-
-def corner_notices(gear: GearData) -> Iterator[Notice]:
-    """Yield a notice if the radius of the cutter's corner was assumed: no cutter is given, or the full radius replaces the
-    rack's.
-    """
-    if not shaped(gear):
-        return
-    radius, rack = corner_radius(gear), gear.rack.root_radius
-    full = gear.cutter.tip_radius is None and rack != "full" and radius < float(rack)
-    instead = f", the full radius: the rack's {rack:g} does not fit" if full else ""
-    size = f"{radius:.4g} m_n ({radius * gear.normal_module:.4g} mm){instead}"
-    if gear.cutter.teeth is None:
-        yield Notice("form-root", f"form root: no cutter given; the radius of the fillet is {size}")
-    elif full:
-        yield Notice("full-radius", f"cutter: the radius of its tip corner is {size}")
 
 
 def first_touch(gear: GearData, profile: ToothProfile, pressure_angle: float) -> float:

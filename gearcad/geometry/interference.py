@@ -22,7 +22,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from gearcad.core.records import Floats
-from gearcad.geometry.curves import Fillet
+from gearcad.geometry.curves import FilletChain, RootCurve
 from gearcad.geometry.involute import involute
 from gearcad.geometry.profile import ToothProfile
 
@@ -123,7 +123,7 @@ class RollingEdge:
         across, along = self.distance - self.radius * np.cos(t), self.radius * np.sin(t)
         return np.hypot(across, along), np.arctan2(along, across) - (self.start + self.ratio * t)
 
-    def stays_off(self, fillet: Fillet) -> bool:
+    def stays_off(self, fillet: RootCurve | FilletChain) -> bool:
         """True if the edge is sure to be clear of the fillet of a gear without undercut.
 
         In every step it is at least as far beside the tooth, and the fillet at most as far, as its bounds: A(t) - ratio t is

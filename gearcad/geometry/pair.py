@@ -11,8 +11,8 @@ from typing import Any
 from gearcad.core import symbols
 from gearcad.core.quantities import derive, is_given, symbols_of
 from gearcad.core.records import JsonObject, Notice, PerGear, Role, concise
-from gearcad.geometry.gear import Pose, pair_html, wheel_pose
 from gearcad.geometry.gear_data import twist
+from gearcad.geometry.gear_pictures import Pose, pair_html, wheel_pose
 from gearcad.geometry.interference import FilletCut, InterferenceMargins, fillet_cut
 from gearcad.geometry.mating import (
     ROUNDING,

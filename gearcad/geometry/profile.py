@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike
 
 from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most, require_number
 from gearcad.core.records import Floats
-from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute, Land, parameters_within
+from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, FilletChain, Involute, Land, RootCurve, parameters_within
 from gearcad.geometry.involute import inverse_involute, involute_at_roll, root_between
+from gearcad.geometry.root_outline import FlankInvolute, RootOutline
 
 if TYPE_CHECKING:
     from gearcad.geometry.fillets import FilletTool
@@ -30,7 +31,9 @@ class ToothProfile:
     """Exact transverse outline of one external tooth: root land, fillet, involute, tip chamfer, tip land.
 
     Tooth 0 is centred on +x. `teeth` is any number for the virtual gear of a helical one. Diameters in mm, `base_half_angle`
-    (half tooth angle on the base circle) in degrees, `tool` the tip of hob or shaper, `tip_chamfer` its radial height in mm.
+    (half tooth angle on the base circle) in degrees, `tool` the tip of hob or shaper, `tip_chamfer` its radial height in mm,
+    `root` the root that a tool cut before the flanks were finished, in place of what `tool` alone would leave; `ramp` the
+    involute that a semi-topping tool cuts in place of a tip chamfer.
     That of a ring is an `InternalProfile`, whose numbers are magnitudes too. Normally obtained as `gear.profile`.
     Raises GeometryError where these make no tooth: pointed, cut off by undercut, or with no involute left.
     """
@@ -43,6 +46,8 @@ class ToothProfile:
     base_half_angle: float
     tool: FilletTool
     tip_chamfer: float = 0.0
+    root: RootOutline | None = None
+    ramp: FlankInvolute | None = None
 
     internal: ClassVar[bool] = False
     """Whether the tip is inside the root, as on a ring."""
@@ -67,6 +72,8 @@ class ToothProfile:
                 "mm",
             )
         self._refuse_pointed()
+        if self.ramp is not None:
+            self._refuse_wrong_ramp(self.ramp)
         if self.tip_chamfer:
             self._refuse_wrong_chamfer()
         if self.undercut and self._waist < LEAST_LAND:
@@ -106,6 +113,17 @@ class ToothProfile:
                 "mm",
             )
 
+    def _refuse_wrong_ramp(self, ramp: FlankInvolute) -> None:
+        """Raise GeometryError unless the ramp takes material off the tips and leaves some involute and some tip land."""
+        tip, form = self.tip_diameter / 2, self.form_diameter / 2
+        key, height = "ramp", self.tip_diameter
+        if tip <= ramp.base_radius or float(ramp.half_angle(tip) - self._involute_half_angle(tip)) * tip > -LEAST_LAND:
+            raise GeometryError(key, height, "must be less: the ramp does not reach the finished tips", "mm")
+        if float(ramp.half_angle(form) - self._involute_half_angle(form)) <= 0:
+            raise GeometryError(key, height, "must be more: the ramp leaves no involute above the root form circle", "mm")
+        if self.tip_diameter * self.land_half_angle < LEAST_LAND:
+            raise GeometryError(key, height, "must be more: the ramp leaves no tip land", "mm")
+
     def _widest_chamfer(self, deepest: float) -> str:
         """The largest tip chamfer (mm, as text) that leaves a land on the tip."""
 
@@ -121,11 +139,15 @@ class ToothProfile:
     @cached_property
     def undercut(self) -> bool:
         """True if the tool's tip cuts away part of the involute."""
+        if self.root is not None:
+            return self.root.corner
         return self.tool.undercuts(self.base_diameter / 2, self._sin_transverse_angle)
 
     @cached_property
     def form_diameter(self) -> float:
         """Root form circle d_Ff (mm), where involute and trochoid meet (ISO 21771)."""
+        if self.root is not None:
+            return 2 * self.root.form_radius
         if self.undercut:
             return 2 * float(self.tool.cut(self._last_theta)[0])
         return 2 * self.tool.form_radius(self.base_diameter / 2, self._sin_transverse_angle)
@@ -133,7 +155,20 @@ class ToothProfile:
     @property
     def tip_form_diameter(self) -> float:
         """Tip form circle |d_Fa| (mm), where the involute ends: the chamfers lie between it and the tip circle."""
+        if self.ramp is not None:
+            return 2 * self._ramp_start
         return self.tip_diameter - self._side * 2 * self.tip_chamfer
+
+    @cached_property
+    def _ramp_start(self) -> float:
+        """Radius (mm) at which the ramp of a semi-topping tool leaves the involute."""
+        assert self.ramp is not None
+        ramp = self.ramp
+
+        def excess(radius: float) -> float:
+            return float(ramp.half_angle(radius) - self._involute_half_angle(radius))
+
+        return root_between(excess, self.form_diameter / 2, self.tip_diameter / 2, xtol=1e-15, rtol=8.9e-16)
 
     @property
     def outer_diameter(self) -> float:
@@ -201,12 +236,15 @@ class ToothProfile:
         return math.pi / self.teeth
 
     @cached_property
-    def fillet(self) -> Fillet:
-        """Fillet curve that the tool's tip leaves between root circle and involute."""
+    def fillet(self) -> RootCurve | FilletChain:
+        """Fillet curve that the tools leave between root circle and involute."""
+        if self.root is not None:
+            return self.root.curve
         return Fillet(self.tool, self._last_theta, self._half_pitch)
 
     @cached_property
-    def _flank(self) -> Involute:
+    def involute(self) -> Involute:
+        """The involute of the flank, from root form circle to tip form circle."""
         return Involute(
             self.base_diameter / 2,
             math.radians(self.base_half_angle),
@@ -216,7 +254,10 @@ class ToothProfile:
         )
 
     @cached_property
-    def _chamfer(self) -> Chamfer:
+    def _chamfer(self) -> Chamfer | Involute:
+        if self.ramp is not None:
+            rolls = self.ramp.roll(self._ramp_start), self.ramp.roll(self.tip_diameter / 2)
+            return Involute(self.ramp.base_radius, self.ramp.base_half_angle, *rolls, kind=CurveKind.CHAMFER)
         return self._chamfer_of(self.tip_chamfer)
 
     def _chamfer_of(self, height: float) -> Chamfer:
@@ -225,10 +266,15 @@ class ToothProfile:
         run = self._side * (math.sqrt(2 * tip**2 - radius**2) - radius) / 2
         return Chamfer(radius, float(self._involute_half_angle(radius)), run, internal=self.internal)
 
+    @property
+    def chamfered(self) -> bool:
+        """Whether something is between the involute and the tip land."""
+        return bool(self.tip_chamfer) or self.ramp is not None
+
     @cached_property
     def land_half_angle(self) -> float:
         """Half angle (rad) of the tip land that the chamfers leave."""
-        if self.tip_chamfer:
+        if self.chamfered:
             return float(self._chamfer.polar(1.0)[1])
         return self._tip_half_angle
 
@@ -240,12 +286,19 @@ class ToothProfile:
         """
         root, tip = self.root_diameter / 2, self.tip_diameter / 2
         start = float(self.fillet.polar(0.0)[1])
-        curves: list[Curve] = [self.fillet, self._flank]
+        curves: list[Curve] = [*(self.root.pieces if self.root else [self.fillet]), self.involute]
         if 2 * root * (self._half_pitch - start) >= LEAST_LAND:
             curves.insert(0, Land(CurveKind.ROOT, root, self._half_pitch, start))
-        if self.tip_chamfer:
+        if self.chamfered:
             curves.append(self._chamfer)
         return (*curves, Land(CurveKind.TIP, tip, self.land_half_angle, 0.0))
+
+    @property
+    def joined_curves(self) -> tuple[Curve, ...]:
+        """The curves with all pieces of the fillet as one, for what goes along a fillet as a whole."""
+        others = [curve for curve in self.curves if curve.kind is not CurveKind.FILLET]
+        at = 1 if others[0].kind is CurveKind.ROOT else 0
+        return (*others[:at], self.fillet, *others[at:])
 
     def half_angle(self, radius: ArrayLike) -> Any:
         """Transverse half tooth angle in degrees at `radius` (mm), on fillet, involute and tip chamfer alike.
@@ -263,13 +316,10 @@ class ToothProfile:
         result = np.asarray(self._involute_half_angle(np.maximum(flat, self.base_diameter / 2)))
         low = side * flat < side * self.form_diameter / 2
         if np.any(low):
-            theta = self.tool.theta_at(flat[low], self._last_theta)
-            result[low] = self._half_pitch - self.tool.cut(theta)[1]
+            result[low] = self.fillet.half_angle(flat[low])
         high = side * flat > side * self.tip_form_diameter / 2
-        if self.tip_chamfer and np.any(high):
-            start = self._chamfer.radius
-            run = side * (np.sqrt(2 * flat[high] ** 2 - start**2) - start) / 2
-            result[high] = self._chamfer.angle - np.arctan2(run, start + side * run)
+        if self.chamfered and np.any(high):
+            result[high] = self._chamfer.half_angle(flat[high])
         degrees = np.degrees(result).reshape(given.shape)
         return float(degrees) if degrees.ndim == 0 else degrees
 

@@ -23,9 +23,10 @@ from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most
 from gearcad.core.quantities import NOT_GIVEN, Range, Whole, Words, derive, derive_count, is_given, symbols_of
 from gearcad.core.records import Floats, JsonObject, Notice, concise
 from gearcad.geometry.curves import PlaneCurve, parameters_within
-from gearcad.geometry.gear import CHORD_ERROR, Gear, Pose, RackPose, drawing, gear_shapes, polygon, sheet
+from gearcad.geometry.gear import Gear
 from gearcad.geometry.gear_data import LEAST_RIM
 from gearcad.geometry.gear_parts import ISO53_A, LEAST_FEATURE, BasicRack, NormalDiametralPitch, NormalModule, derive_module
+from gearcad.geometry.gear_pictures import CHORD_ERROR, Pose, RackPose, drawing, gear_shapes, polygon, sheet
 from gearcad.geometry.inspection import RackInspection
 from gearcad.geometry.profile import LEAST_LAND, RADIUS_SLACK
 from gearcad.geometry.toothed import (

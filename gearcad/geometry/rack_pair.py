@@ -25,8 +25,9 @@ from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most
 from gearcad.core.quantities import NOT_GIVEN, Range, Words, derive, require_fields, symbols_of
 from gearcad.core.records import Floats, JsonObject, Notice, PerGear, concise
 from gearcad.geometry.fits import settled
-from gearcad.geometry.gear import Gear, RackPose
+from gearcad.geometry.gear import Gear
 from gearcad.geometry.gear_data import twist
+from gearcad.geometry.gear_pictures import RackPose
 from gearcad.geometry.involute import tangent_length
 from gearcad.geometry.mating import ROUNDING, ROUNDING_OVERLAP, check_common, check_hand
 from gearcad.geometry.path_of_contact import MatedPair, PathOfContact, sliding_document

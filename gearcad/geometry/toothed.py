@@ -116,9 +116,19 @@ class GearSizes(Toothed[Values]):
         return self.reference_diameter + 2 * self.normal_module * rise
 
     @property
+    def residual_undercut(self) -> Values | float:
+        """s_pr (mm): how far the tool's tip reaches into the finished flank; 0 where one tool makes the whole tooth."""
+        return 0.0
+
+    @property
+    def tool_addendum(self) -> Values | float:
+        """Addendum of the tool in normal modules: the dedendum h_fP of the rack, unless another tool cuts first."""
+        return self.rack.dedendum
+
+    @property
     def standard_root_diameter(self) -> Values:
         """d_f = d - 2 m_n (h_fP - x)."""
-        return self.reference_diameter - 2 * self.normal_module * (self.rack.dedendum - self.profile_shift)
+        return self.reference_diameter - 2 * self.normal_module * (self.tool_addendum - self.profile_shift)
 
     @property
     def given_root_diameter(self) -> Values | None:
@@ -130,7 +140,7 @@ class GearSizes(Toothed[Values]):
         """Dedendum h_fP of the tool in normal modules: the rack's, or (d - d_f)/(2 m_n) + x for a given root circle."""
         given = self.given_root_diameter
         if given is None:
-            return self.rack.dedendum
+            return self.tool_addendum
         return (self.reference_diameter - given) / (2 * self.normal_module) + self.profile_shift
 
     @property

@@ -15,7 +15,7 @@ import numpy as np
 from gearcad.core.errors import GeometryError, require_number
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
-from gearcad.geometry.curves import Curve, CurveKind, Involute
+from gearcad.geometry.curves import Curve, CurveKind, FilletChain, Involute
 from gearcad.geometry.gear import flank_curves
 from gearcad.geometry.gear_data import outer_diameter
 
@@ -88,6 +88,8 @@ class HalfLengths:
 
     def parts(self, curve: Curve) -> list[tuple[float, float]]:
         """Parameters of the ends of the parts of a curve that have edges of their own."""
+        if isinstance(curve, FilletChain):
+            return list(pairwise((0.0, *curve.breaks, 1.0)))
         return list(pairwise((0.0, *(self.breaks if curve.kind is CurveKind.INVOLUTE else ()), 1.0)))
 
     def graded(self, curve: Curve, first: float = 0.0, last: float = 1.0) -> Grading:
@@ -215,10 +217,12 @@ class Stretch:
 
 def require_fillet(gear: Gear) -> None:
     """Raise GeometryError for a tooth without a fillet that has a middle to divide it at."""
-    fillet = next(curve for curve in gear.profile.curves if curve.kind is CurveKind.FILLET)
+    fillet = gear.profile.fillet
     ends = fillet.points(np.array([0.0, 1.0]))
     if float(np.hypot(*(ends[1] - ends[0]))) < _LEAST_FILLET * gear.normal_module:
         permitted = "must be larger for finite elements: the sharp tool leaves a corner and no fillet"
+        if gear.premachining.present:
+            raise GeometryError("premachining.tool_tip_radius", gear.root_radius, permitted, "m_n")
         if gear.cutter.tip_radius is not None:
             raise GeometryError("cutter.tip_radius", gear.cutter.tip_radius, permitted, "m_n")
         raise GeometryError("rack.root_radius", gear.rack.root_radius, permitted, "m_n")
@@ -288,12 +292,12 @@ def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> HalfLengths:
 
 def _half_fillet(gear: Gear) -> float:
     """Half the length (mm) of a fillet."""
-    return _measured(next(curve for curve in gear.profile.curves if curve.kind is CurveKind.FILLET), 1.0) / 2
+    return _measured(gear.profile.fillet, 1.0) / 2
 
 
 def _half_tooth(gear: Gear, lengths: HalfLengths) -> list[Stretch]:
     """Stretches of the left half, from the middle of the space to the middle of the tooth."""
-    return [_stretch(curve, lengths, *part) for curve in gear.profile.curves for part in lengths.parts(curve)]
+    return [_stretch(curve, lengths, *part) for curve in gear.profile.joined_curves for part in lengths.parts(curve)]
 
 
 def _stretch(curve: Curve, lengths: HalfLengths, first: float, last: float) -> Stretch:

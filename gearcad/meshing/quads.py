@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Gear
-from gearcad.geometry.curves import Curve, CurveKind, Land
+from gearcad.geometry.curves import Curve, CurveKind, FilletChain, Land
 from gearcad.meshing.fem import Element, node_places, scaled_jacobians, shape_slopes
 from gearcad.meshing.outline import (
     OTHER_SIDE,
@@ -220,6 +220,10 @@ def shares(pieces: tuple[CurvePiece, ...], count: int) -> list[tuple[CurvePiece,
     return list(zip(pieces, given, strict=True))
 
 
+_NEXT_TO_END = 0.01
+"""Share of a fillet within which a corner counts as its end, or as the place where blocks meet."""
+
+
 @dataclass(frozen=True)
 class SectorLayout:
     """The lines between the blocks of the left half of tooth 0's sector, and the edges that the sizes ask for on them.
@@ -249,14 +253,14 @@ class SectorLayout:
 
     @cached_property
     def _curves(self) -> dict[CurveKind, Curve]:
-        return {curve.kind: curve for curve in self.gear.profile.curves}
+        return {curve.kind: curve for curve in self.gear.profile.joined_curves}
 
     @cached_property
     def root(self) -> tuple[CurvePiece, ...]:
         """Pieces of the outline from the cut along root land, if there is one, and lower fillet to the split."""
         lengths = self._lengths
         land = self._piece(lengths, OutlineSide.LEFT_ROOT, CurveKind.ROOT) if CurveKind.ROOT in self._curves else ()
-        return (*land, *self._piece(lengths, OutlineSide.LEFT_FILLET, CurveKind.FILLET, 0.0, self.split))
+        return (*land, *self._fillet(lengths, 0.0, self.split))
 
     @cached_property
     def flank(self) -> tuple[CurvePiece, ...]:
@@ -267,11 +271,19 @@ class SectorLayout:
         return self._flank(self.rows or self._lengths)
 
     def _flank(self, lengths: HalfLengths) -> tuple[CurvePiece, ...]:
-        fillet = self._piece(lengths, OutlineSide.LEFT_FILLET, CurveKind.FILLET, self.split, 1.0)
+        fillet = self._fillet(lengths, self.split, 1.0)
         chamfer = self._piece(lengths, OutlineSide.TIP, CurveKind.CHAMFER) if CurveKind.CHAMFER in self._curves else ()
         involute = lengths.parts(self._curves[CurveKind.INVOLUTE])
         flank = [self._piece(lengths, OutlineSide.LEFT_FLANK, CurveKind.INVOLUTE, *part)[0] for part in involute]
         return (*fillet, *flank, *chamfer)
+
+    def _fillet(self, lengths: HalfLengths, first: float, last: float) -> tuple[CurvePiece, ...]:
+        """Pieces of the fillet between two parameters; edges end at its corners, but for one that is next to an end."""
+        fillet = self._curves[CurveKind.FILLET]
+        breaks = fillet.breaks if isinstance(fillet, FilletChain) else ()
+        inside = [at for at in breaks if first + _NEXT_TO_END < at < last - _NEXT_TO_END]
+        ends = pairwise((first, *inside, last))
+        return tuple(self._piece(lengths, OutlineSide.LEFT_FILLET, CurveKind.FILLET, *part)[0] for part in ends)
 
     @cached_property
     def tip(self) -> tuple[CurvePiece, ...]:

@@ -12,7 +12,8 @@ import numpy as np
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear, GearPair, RackPair
-from gearcad.geometry.gear_data import outer_diameter, shaped, twist
+from gearcad.geometry.gear_data import outer_diameter, twist
+from gearcad.geometry.gear_tools import shaped
 from gearcad.geometry.involute import involute, root_between
 from gearcad.meshing.bodies.element_mesh import ElementMesh
 from gearcad.meshing.fem import ElementShape

@@ -46,7 +46,7 @@ from gearcad.core.values import (
 )
 from gearcad.geometry import Gear, Rack, involute
 from gearcad.geometry.fillets import FilletTool, ShaperTip, ToolTip
-from gearcad.geometry.gear_data import corner_radius, shaped
+from gearcad.geometry.gear_tools import corner_radius, shaped
 from gearcad.geometry.involute import inverse_involute, root_between
 from gearcad.geometry.toothed import GearSizes
 
@@ -147,8 +147,22 @@ def virtual_tool(gear: Gear, virtual: VirtualGear[float]) -> FilletTool:
     if not gear.helix_angle:
         return tool
     if isinstance(tool, ToolTip):
-        return replace(tool, helix_angle=0.0, reference_radius=virtual.reference_diameter / 2)
+        return _virtual_hob(gear, virtual, tool)
     return _virtual_shaper(gear, virtual, tool.radius) if isinstance(tool, ShaperTip) else tool
+
+
+def _virtual_hob(gear: Gear, virtual: VirtualGear[float], tool: ToolTip) -> ToolTip:
+    """Return the tip of a hob set to cut the virtual gear, rolling on r_bn/cos alpha_n0: r_n unless its lead is short."""
+    rolling = virtual.reference_diameter / 2
+    if math.isclose(tool.pressure_angle, math.radians(gear.rack.pressure_angle), rel_tol=1e-12):
+        return replace(tool, helix_angle=0.0, reference_radius=rolling)
+    at = virtual.base_diameter / 2 / math.cos(tool.pressure_angle)
+    half = math.radians(virtual.half_angle(2 * at))
+    v = tool.radius - (at - rolling + (gear.reference_diameter - gear.root_diameter) / 2)
+    space = at * (math.pi / virtual.teeth - half)
+    residual = gear.residual_undercut
+    u = space + v * math.tan(tool.pressure_angle) - (tool.radius - residual) / math.cos(tool.pressure_angle)
+    return replace(tool, helix_angle=0.0, reference_radius=at, u=u, v=v)
 
 
 def _virtual_shaper(gear: Gear, virtual: VirtualGear[float], radius: float) -> ShaperTip:
@@ -156,17 +170,18 @@ def _virtual_shaper(gear: Gear, virtual: VirtualGear[float], radius: float) -> S
 
     Without a cutter it is the gear's own counterpart, on the gear's axis. Raises GeometryError if such a tip is not feasible.
     """
-    m, angle, own = gear.normal_module, math.radians(virtual.pressure_angle), gear.cutter.teeth is None
-    z_n = virtual.teeth
-    z_0 = abs(z_n) if gear.cutter.teeth is None else gear.cutter.teeth * z_n / gear.teeth
-    shift = -gear.profile_shift if own else gear.cutter.profile_shift
+    cutter, angle = gear.root_cutter, math.radians(virtual.pressure_angle)
+    m, own, z_n = gear.normal_module, cutter.teeth is None, virtual.teeth
+    z_0 = abs(z_n) if cutter.teeth is None else cutter.teeth * z_n / gear.teeth
+    shift = -gear.profile_shift if own else cutter.profile_shift
     apart = 0.0 if own else _centre_distance(gear, virtual, z_0)
     root = abs(virtual.reference_diameter + gear.root_diameter - gear.reference_diameter) / 2
     thickness = m * (math.pi / 2 + 2 * shift * math.tan(angle)) + gear.tooth_thinning
     tip = ShaperTip(
         radius=radius,
         base_radius=z_0 * m / 2 * math.cos(angle),
-        base_half_angle=thickness / (m * z_0) + involute(virtual.pressure_angle),
+        base_half_angle=(thickness + 2 * gear.residual_undercut / math.cos(angle)) / (m * z_0)
+        + involute(virtual.pressure_angle),
         helix_angle=0.0,
         centre_distance=apart,
         root_radius=root,
@@ -182,7 +197,7 @@ def _virtual_shaper(gear: Gear, virtual: VirtualGear[float], radius: float) -> S
 def _centre_distance(gear: Gear, virtual: VirtualGear[float], cutter_teeth: float) -> float:
     """a_0 (mm), by inv alpha_w0 = inv alpha_n + 2 tan alpha_n (x + x_0)/(z_n + z_n0)."""
     teeth, angle = virtual.teeth + cutter_teeth, math.radians(virtual.pressure_angle)
-    shift = gear.profile_shift + gear.cutter.profile_shift
+    shift = gear.profile_shift + gear.root_cutter.profile_shift
     working = involute(virtual.pressure_angle) + 2 * math.tan(angle) * shift / teeth
     if working <= 0:
         raise _unreachable(gear)
@@ -192,7 +207,7 @@ def _centre_distance(gear: Gear, virtual: VirtualGear[float], cutter_teeth: floa
 
 def _unreachable(gear: Gear) -> GeometryError:
     permitted = "must be others for a rating: in the normal section the cutter does not reach the root of the virtual gear"
-    return GeometryError("cutter.teeth", gear.cutter.teeth, permitted)
+    return GeometryError("cutter.teeth", gear.root_cutter.teeth, permitted)
 
 
 _LEAN, _RING_LEAN = 30.0, 60.0
@@ -236,7 +251,7 @@ def root_section(gear: Gear, virtual: VirtualGear[float], load: LoadPoint[float]
 
     Raises GeometryError for teeth without such a section, as of a gear with three.
     """
-    if shaped(gear):
+    if shaped(gear) or gear.premachining.tool_pressure_angle is not None or gear.premachining.tool_module is not None:
         return generated_section(gear, virtual, load)
     section = hob_section(gear, virtual, load)
     if math.isnan(section.tangent_angle):
@@ -250,11 +265,15 @@ def root_section(gear: Gear, virtual: VirtualGear[float], load: LoadPoint[float]
 def tool_half_width(gear: GearSizes[Values]) -> Values:
     """E (10) (mm): from the middle of the tool's tooth to the centre of its tip arc.
 
-    pi m_n/4 - h_fP tan alpha_n - (1 - sin alpha_n) rho_fP/cos alpha_n, plus half the tooth thinning. No protuberance.
+    pi m_n/4 - h_fP tan alpha_n + s_pr/cos alpha_n - (1 - sin alpha_n) rho_fP/cos alpha_n, plus half the tooth thinning.
     """
     m_n, alpha_n = gear.normal_module, math.radians(gear.rack.pressure_angle)
     corner = (1 - math.sin(alpha_n)) * gear.root_radius / math.cos(alpha_n)
-    return m_n * (math.pi / 4 - gear.dedendum * math.tan(alpha_n) - corner) + gear.tooth_thinning / 2
+    return (
+        m_n * (math.pi / 4 - gear.dedendum * math.tan(alpha_n) - corner)
+        + gear.tooth_thinning / 2
+        + gear.residual_undercut / math.cos(alpha_n)
+    )
 
 
 _ARRAY_STEPS, _SETTLED = 6, 1e-12
@@ -384,7 +403,7 @@ class _GeneratedFillet:
 
 def substitute_radius(gear: Gear, cutter_teeth: int) -> float:
     """rho_fPv (mm) of the rack that stands for the cutter: rho_fP + (x_0 + h_fP - rho_fP)^1.95/(3.156 1.036^z_0) in m_n."""
-    rho, reach = corner_radius(gear), gear.cutter.profile_shift + gear.dedendum
+    rho, reach = corner_radius(gear), gear.root_cutter.profile_shift + gear.dedendum
     return gear.normal_module * (rho + math.pow(max(reach - rho, 0.0), 1.95) / (3.156 * math.pow(1.036, cutter_teeth)))
 
 

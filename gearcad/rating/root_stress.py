@@ -13,12 +13,13 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Generic
+from typing import Any, Generic, NamedTuple
 
+from gearcad.core.errors import GeometryError
 from gearcad.core.records import Notice, Role
 from gearcad.core.values import Values, chosen, cos, magnitude, radians, smaller
 from gearcad.geometry import Gear, GearPair, RackPair
-from gearcad.geometry.gear_data import shaped
+from gearcad.geometry.gear_tools import shaped, wheel_tip_radius
 from gearcad.rating.editions import Edition, helix_angle_divisor, load_distribution_factor
 from gearcad.rating.root_section import (
     LoadPoint,
@@ -66,11 +67,45 @@ class FormulaRoot:
         }
 
 
+_MOST_NOTCH = 2.0
+"""Root of t_g/rho_g from which on the standard has no factor for a grinding notch."""
+
+
+class GrindingNotch(NamedTuple):
+    """Step that a finishing wheel leaves in the fillet: depth t_g and radius rho_g (mm)."""
+
+    depth: float
+    radius: float
+
+    @classmethod
+    def of(cls, gear: Gear) -> GrindingNotch | None:
+        """Return the notch of a gear whose wheel ends in stock that the tool has left; None without one.
+
+        Raises GeometryError for one that is too sharp for the standard's factor.
+        """
+        outline, finishing = gear.profile.root, gear.finishing
+        if outline is None or not outline.wheel or gear.residual_undercut >= 0:
+            return None
+        depth = -gear.residual_undercut if finishing.notch_depth is None else finishing.notch_depth
+        notch = cls(depth, wheel_tip_radius(gear))
+        if math.sqrt(notch.depth / notch.radius) >= _MOST_NOTCH:
+            permitted = (
+                f"must be above {notch.depth / _MOST_NOTCH**2:.6g} mm for a rating: Y_Sg holds for sqrt(t_g/rho_g) below 2"
+            )
+            raise GeometryError("finishing.wheel_tip_radius", notch.radius, permitted, "mm")
+        return notch
+
+    def factor(self, stress_correction_factor: Values) -> Values:
+        """Y_Sg = 1.3 Y_S/(1.3 - 0.6 sqrt(t_g/rho_g)) (7.3, grinding notches)."""
+        return 1.3 * stress_correction_factor / (1.3 - 0.6 * math.sqrt(self.depth / self.radius))
+
+
 @dataclass(frozen=True, kw_only=True)
 class RootRating(Generic[Values]):
     """Root stress of one gear: its section, factors, the width that carries (mm) and sigma_F0 without load factors (MPa).
 
-    `formula` has what the standard's formulas say beside it, of a ring that a shaper cutter makes.
+    `formula` has what the standard's formulas say beside it, of a ring that a shaper cutter makes. With a grinding `notch` the
+    stress correction factor is Y_Sg.
     """
 
     section: RootSection[Values]
@@ -83,6 +118,7 @@ class RootRating(Generic[Values]):
     width: Values
     nominal_stress: Values
     formula: FormulaRoot | None = None
+    notch: GrindingNotch | None = None
 
     @property
     def factors(self) -> dict[str, Values]:
@@ -97,7 +133,14 @@ class RootRating(Generic[Values]):
 
     def to_dict(self) -> dict[str, Any]:
         """Values under their symbols."""
-        beside = {} if self.formula is None else {"formula": self.formula.to_dict()}
+        beside: dict[str, Any] = {} if self.formula is None else {"formula": self.formula.to_dict()}
+        if self.notch is not None:
+            beside["grinding_notch"] = {
+                "t_g": self.notch.depth,
+                "rho_g": self.notch.radius,
+                "Y_S": self.stress_correction_factor / self.notch.factor(1.0),
+                "Y_Sg": self.stress_correction_factor,
+            }
         return {
             "theta": self.section.tangent_angle,
             "s_Fn": self.section.chord,
@@ -209,9 +252,12 @@ class RootMesh(Generic[Values]):
         *,
         width: Values,
         rim_thickness_factor: float,
+        notch: GrindingNotch | None = None,
     ) -> RootRating[Values]:
         """Return the root rating of a tooth that carries over `width` (mm)."""
         y_f, y_s = form_factor(section, load, virtual, self.load_distribution), stress_correction_factor(section)
+        if notch is not None:
+            y_s = notch.factor(y_s)
         y_beta = self.helix_angle_factor
         y_dt = deep_tooth_factor(self.virtual_contact_ratio, self.accuracy_grade, self.edition)
         factors = y_f * y_s * y_beta * rim_thickness_factor * y_dt
@@ -225,22 +271,32 @@ class RootMesh(Generic[Values]):
             deep_tooth_factor=y_dt,
             width=width,
             nominal_stress=nominal_root_stress(self.tangential_force, width, virtual.normal_module, factors),
+            notch=notch,
         )
 
 
 def root_rating(gear: Gear, mesh: RootMesh[float], width: float) -> RootRating[float]:
-    """Root stress of a gear that carries over a width (mm)."""
+    """Root stress of a gear that carries over a width (mm); with a tolerance of its stock, the one with the greater stress."""
+    if tolerance := gear.premachining.stock_tolerance:
+        stocks = [gear.stock + sign * tolerance for sign in (-1, 1)]
+        ends = [_root_rating(gear.with_stock(stock), mesh, width) for stock in stocks if gear.can_have_stock(stock)]
+        return max([*ends, _root_rating(gear, mesh, width)], key=lambda rating: rating.nominal_stress)
+    return _root_rating(gear, mesh, width)
+
+
+def _root_rating(gear: Gear, mesh: RootMesh[float], width: float) -> RootRating[float]:
+    """Root stress of a gear, whose stock is as it is told, that carries over a width (mm)."""
     virtual = VirtualGear.of(gear)
     load, y_b = load_point(virtual, mesh.virtual_contact_ratio), rim_of(gear).factor(mesh.edition)
 
     def rated(section: RootSection[float]) -> RootRating[float]:
-        return mesh.rating(section, load, virtual, width=width, rim_thickness_factor=y_b)
+        return mesh.rating(section, load, virtual, width=width, rim_thickness_factor=y_b, notch=GrindingNotch.of(gear))
 
     found = rated(root_section(gear, virtual, load))
-    if not gear.internal or gear.cutter.teeth is None:
+    if not gear.internal or gear.root_cutter.teeth is None:
         return found
     # The substitute rack is made for rings of a shaper cutter.
-    radius = substitute_radius(gear, gear.cutter.teeth)
+    radius = substitute_radius(gear, gear.root_cutter.teeth)
     section = ring_section(gear, virtual, load, radius)
     return found if section is None else replace(found, formula=FormulaRoot.of(rated(section), radius))
 
@@ -249,6 +305,13 @@ def root_notices(gear: Gear, role: Role, rating: RootRating[float], mesh: RootMe
     """Yield a notice for each way in which one gear leaves the range that ISO 6336-3 states for its formulas."""
     root = f"{role.value} root"
     yield from _section_notices(gear, rating, root)
+    if rating.notch is not None:
+        size = f"{rating.notch.depth:.4g} mm deep with a radius of {rating.notch.radius:.4g} mm"
+        yield Notice("notch-in-root", f"Y_S is Y_Sg of a grinding notch {size}", root)
+    if gear.premachining.stock_tolerance:
+        yield Notice(
+            "stock-tolerance", "of both ends of the tolerance of the stock, the root with the greater stress is rated", root
+        )
     yield from notch_notices(rating, root)
     yield from rim_of(gear).notices(mesh.edition, f"{role.value} rim")
     yield from deep_notices(mesh, root)
@@ -286,7 +349,7 @@ def _generated(gear: Gear, rating: RootRating[float]) -> str:
     )
     if not gear.internal:
         return f"{own}; the standard's formulas are of hobs"
-    if gear.cutter.teeth is None:
+    if gear.root_cutter.teeth is None:
         return f"{own}; the standard's formulas are of shaper cutters, not of a form root"
     if rating.formula is None:
         return f"{own}; the standard's formulas give no section here"

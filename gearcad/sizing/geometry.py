@@ -387,7 +387,7 @@ def pair_map(pair: GearPair, across: Axis, up: Axis, *, rest: Role | None, dista
 
 def _teeth(gear: Gear, teeth: Numbers, helix: Numbers, shift: Numbers, alteration: Numbers) -> ManyTeeth:
     """Return arrays of gears with the data of one gear. Raises ParameterError."""
-    if gear.internal or gear.cutter.teeth is not None:
+    if gear.internal or gear.root_cutter.teeth is not None or gear.premachining.present:
         raise ParameterError("teeth", gear.teeth, "must be those of an external gear from a hob for a shift diagram")
     return ManyTeeth(
         teeth=teeth,

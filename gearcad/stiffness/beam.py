@@ -24,7 +24,7 @@ from numpy.polynomial import Chebyshev
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import Floats, Notice, PerGear, Role
 from gearcad.geometry import Gear, ToothProfile
-from gearcad.geometry.curves import Curve, Fillet, Involute
+from gearcad.geometry.curves import Curve, Involute
 from gearcad.geometry.involute import base_half_angle, involute_at_roll
 from gearcad.load import Load
 from gearcad.material import Material
@@ -74,15 +74,14 @@ class BeamTooth:
     base_radius: float
     base_half_angle: float
     root_radius: float
-    fillet: Fillet
+    fillet: Curve
     flank: Involute
 
     @classmethod
     def from_gear(cls, gear: Gear) -> BeamTooth:
         """The tooth of a gear. Raises GeometryError where the virtual gear has no tooth."""
         profile = gear.profile if not gear.helix_angle else _virtual_profile(gear)
-        fillet = next(curve for curve in profile.curves if isinstance(curve, Fillet))
-        flank = next(curve for curve in profile.curves if isinstance(curve, Involute))
+        fillet, flank = profile.fillet, profile.involute
         base = profile.base_diameter / 2
         return cls(base, math.radians(profile.base_half_angle), profile.root_diameter / 2, fillet, flank)
 

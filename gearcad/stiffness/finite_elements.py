@@ -11,7 +11,7 @@ from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -132,6 +132,15 @@ def _displacements(gear: Gear, bodies: list[WeightedBody], curvatures: Floats, h
     return total
 
 
+def _precut_roots(gear: Gear, size: float, virtual: float) -> dict[str, Any]:
+    """Return the circles of a section that is larger by `size` (mm), of a gear that is cut before its flanks are finished."""
+    pre, end = gear.premachining, gear.finishing.end_diameter
+    if pre.cutter_teeth is not None:
+        pre = replace(pre, cutter_teeth=round(pre.cutter_teeth * virtual / gear.tooth_count))
+    tips = {} if pre.topping is not None else {"tip_diameter": gear.tip_diameter + size}
+    return tips | {"premachining": pre, "finishing": replace(gear.finishing, end_diameter=None if end is None else end + size)}
+
+
 def _sections(gear: Gear, inner_radius: float) -> list[tuple[float, Gear, float]]:
     """Weights, spur gears and inner radii (mm) for the gear's section: itself, or the neighbours of its virtual gear."""
     if not gear.helix_angle:
@@ -148,13 +157,15 @@ def _sections(gear: Gear, inner_radius: float) -> list[tuple[float, Gear, float]
     for weight, count in ((1 - share, low), (share, low + 1)):
         teeth = side * count
         size = gear.normal_module * teeth - gear.reference_diameter
+        if gear.premachining.present:
+            roots: dict[str, Any] = _precut_roots(gear, size, virtual)
+        else:
+            roots = {"tip_diameter": gear.tip_diameter + size, "root_diameter": gear.root_diameter + size, "cutter": cutter}
         section = replace(
             gear,
             teeth=teeth,
             helix_angle=0.0,
-            tip_diameter=gear.tip_diameter + size,
-            root_diameter=gear.root_diameter + size,
-            cutter=cutter,
+            **roots,
             body=_bare(gear.body),
         )
         found.append((weight, section, section.profile.root_diameter / 2 - depth))

@@ -13,7 +13,7 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import accuracy_grade_of, flank_roughness
 from gearcad.drawing.words import SheetWords
 from gearcad.geometry import NAMED_RACKS, FlankModification, Gear, Rack, RackPair
-from gearcad.geometry.gear_data import corner_radius, shaped
+from gearcad.geometry.gear_tools import corner_radius, shaped
 from gearcad.planetary import PlanetaryTrain
 from gearcad.rating.tolerances import gear_tolerances
 from gearcad.solids.train_plan import stage_keys

@@ -20,8 +20,8 @@ from gearcad.geometry.gear_data import section_turn
 from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.outline_gauges import OutlineGauges, fine_chord
 from gearcad.verification.rolled_outlines import RolledPair, rack_points
-from gearcad.verification.tool_sweep import Hob, Shaper, swept_distance, tool_of
-from gearcad.verification.tool_teeth import Complexes, RackTooth, peak_of
+from gearcad.verification.tool_sweep import Hob, Shaper, finishing_rack, root_radius, swept_distance, tool_of
+from gearcad.verification.tool_teeth import Complexes, RackTooth, peak_of, rolled_half_angle
 
 _CHORD = 5e-4
 """Chord error of the outline that the tool sweeps, in normal modules; its points are on the curves themselves."""
@@ -78,6 +78,9 @@ def judge_outline(gear: Gear, where: str, sections: int = 1) -> Iterator[Claim]:
     heights = _heights(gear, sections)
     turned = section_turn(gear, heights)
     distances = np.stack([_swept(gear, tool, points, *each) for each in zip(heights, turned, strict=True)])
+    if gear.premachining.present:
+        finished = [_finished(gear, points, *each) for each in zip(heights, turned, strict=True)]
+        distances = np.minimum(distances, np.stack(finished))
     trims = next((notice.text for notice in gear.notices if notice.code == "cutter-trims-tips"), "")
     over, inside = "distance of the outline from the tool at its nearest", "depth of the outline in the tool"
     permitted = _OUTLINE * _scale(gear.normal_module) + _ROUNDING * float(np.abs(points).max())
@@ -104,7 +107,9 @@ def _judge_circles(judge: Judge, gear: Gear, points: Complexes, permitted: float
     side = -1 if gear.internal else 1
     reference = gear.tooth_count * gear.normal_module / math.cos(math.radians(gear.helix_angle)) / 2
     tip = reference + side * gear.normal_module * (gear.rack.addendum + gear.profile_shift + gear.tip_alteration)
-    root = reference - side * gear.normal_module * (gear.rack.dedendum - gear.profile_shift)
+    if gear.premachining.topping is not None:
+        tip = reference + gear.profile_shift * gear.normal_module + gear.premachining.topping
+    root = root_radius(gear)
     radii = side * np.abs(points)
     for name, told, given, found, defined in (
         ("tip diameter", gear.tip_diameter, is_given(gear.tip_diameter), radii.max(), tip),
@@ -121,6 +126,8 @@ def _judge_circles(judge: Judge, gear: Gear, points: Complexes, permitted: float
 def _tip_form(gear: Gear) -> float:
     """Return the radius (mm) at which the flank ends by the inputs: the tip circle, or the chamfer before it."""
     tip = abs(gear.tip_diameter) / 2
+    if gear.premachining.semi_topping.present:  # the ramp of the tool makes the chamfer
+        return tip
     return tip + gear.body.tip_chamfer if gear.internal else tip - gear.body.tip_chamfer
 
 
@@ -165,7 +172,59 @@ def _swept(gear: Gear, tool: Hob | Shaper, points: Complexes, height: float, tur
     return swept_distance(tool, points * np.exp(1j * (pitch / 2 + own)), gear.normal_module, height)
 
 
+def _finished(gear: Gear, points: Complexes, height: float, turned: float) -> Floats:
+    """Return signed distances (n,) in mm from what finishes the flanks of a gear that another tool has cut before.
+
+    A wheel that ends on a circle is a rack with its rounding; one that runs free ends where the flank is told to begin, and has
+    no distance from points below. On a ring, and by a form wheel, the flank alone is held against the involute that a rack
+    leaves.
+    """
+    end, finishing = gear.profile.form_diameter / 2, gear.finishing
+    above = np.abs(points) * (-1 if gear.internal else 1) >= (end - 1e-9 * end) * (-1 if gear.internal else 1)
+    if gear.internal:
+        return np.where(above, _from_rolled_flank(gear, points), np.inf)
+    if finishing.end_diameter is None or finishing.kind == "form":
+        rack = finishing_rack(gear, end, 0.0)
+        off: Floats = np.where(above, _swept(gear, rack, points, height, turned), np.inf)
+        return off if finishing.end_diameter is None else np.minimum(off, _from_wheel_tip(gear, points))
+    radius = finishing.wheel_tip_radius or 0.2 * gear.normal_module
+    return _swept(gear, finishing_rack(gear, finishing.end_diameter / 2, radius), points, height, turned)
+
+
+def _from_wheel_tip(gear: Gear, points: Complexes) -> Floats:
+    """Return signed distances (n,) in mm from the rounded tip of a form wheel, a circle that touches the end of the flank."""
+    end, radius = abs(gear.finishing.end_diameter or 0.0) / 2, gear.finishing.wheel_tip_radius or 0.2 * gear.normal_module
+    m, cosine = gear.normal_module, math.cos(math.radians(gear.helix_angle))
+    tangent = math.tan(math.radians(gear.rack.pressure_angle))
+    thickness = m * (math.pi / 2 + 2 * gear.profile_shift * tangent) - gear.tooth_thinning
+    near = end + np.linspace(0.0, 2.0, 5) * _WHEEL_STEP * m
+    halves = rolled_half_angle(near, gear.teeth * m / cosine / 2, math.atan(tangent / cosine), thickness / cosine)
+    flank = near * np.exp(1j * halves)
+    along = flank @ np.array([-25.0, 48.0, -36.0, 16.0, -3.0])  # the first difference of fourth order
+    centre = flank[0] + 1j * radius * along / abs(along)
+    folded = points.real + 1j * np.abs(points.imag)
+    away: Floats = np.abs(folded - centre) - radius
+    return away
+
+
+_WHEEL_STEP = 1e-3
+"""Step of the radius, in normal modules, over which the direction of a flank is taken."""
+
+
+def _from_rolled_flank(gear: Gear, points: Complexes) -> Floats:
+    """Return distances (n,) in mm across the spaces of a ring from the flank that a rack leaves on its counterpart."""
+    m, cosine = gear.normal_module, math.cos(math.radians(gear.helix_angle))
+    tangent = math.tan(math.radians(gear.rack.pressure_angle))
+    thickness = m * (math.pi / 2 + 2 * gear.profile_shift * tangent) - gear.tooth_thinning
+    reference, radii = gear.tooth_count * m / cosine / 2, np.abs(points)
+    space = rolled_half_angle(radii, reference, math.atan(tangent / cosine), (math.pi * m - thickness) / cosine)
+    across: Floats = (math.pi / gear.tooth_count - np.abs(np.angle(points)) - space) * radii
+    return across
+
+
 def _tool_name(gear: Gear) -> str:
+    if gear.premachining.present:
+        return "tool that cuts before finishing, and finishing"
     if gear.cutter.teeth is not None:
         return f"shaper cutter of {gear.cutter.teeth} teeth"
     return "counterpart of the ring" if gear.internal else "basic rack"

@@ -12,7 +12,7 @@ import numpy as np
 
 from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.geometry import Gear, Rack
-from gearcad.geometry.curves import Chamfer, Curve, Fillet, Involute, PlaneCurve
+from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Involute, PlaneCurve, parameter_at
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
 from gearcad.geometry.rack import RackCurveKind
@@ -77,9 +77,7 @@ def _on_radius(curve: Curve, radius: Floats) -> Floats:
         run = (np.sqrt(np.maximum(2 * radius**2 - curve.radius**2, 0.0)) - curve.radius) / 2
         found = np.abs(run) / curve.run
     else:
-        assert isinstance(curve, Fillet)
-        theta = curve.tool.theta_at(radius, curve.last)
-        found = np.arcsinh(np.tan(theta)) / math.asinh(math.tan(curve.last))
+        found = parameter_at(curve, radius)
     on_curve: Floats = np.clip(found, 0.0, 1.0)
     return on_curve
 
@@ -108,7 +106,7 @@ class GearSurface:
     @property
     def flanks(self) -> list[int]:
         """Numbers of the surfaces that are flanks."""
-        return [number for number, piece in enumerate(self._pieces) if isinstance(piece.curve, Involute)]
+        return [number for number, piece in enumerate(self._pieces) if piece.curve.kind is CurveKind.INVOLUTE]
 
     @property
     def _pitch(self) -> float:

@@ -11,7 +11,7 @@ with the middle of a tooth space on the real axis. Radii, numbers of teeth and c
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,8 +22,9 @@ from gearcad.geometry import Gear
 from gearcad.verification.tool_teeth import (
     Complexes,
     CutterBlank,
-    CutterTooth,
+    JoinedTeeth,
     RackTooth,
+    ToolTooth,
     least_of,
     peak_of,
     rolled_half_angle,
@@ -53,7 +54,7 @@ class ToolSection(NamedTuple):
 class Hob:
     """A hob or rack that rolls on the reference circle of an external gear; `tip_circle` (mm) is that of its tip."""
 
-    tooth: RackTooth
+    tooth: ToolTooth
     reference: float
     tip_circle: float
     helix: float
@@ -78,7 +79,7 @@ class Hob:
 class Shaper:
     """A shaper cutter at its gear: `share` is the gear's turn for one of the cutter, `side` is 1 in a ring and else -1."""
 
-    tooth: CutterTooth
+    tooth: ToolTooth
     centre_distance: float
     tip_radius: float
     share: float
@@ -106,7 +107,90 @@ class Shaper:
 
 def tool_of(gear: Gear) -> Hob | Shaper:
     """Return the tool that the inputs of a gear define, set to its gear."""
-    return _shaper(gear) if gear.internal or gear.cutter.teeth is not None else _hob(gear)
+    pre = gear.premachining
+    if gear.internal or gear.cutter.teeth is not None or pre.cutter_teeth is not None:
+        return _shaper(gear)
+    return _premachining_hob(gear) if pre.present else _hob(gear)
+
+
+def finishing_rack(gear: Gear, end: float, radius: float) -> Hob:
+    """Return a rack that finishes the flanks of an external gear down to a circle of radius `end` (mm), its tip rounded."""
+    m, helix, angle = gear.normal_module, math.radians(gear.helix_angle), math.radians(gear.rack.pressure_angle)
+    cosine, line = math.cos(helix), gear.profile_shift * gear.normal_module
+    reference = gear.teeth * m / cosine / 2
+    transverse = math.atan(math.tan(angle) / cosine)
+    base = reference * math.cos(transverse)
+    # A point of the flank touches where the line of action is as deep as it: the end of the flank touches on the circle.
+    depth = (reference * math.sin(transverse) - math.sqrt(max(end**2 - base**2, 0.0))) * math.sin(transverse)
+    tooth = RackTooth(
+        half_thickness=math.pi * m / 4 + gear.tooth_thinning / 2,
+        line=line,
+        tip=-depth - radius * (1 - math.sin(angle)),
+        radius=radius,
+        angle=angle,
+        cosine=cosine,
+        pitch=math.pi * m,
+    )
+    return Hob(tooth=tooth, reference=reference, tip_circle=reference + tooth.tip, helix=helix)
+
+
+def _premachining_hob(gear: Gear) -> Hob:
+    """Return the hob that cuts before finishing: its flank, its protuberance, and its ramp, as straight lines and an arc."""
+    pre, m, wide = gear.premachining, gear.normal_module, math.radians(gear.rack.pressure_angle)
+    helix, angle, cosine = math.radians(gear.helix_angle), wide, math.cos(math.radians(gear.helix_angle))
+    own = gear.teeth * m / cosine / 2
+    reference, line = own, gear.profile_shift * m
+    half = math.pi * m / 4 + gear.tooth_thinning / 2
+    if pre.tool_pressure_angle is not None:  # a short lead: the space is that on the circle on which the hob rolls
+        transverse = math.atan(math.tan(wide) / cosine)
+        angle = math.radians(pre.tool_pressure_angle)
+        tilt = math.sin(helix) * math.cos(wide) / math.cos(angle)
+        helix, cosine = math.asin(tilt), math.sqrt(1 - tilt**2)
+        reference = own * math.cos(transverse) / math.cos(math.atan(math.tan(angle) / cosine))
+        thick = (m * (math.pi / 2 + 2 * gear.profile_shift * math.tan(wide)) - gear.tooth_thinning) / cosine_of(gear)
+        tooth = float(rolled_half_angle(np.array([reference]), own, transverse, thick)[0])
+        line = own + line - reference
+        half = reference * cosine * (math.pi / gear.teeth - tooth) + line * math.tan(angle)
+    stock, radius = _stock(gear), (pre.tool_tip_radius or 0.0) * m
+    half -= stock / math.cos(angle)
+    tip, pitch = line - _addendum(gear), math.pi * m * math.cos(wide) / math.cos(angle)
+
+    def rack(half: float, angle: float, tip: float = tip, radius: float = radius) -> RackTooth:
+        return RackTooth(half_thickness=half, line=line, tip=tip, radius=radius, angle=angle, cosine=cosine, pitch=pitch)
+
+    teeth = [rack(half, angle)]
+    if pre.protuberance_angle is not None:
+        steep, height = math.radians(pre.protuberance_angle), tip + radius - line
+        centre = half + height * math.tan(angle) + (pre.protuberance - radius) / math.cos(angle)
+        teeth.append(rack(centre - height * math.tan(steep) + radius / math.cos(steep), steep))
+    if pre.semi_topping.angle is not None and pre.semi_topping.height is not None:
+        ramp = math.tan(math.radians(pre.semi_topping.angle))
+        at_line = half + pre.semi_topping.height * (math.tan(angle) - ramp)
+        teeth.append(rack(at_line, math.atan(ramp), tip=max(tip, line - at_line / ramp), radius=0.0))
+    return Hob(tooth=JoinedTeeth(tuple(teeth)), reference=reference, tip_circle=reference + tip, helix=helix)
+
+
+def cosine_of(gear: Gear) -> float:
+    """Return the cosine of the helix angle."""
+    return math.cos(math.radians(gear.helix_angle))
+
+
+def _stock(gear: Gear) -> float:
+    """Return the stock (mm) by the inputs; that of DIN 3972 is .25 or .6 of the third root of the module, times sin 20."""
+    factor = {"din3972-III": 0.25, "din3972-IV": 0.6}.get(str(gear.premachining.stock))
+    if factor is not None:
+        return factor * float(gear.normal_module ** (1 / 3)) * math.sin(math.radians(20))
+    return float(gear.premachining.stock)
+
+
+def _addendum(gear: Gear) -> float:
+    """Return the addendum (mm) of the tool that makes the root, by the inputs."""
+    pre, m = gear.premachining, gear.normal_module
+    if not pre.present:
+        return gear.rack.dedendum * m
+    if pre.tool_addendum is not None:
+        return pre.tool_addendum * m
+    return 1.25 * m + {"din3972-III": 0.25, "din3972-IV": 0.6}[str(pre.stock)] * float(m ** (1 / 3))
 
 
 def _hob(gear: Gear) -> Hob:
@@ -130,9 +214,10 @@ def _shaper(gear: Gear) -> Shaper:
     """Return the shaper cutter of a gear. A ring without one has its counterpart, whose teeth fill its spaces."""
     m, helix = gear.normal_module, math.radians(gear.helix_angle)
     tangent, cosine = math.tan(math.radians(gear.rack.pressure_angle)), math.cos(helix)
-    own = gear.cutter.teeth is None
-    teeth = gear.cutter.teeth or gear.tooth_count
-    shift = -gear.profile_shift if own else gear.cutter.profile_shift
+    cutter, pre = gear.root_cutter, gear.premachining
+    own = cutter.teeth is None
+    teeth = cutter.teeth or gear.tooth_count
+    shift = -gear.profile_shift if own else cutter.profile_shift
     blank = CutterBlank(
         teeth=teeth,
         module=m,
@@ -142,9 +227,25 @@ def _shaper(gear: Gear) -> Shaper:
         cosine=cosine,
     )
     distance = 0.0 if own else _centre_distance(gear, blank)
-    tip = abs(_root_radius(gear) - distance)
+    tip = abs(root_radius(gear) - distance)
+    if pre.present:
+        normal = math.cos(math.radians(gear.rack.pressure_angle)) * cosine
+        cut = replace(blank, thickness=blank.thickness - 2 * _stock(gear) / normal)
+        radius = _corner_radius(gear, cut, tip)
+        made: list[ToolTooth] = []
+        if pre.protuberance_angle is None:
+            made.append(cut.tooth(tip, radius))
+        else:
+            stands_out = replace(cut, thickness=cut.thickness + 2 * pre.protuberance / normal)
+            made.append(stands_out.bulge(tip, radius, math.pi / 2 - math.radians(pre.protuberance_angle), cut))
+            # The flank below the protuberance, up to where that stands out of it most: the rest is inside.
+            share, _ = stands_out.join(tip, radius)
+            made.append(cut.tooth(abs(complex(stands_out.corner(np.array([share]), tip, radius)[0])), 0.0))
+        tooth: ToolTooth = JoinedTeeth(tuple(made))
+    else:
+        tooth = blank.tooth(tip, _corner_radius(gear, blank, tip))
     return Shaper(
-        tooth=blank.tooth(tip, _corner_radius(gear, blank, tip)),
+        tooth=tooth,
         centre_distance=distance,
         tip_radius=tip,
         share=teeth / gear.tooth_count,
@@ -153,18 +254,18 @@ def _shaper(gear: Gear) -> Shaper:
     )
 
 
-def _root_radius(gear: Gear) -> float:
+def root_radius(gear: Gear) -> float:
     """Return the radius (mm) of the root circle by the inputs: as given, or h_fP - x below the reference circle."""
     if is_given(gear.root_diameter):
         return abs(gear.root_diameter) / 2
     reference = gear.teeth * gear.normal_module / math.cos(math.radians(gear.helix_angle)) / 2
-    return abs(reference - gear.normal_module * (gear.rack.dedendum - gear.profile_shift))
+    return abs(reference - _addendum(gear) + gear.normal_module * gear.profile_shift)
 
 
 def _corner_radius(gear: Gear, blank: CutterBlank, tip: float) -> float:
     """Return the radius (mm) of the cutter's corner: its own, or that of the rack as far as both corners fit the tip."""
-    if gear.cutter.tip_radius is not None:
-        return gear.cutter.tip_radius * gear.normal_module
+    if gear.root_cutter.tip_radius is not None:
+        return gear.root_cutter.tip_radius * gear.normal_module
     if gear.rack.root_radius != "full":
         radius = float(gear.rack.root_radius) * gear.normal_module
         if radius < tip - blank.innermost and (not radius or blank.join(tip, radius)[1] >= 0):
@@ -181,8 +282,8 @@ def _centre_distance(gear: Gear, blank: CutterBlank) -> float:
     middle = (gear.profile.form_diameter + gear.profile.tip_form_diameter) / 4
     half = float(rolled_half_angle(np.array([middle]), gear.tooth_count * m / cosine / 2, blank.angle, filled / cosine)[0])
     wanted = half if gear.internal else math.pi / gear.tooth_count - half
-    start = abs((gear.teeth + blank.teeth) * m / cosine / 2 + (gear.profile_shift + gear.cutter.profile_shift) * m)
-    side, root = (1 if gear.internal else -1), _root_radius(gear)
+    start = abs((gear.teeth + blank.teeth) * m / cosine / 2 + (gear.profile_shift + gear.root_cutter.profile_shift) * m)
+    side, root = (1 if gear.internal else -1), root_radius(gear)
 
     def excess(distance: float) -> float:
         # A point of the cutter at the angle `bearing` from the line of centres is on the circle where its flank is wide enough.

@@ -116,6 +116,18 @@ class RackTooth:
         return result
 
 
+@dataclass(frozen=True)
+class JoinedTeeth:
+    """A tooth of a tool that is the union of others: a flank, a protuberance, a ramp."""
+
+    teeth: tuple[ToolTooth, ...]
+
+    def distance(self, points: Complexes) -> Floats:
+        """Return signed distances (mm) from the nearest of the teeth."""
+        nearest: Floats = np.minimum.reduce([tooth.distance(points) for tooth in self.teeth])
+        return nearest
+
+
 @dataclass(frozen=True, kw_only=True)
 class CutterTooth:
     """A tooth of a shaper cutter, or of the counterpart of a ring, centred on the real axis with its axis at the origin.
@@ -205,6 +217,23 @@ class CutterBlank:
             middle = (low + high) / 2
             low, high = (middle, high) if self.join(tip, middle)[1] > 0 else (low, middle)
         return low
+
+    def bulge(self, tip: float, radius: float, last: float, own: CutterBlank) -> CutterTooth:
+        """Return the tooth of a protuberance, whose rounded corner touches this flank and runs on to an angle `last` (rad).
+
+        From there it goes on in a straight line to where that meets the flank of the cutter's `own` teeth.
+        """
+        _, middle = self.join(tip, radius)
+        land = tip * np.exp(1j * np.linspace(0.0, max(middle, 0.0), 40))
+        count = 20 + int(_CUTTER_POINTS * math.sqrt(max(radius, 0.1)))
+        corner = self.corner(np.linspace(0.0, last, count), tip, radius) * np.exp(1j * middle)
+        heading = (-math.sin(last) + 1j * math.cos(last) / self.cosine) * np.exp(1j * middle)
+        straight = corner[-1] + np.linspace(0.0, 2 * self.module, 401)[1:] * heading / abs(heading)
+        inside = np.flatnonzero(np.angle(straight) < own.half_angle(np.abs(straight)))
+        straight = straight[: inside[0] + 1] if len(inside) else straight
+        pieces = np.concatenate([land, corner, straight, straight[-1:] * 0.9])
+        kept = np.r_[True, np.abs(np.diff(pieces)) > 1e-12 * tip]
+        return CutterTooth(teeth=self.teeth, outline=pieces[kept])
 
     def tooth(self, tip: float, radius: float) -> CutterTooth:
         """Return the tooth with its tip circle at a radius (mm), its corners rounded by a radius (mm).

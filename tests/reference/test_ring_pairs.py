@@ -18,7 +18,7 @@ from gearcad.core.records import Role
 from gearcad.geometry import ShaperCutter
 from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.fillets import ShaperTip
-from gearcad.geometry.gear_data import full_corner_radius
+from gearcad.geometry.gear_tools import full_corner_radius
 from gearcad.geometry.interference import InternalTips, ToothTips
 
 EXACT = 1e-10

@@ -159,9 +159,12 @@ class SolidSizes:
 
 def _least_fillet_radius(gear: Gear) -> float:
     """Least radius of curvature (mm) of a fillet in the transverse section."""
-    fillet, s = next(curve for curve in gear.profile.curves if curve.kind is CurveKind.FILLET), np.linspace(0.0, 1.0, 257)
-    lengths = np.hypot(*np.diff(fillet.points(s), axis=0).T)
-    return float((lengths / np.abs(np.diff(np.unwrap(fillet.direction(s))))).min())
+    s, least = np.linspace(0.0, 1.0, 257), math.inf
+    for piece in gear.profile.curves:
+        if piece.kind is CurveKind.FILLET:
+            lengths = np.hypot(*np.diff(piece.points(s), axis=0).T)
+            least = min(least, float((lengths / np.abs(np.diff(np.unwrap(piece.direction(s))))).min()))
+    return least
 
 
 class KnownResponses(dict[tuple[float, float, bool], Responses]):

@@ -18,8 +18,9 @@ import numpy as np
 from gearcad.core.errors import ParameterError, require_number, require_whole
 from gearcad.core.records import Floats, Notice, PerGear, Role, Wholes
 from gearcad.geometry import Gear, GearPair
-from gearcad.geometry.gear import Pose, halves
+from gearcad.geometry.gear import halves
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
+from gearcad.geometry.gear_pictures import Pose
 from gearcad.meshing.bodies.element_mesh import Cells, ElementMesh, Faces, joined
 from gearcad.meshing.bodies.section_mesh import NO_CONTACTS, Turns, mesh_section, modification_turns, teeth_of
 from gearcad.meshing.bodies.sectors import ContactRefinement, Sectors, disc

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Chebyshev
@@ -16,7 +17,7 @@ from numpy.polynomial.legendre import leggauss
 
 from gearcad.core.records import Floats, JsonObject
 from gearcad.geometry import Gear
-from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute
+from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Involute, parameter_at
 from gearcad.geometry.gear import FlankCurve, flank_curves, middle_section
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
 from gearcad.meshing.bodies.element_mesh import GAP, ElementMesh, body_side, rises
@@ -148,15 +149,29 @@ def chamfer_distances(gear: Gear, tooth: int, points: Floats, *, solid: bool) ->
     return [_Surface(gear, each, left, place, solid).distances(points) for each in chamfers for left in (True, False)]
 
 
-def _surfaces(mesh: ElementMesh, gear: Gear, *, solid: bool) -> Iterator[tuple[str, _Surface]]:
+def _surfaces(mesh: ElementMesh, gear: Gear, *, solid: bool) -> Iterator[tuple[str, _Surfaces]]:
     """Yield the named flanks and fillets, with the exact surfaces that they should lie on."""
-    form, curves = gear.flank_form, {each.curve.kind: each for each in flank_curves(gear)}
-    flank = next(curve for curve in gear.profile.curves if isinstance(curve, Involute))
-    parts = {"fillet": curves[CurveKind.FILLET], "flank": FlankCurve(flank, form.first, form.last)}
+    form = gear.flank_form
+    parts = {
+        "fillet": [each for each in flank_curves(gear) if each.curve.kind is CurveKind.FILLET],
+        "flank": [FlankCurve(gear.profile.involute, form.first, form.last)],
+    }
     for name, faces in mesh.sides.items():
         if (match := _SIDE.fullmatch(name)) and len(faces):
             side, part, tooth = match.groups()
-            yield name, _Surface(gear, parts[part], rises(gear, side), 2 * math.pi * int(tooth) / gear.tooth_count, solid)
+            place = 2 * math.pi * int(tooth) / gear.tooth_count
+            yield name, _Surfaces([_Surface(gear, each, rises(gear, side), place, solid) for each in parts[part]])
+
+
+class _Surfaces(NamedTuple):
+    """Surfaces of one side of a mesh, of which each of its nodes is on one."""
+
+    pieces: list[_Surface]
+
+    def distances(self, points: Floats) -> Floats:
+        """Distances (n,) in mm of points (n, 3) from the nearest piece."""
+        nearest: Floats = np.min([piece.distances(points) for piece in self.pieces], axis=0)
+        return nearest
 
 
 @dataclass(frozen=True)
@@ -201,9 +216,7 @@ class _Surface:
             run = (np.sqrt(np.maximum(2 * radius**2 - curve.radius**2, 0.0)) - curve.radius) / 2
             found = np.abs(run) / curve.run
         else:
-            assert isinstance(curve, Fillet)
-            theta = curve.tool.theta_at(radius, curve.last)
-            found = np.arcsinh(np.tan(theta)) / math.asinh(math.tan(curve.last))
+            found = parameter_at(curve, radius)
         on_curve: Floats = np.clip(found, 0.0, 1.0)
         return on_curve
 

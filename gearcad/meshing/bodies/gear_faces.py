@@ -492,7 +492,7 @@ def _along_flanks(gear: Gear, size: float, grading: TetrahedronGrading) -> dict[
     least = 0.0 if off is None else min(size, base * (_SLACK * off * module / _CUSP / base) ** (2 / 3))
     return {
         curve.kind: _tetrahedron_sizes_by_radius(curve, lengths[curve.kind], least)
-        for curve in gear.profile.curves
+        for curve in gear.profile.joined_curves
         if curve.kind not in (CurveKind.ROOT, CurveKind.TIP)
     }
 

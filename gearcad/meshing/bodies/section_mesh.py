@@ -15,7 +15,7 @@ import numpy as np
 from gearcad.core.errors import ParameterError, require_whole
 from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.geometry import Gear
-from gearcad.geometry.curves import CurveKind, Fillet
+from gearcad.geometry.curves import CurveKind, parameter_at
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.meshing.bodies.element_mesh import Cells, ElementMesh, Faces, body_side, rises
 from gearcad.meshing.bodies.sectors import ContactRefinement, Sectors, filled
@@ -113,7 +113,7 @@ class _Outline:
         if part is _Part.FLANK:
             return self._of_lengths(self._rolls(radius), left=left)
         if part is _Part.FILLET:
-            return self._of_fillet(self._fillet_parameters(radius), left=left)
+            return self._of_fillet_radii(radius, left=left)
         if part is _Part.TIP:
             return self._of_tip(angle)
         return self._of_root_land(np.abs(angle), left=left)
@@ -129,15 +129,15 @@ class _Outline:
 
     @property
     def _fillet(self) -> FlankCurve:
+        """The piece of the fillet at the root circle, the only one that may turn less than the flank."""
         return next(each for each in flank_curves(self.gear) if each.curve.kind is CurveKind.FILLET)
 
-    def _fillet_parameters(self, radius: Floats) -> Floats:
-        """Parameters of the points of the fillet at radii (mm)."""
-        fillet = self._fillet.curve
-        assert isinstance(fillet, Fillet)
-        spread = np.arcsinh(np.tan(fillet.tool.theta_at(radius, fillet.last)))
-        result: Floats = spread / np.arcsinh(np.tan(fillet.last))
-        return result
+    def _of_fillet_radii(self, radius: Floats, *, left: bool) -> Floats:
+        """Return the turns at radii (mm) on the fillet."""
+        first = self._fillet.curve
+        least, most = sorted(float(first.polar(s)[0]) for s in (0.0, 1.0))
+        inside: Floats = np.clip(radius, least, most)
+        return self._of_fillet(np.clip(parameter_at(first, inside), 0.0, 1.0), left=left)
 
     def _of_fillet(self, s: Floats, *, left: bool) -> Floats:
         return self._fillet.turn(self.gear.flank_form, s, self.heights[:, None], left=left)

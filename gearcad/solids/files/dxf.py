@@ -14,7 +14,7 @@ from gearcad.core.dxf import CUT, NOT_CUT, add_layers, drawing
 from gearcad.core.errors import SolverError, require_number
 from gearcad.core.records import Floats
 from gearcad.geometry import Body, Gear
-from gearcad.geometry.curves import CurveKind, PlaneCurve
+from gearcad.geometry.curves import Chamfer, CurveKind, PlaneCurve
 from gearcad.geometry.gear import middle_section
 from gearcad.geometry.rack import Rack, RackCurveKind
 from gearcad.solids.body_plan import SNAP, OutlinePiece, keyway_half_angle, outline_pieces
@@ -43,7 +43,7 @@ class Arcs:
 
 def arcs_of(curve: PlaneCurve, accuracy: float) -> Arcs:
     """A curve as pairs of arcs, as few as stay within `accuracy`; the pairs are shorter where its curvature changes fast."""
-    if curve.kind is CurveKind.CHAMFER:
+    if isinstance(getattr(curve, "curve", curve), Chamfer):
         return Arcs(curve.points(np.array([0.0, 1.0])), np.zeros(1))
     fine = np.linspace(0.0, 1.0, 257)
     length = np.hypot(*np.diff(curve.points(fine), axis=0).T)
