@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from gearcad.core.errors import GeometryError, at_least
+from gearcad.core.errors import GeometryError, at_least, at_most
 from gearcad.core.records import Notice
 from gearcad.geometry.fillets import FilletTool, ShaperTip, ToolTip
 from gearcad.geometry.gear_data import GearData
@@ -126,11 +126,25 @@ def wheel_tip_radius(gear: GearData) -> float:
     return _WHEEL_TIP * gear.normal_module if given is None else given
 
 
+def _check_end(gear: GearData, end: float) -> None:
+    """Raise GeometryError unless a finished flank can end at a diameter (mm), between base circle and tip."""
+    inner, outer = sorted((abs(gear.base_diameter), abs(gear.tip_diameter)))
+    if gear.internal:
+        inner, outer = abs(gear.tip_diameter), abs(gear.root_diameter)
+    if end * gear.teeth <= 0 or not inner < abs(end) < outer:
+        side = -1 if gear.internal else 1
+        low, high = sorted((side * inner, side * outer))
+        circles = "root and tip" if gear.internal else "base and tip"
+        permitted = f"must be above {at_least(low)} and below {at_most(high)} mm, between the {circles} circle"
+        raise GeometryError("finishing.end_diameter", end, permitted, "mm")
+
+
 def finishing_wheel(gear: GearData) -> Wheel | None:
     """Return the wheel that finishes the flanks; None where it runs free of the root."""
     finishing = gear.finishing
     if finishing.end_diameter is None:
         return None
+    _check_end(gear, finishing.end_diameter)
     end, radius = abs(finishing.end_diameter) / 2, wheel_tip_radius(gear)
     if finishing.kind == "form" or gear.internal:
         return Wheel(end, radius)
@@ -140,6 +154,10 @@ def finishing_wheel(gear: GearData) -> Wheel | None:
     depth = flank_depth + radius * (1 - math.sin(angle))
     space = (math.pi * gear.normal_module - gear.normal_tooth_thickness) / 2
     u = space - (depth - radius) * math.tan(angle) - radius / math.cos(angle)
+    if u < 0:
+        most = radius + u * math.cos(angle) / (1 - math.sin(angle))
+        permitted = f"must be at most {at_most(max(most, 0.0))} mm, the full radius between the flanks there"
+        raise GeometryError("finishing.wheel_tip_radius", radius, permitted, "mm")
     rolling = ToolTip(
         radius=radius,
         u=u,

@@ -9,13 +9,13 @@ from gearcad import BasicRack, Body, Gear, GearPair, Load, Material
 from gearcad.rating import Edition, Rating, RatingOptions, rate
 
 
-def _read_cases(name: str) -> dict[str, dict[str, Any]]:
+def read_cases(name: str) -> dict[str, dict[str, Any]]:
     """The cases of a file of `tests/data`, by their ids."""
     text = (Path(__file__).parents[1] / "data" / f"{name}.json").read_text(encoding="utf-8")
     return {entry["id"]: entry for entry in json.loads(text)}
 
 
-_CASES, _RATINGS, _STIFFNESSES = (_read_cases(name) for name in ("geometry", "rating", "stiffness"))
+_CASES, _RATINGS, _STIFFNESSES = (read_cases(name) for name in ("geometry", "rating", "stiffness"))
 
 FACE_WIDTHS = (18.3, 15.1)
 

@@ -1,0 +1,123 @@
+"""Random tools that cut before finishing: outlines against brute-force sweeps of the tools' own outlines."""
+
+import random
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gearcad import BasicRack, Gear
+from gearcad.core.errors import InputError
+from gearcad.core.records import Floats
+from gearcad.geometry.premachining import Finishing, Premachining, SemiTopping
+from gearcad.verification import geometry, tool_sweep, tool_teeth
+
+HOBS = ("free", "equal", "short", "topping", "semi", "notch", "form")
+CUTTERS = ("shaper", "ring")
+PERMITTED = 1e-7
+"""Distance (mm) of an outline from the tools."""
+
+
+def random_gear(rng: random.Random, kind: str) -> Gear:
+    """A gear of random tools, or an InputError for those that cannot cut it."""
+    m, angle, q = rng.choice([1.0, 1.5, 3.0, 6.0, 10.0]), rng.choice([14.5, 17.5, 20.0, 20.0, 25.0]), rng.uniform(0.01, 0.05)
+    pre: dict[str, Any] = {"tool_addendum": rng.uniform(1.2, 1.5), "tool_tip_radius": rng.uniform(0.1, 0.3)}
+    pre["stock"] = q * m**0.6
+    pre |= {
+        "protuberance": pre["stock"] + rng.uniform(0.005, 0.04) * m**0.6,
+        "protuberance_angle": rng.uniform(4.0, angle - 1.0),
+    }
+    plain: dict[str, Any] = {"teeth": rng.choice([9, 12, 17, 25, 40, 90, 220]), "profile_shift": rng.uniform(-0.2, 0.6)}
+    if kind == "equal":
+        pre["stock"] = pre["protuberance"]
+    elif kind == "short":
+        pre["tool_pressure_angle"] = angle - rng.uniform(0.5, 4.0)
+        pre["protuberance_angle"] = rng.uniform(4.0, pre["tool_pressure_angle"] - 1.0)
+    elif kind == "topping":
+        pre["topping"] = m * rng.uniform(0.9, 1.05)
+    elif kind == "semi":
+        pre["semi_topping"] = SemiTopping(angle=rng.uniform(35.0, 60.0), height=m * rng.uniform(0.55, 0.8))
+    elif kind in CUTTERS:
+        pre |= {"cutter_teeth": rng.choice([17, 25, 40]), "protuberance_angle": rng.uniform(4.0, 9.0)}
+        pre["protuberance"] = pre["stock"] + rng.uniform(0.002, 0.012) * m
+        plain["teeth"] = rng.choice([-60, -90, -120] if kind == "ring" else [25, 40, 90])
+    shared = {"normal_module": m, "helix_angle": rng.choice([0.0, 0.0, 10.0, -18.0, 28.0]), "face_width": 10.0}
+    shared["tooth_thinning"] = rng.choice([0.0, 0.02]) * m
+    if kind in ("notch", "form"):
+        pre["protuberance"] = rng.choice([0.0, 0.4]) * pre["stock"]
+        if not pre["protuberance"]:
+            del pre["protuberance_angle"]
+        rack = BasicRack(pressure_angle=angle, dedendum=pre["tool_addendum"], root_radius=min(pre["tool_tip_radius"], 0.2))
+        end = Gear(rack=rack, **plain, **shared).form_diameter + m * rng.uniform(0.05, 0.3)
+        how = "form" if kind == "form" else "generating"
+        plain["finishing"] = Finishing(kind=how, end_diameter=end, wheel_tip_radius=m * rng.uniform(0.1, 0.25))
+    return Gear(rack=BasicRack(pressure_angle=angle), premachining=Premachining(**pre), **plain, **shared)
+
+
+def gears_of(kind: str, count: int, seed: int) -> list[Gear]:
+    """Gears of a kind of tool that can be cut."""
+    rng, found = random.Random(f"{kind} {seed}"), list[Gear]()
+    for _ in range(40 * count):
+        if len(found) < count:
+            try:
+                found.append(random_gear(rng, kind))
+            except InputError:
+                continue
+    assert len(found) == count
+    return found
+
+
+def distances(gear: Gear) -> tuple[Floats, Floats]:
+    """Distances (mm) of points of the outline from the nearest tool, and whether a tool makes them."""
+    points = geometry._tooth(gear)
+    off = np.minimum(
+        geometry._swept(gear, tool_sweep.tool_of(gear), points, 0.0, 0.0), geometry._finished(gear, points, 0.0, 0.0)
+    )
+    return off, geometry._made_by_tool(gear, points)
+
+
+def judge(gear: Gear) -> None:
+    """Fail unless every point of the outline touches a tool, and none is inside one."""
+    off, made = distances(gear)
+    assert off.min() > -PERMITTED, gear
+    assert off[made].max() < PERMITTED, gear
+
+
+@pytest.mark.parametrize("kind", HOBS)
+def test_outlines_touch_the_hob_and_the_wheel(kind: str) -> None:
+    for gear in gears_of(kind, 4, seed=1):
+        judge(gear)
+
+
+@pytest.mark.parametrize("kind", CUTTERS)
+def test_outlines_touch_the_shaper_cutter(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tool_teeth, "_CUTTER_POINTS", 6000)
+    monkeypatch.setattr(tool_sweep, "_BEARINGS", 6001)
+    for gear in gears_of(kind, 1, seed=1):
+        judge(gear)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("kind", HOBS)
+def test_three_hundred_outlines_touch_hobs_and_wheels(kind: str) -> None:
+    for gear in gears_of(kind, 40, seed=2):
+        judge(gear)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("kind", CUTTERS)
+def test_outlines_touch_many_shaper_cutters(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tool_teeth, "_CUTTER_POINTS", 12000)
+    monkeypatch.setattr(tool_sweep, "_BEARINGS", 6001)
+    for gear in gears_of(kind, 10, seed=2):
+        judge(gear)
+
+
+def test_a_tool_that_is_off_by_a_micrometre_is_noticed() -> None:
+    gear = gears_of("free", 1, seed=3)[0]
+    off, made = distances(gear)
+    points = geometry._tooth(gear)
+    flank = made & (np.abs(points) > gear.form_diameter / 2 * 1.005)
+    moved = geometry._finished(gear, points * np.exp(1e-3j / np.abs(points)), 0.0, 0.0)
+    assert np.abs(moved[flank]).max() > 5e-4
+    assert np.abs(off[flank]).max() < PERMITTED
