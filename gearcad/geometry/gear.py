@@ -293,16 +293,12 @@ class Gear(GearData):
                 "form_diameter": before.form_diameter,
             },
         }
-        if pre.stock_tolerance:
-            stocks = (self.stock - pre.stock_tolerance, self.stock + pre.stock_tolerance)
-            residual = [pre.protuberance - stock for stock in stocks]
-            document["range"] = {
-                "stock": list(stocks),
-                "residual_undercut": residual,
-                "root_form_diameter": [
-                    None if left < 0 else self._free_form_diameter(stock) for left, stock in zip(residual, stocks, strict=True)
-                ],
-            }
+        for name, sign in (("least_stock", -1), ("most_stock", 1)):
+            if pre.stock_tolerance:
+                stock = self.stock + sign * pre.stock_tolerance
+                left = pre.protuberance - stock
+                form = None if left < 0 else self._free_form_diameter(stock)
+                document[name] = {"stock": stock, "residual_undercut": left, "root_form_diameter": form}
         return document
 
     def _free_form_diameter(self, stock: float) -> float:

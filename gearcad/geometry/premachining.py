@@ -69,12 +69,12 @@ class Premachining:
     stock: Annotated[
         float | Literal["din3972-III", "din3972-IV"], _MM, Words("stock on each flank (normal)", "q", "DIN 3972")
     ] = 0.0
-    stock_tolerance: Annotated[float, _MM, Words("tolerance of the stock (plus and minus)")] = 0.0
-    topping: Annotated[float | None, _MM, Words("root of a topping tool below its reference line", "h_fP0")] = None
+    stock_tolerance: Annotated[float, _MM, Words("tolerance of the stock, ±")] = 0.0
+    topping: Annotated[float | None, _MM, Words("topping tool, dedendum", "h_fP0")] = None
     tool_pressure_angle: Annotated[float | None, Range("deg", 1, 45), Words("pre-cutting tool, pressure angle", "α_n0")] = None
     tool_module: Annotated[float | None, Range("mm", 0.01, 200), Words("pre-cutting tool, module", "m_0")] = None
-    cutter_teeth: Annotated[int | None, Whole(3, 2000), Words("pre-cutting shaper cutter, number of teeth", "z_0")] = None
-    cutter_profile_shift: Annotated[float, Range("", -5, 5), Words("pre-cutting shaper cutter, profile shift", "x_0")] = 0.0
+    cutter_teeth: Annotated[int | None, Whole(3, 2000), Words("pre-cutting cutter, teeth", "z_0")] = None
+    cutter_profile_shift: Annotated[float, Range("", -5, 5), Words("pre-cutting cutter, profile shift", "x_0")] = 0.0
     semi_topping: SemiTopping = field(default=SemiTopping())
 
     __repr__ = concise

@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 _TITLES = {
     "rack": "Basic rack",
     "cutter": "Shaper cutter",
+    "premachining": "Cut before finishing",
+    "finishing": "Finishing of the flanks",
     "modification": "Flank modifications",
 }
 """Titles of parts that are not their names."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from typing import Any, NamedTuple
 
 from gearcad.core import symbols
@@ -66,11 +67,11 @@ def block(title: str, rows: Iterable[Row]) -> tuple[Block, ...]:
 
 
 def flattened(document: Mapping[str, Any]) -> dict[str, Any]:
-    """Nested keys joined by a dot."""
+    """Nested keys joined by dots."""
     flat: dict[str, Any] = {}
     for key, value in document.items():
         if isinstance(value, Mapping):
-            flat |= {f"{key}.{inner}": item for inner, item in value.items()}
+            flat |= {f"{key}.{inner}": item for inner, item in flattened(value).items()}
         else:
             flat[key] = value
     return flat
@@ -136,6 +137,7 @@ _GEAR_BLOCKS = {
     " tip_alteration tooth_thinning face_width virtual_teeth lead",
     "Basic rack": _of_part("rack"),
     "Shaper cutter": _of_part("cutter") + " cutter_tip_diameter",
+    "Cut before finishing": _of_part("premachining") + " " + _of_part("finishing"),
     "Double helix": _of_part("double_helix"),
     "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle transverse_pitch transverse_base_pitch",
     "Diameters": "tip_diameter tip_form_diameter reference_diameter base_diameter form_diameter root_diameter undercut",
@@ -162,6 +164,9 @@ _RACK_BLOCKS = {
 
 _BELONGS_TO = {
     "cutter.profile_shift": "cutter.teeth",
+    "premachining.cutter_profile_shift": "premachining.cutter_teeth",
+    "finishing.kind": "finishing.end_diameter",
+    "finishing.wheel_tip_radius": "finishing.end_diameter",
     "double_helix.offset": "double_helix.gap_width",
     "body.keyway_depth": "body.keyway_width",
     "body.hub_length": "body.hub_diameter",
@@ -219,6 +224,9 @@ def _in_use(gear: Gear) -> dict[str, Any]:
     They are modifications that do something, a diametral pitch that was given, and a note that some gauges are for spur rings.
     """
     shown = {"modification": gear.flank_form.in_use} | _given_pitch(gear)
+    if gear.premachining.present:  # its tool replaces these of the rack
+        rack = {name: value for name, value in asdict(gear.rack).items() if name not in ("dedendum", "root_radius")}
+        shown |= {"rack": rack}
     return shown | (_OF_SPUR_RINGS if gear.internal and gear.helix_angle else {})
 
 

@@ -254,9 +254,9 @@ def test_a_spec_has_all_of_it_and_data_tells_what_is_left(tmp_path: Path) -> Non
     assert found["semi_topping"] == {"angle": 45.0, "height": 2.2}
     assert found["residual_undercut"] == pytest.approx(0.04)
     assert found["root_form_diameter"] == pytest.approx(71.797397, abs=1e-6)
-    assert found["range"]["residual_undercut"] == pytest.approx([0.06, 0.02])
-    forms = found["range"]["root_form_diameter"]
-    assert forms[0] > found["root_form_diameter"] > forms[1]
+    least, most = found["least_stock"], found["most_stock"]
+    assert (least["residual_undercut"], most["residual_undercut"]) == (pytest.approx(0.06), pytest.approx(0.02))
+    assert least["root_form_diameter"] > found["root_form_diameter"] > most["root_form_diameter"]
     assert found["precut"]["span_measurement"] == pytest.approx(document["span_measurement"] + 0.2, abs=1e-9)
     assert json.loads(json.dumps(document)) == document
 

@@ -1,6 +1,6 @@
 """Words and symbols cover what the objects hold; sentences of templates are plain text on one line."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any
 
 import pytest
@@ -16,6 +16,7 @@ from gearcad.designs.train_keys import COLUMNS
 from gearcad.designs.variations import column_symbol
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
+from gearcad.geometry.premachining import Premachining
 from gearcad.meshing.options import MeshOptions
 from gearcad.rating import RatingOptions
 from gearcad.report.document import sentences
@@ -25,14 +26,18 @@ def _keys(document: dict[str, Any]) -> set[str]:
     """Dotted keys of a document, without the warnings, which are sentences."""
     found = set()
     for key, value in document.items():
-        found |= {f"{key}.{inner}" for inner in value} if isinstance(value, dict) else {key}
+        found |= {f"{key}.{inner}" for inner in _keys(value)} if isinstance(value, dict) else {key}
     return found - {"warnings", "notices"}
 
 
 def test_every_field_of_a_gear_has_a_symbol_and_every_symbol_a_field() -> None:
     """Those of measurements are of external gears, or of rings; their limits where the tooth thickness has an allowance."""
     gear, ring = (Gear(teeth=teeth, normal_module=2.0, face_width=10.0, tooth_allowance="cd25") for teeth in (20, -60))
-    assert _keys(gear.to_dict()) | _keys(ring.to_dict()) == {*symbols_of(Gear), *symbols.GEAR}
+    plain = Premachining(tool_addendum=1.4, tool_tip_radius=0.2)
+    tool = replace(plain, stock=0.02, stock_tolerance=0.01, protuberance=0.04, protuberance_angle=8.0)
+    made_twice = [replace(gear, premachining=tool), replace(ring, premachining=plain)]
+    every = set().union(*(_keys(each.to_dict()) for each in (gear, ring, *made_twice)))
+    assert every == {*symbols_of(Gear), *symbols.GEAR}
     of_rings = {"profile_shift_khk", "span_spaces", "between_balls", "between_pins"}
     of_rings |= {f"thickness_limits.between_{gauge}_{side}" for gauge in ("balls", "pins") for side in ("least", "greatest")}
     assert _keys(ring.to_dict()) - _keys(gear.to_dict()) == of_rings
