@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
@@ -14,7 +15,7 @@ from gearcad.drawing.requirements import accuracy_grade_of, flank_roughness
 from gearcad.drawing.words import SheetWords, kind_of, titled
 from gearcad.geometry import NAMED_RACKS, FlankModification, Gear, Rack, RackPair, ReliefShape
 from gearcad.geometry.gear_parts import HALF_PITCH
-from gearcad.geometry.gear_tools import corner_radius, shaped
+from gearcad.geometry.gear_tools import corner_radius, shaped, tool_pressure_angle
 from gearcad.geometry.modification import TransitionSource
 from gearcad.rating.tolerances import Accuracy, covered, gear_tolerances
 
@@ -116,10 +117,12 @@ def rack_rows(part: Gear | Rack, write: RowWriter) -> Iterator[GearDataRow]:
     dedendum = part.dedendum if isinstance(part, Gear) else part.rack.dedendum
     own = abs(dedendum - part.rack.dedendum) < _SAME
     name = next((name for name, rack in NAMED_RACKS.items() if own and part.rack == rack), None)
-    if name is not None:
+    if name is not None and not (isinstance(part, Gear) and part.premachining.present):
         yield write.text("basic_rack", name.replace("ISO53_", "ISO 53 "))
         return
     yield write.plain("rack_addendum", part.rack.addendum, "h_aP*", name="rack.addendum")
+    if isinstance(part, Gear) and part.premachining.present:  # the tool of its rows makes the root
+        return
     yield write.plain("rack_dedendum", dedendum, "h_fP*", name="rack.dedendum" if own else "dedendum")
     if part.rack.root_radius == "full":
         radius = part.root_radius
@@ -140,7 +143,8 @@ def diameter_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
     if gear.tip_alteration and not is_given(gear.tip_diameter):
         altered = write.words.number(gear.tip_alteration, 4, signed=True)
         yield write.text("tip_alteration", altered, "k", {"tip_alteration": gear.tip_alteration})
-    yield write.length("undercut" if gear.undercut else "form_diameter", gear.form_diameter, "d_Ff", "form_diameter")
+    plain = gear.undercut and not gear.premachining.present
+    yield write.length("undercut" if plain else "form_diameter", gear.form_diameter, "d_Ff", "form_diameter")
 
 
 _UNFIT = {
@@ -314,10 +318,43 @@ def cutter_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
         yield write.length("corner_radius", corner_radius(gear) * gear.normal_module, "ρ_a0")
     if cutter.teeth is None or gear.cutter_tip_diameter is None:
         return
-    yield write.text("cutter_teeth", str(cutter.teeth), "z_0", {"cutter.teeth": cutter.teeth})
+    owner = "premachining.cutter_" if gear.premachining.present else "cutter."
+    yield write.text("cutter_teeth", str(cutter.teeth), "z_0", {f"{owner}teeth": cutter.teeth})
     shift = write.words.number(cutter.profile_shift, 4, signed=True)
-    yield write.text("cutter_profile_shift", shift, "x_0", {"cutter.profile_shift": cutter.profile_shift})
+    yield write.text("cutter_profile_shift", shift, "x_0", {f"{owner}profile_shift": cutter.profile_shift})
     yield write.length("cutter_tip_diameter", gear.cutter_tip_diameter, "d_a0")
+
+
+def premachining_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
+    """Yield the rows of the tool that cuts before the flanks are finished, of the stock, and of gauges before finishing."""
+    pre, before, module = gear.premachining, gear.precut, gear.normal_module
+    if not pre.present:
+        return
+    yield write.plain("tool_addendum", gear.tool_addendum, "h_aP0*", name="premachining.tool_addendum")
+    yield write.plain("tool_tip_radius", gear.root_radius, "ρ_aP0*", name="premachining.tool_tip_radius")
+    if pre.protuberance_angle is not None:
+        text = f"{write.words.shortest(pre.protuberance, 4)} mm / {write.words.shortest(pre.protuberance_angle, 4)}°"
+        numbers = {"premachining.protuberance": pre.protuberance, "premachining.protuberance_angle": pre.protuberance_angle}
+        yield write.text("protuberance", text, "p_rP0", numbers)
+    if pre.tool_pressure_angle is not None or pre.tool_module is not None:
+        angle = tool_pressure_angle(gear)
+        cut = module * math.cos(math.radians(gear.rack.pressure_angle)) / math.cos(math.radians(angle))
+        text = f"{write.words.shortest(cut, 6)} mm / {write.words.shortest(angle, 4)}°"
+        yield write.text("short_lead_tool", text, "m_0 / α_n0")
+    stock = f"{write.words.shortest(gear.stock, 4)}"
+    if pre.stock_tolerance:
+        stock += f" ± {write.words.shortest(pre.stock_tolerance, 4)}"
+    yield write.text("stock", f"{stock} mm", "q", {"premachining.stock": gear.stock})
+    if (count := before.inspection.spanned) is not None and before.span_measurement is not None:
+        numbers = {"premachining.precut.span_measurement": before.span_measurement}
+        text = write.words.number(before.span_measurement, write.decimals)
+        yield write.text("precut_span", text, "W_k", numbers, k=str(count))
+    size = before.between_balls if gear.internal else before.over_balls
+    if size is not None:
+        name = "between_balls" if gear.internal else "over_balls"
+        numbers = {"premachining.precut.ball_diameter": before.ball_diameter, f"premachining.precut.{name}": size}
+        text = f"{write.words.number(size, write.decimals)} / {write.words.shortest(before.ball_diameter, 6)}"
+        yield write.text(f"precut_{name}", text, "M_dK / D_M", numbers)
 
 
 def chamfer_rows(part: Gear | Rack, write: RowWriter) -> Iterator[GearDataRow]:
@@ -414,6 +451,7 @@ def _gear(drawn: DrawnGear, gear: Gear, write: RowWriter) -> Iterator[GearDataRo
     yield from tolerance_rows(drawn, write)
     yield from roughness_rows(drawn, write)
     yield from modification_rows(gear, write)
+    yield from premachining_rows(gear, write)
     yield from cutter_rows(gear, write)
     yield from chamfer_rows(gear, write)
 

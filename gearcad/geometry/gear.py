@@ -138,7 +138,7 @@ class Gear(GearData):
     @property
     def cutter_tip_diameter(self) -> float | None:
         """Tip diameter d_a0 of the shaper cutter (mm), set to reach the root circle; None without one."""
-        return None if self.cutter.teeth is None else 2 * shaper_tip(self, 0.0).tip_radius
+        return None if self.root_cutter.teeth is None else 2 * shaper_tip(self, 0.0).tip_radius
 
     @property
     def tip_thickness(self) -> float:

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
-from gearcad.core.errors import GeometryError, ParameterError, as_choice
+from gearcad.core.errors import GeometryError, ParameterError, as_choice, require_one_of
 from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Progress
 from gearcad.designs.design import Design
@@ -118,7 +118,8 @@ class Build(Job[ToothedDesign, ToothedDesign]):
 
     Per part `pinion.step`, `wheel.step`, `rack.step` or `gear.step` and so on, of a planetary train by the names of its gears
     and of its carrier, if one is made; a pair, or a train, also gets `assembly.*`, posed in mesh, in the formats that have
-    assemblies. Raises ParameterError without a format.
+    assemblies. The `stage` "precut" makes each gear as it is before its flanks are finished, and no assembly. Raises
+    ParameterError without a format.
     """
 
     verb = "build"
@@ -127,8 +128,10 @@ class Build(Job[ToothedDesign, ToothedDesign]):
 
     formats: tuple[Format, ...] = _DEFAULT
     options: FileOptions = field(default_factory=FileOptions)
+    stage: str = "finished"
 
     def __post_init__(self) -> None:
+        require_one_of("stage", self.stage, ("precut", "finished"))
         object.__setattr__(self, "formats", _formats(self.formats))
         if not self.formats:
             raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
@@ -139,6 +142,8 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             alone = "a single gear has no assembly" if design.assembly is None else "it stands on the shafts of both"
             alone = "a planetary train has a carrier" if design.kind is DesignKind.PLANETARY else alone
             raise GeometryError("bracket", True, f"needs a pair of gears: {alone}")
+        if self.stage == "precut" and not any(gear.premachining.present for gear in design.gears.values()):
+            raise GeometryError("stage", self.stage, "needs a gear with a table premachining, such as [pinion.premachining]")
         for option in _OF_TRAINS:
             if getattr(self.options, option) and design.kind is not DesignKind.PLANETARY:
                 raise GeometryError(option, True, "needs a planetary train")
@@ -162,21 +167,33 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     def files(self, result: ToothedDesign) -> dict[str, Writer]:
         """Every file of the design, quickest first."""
         found = Data().files(result)
-        parts, assembly = products_of(result, self.options)
+        parts, assembly = self._products(result)
         for kind in reversed(Format):
             if kind not in self.formats:
                 continue
             found |= {f"{name}.{kind.value}": partial(kind.entry.write, product) for name, product in parts.items()}
-            if result.kind is DesignKind.PLANETARY:
+            if assembly is not None and result.kind is DesignKind.PLANETARY:
                 found |= _train_writers(kind, cast("TrainProduct", assembly))
             elif assembly is not None and kind.entry.write_pair is not None:
                 found[f"assembly.{kind.value}"] = partial(kind.entry.write_pair, assembly)
         return found
 
+    def _products(self, design: ToothedDesign) -> tuple[Mapping[str, PartProduct], AssemblyProduct | None]:
+        """Return the parts at this stage and, of finished ones, what they make in mesh."""
+        if self.stage == "finished":
+            return products_of(design, self.options)
+        parts = {
+            name: GearProduct(gear=gear.precut, name=design.name, options=self.options)
+            for name, gear in design.gears.items()
+            if gear.premachining.present
+        }
+        return parts, None
+
     @property
     def parts(self) -> dict[str, dict[str, Any]]:
         """The data, and each format with the options that matter to it."""
-        return Data().parts | {kind.value: kind.minded(self.options) for kind in self.formats}
+        stage = {} if self.stage == "finished" else {"stage": self.stage}
+        return Data().parts | {kind.value: kind.minded(self.options) | stage for kind in self.formats}
 
     def part_of(self, file: str) -> str:
         """Formats are called as their files end."""
@@ -193,7 +210,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         options = FileOptions(**{name: value for kind in formats for name, value in kind.minded(self.options).items()})
         foreign = () if design.kind is DesignKind.PLANETARY else _OF_TRAINS
         foreign = foreign if design.kind is DesignKind.PAIR else (*foreign, "bracket")
-        return Build(formats=formats, options=replace(options, **dict.fromkeys(foreign, False)))
+        return Build(formats=formats, options=replace(options, **dict.fromkeys(foreign, False)), stage=self.stage)
 
 
 def _formats(given: object) -> tuple[Format, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -139,10 +140,12 @@ class _PartRows:
         dedendum = rack["dedendum"] if isinstance(part, Rack) else self._dedendum
         own = abs(dedendum - rack["dedendum"]) < 1e-9
         name = next((name for name, each in NAMED_RACKS.items() if own and each == part.rack), None)
-        if name is not None:
+        if name is not None and "premachining" not in self.data:
             yield self.named("basic_rack", text=name.replace("ISO53_", "ISO 53 "))
             return
         yield self.named("rack_addendum", "h_aP*", (rack["addendum"], _SHORTEST))
+        if "premachining" in self.data:  # the tool of its rows makes the root
+            return
         yield self.named("rack_dedendum", "h_fP*", (dedendum, _SHORTEST))
         full = rack["root_radius"] == "full"
         radius = (part.root_radius, _COEFFICIENT) if full else (float(rack["root_radius"]), _SHORTEST)
@@ -162,7 +165,8 @@ class _PartRows:
         for key, symbol in _LENGTHS_OF_GEAR.items():
             yield self.length(key, symbol, data[key])
         yield self.named("tip_alteration", "k", (data["tip_alteration"], _COEFFICIENT), required=False)
-        yield self.length("undercut" if data["undercut"] else "form_diameter", "d_Ff", data["form_diameter"])
+        plain = data["undercut"] and "premachining" not in data
+        yield self.length("undercut" if plain else "form_diameter", "d_Ff", data["form_diameter"])
         if offset := data["double_helix"]["offset"]:
             yield self.named("half_offset", "", (abs(offset) if abs(offset) == 0.5 else offset, _COEFFICIENT))
         yield self._grade()
@@ -254,6 +258,7 @@ class _PartRows:
             yield self.named("root_roughness", "", (root, 2))
         if isinstance(part, Gear):
             yield from self._modifications()
+            yield from self._premachining()
             yield from self._cutter(part)
         height = data["tip_chamfer"] if isinstance(part, Rack) else data["body"]["tip_chamfer"]
         if height:
@@ -270,8 +275,43 @@ class _PartRows:
         if used:
             yield self.named("modifications", text=self.words["data.see_diagram"])
 
+    def _premachining(self) -> Iterator[TableFigure]:
+        """Yield the rows of the tool that cuts before finishing; its sizes from the inputs, those of gauges from the data."""
+        pre, data = self.data.get("premachining"), self.data
+        if pre is None:
+            return
+        module = data["normal_module"]
+        depth = (data["reference_diameter"] - data["root_diameter"]) / 2 / module + data["profile_shift"]
+        yield self.named("tool_addendum", "h_aP0*", (depth, _SHORTEST))
+        yield self.named("tool_tip_radius", "ρ_aP0*", (pre["tool_tip_radius"], _SHORTEST))
+        if pre["protuberance_angle"] is not None:
+            values = (pre["protuberance"], _COEFFICIENT), (pre["protuberance_angle"], _COEFFICIENT)
+            yield self.named("protuberance", "p_rP0", *values)
+        if pre["tool_pressure_angle"] is not None:
+            angles = (math.radians(data["rack"]["pressure_angle"]), math.radians(pre["tool_pressure_angle"]))
+            own = module * math.cos(angles[0]) / math.cos(angles[1])
+            values = (own, _SHORTEST), (pre["tool_pressure_angle"], _COEFFICIENT)
+            yield self.named("short_lead_tool", "m_0 / α_n0", *values)
+        elif pre["tool_module"] is not None:
+            angle = math.acos(module * math.cos(math.radians(data["rack"]["pressure_angle"])) / pre["tool_module"])
+            yield self.named(
+                "short_lead_tool", "m_0 / α_n0", (pre["tool_module"], _SHORTEST), (math.degrees(angle), _COEFFICIENT)
+            )
+        tolerance = [(pre["stock_tolerance"], _COEFFICIENT)] if pre["stock_tolerance"] else []
+        yield self.named("stock", "q", (pre["stock"], _COEFFICIENT), *tolerance)
+        before = pre["precut"]
+        if before["span_measurement"] is not None:
+            within = {"k": str(before["span_teeth"])}
+            yield self.named("precut_span", "W_k", (before["span_measurement"], self.decimals), within=within, required=False)
+        for key in ("over_balls", "between_balls"):
+            if before.get(key) is not None:
+                values = (before[key], self.decimals), (before["ball_diameter"], _SHORTEST)
+                yield self.named(f"precut_{key}", "M_dK / D_M", *values)
+
     def _cutter(self, gear: Gear) -> Iterator[TableFigure]:
         cutter, diameter = self.data["cutter"], self.data["cutter_tip_diameter"]
+        if pre := self.data.get("premachining"):
+            cutter = {"teeth": pre["cutter_teeth"], "profile_shift": pre["cutter_profile_shift"]}
         if shaped(gear):
             yield self.length("corner_radius", "ρ_a0", corner_radius(gear) * gear.normal_module)
         if cutter["teeth"] is None or diameter is None:
