@@ -99,10 +99,6 @@ def _write_new(path: Path, text: str, force: bool) -> None:
         (staging / path.name).write_text(text, encoding="utf-8")
 
 
-_STARTER = "reducer"
-"""Starter that is opened if no spec is given."""
-
-
 @click.command("open")
 @click.argument("spec", type=click.Path(path_type=Path), required=False)
 @click.option("--host", metavar="ADDRESS", help="Listen at this address of the machine, for others who have the token.")
@@ -129,23 +125,20 @@ def open(
     time_limit: float | None,
     memory_limit: float | None,
 ) -> None:
-    """Open a page in the browser in which the gears move: every change of SPEC, or of a starter, is seen at once.
+    """Open a page in the browser in which the gears move: every change of SPEC is seen at once. Without SPEC the page begins
+    with a task (torque, ratio, speed, life, material), a starter, or a measured gear.
 
     It listens at 127.0.0.1 only, unless --host is given, until Ctrl-C. Only a browser that has opened the address printed, with
     its token, may read and save: the token becomes a cookie, and leaves the address.
     """
     from gearcad.designs.design import spec_text
-    from gearcad.designs.reader import starter_text
+    from gearcad.page.folder import NEW
     from gearcad.page.runs import GIGABYTE, RunLimits, Runs
     from gearcad.page.server import serve
 
     given = {"seconds": time_limit, "memory": None if memory_limit is None else memory_limit * GIGABYTE}
     Runs.permitted = RunLimits(**{name: value for name, value in given.items() if value is not None})
-    if spec is None:
-        name, text = starter_text(_STARTER)
-        spec = Path(name)
-    else:
-        text = spec_text(spec)
+    text, spec = ("", Path(NEW)) if spec is None else (spec_text(spec), spec)
     serve(text, spec.stem, spec.parent, host=host, port=port, browser=not no_browser, token=token)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from typing import ClassVar, NamedTuple, Unpack
+from typing import Annotated, ClassVar, NamedTuple, Unpack
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from gearcad.contact.shared.line_of_action import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.core.errors import GeometryError, ParameterError, as_choice
-from gearcad.core.quantities import STRENGTH, TORQUE
+from gearcad.core.quantities import STRENGTH, TORQUE, Words
 from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
 from gearcad.core.runtime import Agenda, Progress, one_thread
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign
@@ -202,9 +202,9 @@ class Modify(Job[PairDesign, Proposal]):
     accepts = (DesignKind.PAIR,)
     why = "flanks are modified for those of a mate"
 
-    torque: float | None = None
-    pressure: float | None = None
-    shape: ReliefShape | None = None
+    torque: Annotated[float | None, TORQUE, Words("torque on the pinion", "T_1")] = None
+    pressure: Annotated[float | None, STRENGTH, Words("most contact pressure")] = None
+    shape: Annotated[ReliefShape | None, Words("shape of the tip relief")] = None
 
     def __post_init__(self) -> None:
         if self.torque is not None:

@@ -183,7 +183,10 @@ def material_of(option: str, name: str, hardness: float | None) -> Material:
         groups = ", ".join(group.value for group in MaterialGroup)
         permitted = f'must be a group and a quality (ML, MQ, ME) of ISO 6336-5, such as "Eh MQ": {groups}'
         raise ParameterError(option, name, permitted)
-    return Material(name=name.strip(), hardness=hardness)
+    try:
+        return Material(name=name.strip(), hardness=hardness)
+    except ParameterError as error:
+        raise ParameterError(option.replace("material", error.parameter), error.value, error.permitted, error.unit) from error
 
 
 def rating_of(given: Mapping[str, Any]) -> RatingOptions:

@@ -17,6 +17,9 @@ from gearcad.designs.keys import MAIN_TABLES
 DESIGN = "design"
 """Name of the design's parameter in the address."""
 
+NEW = "new"
+"""Name of a design that was not begun yet."""
+
 TAB = "tab"
 """Name of the parameter that finds the steps of a page that is loaded again."""
 

@@ -1,7 +1,8 @@
 """Process of one run: one job on the text of a spec, its progress, and its files in a folder.
 
 It reads one line of JSON and answers by lines of JSON:
-{"expected": ...}, {"step", "done", "whole"}, and last {"result": ...} or {"error": "the line of the command line"}.
+{"expected": ...}, {"step", "done", "whole"}, of searches {"found": ...}, and last {"result": ...} or {"error": "the line of the
+command line"}.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -79,6 +80,12 @@ def _rate() -> Job[Any, Any]:
     return Rate()
 
 
+def _mesh() -> Job[Any, Any]:
+    from gearcad.jobs.mesh import Mesh
+
+    return Mesh()
+
+
 def _verify() -> Job[Any, Any]:
     from gearcad.jobs.verification import Verify
 
@@ -130,6 +137,7 @@ ANALYSES = {
     "stiffness": RunKind(job=_stiffness, report="stiffness.html"),
     "dynamics": RunKind(job=_dynamics, report="dynamics.html"),
     "planetary": RunKind(job=_planetary, report="planetary.html"),
+    "mesh": RunKind(job=_mesh),
     "verify": RunKind(job=_verify, report="verify.html"),
 }
 """Jobs that solve, in the order in which users need them."""
@@ -201,13 +209,17 @@ _LONGEST_FAULT = 500
 
 @dataclass(frozen=True, kw_only=True)
 class RunRequest:
-    """A run: its kind, the text and name of the design, the folder of files that it names, and where results go."""
+    """A run: its kind, the text and name of the design, the folder of files that it names, and where results go.
+
+    `options` are those of a search.
+    """
 
     kind: str
     text: str
     name: str
     folder: str
     into: str
+    options: Mapping[str, Any] = field(default_factory=dict)
 
     def line(self) -> bytes:
         """Return the request as a line of JSON."""
@@ -215,12 +227,17 @@ class RunRequest:
 
 
 def serve() -> None:
-    """Do the run that stands on stdin, whose closing ends it: nobody waits for it any more."""
-    tell = _Teller(become_child())
+    """Do the run that stands on stdin."""
+    serve_run(_run)
+
+
+def serve_run(run: Callable[[RunRequest, Teller], dict[str, Any]]) -> None:
+    """Do the run that stands on stdin by a function; the closing of stdin ends it, as nobody waits for it any more."""
+    tell = Teller(become_child())
     asked = RunRequest(**json.loads(sys.stdin.buffer.readline()))
     end_with_input(sys.stdin.buffer.read, 1)
     _bound()
-    tell(**_outcome(asked, tell))
+    tell(**_outcome(run, asked, tell))
 
 
 def _bound() -> None:
@@ -236,10 +253,10 @@ def _bound() -> None:
         Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
 
 
-def _outcome(asked: RunRequest, tell: _Teller) -> Mapping[str, Any]:
+def _outcome(run: Callable[[RunRequest, Teller], dict[str, Any]], asked: RunRequest, tell: Teller) -> Mapping[str, Any]:
     """The last line: what came of it, or the error as the command line prints it."""
     try:
-        return {"result": _run(asked, tell)}
+        return {"result": run(asked, tell)}
     except GearcadError as error:
         return {"error": printable(" ".join(str(error).split("\n")))}
     except MemoryError as error:
@@ -249,7 +266,7 @@ def _outcome(asked: RunRequest, tell: _Teller) -> Mapping[str, Any]:
         return {"error": f"unexpected {what} (a fault of gearcad: please report it)"}
 
 
-def _run(asked: RunRequest, tell: _Teller) -> dict[str, Any]:
+def _run(asked: RunRequest, tell: Teller) -> dict[str, Any]:
     kind = RUNS[asked.kind]
     design = kind.made(design_of(asked.text, asked.name, Path(asked.folder)))
     job = kind.job()
@@ -267,7 +284,7 @@ def _run(asked: RunRequest, tell: _Teller) -> dict[str, Any]:
     }
 
 
-class _Teller:
+class Teller:
     """Writes lines of JSON to the parent."""
 
     def __init__(self, fd: int) -> None:

@@ -29,7 +29,8 @@ from fastapi.responses import FileResponse
 from gearcad.core.child_process import ending_words, pipes_of, start_child, time_limit_words
 from gearcad.core.errors import ParameterError, require_number
 from gearcad.core.runtime import Clock, Expected, cores, machine_memory
-from gearcad.page.run_process import RUNS, RunRequest
+from gearcad.page.run_process import RUNS, RunKind, RunRequest
+from gearcad.page.searches import SEARCHES, SearchKind
 
 GIGABYTE = 1e9
 
@@ -90,6 +91,9 @@ class Run:
     """Name of the design, as in the names of its files."""
 
     figures: Mapping[str, Any] = field(default_factory=dict)
+    found: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    """What a search has found so far."""
+
     notices: tuple[str, ...] = ()
     files: tuple[str, ...] = ()
     stop: threading.Event = field(default_factory=threading.Event, repr=False)
@@ -114,7 +118,8 @@ _PAGE_SIZE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
 def do_run(run: Run, limits: RunLimits) -> None:
     """Start the process of a run, hear it, and see that it keeps to its limits."""
     run.state = RunState.RUNNING
-    process = start_child("gearcad.page.run_process", own_session=True)
+    module = "searches" if run.asked.kind in SEARCHES else "run_process"
+    process = start_child(f"gearcad.page.{module}", own_session=True)
     requests, answers = pipes_of(process)
     lines: queue.SimpleQueue[bytes] = queue.SimpleQueue()
     threading.Thread(target=_queue_lines, args=(answers, lines), daemon=True).start()
@@ -161,6 +166,9 @@ def _take(run: Run, told: Mapping[str, Any], clock: Clock) -> Clock:
     """Store the content of a line from the process in the run, and return the clock for the time left."""
     if "expected" in told:
         return Clock(Expected(**told["expected"]))
+    if "found" in told:
+        run.found = told["found"]
+        return clock
     if "step" in told:
         run.step = told["step"]
         run.share = min(told["done"] / told["whole"], 1.0) if told["whole"] else 0.0
@@ -242,6 +250,9 @@ class RunPermits:
                 self._changed.notify_all()
 
 
+KINDS: Mapping[str, RunKind | SearchKind] = {**RUNS, **SEARCHES}
+"""All kinds of runs."""
+
 _TURNS = RunPermits(max(cores(), 1))
 
 
@@ -280,16 +291,19 @@ class Runs:
         self._thread: threading.Thread | None = None
         self._closed = False
 
-    def start(self, kind: str, text: str, name: str, folder: Path, given: Mapping[str, str]) -> Run:
-        """Begin a run of one of RUNS, or let it wait. Raises ParameterError where too many wait."""
+    def start(
+        self, kind: str, text: str, name: str, folder: Path, given: Mapping[str, str], options: Mapping[str, Any] | None = None
+    ) -> Run:
+        """Begin a run of one of KINDS, or let it wait. Raises ParameterError where too many wait."""
         if self._closed or sum(not run.state.ended for run in self.all) > _MOST_WAITING:
             raise ParameterError("run", kind, f"must wait: {_MOST_WAITING} runs are waiting already; cancel one of them")
         number = len(self.all)
         into = Path(self._folder.name) / str(number)
-        run = Run(number, RunRequest(kind=kind, text=text, name=name, folder=str(folder), into=str(into)), given)
+        asked = RunRequest(kind=kind, text=text, name=name, folder=str(folder), into=str(into), options=options or {})
+        run = Run(number, asked, given)
         self.all.append(run)
         for old in self.all[:-_MOST_KEPT]:
-            old.files = ()
+            old.files, old.found = (), {}
             shutil.rmtree(old.folder, ignore_errors=True)
         if self._thread is None:
             self._thread = threading.Thread(target=self._work, name="gearcad-runs", daemon=True)
@@ -354,7 +368,7 @@ def add_made(app: FastAPI) -> None:
     @app.get("/made/{key}/{number}/{name}")
     def report(key: str, number: int, name: str) -> Response:
         run = _run(key, number)
-        if run is None or name != RUNS[run.asked.kind].report or (path := run.file(name)) is None:
+        if run is None or name != KINDS[run.asked.kind].report or (path := run.file(name)) is None:
             return _missing()
         return FileResponse(path, media_type="text/html", headers={**_HEADERS, "Content-Security-Policy": _POLICY})
 
@@ -362,7 +376,7 @@ def add_made(app: FastAPI) -> None:
 def download_file(run: Run) -> tuple[str, Path]:
     """Name and path of the file that holds what a run has made: the one file, or a zip of several."""
     kind = run.asked.kind
-    paths = [path for name in run.files if fnmatch(name, RUNS[kind].taken) and (path := run.file(name)) is not None]
+    paths = [path for name in run.files if fnmatch(name, KINDS[kind].taken) and (path := run.file(name)) is not None]
     if len(paths) == 1:
         return f"{run.name}{paths[0].suffix}", paths[0]
     packed = run.folder.with_suffix(".zip")

@@ -21,9 +21,11 @@ from gearcad.page.panels import Panel
 from gearcad.page.panels.compare import ComparePanel
 from gearcad.page.panels.limits import LimitsPanel
 from gearcad.page.panels.runs import RunsPanel
+from gearcad.page.panels.search import TaskPlace
 from gearcad.page.panels.sheet_content import StrengthPanel
 from gearcad.page.panels.spec import BesidePanel, FilesPanel, InputsPanel, TextPanel
 from gearcad.page.panels.table import TablePanel
+from gearcad.page.panels.tasks import TasksPanel, ask_to_replace
 from gearcad.page.panels.views import BodiesPanel, RollPanel, SectionPanel, SharesPanel, SheetPanel
 from gearcad.page.run_process import result_in_process
 from gearcad.page.runs import Runs
@@ -298,6 +300,7 @@ class Session:
 
     def __init__(self, beside: BesideDesign, words: PageWords, runs: Runs | None = None) -> None:
         self.bench, self.beside, self.words = beside.bench, beside, words
+        self._is_empty, self._taken = False, ""
         bench = self.bench
         self.key = secrets.token_urlsafe(12)
         remember(self.key, beside)
@@ -307,7 +310,7 @@ class Session:
         ui.query("html").props(f"lang={words.language.value}")
         with ui.element("header").classes("bar"):
             self._bar()
-        with ui.element("main").classes("panels"):
+        with ui.element("main").classes("panels") as self._panels:
             with _region("left", words["Inputs"]):
                 left = self._left = Tabs({"inputs": words["Inputs"], "text": words["Text"], "limits": words["Limits"]})
                 with left.under("inputs"):
@@ -339,7 +342,7 @@ class Session:
                     following.band()
                 with right.under("runs"):
                     self._runs = RunsPanel(bench, words, runs, lambda: right.chosen == "runs")
-                    right.on("runs", self._runs.expect)
+                    right.on("runs", self._show_runs)
                 with right.under("compare"):
                     compare = following.with_line(
                         ComparePanel(words, lambda: bench.name, self._beside),
@@ -347,6 +350,10 @@ class Session:
                     )
                     following.band()
                     right.on("compare", lambda: following.look(compare))
+                with right.under("tasks"):
+                    taken = (self.taken, self.rewritten, self.change)
+                    self._tasks = TasksPanel(TaskPlace(bench, words, self._runs.runs, *taken))
+                    right.on("tasks", self._tasks.follow)
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
         following.begin((section, roll, bodies, sheet, strength, limits, shares, compare))
@@ -437,6 +444,24 @@ class Session:
         self.bench.open(text, name)
         self.follow(reveal=True)
 
+    def taken(self, text: str, name: str) -> None:
+        """Take a design that was found, as one step. It has no file yet. Work that would be lost is asked about first."""
+        bench = self.bench
+        if bench.is_saved or bench.text == self._taken:
+            self._take(text, name)
+        else:
+            ask_to_replace(self.words, lambda: self._take(text, name))
+
+    def _take(self, text: str, name: str) -> None:
+        self._taken = text
+        self.bench.open(text, name, saved="")
+        self.follow(reveal=True)
+
+    def rewritten(self, text: str) -> None:
+        """Take another text of the present design, as one step."""
+        self.bench.write(text)
+        self.follow(reveal=True)
+
     def kept(self) -> None:
         """Another design is beside this one, or none; it may have changed places with it."""
         self.follow(reveal=True)
@@ -452,6 +477,11 @@ class Session:
         (self.bench.redo if forth else self.bench.undo)()
         self.follow(reveal=True)
 
+    def _show_runs(self) -> None:
+        """Show what can be run, and the runs of all panels."""
+        self._runs.expect()
+        self._runs.watch()
+
     def follow(self, reveal: bool = False) -> None:
         """Show what the workbench has: inputs at once, all else as it is found."""
         self._inputs.follow(reveal)
@@ -463,7 +493,19 @@ class Session:
         self._name.set_text(self.bench.name if design is None else design.name)
         self._files.follow()
         self._runs.follow()
+        self._show_begin()
         self._following.follow()
+
+    def _show_begin(self) -> None:
+        """Show only the ways to begin while there is no design, and all panels from the first one on."""
+        is_empty = self.bench.is_empty
+        if is_empty is not self._is_empty:
+            self._is_empty = is_empty
+            self._panels.classes(remove="" if is_empty else "empty", add="empty" if is_empty else "")
+            if is_empty:
+                self._right.choose("tasks")
+        if self._right.chosen == "tasks":
+            self._tasks.follow()
 
     def leave(self) -> None:
         """Remove the files and end the runs of a tab that was closed."""
@@ -480,7 +522,13 @@ class Session:
 
 
 def _right_titles(words: PageWords) -> dict[str, str]:
-    return {"data": words["Data"], "runs": words["Runs"], "compare": words["Compare"], "table": words["Table"]}
+    return {
+        "data": words["Data"],
+        "tasks": words["Tasks"],
+        "runs": words["Runs"],
+        "compare": words["Compare"],
+        "table": words["Table"],
+    }
 
 
 def _region(place: str, label: str) -> ui.element:

@@ -78,7 +78,7 @@ class SizeTask:
     ratio: Annotated[float, Range("", 1.0, 20.0), Words("gear ratio wanted", "u")]
     materials: PerGear[Material]
     rating: RatingOptions = field(default=RatingOptions())
-    rack: BasicRack = field(default=ISO53_A)
+    rack: Annotated[BasicRack, Words("basic rack of ISO 53")] = field(default=ISO53_A)
     ratio_tolerance: Annotated[float, Range("%", 0.0, 50.0), Words("most deviation of the ratio")] = 2.0
     teeth: Annotated[tuple[int, int], Words("numbers of teeth of the pinion, least and most", "z_1")] = (14, 40)
     modules: Annotated[tuple[float, ...], Words("normal modules", "m_n")] = ISO_54_I[:11]
@@ -94,7 +94,7 @@ class SizeTask:
     max_width_in_modules: Annotated[float, Range("", 1.0, 100.0), Words("most face width in modules", "b/m_n")] = 30.0
     least_contact_ratio: Annotated[float, Range("", 1.0, 2.0), Words("least transverse contact ratio", "ε_α")] = 1.2
     least_tip_thickness: Annotated[float | None, Range("", 0.0, 1.0), Words("least thickness of tips", "s_an/m_n")] = None
-    criterion: Criterion = Criterion.MASS
+    criterion: Annotated[Criterion, Words("what comes first")] = Criterion.MASS
 
     __repr__ = concise
 

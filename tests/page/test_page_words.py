@@ -12,6 +12,7 @@ from gearcad.core.runtime import PACKAGE
 from gearcad.designs.keys import FIELDS, SPEEDS
 from gearcad.designs.train_keys import MAIN, PLANETARY, TRAIN, TRAIN_PARTS
 from gearcad.page.fields import part_title, table_title, words_of
+from gearcad.page.forms import form_fields
 from gearcad.page.panels import drawn_data, sheet_content
 from gearcad.page.panels import sheet_content as rating
 from gearcad.page.words import PageLanguage, PageWords, language_of
@@ -46,7 +47,7 @@ def test_words_without_others_stay_english() -> None:
 def test_every_word_has_its_german_and_none_is_left_over() -> None:
     assert (
         set(PageWords.of(PageLanguage.GERMAN).table)
-        == _own_words() | _words_of_inputs() | _words_of_symbols() | _titles_of_sheets()
+        == _own_words() | _words_of_inputs() | _words_of_symbols() | _titles_of_sheets() | _words_of_forms()
     )
 
 
@@ -74,6 +75,12 @@ def _words_of_symbols() -> set[str]:
     found = [symbol for table in (*tables, *of_trains) for symbol in table.values() if isinstance(symbol, symbols.Symbol)]
     found += [field.symbol for table in (MAIN, *TRAIN_PARTS) for field in TRAIN[table].values()]
     return {symbol.words for symbol in found}
+
+
+def _words_of_forms() -> set[str]:
+    """Fields of the forms of searches, and what is said more of them."""
+    fields = [field for kind in ("size", "identify", "modify") for field in form_fields(kind)]
+    return {words for field in fields for words in (field.words, field.hint) if words}
 
 
 def _titles_of_sheets() -> set[str]:

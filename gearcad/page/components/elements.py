@@ -95,6 +95,9 @@ class FilesView(Element, component="gear_files.js"):
         self.run_method("follow", link)
 
 
+CHART = ui.echart
+"""Element whose package of ECharts a browser fetches when the first chart is drawn."""
+
 EDITOR = ui.codemirror
 """The element whose package of CodeMirror the script of the text imports."""
 

@@ -7,6 +7,7 @@ export default {
       <summary>{{ words.file }}<b v-if="unsaved" class="unsaved" role="img" :title="words.unsaved" :aria-label="words.unsaved">●</b></summary>
       <div class="files-menu">
         <section>
+          <button type="button" @click="send('new', {})">{{ words.new }}</button>
           <h3>{{ words.open }}</h3>
           <label class="pick">{{ words.browse }}<input type="file" accept=".toml,text/plain" @change.stop="give('spec', $event)" /></label>
           <button v-for="name in specs" :key="name" type="button" @click="send('open', { name })">{{ name }}</button>

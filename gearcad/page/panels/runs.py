@@ -17,7 +17,7 @@ from gearcad.designs.variations import column_of_train, column_symbol
 from gearcad.page.components.elements import RunsView
 from gearcad.page.fields import given_texts
 from gearcad.page.run_process import ANALYSES, RUNS
-from gearcad.page.runs import Run, Runs, RunState
+from gearcad.page.runs import KINDS, Run, Runs, RunState
 from gearcad.page.words import PageWords
 from gearcad.page.workbench import Workbench
 
@@ -131,12 +131,22 @@ class RunsPanel:
                 self.expect()
         self._show_stale()
 
+    def watch(self) -> None:
+        """Show the runs, those that others have started too, until all have ended."""
+        self._timer.activate()
+        self._look()
+
     def expect(self) -> None:
         """Find out what runs on the design would take."""
         if self._task is not None:
             self._task.cancel()
         if (design := self._bench.shown_design) is not None:
             self._task = background_tasks.create(self._expect(design))
+
+    @property
+    def runs(self) -> Runs:
+        """The runs of the session."""
+        return self._runs
 
     def hand_over(self) -> Runs:
         """Return the runs of the panel, which go on in the panel that gets them."""
@@ -212,7 +222,7 @@ class RunsPanel:
             self._view.show(stale=stale)
 
     def _told(self, of: Run) -> dict[str, Any]:
-        report, address = ANALYSES[of.asked.kind].report, f"/made/{self._runs.key}/{of.number}"
+        report, address = KINDS[of.asked.kind].report, f"/made/{self._runs.key}/{of.number}"
         return {
             "number": of.number,
             "words": self._names[of.asked.kind],
@@ -228,7 +238,7 @@ class RunsPanel:
 
     def _tables(self) -> list[dict[str, Any]]:
         """Return a table of figures for each verb, with the newest run first."""
-        done = [each for each in reversed(self._runs.all) if each.state is RunState.DONE]
+        done = [each for each in reversed(self._runs.all) if each.state is RunState.DONE and each.asked.kind in ANALYSES]
         found = []
         for verb in dict.fromkeys(map(verb_of, done)):
             runs = [each for each in done if verb_of(each) == verb]
@@ -281,7 +291,12 @@ def _names(words: PageWords) -> dict[str, str]:
         "stiffness": words["mesh stiffness"],
         "dynamics": words["dynamics"],
         "planetary": words["planetary train"],
+        "mesh": words["meshes of finite elements"],
         "verify": words["verification of the files"],
+        "size": words["search for pairs"],
+        "modify": words["search for modifications"],
+        "identify": words["identification of a measured gear"],
+        "study": words["map of two keys"],
     }
 
 

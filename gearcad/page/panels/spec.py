@@ -17,7 +17,7 @@ from gearcad.designs.keys import GEAR_FIELDS
 from gearcad.designs.reader import NO_DESIGNS, kind_of, starter_text, starters
 from gearcad.page.components.elements import FilesView, InputsView, TextView
 from gearcad.page.fields import fields_of, given_texts, ranked_fields, used_texts
-from gearcad.page.folder import LARGEST_SPEC, LARGEST_TABLE, SPECS, TABLES, Folder, TakenError, pack, text_of
+from gearcad.page.folder import LARGEST_SPEC, LARGEST_TABLE, NEW, SPECS, TABLES, Folder, TakenError, pack, text_of
 from gearcad.page.panels import mark_stale
 from gearcad.page.panels.holds import HoldSwitches
 from gearcad.page.panels.sheet_content import clause_in
@@ -281,6 +281,7 @@ class FilesPanel:
         ways: dict[str, Callable[[], None]] = {
             "look": self._show,
             "open": lambda: self._take(self._folder.spec(name), Path(name).stem),
+            "new": lambda: self._take("", NEW),
             "begin": lambda: self._take(starter_text(name)[1], Path(starter_text(name)[0]).stem),
             "table": lambda: self._given_table(name, self._folder.find(name, TABLES, LARGEST_TABLE).read_bytes()),
             "spec": lambda: ui.download(self._bench.text.encode(), f"{self._bench.name}.toml", "application/toml"),
@@ -412,6 +413,7 @@ def _words(words: PageWords) -> dict[str, str]:
         "file": words["File"],
         "open": words["Open"],
         "browse": words["a file of this computer"],
+        "new": words["new design"],
         "starters": words["starters"],
         "table": words["Table of results"],
         "save": words["Save"],

@@ -20,7 +20,8 @@ from gearcad.designs.keys import MAIN_TABLES, Cell, DesignKind
 from gearcad.designs.reader import nested
 from gearcad.designs.spec_writers import toml_text
 from gearcad.designs.table import DesignRow
-from gearcad.page.components.elements import TableView
+from gearcad.page.charts import INK
+from gearcad.page.components.elements import CHART, TableView
 from gearcad.page.words import PageWords
 from gearcad.plots.table_data import opened_records
 
@@ -162,8 +163,6 @@ _FIRST_COLUMNS = (
 """Columns that one looks at first, as x and as y."""
 
 _AXES = ("x", "y", "colour")
-_INK = "#7a8794"
-"""Colour that is legible on light and on dark backgrounds."""
 
 
 class TablePanel:
@@ -180,9 +179,14 @@ class TablePanel:
 
     def _build(self) -> None:
         self._view = TableView(self._choose, self._open, _words(self._words))
-        self._chart = ui.echart({"series": []}, on_point_click=lambda event: self._open_point(event.value)).classes("chart")
-        self._chart.on("chart:brushselected", lambda event: self._brush(event.args), ["batch"], throttle=0.3)
-        self._chart.set_visibility(False)
+        self._chart_place = ui.element("div").classes("chart-place")
+        self._chart: Any = None
+
+    def _make_chart(self) -> None:
+        """Make the chart with the first table: the browser fetches its package then."""
+        with self._chart_place:
+            self._chart = CHART({"series": []}, on_point_click=lambda event: self._open_point(event.value)).classes("chart")
+            self._chart.on("chart:brushselected", lambda event: self._brush(event.args), ["batch"], throttle=0.3)
 
     def take(self, text: str, name: str) -> None:
         """Show another table."""
@@ -215,7 +219,8 @@ class TablePanel:
         if points is None or table is not self._table:
             return
         self._columns, self._points = list(columns), points
-        self._chart.set_visibility(True)
+        if self._chart is None:
+            self._make_chart()
         self._chart.options.clear()
         self._chart.options.update(chart_of(drawn, self._points))
         self._chart.update()
@@ -281,7 +286,7 @@ def first_columns(table: ResultsTable) -> list[str]:
 
 def chart_of(columns: Sequence[str], points: Sequence[Sequence[float]]) -> dict[str, Any]:
     """The scatter plot of points, each with the number of its row behind its values."""
-    ink = {"color": _INK}
+    ink = {"color": INK}
     axis = {"type": "value", "scale": True, "nameLocation": "middle", "nameTextStyle": ink, "axisLabel": ink}
     options: dict[str, Any] = {
         "animation": False,
@@ -289,7 +294,7 @@ def chart_of(columns: Sequence[str], points: Sequence[Sequence[float]]) -> dict[
         "xAxis": {**axis, "name": columns[0], "nameGap": 28},
         "yAxis": {**axis, "name": columns[1], "nameGap": 46},
         "tooltip": {"confine": True},
-        "toolbox": {"iconStyle": {"borderColor": _INK}},
+        "toolbox": {"iconStyle": {"borderColor": INK}},
         "brush": {
             "xAxisIndex": 0,
             "toolbox": ["rect", "polygon", "keep", "clear"],

@@ -1,0 +1,270 @@
+"""Panel of a study: a result of the design over two of its keys as a map, whose cells can be taken."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from nicegui import background_tasks, run, ui
+
+from gearcad.core.errors import GearcadError, ParameterError
+from gearcad.designs.design import Design
+from gearcad.designs.variations import column_of_train, column_symbol
+from gearcad.page.charts import CELLS, map_chart
+from gearcad.page.components.elements import CHART
+from gearcad.page.fields import fields_of, given_texts, used_texts
+from gearcad.page.forms import number_of
+from gearcad.page.panels.search import SearchPanel, TaskPlace, choice_field, field_row
+from gearcad.page.runs import RunState
+from gearcad.page.searches import STUDY, figures_of, study_axes, study_cells
+from gearcad.page.words import PageWords
+
+_COUNT = 9
+"""Number of values of a key unless something else is typed."""
+
+_SHARE = 0.3
+"""Share of the present value by which the range of a key goes down and up at first."""
+
+_STEPS = 4
+"""Number of steps by which the range of a whole number goes down and up at first."""
+
+_FIRST_KEYS = (
+    "pinion.profile_shift",
+    "wheel.profile_shift",
+    "pair.helix_angle",
+    "pair.face_width",
+    "pinion.teeth",
+    "gear.teeth",
+)
+_FIRST_RESULTS = ("rate.S_H_min", "rate.S_F_min", "pair.total_contact_ratio", "gear.tip_diameter")
+"""Keys and results that are proposed at first."""
+
+_LONGEST = 40
+"""Largest number of characters of a number."""
+
+
+class _Axis(NamedTuple):
+    """The fields of one key: the key, its first and last value, and the number of values."""
+
+    key: Any
+    first: Any
+    last: Any
+    count: Any
+
+
+class StudyPanel(SearchPanel):
+    """A map of one result over two keys."""
+
+    kind = "study"
+
+    def __init__(self, place: TaskPlace) -> None:
+        self._chart: Any = None
+        self._design: Design | None = None
+        self._axes: list[_Axis] = []
+        self._known: dict[str, str] = {}
+        super().__init__(place, place.words["draw the map"])
+
+    def _build_form(self) -> None:
+        words = self._words
+        with ui.element("div").classes("task-form"):
+            for at, (name, title) in enumerate((("across", words["across"]), ("up", words["up"]))):
+                with field_row(title, "", "", f"task-study-{name}") as row:
+                    row.classes("wide")
+                    key = choice_field({}, with_input=True)
+                    key.on_value_change(lambda _, at=at: self._propose(at))
+                    key.props(f"dense outlined options-dense hide-bottom-space for=task-study-{name}")
+                with field_row(words["from, to, number"], "", "", f"task-study-{name}-first"):
+                    with ui.element("div").classes("task-range"):
+                        first, last, count = (self._number(f"task-study-{name}-{each}") for each in ("first", "last", "count"))
+                self._axes.append(_Axis(key, first, last, count))
+            with field_row(words["result"], "", "", "task-study-result") as row:
+                row.classes("wide")
+                self._result = choice_field({}, with_input=True)
+                self._result.on_value_change(lambda _: self._choose())
+                self._result.props("dense outlined options-dense hide-bottom-space for=task-study-result")
+
+    def _number(self, name: str) -> Any:
+        made = ui.input().on("keydown.enter", self.start)
+        made.props(f"dense outlined for={name} hide-bottom-space no-error-icon input-class=task-input autocomplete=off")
+        made.props["aria-label"] = name.rpartition("-")[2]
+        return made
+
+    def follow(self) -> None:
+        """Offer the keys and the results of the present design, and mark it in the map."""
+        design = self._place.bench.shown_design
+        if design is None or design is self._design:
+            return
+        first = self._design is None or self._design.kind is not design.kind
+        self._design = design
+        if first:
+            background_tasks.create(self._offer(design))
+        elif self._shown:
+            self._show(self._shown)
+
+    async def _offer(self, design: Design) -> None:
+        """Offer what a kind of design has; keys and results that are chosen stay if there are such."""
+        figures = await run.io_bound(figures_of, design)
+        if figures is None or design is not self._design:
+            return
+        keys = dict(_keys(design, self._place.bench.tables, self._words))
+        proposed = _usual_keys(keys, given_texts(self._place.bench.tables))
+        for axis, usual in zip(self._axes, proposed, strict=True):
+            chosen = axis.key.value if axis.key.value in keys else usual
+            axis.key.set_options(keys, value=chosen)
+        results = {key: _column_words(key, design, self._words) for key in figures}
+        first = next((key for key in _FIRST_RESULTS if key in results), next(iter(results), None))
+        self._known = results
+        self._result.set_options(results, value=self._result.value if self._result.value in results else first)
+
+    def _propose(self, at: int) -> None:
+        """Fill in a range about the present value of the chosen key."""
+        axis, bench = self._axes[at], self._place.bench
+        design = bench.shown_design
+        if design is None or axis.key.value is None:
+            return
+        text = given_texts(bench.tables).get(axis.key.value) or used_texts(design, bench.tables).get(axis.key.value, "")
+        try:
+            value = float(text)
+        except ValueError:
+            value = 0.0
+        whole = axis.key.value.endswith("teeth")
+        reach = float(_STEPS) if whole else abs(value) * _SHARE or 1.0
+        reach = reach if whole else float(f"{reach:.1g}")
+        for field, number in ((axis.first, value - reach), (axis.last, value + reach)):
+            field.set_value(self._words.number(f"{number:.6g}"))
+        axis.count.set_value(str(2 * _STEPS + 1 if whole else _COUNT))
+
+    def _options(self) -> dict[str, Any] | None:
+        bench = self._place.bench
+        self._line.set_text("")
+        for axis in self._axes:
+            for field in axis:
+                field.error = None
+        try:
+            vary = [self._vary(axis) for axis in self._axes]
+            study_axes(bench.design, bench.tables, vary)
+        except ParameterError as error:
+            self._line.set_text(str(error))
+            self._line.classes(add="fault")
+            return None
+        if bench.fault is not None or self._result.value is None:
+            self._line.set_text("" if bench.fault is None else bench.fault.line)
+            return None
+        return {"vary": vary, "result": self._result.value}
+
+    def _summary(self, options: Mapping[str, Any]) -> str:
+        ranges = (f"{axis.first.value} … {axis.last.value}" for axis in self._axes)
+        keys = (f"{self._key_words(axis.key.value)} {said}" for axis, said in zip(self._axes, ranges, strict=True))
+        return " · ".join((*keys, str(self._result.options.get(options["result"], options["result"]))))
+
+    def _vary(self, axis: _Axis) -> str:
+        """Return what was typed for a key as `gearcad study` has it. Raises ParameterError."""
+        key, texts = str(axis.key.value), [str(field.value or "").strip()[:_LONGEST] for field in axis[1:]]
+        first, last = (number_of(key, text) for text in texts[:2])
+        if not texts[2].isdecimal():
+            raise ParameterError(key, texts[2], "must have a whole number of values")
+        return f"{key}={first!r}:{last!r}:{int(texts[2])}".replace(".0:", ":")
+
+    # ------------------------------------------------------------------ the map
+
+    def _show(self, found: Mapping[str, Any]) -> None:
+        if self._chart is None:
+            with self._results:
+                ui.label(self._words["click a cell: the design takes its values"]).classes("task-hint")
+                self._chart = CHART({"series": []}, on_point_click=self._click).classes("task-chart")
+                self._told = ui.label().classes("task-hint")
+        words = {"across": self._key_words(found["across"]), "up": self._key_words(found["up"])}
+        chart = map_chart(found, (self._value(found["across"]), self._value(found["up"])), words, comma=self._place.comma)
+        self._chart.options.clear()
+        self._chart.options.update(chart)
+        self._chart.update()
+        faults = [line for *_, line in found["cells"] if line]
+        told = f"{self._words['designs without gears']}: {len(faults)} / {len(found['cells'])}. "
+        self._told.set_text(told + faults[0] if faults else "")
+
+    def _value(self, key: str) -> float:
+        """Return the value that the present design has under a key; nan if it has no number there."""
+        bench = self._place.bench
+        design = bench.shown_design
+        text = given_texts(bench.tables).get(key) or ("" if design is None else used_texts(design, bench.tables).get(key, ""))
+        try:
+            return float(text)
+        except ValueError:
+            return math.nan
+
+    def _key_words(self, key: str) -> str:
+        return str(self._axes[0].key.options.get(key, key))
+
+    def _choose(self) -> None:
+        """Draw another result of the same designs, which their table has."""
+        search, found = self._run, self._shown
+        if search is None or search.state is not RunState.DONE or not found or self._result.value in (None, found["result"]):
+            return
+        if self._result.value not in found["keys"] or (path := search.file(STUDY)) is None:
+            return
+        axes = {found["across"]: found["xs"], found["up"]: found["ys"]}
+        self._shown = {**found, "result": self._result.value, "cells": study_cells(path, axes, self._result.value)}
+        search.found = self._shown
+        self._show(self._shown)
+
+    def _click(self, event: Any) -> None:
+        """Let the design take the values of a cell."""
+        data, found = event.data, self._shown
+        if event.series_name != CELLS or not isinstance(data, list) or len(data) < 2:
+            return
+        column, line = data[:2]
+        if (
+            isinstance(column, int)
+            and isinstance(line, int)
+            and 0 <= column < len(found["xs"])
+            and 0 <= line < len(found["ys"])
+        ):
+            self.take(column, line)
+
+    def take(self, column: int, line: int) -> None:
+        """Write the values of a cell into the design, as one step."""
+        found = self._shown
+        values = {found["across"]: found["xs"][column], found["up"]: found["ys"][line]}
+        try:
+            self._place.changed({key: _typed(value) for key, value in values.items()})
+        except GearcadError as error:
+            self._line.set_text(str(error))
+
+
+def _typed(value: Any) -> str:
+    """Return a value as somebody would type it."""
+    return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
+
+
+def _keys(design: Design, tables: Mapping[str, Any], words: PageWords) -> Iterator[tuple[str, str]]:
+    """Yield the keys of a design that hold one number, each with its words."""
+    for table in fields_of(design, tables):
+        for group in table["groups"]:
+            for field in group["fields"]:
+                if field["number"] and not field["choices"]:
+                    title = ": ".join(filter(None, (words[table["title"]], *(words[each] for each in group["titles"]))))
+                    yield field["key"], " ".join(filter(None, (f"{title}: {words[field['words']]}", field["symbol"])))
+
+
+def _usual_keys(keys: Mapping[str, str], given: Mapping[str, str]) -> list[str | None]:
+    """Return the two keys that are proposed at first, rather those that the spec has."""
+    found = [key for key in (*_FIRST_KEYS, *keys) if key in keys and _is_number(given.get(key, ""))] + list(keys)
+    return [*found[:2], None, None][:2]
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def _column_words(key: str, design: Design, words: PageWords) -> str:
+    """Return the words of a column of a table of results."""
+    found = (column_of_train if design.kind.value == "planetary" else column_symbol)(key)
+    if found is None:
+        return key
+    owner, symbol = found
+    said = f"{words[symbol.words]} {symbol.symbol}".strip() or key
+    return f"{words.table.get(owner.capitalize(), owner)}: {said}" if owner else said
