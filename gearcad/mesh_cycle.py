@@ -150,11 +150,11 @@ class MeshCycle(Pictured):
         return float(np.ptp(self.transmission_error))
 
     def mean_of(self, values: Floats) -> float:
-        """Mean over the base pitch of values (n,) of the cycle."""
+        """Return the mean over the base pitch of values (n,) of the cycle."""
         return float(self.weights @ values)
 
     def part_share(self, part: str) -> float:
-        """Mean share of a part in the compliance (1 is 100 %)."""
+        """Return the mean share of a part in the compliance (1 is 100 %)."""
         return self.mean_of(self.compliance_parts[part] * self.mesh_stiffness)
 
     @property
@@ -187,7 +187,7 @@ class MeshCycle(Pictured):
         return result
 
     def fourier(self, harmonics: int = 10, *, tangent: bool = False) -> FourierSeries:
-        """The first `harmonics` of the tooth frequency. Raises ParameterError for more than the curve can tell."""
+        """Return the first `harmonics` of the tooth frequency. Raises ParameterError for more than the curve can tell."""
         require_whole("harmonics", harmonics, at_least=1, at_most=max(1, (len(self.roll_angle) - 1) // 4))
         values = self.tangent_stiffness if tangent else self.mesh_stiffness
         turns = np.arange(1, harmonics + 1)[:, None] * (2 * np.pi * self.roll_angle / self.pitch_angle)

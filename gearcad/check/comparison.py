@@ -347,7 +347,7 @@ class CheckStrength:
 
 
 def _scuffing_comparisons(rating: StrengthRating) -> Iterator[Comparison]:
-    """Safeties against scuffing that were judged, where one is required: gates."""
+    """Yield the safeties against scuffing that were judged, where one is required: gates."""
     required, found = rating.options.required_safety_scuffing, rating.scuffing
     if required is None or found is None:
         return
@@ -360,7 +360,7 @@ def _scuffing_comparisons(rating: StrengthRating) -> Iterator[Comparison]:
 
 
 def _factors(of: LoadFactors, part: RatedPart) -> dict[str, float]:
-    """All but K_A, which every model contains, by symbols."""
+    """Return all but K_A, which every model contains, by symbols."""
     common = {"K_gamma": of.mesh_load, "K_v": of.dynamic}
     if part is RatedPart.FLANK:
         return {**common, "K_Hbeta": of.face_flank, "K_Halpha": of.transverse_flank}
@@ -368,7 +368,8 @@ def _factors(of: LoadFactors, part: RatedPart) -> dict[str, float]:
 
 
 def strength_comparisons(strength: CheckStrength) -> Iterator[Comparison]:
-    """Safeties of all parts that were judged, against those required: gates by the standard, information by finite elements.
+    """Yield the safeties of all parts that were judged, against those required: gates by the standard, information by finite
+    elements.
 
     What a material endures was told from tests by the standard's own stress, so the standard decides.
     """

@@ -99,7 +99,7 @@ def three_meshes(cycles: Iterable[PlaneCycle]) -> tuple[Convergence, ...]:
 
 
 def _on_edge(cycle: PlaneCycle, role: Role) -> bool:
-    """Whether the edge of a tip carries load where the root tension of a gear is greatest."""
+    """Return whether the edge of a tip carries load where the root tension of a gear is greatest."""
     return any(contact.edge for contact in cycle.worst_position(role).contacts)
 
 

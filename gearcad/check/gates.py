@@ -195,7 +195,7 @@ def farness(computed: float, expected: float) -> float:
 
 
 def _reactions(cycle: Cycle, source: str) -> Iterator[Comparison]:
-    """Torques (N·m) on the hubs, position by position, against those applied, where they differ most."""
+    """Yield the torques (N·m) on the hubs, position by position, against those applied, where they differ most."""
     model = cycle.model
     force = model.force(cycle.torque) * model.width / 1000
     for role, body in model.bodies.items():
@@ -205,7 +205,7 @@ def _reactions(cycle: Cycle, source: str) -> Iterator[Comparison]:
 
 
 def _mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...], summary: Summary) -> Iterator[Comparison]:
-    """The estimated error of each quantity, by mesh and positions together, against what it may be (relative)."""
+    """Yield the estimated error of each quantity, by mesh and positions together, against what it may be (relative)."""
     for each, limit in zip(convergence, limits, strict=bool(convergence)):
         between = summary.sampling_error[each.key]
         source = "three meshes, Richardson, and what the positions may miss"
@@ -253,7 +253,7 @@ def _material_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
 def _within_limit(
     words: str, value: float | None, material: Material, limit: Limit, note: str, reason: str
 ) -> Iterator[Comparison]:
-    """A stress (MPa) against the limit of a material, if it has one."""
+    """Yield a stress (MPa) against the limit of a material, if it has one."""
     if isinstance(limit, tuple):
         note += f"; the limit of this material lies between {limit[0]:g} and {limit[1]:g} MPa, and the lower one counts"
         limit = limit[0]
@@ -299,7 +299,7 @@ def compare_plane(
 
 
 def _hertz(cycle: PlaneCycle, summary: PlaneSummary) -> Iterator[Comparison]:
-    """Peak pressure and half width against two cylinders under the load carried, where they are furthest apart.
+    """Yield the peak pressure and half width against two cylinders under the load carried, where they are furthest apart.
 
     Contacts too wide for two cylinders, or beside a parabolic relief, are left out; where there are no others the
     comparison is for information.
@@ -343,7 +343,7 @@ def compare_solid(
 
 
 def _contact(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
-    """Pressure and lines of contact against part 2 of the standard and the geometry."""
+    """Yield the pressure and lines of contact against part 2 of the standard and the geometry."""
     band, rating = task.options.contact_band / 100, task.rating
     away, middle = "the FE's is the greatest of all places away from edges", "in the middle of the common face width"
     standard = rating.edition.dated_part(2)

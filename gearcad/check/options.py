@@ -98,7 +98,7 @@ class CheckOptions:
         object.__setattr__(self, "torques", tuple(map(float, self.torques)))
 
     def model_for(self, pair: GearPair) -> Model:
-        """The model of a pair. Raises GeometryError for helical gears in a plane."""
+        """Return the model of a pair. Raises GeometryError for helical gears in a plane."""
         helix = pair.pinion.helix_angle
         if self.model == _AUTO:
             return Model.SOLID if helix else Model.PLANE
@@ -108,7 +108,7 @@ class CheckOptions:
         return Model(self.model)
 
     def positions_of(self, model: Model) -> int:
-        """Positions over one base pitch."""
+        """Return the positions over one base pitch."""
         return self.positions or _POSITIONS[model]
 
     @property

@@ -217,7 +217,7 @@ def _tooth_stress(cycle: SolidCycle, role: Role) -> ToothStress:
 
 
 def tooth_surface(stress: ToothStress, gear: Gear) -> ToothSurface:
-    """A tooth with the body just below it; a ring's is turned about its axis, so that its tip is where others' are."""
+    """Return a tooth with the body just below it; a ring's is turned about its axis, so that its tip is where others' are."""
     field, root, below = stress.field, gear.profile.root_diameter / 2, _BELOW * gear.normal_module
     faces = (field.between(0.0, root + below) if gear.internal else field.between(root - below, math.inf)).surface
     used, index = np.unique(faces, return_inverse=True)

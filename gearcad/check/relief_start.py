@@ -101,7 +101,7 @@ def _start(role: Role, reliefs: tuple[StartedRelief, ...], pressure: float, half
 
 
 def _started(pair: GearPair) -> PerGear[tuple[StartedRelief, ...]]:
-    """The linear reliefs of each gear that start where flanks carry."""
+    """Return the linear reliefs of each gear that start where flanks carry."""
     line = line_of_action(pair)
     ends = [line.lengths(end) for end in pair.usable_path]
 
@@ -115,7 +115,7 @@ def _started(pair: GearPair) -> PerGear[tuple[StartedRelief, ...]]:
 
 
 def _greatest(found: Iterable[PairContact]) -> PerGear[float]:
-    """The greatest pressures (MPa) at the starts of each gear's reliefs, 0 where there are none."""
+    """Return the greatest pressures (MPa) at the starts of each gear's reliefs, 0 where there are none."""
     every = [contact.start_pressures for contact in found]
     return PerGear.each(lambda role: max((told.pick(role) for told in every if told.pick(role) > 0), default=0.0))
 
@@ -130,7 +130,7 @@ def _again(cycle: Cycle, angles: list[float], factor: float) -> PerGear[float]:
 
 
 def _with_transitions(gear: Gear, factor: float) -> Gear:
-    """A gear whose linear reliefs have transitions `factor` times as long, or as long as fits."""
+    """Return a gear whose linear reliefs have transitions `factor` times as long, or as long as fits."""
     form = gear.flank_form
     changed: dict[str, Any] = {
         f"{name}_transition": min(
@@ -185,7 +185,7 @@ def start_notice(pair: GearPair) -> Iterator[Notice]:
 
 
 def _limit(task: CheckTask) -> tuple[float | None, str]:
-    """The lesser contact limit of both gears (MPa), and whose it is."""
+    """Return the lesser contact limit of both gears (MPa), and whose it is."""
     known = []
     for material in task.materials:
         if (limit := material.contact_limit) is not None:

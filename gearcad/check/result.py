@@ -73,7 +73,7 @@ class StiffnessMethods(NamedTuple):
     reason: str = ""
 
     def to_dict(self) -> JsonObject:
-        """The figures of each as in `stiffness.json`, which has their curves too; stiffness in N/µm."""
+        """Return the figures of each as in `stiffness.json`, which has their curves too; stiffness in N/µm."""
         if self.comparison is None:
             return {"methods": {}, "left_out": {}, "reason": self.reason}
         document = self.comparison.to_dict()
@@ -83,7 +83,7 @@ class StiffnessMethods(NamedTuple):
 
 
 def stiffness_methods(task: CheckTask, own: Callable[[Mounting], StiffnessMethod], positions: int) -> StiffnessMethods:
-    """The check's `own` model, at its own even positions, beside the closed forms."""
+    """Return the check's `own` model, at its own even positions, beside the closed forms."""
     mounting = replace(task.mounting, centre_distance_change=0.0)  # the pair is as mounted already
     try:
         closed = compare_methods(task.pair, task.material, task.load, CLOSED_FORMS, body=task.options.body, mounting=mounting)
@@ -274,7 +274,7 @@ class CheckResult(Pictured, ABC):
         )
 
     def _rates(self, part: RatedPart | None) -> bool:
-        """Whether the rating judges this quantity of both gears."""
+        """Return whether the rating judges this quantity of both gears."""
         return part is not None and all(each.rated.safety is not None for each in self.safeties.parts[part])
 
     @property
@@ -364,7 +364,8 @@ def _extreme(of: Extreme | None) -> dict[str, float | None] | None:
 
 
 def _cycle(result: CheckResult) -> JsonObject:
-    """Lists over the positions; those of load share and pressure hold one value for each of `pairs`, 0 out of contact.
+    """Return the lists over the positions; those of load share and pressure hold one value for each of `pairs`, 0 out of
+    contact.
 
     The pressure of a contact of edges alone is null: it depends on the mesh.
     """

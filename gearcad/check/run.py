@@ -192,7 +192,7 @@ def plane_notices(task: CheckTask) -> Iterator[Notice]:
 
 
 def _wider_gears(task: CheckTask) -> Iterator[Notice]:
-    """Gears whose root carries over more than the common width."""
+    """Yield the gears whose root carries over more than the common width."""
     common = task.pair.common_width.width
     for role, rating in task.rating.roots.items():
         own = task.pair.gears.pick(role).face_width
@@ -332,7 +332,7 @@ class LoadDistribution:
 
 
 def load_distribution(task: CheckTask, tell: Share = unheard) -> LoadDistribution:
-    """The worst distribution of the load along the face width, on coarse solid bodies with their flank modifications.
+    """Return the worst distribution of the load along the face width, on coarse solid bodies with their flank modifications.
 
     The flanks stand off by the misalignment of the mounting or, where that is 0, by F_beta_x of Method C, to the worse side,
     with B_1 = B_2 = 1; y_beta runs in. The bodies are held all along their width, so that shafts and the pinion itself give

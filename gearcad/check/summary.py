@@ -151,12 +151,12 @@ class SummaryFigures(NamedTuple):
 
 
 def root_peaks(cycle: Cycle) -> PerGear[RootStress]:
-    """The greatest root tension of each gear."""
+    """Return the greatest root tension of each gear."""
     return PerGear.each(lambda role: cycle.worst_position(role).tension.pick(role))
 
 
 def figures(cycle: Cycle) -> SummaryFigures:
-    """Mean mesh stiffness, greatest interior pressure and root tensions of a cycle."""
+    """Return the mean mesh stiffness, greatest interior pressure and root tensions of a cycle."""
     worst = cycle.worst_contact
     tension = root_peaks(cycle).map(lambda peak: peak.stress)
     return SummaryFigures(float(cycle.mean("stiffness")[0]), worst[1].interior_pressure if worst else None, tension)
@@ -270,7 +270,7 @@ def _missing(cycle: PlaneCycle, inside: bool, below: bool) -> dict[str, str]:
 
 
 def _plane_at_pitch(contact: PlanePairContact | None) -> AtPitchPoint:
-    """Pressure and half width at the pitch point, or why there are none."""
+    """Return the pressure and half width at the pitch point, or why there are none."""
     if contact is None:
         return AtPitchPoint(0.0, reason="the pair of teeth at the pitch point does not touch")
     if not contact.interior:
@@ -286,7 +286,9 @@ def _plane_at_pitch(contact: PlanePairContact | None) -> AtPitchPoint:
 def _plane_below(
     cycle: PlaneCycle, position: PlanePosition, contact: PlanePairContact, role: Role
 ) -> tuple[float, float] | None:
-    """Greatest von Mises stress (MPa) of a gear near a contact, and its depth (mm); None if no point of the field is near."""
+    """Return the greatest von Mises stress (MPa) of a gear near a contact, and its depth (mm); None if no point of the field is
+    near.
+    """
     field = tooth_field(cycle, position, role, contact.tooth)
     centre, frame = contact_frame(cycle, contact)
     across, into_wheel = ((field.points - centre) @ frame).T
@@ -407,7 +409,7 @@ def _below(cycle: SolidCycle, worst: WorstPlace) -> _Below:
 
 
 def _at_pitch(contact: SolidPairContact | None) -> AtPitchPoint:
-    """Pressure and half width at the pitch point in the middle of the common face width, or why there are none."""
+    """Return the pressure and half width at the pitch point in the middle of the common face width, or why there are none."""
     if contact is None:
         return AtPitchPoint(0.0, reason="the pair of teeth at the pitch point does not touch")
     across = contact.line.across
@@ -423,7 +425,7 @@ def _at_pitch(contact: SolidPairContact | None) -> AtPitchPoint:
 
 
 def line_contact(cycle: SolidCycle, worst: WorstPlace) -> LineContact:
-    """Two cylinders of the curvature of the flanks under the line load of a place."""
+    """Return two cylinders of the curvature of the flanks under the line load of a place."""
     materials = [body.material for body in cycle.model.bodies]
     return LineContact(
         load_per_width=worst.of(worst.contact.line_loads),

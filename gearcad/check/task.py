@@ -80,7 +80,7 @@ def check_task(
     mounting: Mounting | None = None,
     rating: RatingOptions | None = None,
 ) -> CheckTask:
-    """The task of a pair in its mounting. Raises ParameterError and GeometryError for what cannot be checked."""
+    """Return the task of a pair in its mounting. Raises ParameterError and GeometryError for what cannot be checked."""
     options, mounting = options or CheckOptions(), mounting or Mounting()
     task = CheckTask(
         pair=mounting.mounted(pair),

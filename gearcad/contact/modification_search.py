@@ -79,7 +79,7 @@ class Goal:
     value: Callable[[Floats], Floats]
 
     def at(self, places: Wholes) -> Floats:
-        """Values (v,) of places (v, n)."""
+        """Return the values (v,) of places (v, n)."""
         return self.value(self.figures(places))
 
 
@@ -100,7 +100,9 @@ class Lattice:
     high: Wholes
 
     def survey(self, goal: Goal, generations: int, first: Wholes) -> Wholes:
-        """Places (v, n) that differential evolution looks at, from a Sobol sequence and `first` (n,) on; the same each time."""
+        """Return the places (v, n) that differential evolution looks at, from a Sobol sequence and `first` (n,) on; the same
+        each time.
+        """
         from scipy.optimize import differential_evolution
 
         free, seen = self._free, []
@@ -125,7 +127,7 @@ class Lattice:
         return self._distinct(np.concatenate(seen))
 
     def best_apart(self, places: Wholes, values: Floats, count: int) -> Wholes:
-        """The best (count, n) of places that lie apart."""
+        """Return the best (count, n) of places that lie apart."""
         order = np.argsort(values, kind="stable")
         share, found = places / np.maximum(self.high - self.low, 1), [order[0]]
         for each in order:
@@ -151,15 +153,15 @@ class Lattice:
         return np.array([each.place for each in descents])
 
     def around(self, place: Wholes) -> Wholes:
-        """A place (n,) and all its neighbours (v, n), those in the direction of several axes included."""
+        """Return a place (n,) and all its neighbours (v, n), those in the direction of several axes included."""
         return self._in_reach(place, 1)
 
     def near(self, place: Wholes) -> Wholes:
-        """Places (v, n) up to two steps away along every axis."""
+        """Return the places (v, n) up to two steps away along every axis."""
         return self._in_reach(place, 2)
 
     def clipped(self, places: Wholes) -> Wholes:
-        """Places (..., n) brought between the ends."""
+        """Return the places (..., n) brought between the ends."""
         result: Wholes = np.clip(places, self.low, self.high)
         return result
 
@@ -180,7 +182,9 @@ class Lattice:
         return reached[np.argsort(values, kind="stable")[:_SOLVED]]
 
     def _in_reach(self, place: Wholes, reach: int) -> Wholes:
-        """Places (v, n) up to so many steps away along every axis, the place included: all, or so many of them by chance."""
+        """Return the places (v, n) up to so many steps away along every axis, the place included: all, or so many of them by
+        chance.
+        """
         axes = len(self._free)
         if (2 * reach + 1) ** axes <= _SCREENED:
             steps = np.array(list(itertools.product(range(-reach, reach + 1), repeat=axes)))
@@ -191,12 +195,12 @@ class Lattice:
         return self._distinct(self.clipped(places))
 
     def _distinct(self, places: Wholes) -> Wholes:
-        """Places (v, n), each once."""
+        """Return the places (v, n), each once."""
         rank = np.ravel_multi_index(tuple((places - self.low).T), tuple(self.high - self.low + 1))
         return places[np.unique(rank, return_index=True)[1]]
 
     def _spread(self) -> Wholes:
-        """Places (v, n) all over, evenly."""
+        """Return the places (v, n) all over, evenly."""
         from scipy.stats import qmc
 
         share = qmc.Sobol(len(self._free), seed=_SEED).random_base2(_SOBOL)
@@ -211,7 +215,7 @@ class Lattice:
 
 
 def _stepped(descent: _Descent, places: Wholes, values: Floats) -> _Descent:
-    """The descent gone on to the best of the places (v, n) looked at, or looking less far."""
+    """Return the descent gone on to the best of the places (v, n) looked at, or looking less far."""
     best = int(values.argmin())
     value, reach = float(values[best]), descent.reach
     if value >= descent.value:
@@ -322,7 +326,7 @@ class Search:
         return self.variants.outcomes(amounts, condition or Condition(self.torque))
 
     def best(self, bounds: Sequence[float]) -> FoundModification:
-        """The proposal for the first of the bounds (MPa) that can be kept, else for the last.
+        """Return the proposal for the first of the bounds (MPa) that can be kept, else for the last.
 
         Without contact on the edges of the tips, unless that costs more than half of what is gained.
         """
@@ -389,13 +393,13 @@ class Search:
         return result
 
     def _survey(self, bound: float) -> Wholes:
-        """Places (v, 6) all over, the most of them where variants are good."""
+        """Return the places (v, 6) all over, the most of them where variants are good."""
         return self._lattice.survey(self._goal(self._rough, bound, edges=True), _GENERATIONS, _nearest(self.start))
 
     def _settled(
         self, bound: float, places: Wholes, *, edges: bool = True, first: FoundModification | None = None
     ) -> FoundModification:
-        """The proposal to which the best of the places lead, and that which was found `first`."""
+        """Return the proposal to which the best of the places lead, and that which was found `first`."""
         lattice, goal = self._lattice, self._goal(self._full, bound, edges=edges)
         rough = self._goal(self._rough, bound, edges=edges)
         starts = lattice.best_apart(places, rough.at(places), _STARTS)
@@ -450,7 +454,7 @@ class Search:
 
 
 def _nearest(amounts: Floats) -> Wholes:
-    """The place (6,) nearest to amounts (6,)."""
+    """Return the place (6,) nearest to amounts (6,)."""
     result: Wholes = np.rint(amounts / _STEPS).astype(np.int64)
     return result
 

@@ -42,7 +42,7 @@ settled.
 
 
 def press(given: Responses, matrix: Floats, gap: Floats, radii: Floats, force: float) -> tuple[Floats, Floats]:
-    """Forces (v, n) in N of all cells, and approaches (v,) in mm, infinite where no set of cells settles.
+    """Return the forces (v, n) in N of all cells, and approaches (v,) in mm, infinite where no set of cells settles.
 
     `matrix` (n, n) in mm/N is the compliance but for what a cell's own ellipse adds to the diagonal; `gap` and `radii` (v, n)
     are in mm, `force` in N.
@@ -69,7 +69,7 @@ def press(given: Responses, matrix: Floats, gap: Floats, radii: Floats, force: f
 
 
 def _on_springs(gap: Floats, lengths: Floats, force: float, stiffness: float) -> tuple[Floats, Floats]:
-    """Forces (v, n) and approach (v,) of cells that do not feel each other: a start, closed by sorting the gaps."""
+    """Return the forces (v, n) and approach (v,) of cells that do not feel each other: a start, closed by sorting the gaps."""
     order = np.argsort(gap, axis=1)
     ordered, along = np.take_along_axis(gap, order, 1), lengths[order]
     levels = (force / stiffness + np.cumsum(along * ordered, axis=1)) / np.cumsum(along, axis=1)
@@ -87,7 +87,9 @@ def _own(given: Responses, widths: Floats) -> Floats:
 
 
 def _equations(matrix: Floats, own: Floats, gap: Floats, force: float, active: Bools) -> tuple[Floats, Floats]:
-    """Forces and approach where exactly the `active` cells touch: systems of equal size, filled up by rows of identity."""
+    """Return the forces and approach where exactly the `active` cells touch: systems of equal size, filled up by rows of
+    identity.
+    """
     most = int(active.sum(axis=1).max())
     cells = np.argsort(~active, axis=1, kind="stable")[:, :most]
     real = np.take_along_axis(active, cells, 1)
@@ -129,7 +131,7 @@ class Condition:
     pitch_error: float = 0.0
 
     def mounted(self, mounting: Mounting) -> Mounting:
-        """The mounting with the deviations on top of its own."""
+        """Return the mounting with the deviations on top of its own."""
         if not self.misalignment and not self.pitch_error:
             return mounting
         return replace(
@@ -184,7 +186,7 @@ class Outcomes:
 
 
 def with_amounts(pair: GearPair, amounts: Floats, shape: ReliefShape) -> GearPair:
-    """The pair with the amounts (6,) of a variant. Raises GeometryError where they do not fit the gears."""
+    """Return the pair with the amounts (6,) of a variant. Raises GeometryError where they do not fit the gears."""
     gears = []
     for role, gear in pair.gears.items():
         given = _named_amounts(amounts, role)
@@ -315,7 +317,7 @@ class FlankVariants:
         return tuple(found)
 
     def force(self, torque: float) -> float:
-        """Normal force (N) at a torque (N·m)."""
+        """Return the normal force (N) at a torque (N·m)."""
         return self.roomy.force(torque) * self.roomy.width / math.cos(self.roomy.helix)
 
     def outcomes(self, amounts: Floats, condition: Condition) -> Outcomes:
@@ -344,7 +346,7 @@ class FlankVariants:
         )
 
     def gaps(self, given: Responses, amounts: Floats, condition: Condition) -> tuple[Floats, Floats]:
-        """Gaps along the normal and reduced radii (v, n) in mm of all cells of a position."""
+        """Return the gaps along the normal and reduced radii (v, n) in mm of all cells of a position."""
         pinion, wheel = self._flanks(amounts)
         mounting = condition.mounted(self.roomy.mounting)
         # All lines, and all places beside them, at once: what costs is how often numpy is called.

@@ -54,7 +54,7 @@ def shown_path(path: object) -> str:
 
 
 def format_number(value: object) -> str:
-    """A number as a user would type it: up to ten significant digits, no trailing zeros; anything else cut short."""
+    """Return a number as a user would type it: up to ten significant digits, no trailing zeros; anything else cut short."""
     if isinstance(value, Enum):
         return repr(value.value)
     try:
@@ -155,7 +155,7 @@ _NO_CHANGE = (float, str, bool, tuple, type(None))
 
 @cache
 def _fields_of(kind: type[DataclassInstance]) -> tuple[tuple[str, bool], ...]:
-    """The fields of a dataclass, and whether each is a whole number."""
+    """Return the fields of a dataclass, and whether each is a whole number."""
     return tuple((each.name, _WHOLE.match(str(each.type)) is not None) for each in fields(kind))
 
 

@@ -62,7 +62,7 @@ def json_text(document: dict[str, Any]) -> str:
 
 
 def source_date() -> datetime | None:
-    """The date (UTC) that SOURCE_DATE_EPOCH fixes for all files, in seconds since 1970; None without it.
+    """Return the date (UTC) that SOURCE_DATE_EPOCH fixes for all files, in seconds since 1970; None without it.
 
     Raises ParameterError. See reproducible-builds.org/specs/source-date-epoch.
     """

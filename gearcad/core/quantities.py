@@ -166,7 +166,7 @@ NOT_GIVEN = Derived("nan")
 
 
 def is_given(value: float | None) -> bool:
-    """Whether a value was given; None asks, as a Derived does, for it to be derived."""
+    """Return whether a value was given; None asks, as a Derived does, for it to be derived."""
     return value is not None and not isinstance(value, Derived | DerivedCount)
 
 

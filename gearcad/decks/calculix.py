@@ -210,7 +210,7 @@ def printed_contact(path: Path, mesh: ElementMesh, flanks: Iterable[str]) -> Pri
 
 
 def _blocks(path: Path) -> Iterator[tuple[str, list[list[float]]]]:
-    """Headings of a .dat, and the lines of numbers below each; words between those of one statistic are passed over."""
+    """Yield the headings of a .dat, and the lines of numbers below each; words between those of one statistic are passed over."""
     heading, rows = "", list[list[float]]()
     with path.open(encoding="latin-1") as lines:
         for text in map(str.strip, lines):
@@ -224,7 +224,7 @@ def _blocks(path: Path) -> Iterator[tuple[str, list[list[float]]]]:
 
 
 def displacements(path: Path, nodes: int) -> Floats:
-    """Displacements (nodes, 3) in mm of the first nodes, from the last increment in a .frd. Raises SolverError."""
+    """Return the displacements (nodes, 3) in mm of the first nodes, from the last increment in a .frd. Raises SolverError."""
     found, inside = np.full((nodes, 3), np.nan), False
     with path.open(encoding="latin-1") as lines:
         for line in lines:

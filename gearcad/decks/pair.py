@@ -164,7 +164,7 @@ class PairDecks(ABC):
 
     @abstractmethod
     def teeth_near(self, roll_angle: float) -> Iterable[int]:
-        """Pairs of teeth, as our solution counts them, that may touch."""
+        """Return the pairs of teeth, as our solution counts them, that may touch."""
 
     @abstractmethod
     def zones(self, roll_angle: float, role: Role) -> Mapping[int, ContactRefinement]:
@@ -178,7 +178,9 @@ class PairDecks(ABC):
 
     @abstractmethod
     def root_tension(self, mesh: ElementMesh, moved: Floats, role: Role, tooth: int, turn: float) -> float:
-        """Greatest tension (MPa) in the loaded fillet of a tooth of a gear that is turned by `turn` (rad), by displacements."""
+        """Return the greatest tension (MPa) in the loaded fillet of a tooth of a gear that is turned by `turn` (rad), by
+        displacements.
+        """
 
     @property
     def width(self) -> float | None:
@@ -186,7 +188,7 @@ class PairDecks(ABC):
         return None if self.solid else self.pair.common_width.width
 
     def tooth(self, role: Role, tooth: int) -> int:
-        """The tooth of a gear that has part in our solution's pair of teeth `tooth`, counted counter-clockwise from 0."""
+        """Return the tooth of a gear that has part in our solution's pair of teeth `tooth`, counted counter-clockwise from 0."""
         order = 1 if role is Role.PINION or self.pair.internal else -1
         return order * (1 if self.left else -1) * tooth % self.pair.gears.pick(role).tooth_count
 
@@ -195,11 +197,11 @@ class PairDecks(ABC):
         return f"{role.value}_{self.flank_side}_{part}_{tooth}"
 
     def flanks(self, tooth: int) -> Flanks:
-        """Names of the flanks of our solution's pair of teeth `tooth` in the joined mesh."""
+        """Return the names of the flanks of our solution's pair of teeth `tooth` in the joined mesh."""
         return Flanks(*(self.side(role, self.tooth(role, tooth), "flank") for role in Role))
 
     def at(self, roll_angle: float) -> PairDeck:
-        """The pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
+        """Return the pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
         position = self.cycle.solve(roll_angle)
         approach = position.rigid_approach + self.begun * (position.approach - position.rigid_approach)
         zones = PerGear(*(self.zones(roll_angle, role) for role in Role))  # what they refuse is neither gear's own

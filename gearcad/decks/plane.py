@@ -138,7 +138,7 @@ class PlaneToothDeck(ToothDeck):
 
 
 def plane_tooth_deck(decks: PlaneDecks, roll_angle: float, role: Role) -> PlaneToothDeck:
-    """A gear of the pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
+    """Return a gear of the pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
     position = decks.cycle.solve(roll_angle)
     mesh = joined({role.value: decks.mesh(role, decks.zones(roll_angle, role))})
     flank = decks.cycle.model.bodies.pick(role).flank

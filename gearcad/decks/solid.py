@@ -47,7 +47,7 @@ class FilletFace:
 
 
 def root_tension(fillet: FilletFace, moved: Floats, material: Material) -> float:
-    """Greatest principal tension (MPa) of a fillet by displacements (n, 3) in mm of the nodes of its mesh.
+    """Return the greatest principal tension (MPa) of a fillet by displacements (n, 3) in mm of the nodes of its mesh.
 
     Half-way along each edge of the profile, at the Gauss points over the face; from a tangent angle on, as our own check.
     """
@@ -63,7 +63,9 @@ def root_tension(fillet: FilletFace, moved: Floats, material: Material) -> float
 
 
 def _tangent_angles(fillet: FilletFace, along: Floats, z: Floats) -> Floats:
-    """Angles (n,) in degrees between the profile's tangents (n, 3) at heights (n,) of the gear and the middle of the tooth."""
+    """Return the angles (n,) in degrees between the profile's tangents (n, 3) at heights (n,) of the gear and the middle of the
+    tooth.
+    """
     own = (along[:, 0] + 1j * along[:, 1]) * np.exp(-1j * (fillet.turn + fillet.rate * z))
     result: Floats = np.degrees(np.arctan2(fillet.upward * own.imag, np.abs(own.real)))
     return result
@@ -177,7 +179,9 @@ class SolidDecks(PairDecks):
             raise ParameterError("load.torque", self.task.torque, permitted, "N·m")
 
     def planes(self, role: Role) -> Floats:
-        """Heights (n,) in mm of the planes between layers of a gear: of the common face width, and of what is beyond it."""
+        """Return the heights (n,) in mm of the planes between layers of a gear: of the common face width, and of what is beyond
+        it.
+        """
         low, high = self.cycle.model.common_heights(role)
         gear = self.pair.gears.pick(role)
         thickness = _LAYER * gear.normal_module
@@ -230,7 +234,7 @@ class SolidToothDeck(ToothDeck):
 
 
 def solid_tooth_deck(decks: SolidDecks, roll_angle: float, role: Role) -> SolidToothDeck:
-    """A gear at a roll angle (deg), in coordinates of its own. Raises SolverError and GeometryError."""
+    """Return a gear at a roll angle (deg), in coordinates of its own. Raises SolverError and GeometryError."""
     position, gear = decks.cycle.solve(roll_angle), decks.pair.gears.pick(role)
     mesh = joined({role.value: decks.mesh(role, {})})
     exact, forces = decks.cycle.model.bodies.pick(role).flank, np.zeros_like(mesh.points)
@@ -265,7 +269,7 @@ def _lay(forces: Floats, mesh: ElementMesh, flank: str, base_radius: float, plac
 
 
 def _turned(vectors: Floats, angle: float) -> Floats:
-    """Vectors (n, 3) turned about the z axis by an angle (rad)."""
+    """Return the vectors (n, 3) turned about the z axis by an angle (rad)."""
     cosine, sine = math.cos(angle), math.sin(angle)
     result: Floats = vectors @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
     return result

@@ -61,7 +61,7 @@ _GUARDED = re.compile(r"'+[=+\-@\t\r]")
 
 
 def plain_text(cell: RawCell) -> str:
-    """A cell as a text without space around it, "" for none; a workbook's 12.0 is "12"."""
+    """Return a cell as a text without space around it, "" for none; a workbook's 12.0 is "12"."""
     if isinstance(cell, str):
         text = cell.strip()
         return text[1:] if text.startswith("'") and _GUARDED.match(text) else text
@@ -87,12 +87,12 @@ def list_text(numbers: Iterable[float]) -> str:
 
 
 def nested_text(lists: Iterable[Iterable[float]]) -> str:
-    """Lists of numbers as one cell: 0.1:1.25 0.9:0.8."""
+    """Return the lists of numbers as one cell: 0.1:1.25 0.9:0.8."""
     return " ".join(":".join(map(repr, each)) for each in lists)
 
 
 def texts_cell(texts: Iterable[Any], key: str) -> str:
-    """Texts, or lists of them, as one cell: `first note | second`, `A; first issue; 2026-01-31 | B; wider`.
+    """Return the texts, or lists of them, as one cell: `first note | second`, `A; first issue; 2026-01-31 | B; wider`.
 
     Raises ParameterError for a text that would not come back.
     """
@@ -114,7 +114,7 @@ def _plain_item(item: Any, key: str, marks: str) -> str:
 
 
 def guarded_text(text: str) -> str:
-    """The text as a cell that no spreadsheet runs as a formula; `plain_text` takes the apostrophe off again."""
+    """Return the text as a cell that no spreadsheet runs as a formula; `plain_text` takes the apostrophe off again."""
     return f"'{text}" if _GUARDED.match(f"'{text}") else text
 
 
@@ -124,7 +124,7 @@ def is_blank(cell: RawCell) -> bool:
 
 
 def is_comment(cells: Sequence[RawCell]) -> bool:
-    """True if the first cell that is not blank begins with #, and is not one of a spreadsheet's errors such as #N/A."""
+    """Return whether the first cell that is not blank begins with #, and is not one of a spreadsheet's errors such as #N/A."""
     first = next((cell for cell in cells if not is_blank(cell)), None)
     return isinstance(first, str) and first.lstrip().startswith("#") and not _is_error(first.strip())
 
@@ -146,7 +146,7 @@ class CellReader:
         self._decimal_place = ""
 
     def value(self, key: str, cell: RawCell, row: int) -> Cell | None:
-        """The value of the cell under `key`, in row `row`; None for a blank cell.
+        """Return the value of the cell under `key`, in row `row`; None for a blank cell.
 
         What is no number stays a text, such as "auto". Raises ParameterError for a cell that cannot be read.
         """
@@ -201,7 +201,7 @@ class CellReader:
 
 
 def _checked(key: str, text: str, number: float) -> int | float:
-    """A finite float, or a whole number where a count is meant: pandas and spreadsheets write 20.0."""
+    """Return a finite float, or a whole number where a count is meant: pandas and spreadsheets write 20.0."""
     if general_key(key) in COUNTS and abs(number) <= _MOST_EXACT and float(number).is_integer():
         return int(number)
     try:
@@ -238,7 +238,7 @@ class Decimal(Enum):
 
 
 def cell_text(value: Any, decimal: Decimal = Decimal.POINT) -> str:
-    """A cell of the CSV: a number with all its digits, a text made harmless."""
+    """Return a cell of the CSV: a number with all its digits, a text made harmless."""
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -272,7 +272,7 @@ _MAIN = DesignKind.PLANETARY.value
 
 
 def column_letter(index: int) -> str:
-    """The name a spreadsheet gives the column of this index (from 0): A ... Z, AA ..."""
+    """Return the name a spreadsheet gives the column of this index (from 0): A ... Z, AA ..."""
     letters = ""
     index += 1
     while index:
@@ -310,7 +310,8 @@ def _of_train(key: str) -> bool:
 
 
 def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
-    """The full key of every column, "name" for that of the designs, "" under a blank heading; blank ones at the end are cut.
+    """Return the full key of every column, "name" for that of the designs, "" under a blank heading; blank ones at the end are
+    cut.
 
     `where` names the file and row. A key without a table is one of [pair] or [gear], by what the table has. Raises
     SpecError with one line per fault.
@@ -364,7 +365,7 @@ def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
 
 
 def _key_of_train(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
-    """The full key of a heading in a table of trains, whose bare keys are those of [train]; and what is wrong with it."""
+    """Return the full key of a heading in a table of trains, whose bare keys are those of [train]; and what is wrong with it."""
     for key in (heading, f"train.{heading}"):
         if TrainKey.of(key) is not None:
             return key, ""
@@ -375,7 +376,9 @@ def _key_of_train(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
 
 
 def _key_of_planetary(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
-    """The full key of a heading in a table of planetary trains, whose bare keys are those of [planetary]; and what is wrong."""
+    """Return the full key of a heading in a table of planetary trains, whose bare keys are those of [planetary]; and what is
+    wrong.
+    """
     table, _, field = heading.partition(".")
     if field in PLANETARY.get(table, ()) or (table == _MAIN and field.startswith(f"{SPEEDS}.")):
         return heading, ""

@@ -34,7 +34,7 @@ def _plain(dotted: str) -> str:
 
 
 def find_lines(text: str) -> dict[str, int]:
-    """Line number (from 1) of every table header and key, under its full dotted name.
+    """Return the line number (from 1) of every table header and key, under its full dotted name.
 
     Follows headers, dotted keys and inline tables on one line, counts tables in lists from 0 (`mesh[0].teeth`); skips texts
     over several lines. The first mention wins.
@@ -81,7 +81,7 @@ def nearest_line(lines: dict[str, int], key: str) -> int | None:
 
 
 def explain_syntax(error: tomllib.TOMLDecodeError, text: str) -> str:
-    """The end of the message about broken TOML: place and reason, and the commonest mistake by its name."""
+    """Return the end of the message about broken TOML: place and reason, and the commonest mistake by its name."""
     place = re.search(r" \(at line (\d+), column (\d+)\)$", str(error))
     if place is None:
         return f": is not valid TOML: {error}"
@@ -128,14 +128,14 @@ def files_only_in(folder: Path) -> Iterator[None]:
 
 
 def names_file(key: str) -> bool:
-    """Whether a text under a key is a file: a template, or the pair of a mesh, `mesh.NAME.pair`."""
+    """Return whether a text under a key is a file: a template, or the pair of a mesh, `mesh.NAME.pair`."""
     table, _, rest = key.partition(".")
     name, _, field = rest.rpartition(".")
     return key == _TEMPLATE or (table == "mesh" and bool(name) and field == "pair")
 
 
 def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """The values with files, which are seen from `folder`, as they are found from here."""
+    """Return the values with files, which are seen from `folder`, as they are found from here."""
     return {key: _file_path(key, each, folder) if names_file(key) else each for key, each in values.items()}
 
 
@@ -179,7 +179,7 @@ _MOST_WHOLE = 10**15
 
 
 def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
-    """The tables of a TOML spec as they are written, and what locates a key of theirs for messages. Raises SpecError.
+    """Return the tables of a TOML spec as they are written, and what locates a key of theirs for messages. Raises SpecError.
 
     Only the files that it names are named as they are found from here.
     """
@@ -193,7 +193,7 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
 
 
 def spec_text(path: Path | str) -> str:
-    """The text of a spec. Raises SpecError."""
+    """Return the text of a spec. Raises SpecError."""
     path, file = Path(path), shown_path(path)
     try:
         return file_bytes(path).decode("utf-8-sig")
@@ -281,7 +281,7 @@ class Described(Protocol):
     def notices(self) -> tuple[Notice, ...]: ...
 
     def to_dict(self) -> JsonObject:
-        """Inputs and derived properties under their field names."""
+        """Return the inputs and derived properties under their field names."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -305,7 +305,7 @@ class Design(ABC):
     @classmethod
     @abstractmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
-        """The design that the tables of a spec describe; `where` locates a dotted key for messages. Raises SpecError."""
+        """Return the design that the tables of a spec describe; `where` locates a dotted key for messages. Raises SpecError."""
 
     @property
     def gears(self) -> dict[str, Gear]:
@@ -333,7 +333,7 @@ class Design(ABC):
             raise ParameterError("kind", self.kind.words, f"must be {kinds_in_words(kinds)}: {self.elsewhere or why}")
 
     def to_dict(self) -> JsonObject:
-        """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
+        """Return the document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
         document: dict[str, Any] = {"kind": self.kind.value, "name": self.name, "gearcad": __version__}
         return document | {name: each.to_dict() for name, each in self.described.items()}
 

@@ -136,7 +136,7 @@ class _OfSpecs:
 
 
 def names_of_materials(*owners: str) -> dict[str, FieldSchema]:
-    """Keys of [material] that name that of one gear."""
+    """Return the keys of [material] that name that of one gear."""
     name = schema_of(BESIDE["material"])["name"]
     return {
         owner: replace(name, name=owner, symbol=Symbol("", "", "ISO 6336-5", f"material of {owner}"), default=None)
@@ -145,7 +145,7 @@ def names_of_materials(*owners: str) -> dict[str, FieldSchema]:
 
 
 def flat_fields(kind: type[DataclassInstance]) -> Iterator[tuple[str, FieldSchema]]:
-    """Keys and fields of a type, those of its parts behind the others, with a dot; `rack` alone is the name of one."""
+    """Yield the keys and fields of a type, those of its parts behind the others, with a dot; `rack` alone is the name of one."""
     parts = {}
     for name, field in schema_of(kind).items():
         if field.part is None:
@@ -163,14 +163,14 @@ GEAR_FIELDS = dict(flat_fields(Gear))
 
 
 def _own_drawing() -> dict[str, FieldSchema]:
-    """Keys of a gear: what its own drawing has, which counts before [drawing]."""
+    """Return the keys of a gear: what its own drawing has, which counts before [drawing]."""
     from gearcad.drawing.options import PartDrawing
 
     return {f"drawing.{key}": field for key, field in schema_of(PartDrawing).items()}
 
 
 def _own_material() -> dict[str, FieldSchema]:
-    """Keys of a gear that has mates: its own material, whose fields count before those of [material]."""
+    """Return the keys of a gear that has mates: its own material, whose fields count before those of [material]."""
     return {f"material.{key}": field for key, field in schema_of(BESIDE["material"]).items()}
 
 
@@ -238,14 +238,14 @@ MOVED = {
 
 
 def explain_unknown_table(table: str, fields: Fields = FIELDS) -> str:
-    """The end of the message about a table that is not one of ours."""
+    """Return the end of the message about a table that is not one of ours."""
     if near := difflib.get_close_matches(table, fields, n=1):
         return f"unknown table; did you mean [{near[0]}]?"
     return f"unknown table; permitted are {', '.join(f'[{name}]' for name in fields)}"
 
 
 def explain_unknown_key(table: str, key: str) -> str:
-    """The end of the message about a key that `table` does not have: where it belongs, or the nearest one."""
+    """Return the end of the message about a key that `table` does not have: where it belongs, or the nearest one."""
     if (moved := MOVED.get(f"{table}.{key}")) is not None:
         return f"is no key any more: {moved}"
     homes = [f"[{name}]" for name, keys in KEYS.items() if key in keys and name not in ("gear", "rack") and key not in KEYS]
@@ -273,12 +273,12 @@ def permitted_words(key: str, permitted: Collection[str]) -> str:
 
 
 def nearest_key(key: str, fields: Mapping[str, FieldSchema]) -> str | None:
-    """The key whose symbol, last word or spelling is nearest."""
+    """Return the key whose symbol, last word or spelling is nearest."""
     return nearest_of(key, fields, tuple(fields))
 
 
 def nearest_of(key: str, fields: Mapping[str, FieldSchema], known: tuple[str, ...]) -> str | None:
-    """The known key of a table whose symbol, last word or spelling is nearest."""
+    """Return the known key of a table whose symbol, last word or spelling is nearest."""
     by_symbol = {fields[name].symbol.symbol: name for name in known if fields[name].symbol.symbol}
     by_tail = {name.rpartition(".")[2]: name for name in reversed(known)}
     if key in by_symbol:

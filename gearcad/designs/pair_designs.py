@@ -65,7 +65,7 @@ class PairDesign(GearedDesign):
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> PairSpec:
-        """The values of a spec that has all tables of a pair. Raises SpecError."""
+        """Return the values of a spec that has all tables of a pair. Raises SpecError."""
         require_tables(tables, where)
         _require_pair(tables, where)
         spec = PairSpec.of(tables, where)
@@ -139,7 +139,7 @@ class PairSpec(Spec):
     """The values of a pair's spec, and the methods that make its gears from them."""
 
     def pair(self, name: str) -> GearPair:
-        """The pair of `[pair]`, `[pinion]` and `[wheel]`, with every "auto" resolved."""
+        """Return the pair of `[pair]`, `[pinion]` and `[wheel]`, with every "auto" resolved."""
         self._share_values()
         self._match_helix()
         inputs = PerGear(*map(self._inputs, Role))
@@ -150,7 +150,7 @@ class PairSpec(Spec):
                 return self._made(name, inputs)
 
     def _made(self, name: str, inputs: PerGear[dict[str, Any]]) -> GearPair:
-        """The pair, with every "auto" resolved. Raises InputError."""
+        """Return the pair, with every "auto" resolved. Raises InputError."""
         given = self._pair_inputs()
         split = given.pop("profile_shift_split", None)
         distance = given.get("centre_distance")
@@ -178,7 +178,7 @@ class PairSpec(Spec):
             raise
 
     def _tried(self, name: str, inputs: PerGear[dict[str, Any]], wheel: Mapping[str, Any]) -> GearPair:
-        """The pair with another wheel, without a trace among the values. Raises InputError."""
+        """Return the pair with another wheel, without a trace among the values. Raises InputError."""
         return replace(self, values=dict(self.values))._made(name, inputs._replace(wheel=dict(wheel)))
 
     @property
@@ -234,7 +234,7 @@ class PairSpec(Spec):
             return {"name": role.value} | self.gear_inputs(role.value)
 
     def _automatic(self, role: Role) -> list[str]:
-        """Fields of a gear that stood as "auto"."""
+        """Return the fields of a gear that stood as "auto"."""
         values = {field: self.values.get(f"{role.value}.{field}") for field in ("profile_shift", "tip_alteration")}
         return [field for field, given in values.items() if given is not None and given.note.startswith(AUTO)]
 
@@ -274,7 +274,7 @@ class PairSpec(Spec):
     def _resolve_auto(
         self, inputs: PerGear[dict[str, Any]], distance: float | None, split: ShiftSplit | None
     ) -> PerGear[dict[str, Any]]:
-        """The inputs with each "auto" replaced, which is noted among the values."""
+        """Return the inputs with each "auto" replaced, which is noted among the values."""
         shifts = resolve_profile_shifts(inputs, distance, split)
         alterations = resolve_tip_alterations(inputs, sum(shifts), distance)
         asked = "" if distance is None else f": centre distance {distance:g} mm asks for x1 + x2 = {sum(shifts):.6g}"
@@ -340,7 +340,7 @@ class RackPairDesign(ToothedDesign):
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> _RackPairSpec:
-        """The values of a spec that has all tables of a pinion and a rack. Raises SpecError."""
+        """Return the values of a spec that has all tables of a pinion and a rack. Raises SpecError."""
         require_tables_of_racks(tables, where, DesignKind.RACK_PAIR, _BESIDE)
         for table in MAIN_TABLES[DesignKind.RACK_PAIR]:
             if table not in tables:
@@ -377,7 +377,7 @@ class RackPairDesign(ToothedDesign):
         return {"pinion": self.pair.pinion, "rack": self.pair.rack, "pair": self.pair}
 
     def to_dict(self) -> JsonObject:
-        """The document of `data.json`; what a load comes to on the rack is "drive" there."""
+        """Return the document of `data.json`; what a load comes to on the rack is "drive" there."""
         document = super().to_dict()
         if self.load is None:
             return document
@@ -397,7 +397,7 @@ class _RackPairSpec(Spec):
     """The values of the spec of a pinion and a rack, and the methods that make both from them."""
 
     def pair(self, name: str) -> RackPair:
-        """The pair of `[pair]`, `[pinion]` and `[rack]`, with every "auto" resolved."""
+        """Return the pair of `[pair]`, `[pinion]` and `[rack]`, with every "auto" resolved."""
         self._share_values()
         with self.blame("rack"):
             rack = Rack(**{"name": "rack"} | self.rack_inputs("rack"))

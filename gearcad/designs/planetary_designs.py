@@ -48,7 +48,7 @@ class PlanetarySpec(Spec):
 
     @classmethod
     def of(cls, tables: Mapping[str, Any], where: Where) -> Self:
-        """Every value under its key, whichever way the tables were written. Raises SpecError."""
+        """Return every value under its key, whichever way the tables were written. Raises SpecError."""
         placed = place_tables(tables, where)
         return cls(placed.values, where, placed.names, placed.meshes, tuple(placed.stages))
 
@@ -106,7 +106,8 @@ class PlanetarySpec(Spec):
     # ------------------------------------------------------------------ gears
 
     def members(self) -> tuple[tuple[Central, ...], tuple[Rim, ...], float | None]:
-        """The centrals and rims with every "auto" resolved, and their centre distance (mm) where more than shifts fix it.
+        """Return the centrals and rims with every "auto" resolved, and their centre distance (mm) where more than shifts fix
+        it.
 
         Raises SpecError.
         """
@@ -137,7 +138,7 @@ class PlanetarySpec(Spec):
             return {"name": table} | inputs
 
     def _part(self, kind: type[Part], table: str, gear: Gear, **others: str) -> Part:
-        """A central or a rim with what its table has beside the teeth."""
+        """Return a central or a rim with what its table has beside the teeth."""
         known = {each.name for each in fields(kind)}
         given = {key: value for key, value in self.fields_of(table).items() if key in known}
         with self.blame(table):
@@ -285,7 +286,7 @@ class PlanetaryDesign(ToothedDesign):
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> PlanetarySpec:
-        """The values of a spec, whichever way the set is written. Raises SpecError."""
+        """Return the values of a spec, whichever way the set is written. Raises SpecError."""
         return PlanetarySpec.of(tables, where)
 
     @property
@@ -320,7 +321,7 @@ class PlanetaryDesign(ToothedDesign):
         return self.load
 
     def to_dict(self) -> JsonObject:
-        """The document of `data.json`: gears under their names, the train under "planetary" (mm, degrees)."""
+        """Return the document of `data.json`: gears under their names, the train under "planetary" (mm, degrees)."""
         return super().to_dict() | ({SPEEDS: dict(self.speeds)} if self.speeds else {})
 
 
@@ -355,7 +356,7 @@ def _carrier(spec: PlanetarySpec) -> Carrier:
 
 
 def _stage(spec: PlanetarySpec, owner: str, wheel_on: str) -> PairStage:
-    """The pair of a table; of a pre-stage the wheel is on the carrier, unless it says otherwise."""
+    """Return the pair of a table; of a pre-stage the wheel is on the carrier, unless it says otherwise."""
     given = {key: spec.values[f"{owner}.{key}"] for key in spec.fields_of(owner)}
     name = spec.stage_name(owner)
     of_stage = {key: given[key].value for key in ("angle", "axial_position") if key in given}

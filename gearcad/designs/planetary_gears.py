@@ -55,7 +55,7 @@ class Tables(NamedTuple):
 
 
 def place_tables(tables: Mapping[str, Any], where: Where) -> Tables:
-    """The values of a planetary train's tables. Raises SpecError for what it does not have, and for a set that is none."""
+    """Return the values of a planetary train's tables. Raises SpecError for what it does not have, and for a set that is none."""
     _require_known(tables, where)
     main = tables.get(MAIN, {})
     listed = {key: _listed(main, key, where) for key in _LISTED}
@@ -100,7 +100,7 @@ def _require_known(tables: Mapping[str, Any], where: Where) -> None:
 
 
 def _listed(main: Mapping[str, Any], key: str, where: Where) -> list[Mapping[str, Any]]:
-    """The tables of a list."""
+    """Return the tables of a list."""
     content = main.get(key, [])
     if not isinstance(content, list) or not all(isinstance(each, Mapping) for each in content):
         full = f"{MAIN}.{key}"
@@ -114,7 +114,7 @@ def _listed(main: Mapping[str, Any], key: str, where: Where) -> list[Mapping[str
 def _values(
     owner: str, content: Mapping[str, Any], where: Where, *, fields: Mapping[str, FieldSchema] | None = None
 ) -> Iterator[tuple[str, Given]]:
-    """Every value of a table under its dotted key."""
+    """Yield every value of a table under its dotted key."""
     known = fields or (PRE_STAGE if owner not in PLANETARY else PLANETARY[owner])
     for field, value in _flat(content):
         key = f"{owner}.{field}"
@@ -151,7 +151,7 @@ def _plain(value: Any, field: FieldSchema | None) -> Any:
 
 
 def _unknown(owner: str, field: str, known: Mapping[str, FieldSchema]) -> str:
-    """The end of the message about a key that a table does not have."""
+    """Return the end of the message about a key that a table does not have."""
     if field == SPEEDS or any(key.startswith(f"{field}.") for key in known):
         return f"must be a table, headed [{owner}.{field}]"
     homes = [f"[{table}]" for table, keys in PLANETARY.items() if field in keys and table != owner and field not in OF_SETS]
@@ -167,7 +167,7 @@ def _unknown(owner: str, field: str, known: Mapping[str, FieldSchema]) -> str:
 
 
 def _shorthand(tables: Mapping[str, Any], where: Where) -> dict[str, str]:
-    """The centrals of [sun], [ring] ..., each with the rim that it meshes."""
+    """Return the centrals of [sun], [ring] ..., each with the rim that it meshes."""
     for first, second in (_SUNS, _RINGS, _RIMS):
         if second in tables and first not in tables:
             raise SpecError(f"{where(second)}: [{first}] is missing: [{second}] is the second of its kind", second)
@@ -214,7 +214,7 @@ def _lists(listed: Mapping[str, list[Mapping[str, Any]]], where: Where) -> tuple
 
 
 def _rim_of(centrals: list[Mapping[str, Any]], rims: list[Mapping[str, Any]], number: int, where: Where) -> int:
-    """The number of the rim that a central meshes."""
+    """Return the number of the rim that a central meshes."""
     known = [rim["name"] for rim in rims]
     meshes = centrals[number].get("meshes", known[0] if len(rims) == 1 else None)
     if meshes in known:
@@ -225,7 +225,7 @@ def _rim_of(centrals: list[Mapping[str, Any]], rims: list[Mapping[str, Any]], nu
 
 
 def _content(listed: Mapping[str, list[Mapping[str, Any]]], written: str) -> Mapping[str, Any]:
-    """The table that the user calls so."""
+    """Return the table that the user calls so."""
     key, _, number = written.removeprefix(f"{MAIN}.").partition("[")
     return listed[key][int(number[:-1])]
 
@@ -250,7 +250,7 @@ class TableMesh(NamedTuple):
         return PerGear(self.central, self.rim) if first else PerGear(self.rim, self.central)
 
     def signed(self, distance: float) -> float:
-        """A centre distance as a pair has it: negative with a ring."""
+        """Return a centre distance as a pair has it: negative with a ring."""
         return -distance if self.ring else distance
 
     def automatic(self, inputs: Inputs) -> int:
@@ -266,7 +266,7 @@ class TrainGears:
     meshes: tuple[TableMesh, ...]
 
     def made(self, inputs: Inputs) -> tuple[dict[str, Gear], float | None]:
-        """The gears by their tables, and the centre distance (mm) if it is given or shifts follow from it.
+        """Return the gears by their tables, and the centre distance (mm) if it is given or shifts follow from it.
 
         A ring whose shift would fit with the other sign is asked about it. Raises InputError: parameters are led by their
         table, "centre_distance" is that of the train.
@@ -278,7 +278,7 @@ class TrainGears:
             return self._made({table: dict(gear) for table, gear in inputs.items()})
 
     def _tried(self, inputs: Inputs, table: str, gear: Mapping[str, Any]) -> object:
-        """The gears with another one among them, without a trace among the values. Raises InputError."""
+        """Return the gears with another one among them, without a trace among the values. Raises InputError."""
         trial = replace(self, spec=replace(self.spec, values=dict(self.spec.values)))
         return trial._made({each: dict(own) for each, own in inputs.items()} | {table: dict(gear)})
 
@@ -303,7 +303,7 @@ class TrainGears:
         return gears, found
 
     def _fitted(self, gears: Mapping[str, Gear], inputs: Inputs, distance: float | None) -> tuple[SetMesh, ...]:
-        """The meshes of the gears at one centre distance, given or not. Raises InputError."""
+        """Return the meshes of the gears at one centre distance, given or not. Raises InputError."""
         names = {table: str(inputs[table]["name"]) for table in gears}
         train = TrainData(
             planets=1,
@@ -322,7 +322,9 @@ class TrainGears:
         return train.meshes
 
     def _of_tables(self, error: InputError, names: Mapping[str, str], inputs: Inputs) -> InputError:
-        """An error of a train, whose parameter begins with the name of a gear, or of a mesh and a role, as one of the table."""
+        """Return an error of a train, whose parameter begins with the name of a gear, or of a mesh and a role, as one of the
+        table.
+        """
         parameter, permitted = error.parameter, error.permitted
         owner = next((table for table, name in names.items() if parameter.startswith(f"{name}.")), None)
         if owner is not None:
@@ -344,7 +346,7 @@ class TrainGears:
         return float(given.value)
 
     def _implied_distance(self, inputs: Inputs) -> float:
-        """The one without backlash of the first mesh whose shifts are numbers. Raises InputError."""
+        """Return the one without backlash of the first mesh whose shifts are numbers. Raises InputError."""
         for mesh in self.meshes:
             if mesh.automatic(inputs):
                 continue
@@ -418,7 +420,9 @@ class TrainGears:
         self._note(mesh.central, "tip_alteration", tip, CLEAR)
 
     def _cleared(self, mesh: TableMesh, fitted: SetMesh) -> Gear:
-        """The central; a ring that is to be clear is drawn in further if the edge of its tip still cuts the rim's fillet."""
+        """Return the central; a ring that is to be clear is drawn in further if the edge of its tip still cuts the rim's
+        fillet.
+        """
         central = fitted.central.gear
         given = self.spec.values.get(f"{mesh.central}.tip_alteration")
         if given is None or given.note != CLEAR or (clear := fitted.pair.clear_tip_diameter) is None:
@@ -430,7 +434,7 @@ class TrainGears:
         return replace(central, tip_alteration=given.value + change)
 
     def _usual_teeth(self, mesh: TableMesh) -> str:
-        """A hint at the number of teeth of a ring about simple planets that asks for no shift: |z_r| = z_s + 2 z_p."""
+        """Return a hint at the number of teeth of a ring about simple planets that asks for no shift: |z_r| = z_s + 2 z_p."""
         sun = next((other.central for other in self.meshes if not other.ring and other.rim == mesh.rim), None)
         teeth = [self.spec.values.get(f"{table}.teeth") for table in (sun, mesh.rim, mesh.central)]
         if not mesh.ring or any(each is None or not isinstance(each.value, int) for each in teeth):
@@ -464,12 +468,12 @@ class TrainGears:
 
 
 def _called(text: str, roles: PerGear[str]) -> str:
-    """A text about pinion and wheel with their tables in place of these."""
+    """Return a text about pinion and wheel with their tables in place of these."""
     names = {role.value: table for role, table in roles.items()}
     return re.sub(r"\b(?:the )?(pinion|wheel)\b", lambda found: names[found[1]], text)
 
 
 def _automatic(gear: Mapping[str, Any]) -> list[str]:
-    """Fields of a gear that are to be derived."""
+    """Return the fields of a gear that are to be derived."""
     defaults = {"profile_shift": 0.0, "tip_alteration": AUTO}
     return [key for key, default in defaults.items() if gear.get(key, default) in (AUTO, CLEAR)]

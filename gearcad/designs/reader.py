@@ -41,7 +41,7 @@ def read_spec(path: Path | str) -> Design:
 
 
 def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name: str) -> Design:
-    """The design that parsed tables describe: {"gear": {"teeth": 20, "rack": {...}, ...}}, one mapping per TOML table.
+    """Return the design that parsed tables describe: {"gear": {"teeth": 20, "rack": {...}, ...}}, one mapping per TOML table.
 
     `where` locates a dotted key for messages. Raises SpecError.
     """
@@ -49,7 +49,7 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
 
 
 def design_from_values(values: Mapping[str, Any], kind: DesignKind, *, where: Where, default_name: str) -> Design:
-    """The design that values under the keys of a design table describe. Raises SpecError."""
+    """Return the design that values under the keys of a design table describe. Raises SpecError."""
     if kind is DesignKind.TRAIN:
         from gearcad.designs.train_designs import TrainDesign, tables_of
 
@@ -59,7 +59,9 @@ def design_from_values(values: Mapping[str, Any], kind: DesignKind, *, where: Wh
 
 
 def nested(values: Mapping[str, Any], kind: DesignKind) -> dict[str, dict[str, Any]]:
-    """Values under their full keys as one mapping per table of a spec; the tables of the kind are there even if empty."""
+    """Return the values under their full keys as one mapping per table of a spec; the tables of the kind are there even if
+    empty.
+    """
     tables: dict[str, dict[str, Any]] = {owner: {} for owner in MAIN_TABLES[kind]}
     for key, value in values.items():
         owner, _, field = key.partition(".")
@@ -129,7 +131,7 @@ def starter_text(kind: str) -> tuple[str, str]:
 
 
 def edit_spec(text: str, values: Mapping[str, Cell | None], notes: Mapping[str, str] | None = None) -> str:
-    """The text of a spec with values under their dotted keys, such as "pinion.modification.tip_relief".
+    """Return the text of a spec with values under their dotted keys, such as "pinion.modification.tip_relief".
 
     A value that is there is replaced, or goes with its line where the new one is None; a key that is not there comes to the end
     of its table (a name to its head), with a note behind it if it has one; a table that is not there to the end of the text.
@@ -210,7 +212,7 @@ def _tables_around(container: Container, path: list[str], inside: int = 1) -> It
 
 
 def _has_header(key: Any, item: Any) -> bool:
-    """Whether an entry of a table is a table with a header of its own, which ends the keys of the one around it."""
+    """Return whether an entry of a table is a table with a header of its own, which ends the keys of the one around it."""
     from tomlkit.items import AoT, Table
 
     return isinstance(item, AoT) or (isinstance(item, Table) and not key.is_dotted())

@@ -89,7 +89,7 @@ def _materials(design: PairDesign) -> dict[str, Material]:
 
 
 def _pair_text_values(instance: Any, keys: Any, always: Sequence[str] = ()) -> Iterator[tuple[str, Any]]:
-    """The fields under flattened keys, without those that are derived, or that say no more than their default."""
+    """Yield the fields under flattened keys, without those that are derived, or that say no more than their default."""
     for key in keys:
         *parts, name = key.split(".")
         owner = reduce(lambda of, part: getattr(of, part, None), parts, instance)
@@ -121,7 +121,7 @@ def _toml(value: Any) -> str:
 
 
 def pair_specs(study: TrainStudy) -> dict[str, str]:
-    """The spec of each pair of a train, under the name of its file."""
+    """Return the spec of each pair of a train, under the name of its file."""
     found: dict[str, str] = {}
     for place, mesh in enumerate(study.train.meshes):
         if isinstance(mesh, EngagedMesh):
@@ -130,14 +130,14 @@ def pair_specs(study: TrainStudy) -> dict[str, str]:
 
 
 def _file(mesh: EngagedMesh, taken: dict[str, str]) -> str:
-    """A name that no other has, also where large and small letters are the same."""
+    """Return a name that no other has, also where large and small letters are the same."""
     name, others = plain_name(mesh.name), {each.casefold() for each in taken}
     tried = (f"{name}.toml" if number == 1 else f"{name}-{number}.toml" for number in range(1, len(taken) + 2))
     return next(each for each in tried if each.casefold() not in others)
 
 
 def loaded_pair(train: Train, mesh: EngagedMesh) -> PairDesign:
-    """The pair of a mesh, with the torque and speed that the train gives its pinion, and the inertias of the train."""
+    """Return the pair of a mesh, with the torque and speed that the train gives its pinion, and the inertias of the train."""
     of = mesh.teeth_of
     own = of.design if isinstance(of, DesignedPair) else _plain_design(mesh)
     name = plain_name(f"{train.name}-{mesh.name}"[:LONGEST_NAME])
@@ -398,7 +398,7 @@ def _columns(rows: Sequence[dict[str, str]]) -> list[str]:
 
 
 def _found_sets_cells(candidate: PlanetarySet) -> dict[str, str]:
-    """A row by its columns."""
+    """Return a row by its columns."""
     return {"name": candidate.name} | {key: _plain(value) for key, value in set_keys(candidate).items()}
 
 
@@ -426,7 +426,7 @@ def set_keys(candidate: PlanetarySet) -> dict[str, object]:
 
 
 def _plain(value: object) -> str:
-    """A cell, without the last digits of a float, which are rounding: 37.8 and not 37.800000000000004."""
+    """Return a cell, without the last digits of a float, which are rounding: 37.8 and not 37.800000000000004."""
     return f"{value:.12g}" if isinstance(value, float) else str(value)
 
 
@@ -467,7 +467,7 @@ def sized_keys(sized: SizedSet) -> dict[str, dict[str, Any]]:
 
 
 def _sized_sets_given(instance: DataclassInstance) -> dict[str, Any]:
-    """The fields that differ from their defaults."""
+    """Return the fields that differ from their defaults."""
     values = ((each, getattr(instance, each.name)) for each in fields(instance))
     return {
         each.name: value
@@ -528,7 +528,7 @@ def read_measurements(path: Path | str, others: Mapping[str, Any] = MappingProxy
 
 
 def _size(readings: Mapping[float, Any], wrong: Any) -> str:
-    """The end of the key of a reading that is wrong, or whose size is."""
+    """Return the end of the key of a reading that is wrong, or whose size is."""
     found = (size for size, value in readings.items() if wrong in (size, value) or (isinstance(value, list) and wrong in value))
     return "".join(f".{size:g}" for size in list(found)[:1])
 
@@ -562,7 +562,7 @@ def _by_size(gauge: Gauge, given: Any) -> dict[float, Any]:
 
 
 def size_of(gauge: Gauge, text: str) -> float:
-    """The number of teeth spanned, or the diameter of pins or balls, that a text stands for. Raises ParameterError."""
+    """Return the number of teeth spanned, or the diameter of pins or balls, that a text stands for. Raises ParameterError."""
     try:
         return int(text) if gauge is Gauge.SPAN else float(text)
     except ValueError:
@@ -574,7 +574,7 @@ def _reading(name: str, value: Any) -> Any:
 
 
 def reading_of(name: str, text: str) -> float | tuple[float, float]:
-    """A reading, with its own uncertainty if there is one: "52.3+-0.1". Raises ParameterError."""
+    """Return a reading, with its own uncertainty if there is one: "52.3+-0.1". Raises ParameterError."""
     try:
         numbers = tuple(map(float, _UNCERTAIN.split(text.strip())))
     except ValueError:

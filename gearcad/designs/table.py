@@ -61,7 +61,7 @@ _RINGS: dict[str, dict[str, Cell]] = {
 
 
 def _sound_set(owner: str) -> dict[str, Cell]:
-    """Values of a set of planets among which those of a table are tried."""
+    """Return the values of a set of planets among which those of a table are tried."""
     gears = _SETS.get(owner, ("sun", "planet", "ring"))
     train: dict[str, Cell] = {"planets": 3, "input": gears[0], "output": "carrier"}
     made = {f"{DesignKind.PLANETARY.value}.{field}": value for field, value in train.items()}
@@ -73,7 +73,7 @@ def _sound_set(owner: str) -> dict[str, Cell]:
 
 
 def _sound_train(key: str, value: Cell) -> dict[str, Cell]:
-    """Values of a train among which one is tried, on parts of its key's name."""
+    """Return the values of a train among which one is tried, on parts of its key's name."""
     found = TrainKey.of(key)
     name = "part" if found is None or found.name in ("", ALL) else found.name
     gear = f"other than {name}"
@@ -127,7 +127,7 @@ def _fault_in_train(key: str, value: Cell, where: Where) -> SpecError | None:
 
 
 def _home(key: str) -> DesignKind:
-    """The kind of design among whose sound values a key is tried."""
+    """Return the kind of design among whose sound values a key is tried."""
     owner = key.partition(".")[0]
     if owner == "rack":
         return DesignKind.RACK
@@ -140,12 +140,12 @@ def _home(key: str) -> DesignKind:
 
 @lru_cache(maxsize=4096, typed=True)
 def permitted_alone(key: str, value: Cell, *, of: DesignKind | None = None) -> bool:
-    """True if a value is not wrong by itself. The rows of a table share many of theirs."""
+    """Return whether a value is not wrong by itself. The rows of a table share many of theirs."""
     return fault_alone(key, value, where=str, of=of) is None
 
 
 def missing_faults(given: Collection[str], kind: DesignKind, where: Where) -> Iterator[SpecError]:
-    """The faults of values that are not among the keys `given`; what both gears may share is missed once."""
+    """Yield the faults of values that are not among the keys `given`; what both gears may share is missed once."""
     if kind is DesignKind.TRAIN:
         yield from (missing_fault(key, where) for key in missing_keys(given))
         return
@@ -214,7 +214,7 @@ class DesignRow:
         return _place(self.table, self.number, self._index(key), self.name)
 
     def design(self) -> Design:
-        """The design. Raises SpecError for the first fault."""
+        """Return the design. Raises SpecError for the first fault."""
         if self.faults:
             raise SpecError(self.faults[0], "".join(self.unread[:1]))
         self._require_name()
@@ -229,12 +229,12 @@ class DesignRow:
         return {"name": self.name, **self.values, **{f"{key}: text": _text_of(Path(str(file))) for key, file in found.items()}}
 
     def all_faults(self) -> list[str]:
-        """Every fault of the row that does not depend on another, from left to right; [] for a good row."""
+        """Return every fault of the row that does not depend on another, from left to right; [] for a good row."""
         found = self.design_or_faults()
         return found if isinstance(found, list) else []
 
     def design_or_faults(self) -> Design | list[str]:
-        """The design, or every fault of the row that does not depend on another, from left to right.
+        """Return the design, or every fault of the row that does not depend on another, from left to right.
 
         They are the cells that cannot be read, or else what fails first in making the design; then every value that is
         wrong whatever the others are, and every one that is missing.
@@ -251,7 +251,7 @@ class DesignRow:
         return [text for _, text in sorted(dict.fromkeys(found), key=lambda fault: self._index(fault[0]))]
 
     def _single_faults(self) -> Iterator[SpecError]:
-        """The faults of the name, of every value by itself, and of what is missing."""
+        """Yield the faults of the name, of every value by itself, and of what is missing."""
         if "name" not in self.unread:
             try:
                 self._require_name()
@@ -288,7 +288,7 @@ class DesignRow:
         return next(iter(kinds), DesignKind.GEAR)
 
     def _of_two_kinds(self, filled: Sequence[str], kinds: Collection[DesignKind]) -> SpecError:
-        """The fault of a row whose values are of several kinds."""
+        """Return the fault of a row whose values are of several kinds."""
         other = "gear" if DesignKind.GEAR in kinds else "wheel" if DesignKind.PAIR in kinds else "pair"
         key = next(key for key in filled if not kinds_of([key]) & kinds_of([f"{other}."]))
         made = "a gear or a pair" if other == "gear" else "one with a wheel or with a rack"
@@ -315,7 +315,7 @@ class Table:
         return tuple(key for key in self.columns if key)
 
     def rows(self) -> Iterator[DesignRow]:
-        """The designs, from the first with every call. Raises SpecError where the file cannot be read on."""
+        """Yield the designs, from the first with every call. Raises SpecError where the file cannot be read on."""
         reader = CellReader(self.sheet.layout)
         with _readable(self.path):
             records = _filled(self.sheet)
@@ -349,7 +349,7 @@ class Table:
         return plain_text(cells[index]) if index < len(cells) else ""
 
     def _stray(self, number: int, cells: Sequence[RawCell], name: str) -> str:
-        """The fault of the first cell without a heading above it, or ""."""
+        """Return the fault of the first cell without a heading above it, or ""."""
         width = len(self.columns)
         for index, cell in enumerate(cells):
             if (index >= width or not self.columns[index]) and not is_blank(cell):
@@ -360,7 +360,7 @@ class Table:
 
 
 def open_table(path: Path | str) -> Table:
-    """The design table in a CSV or .xlsx file. Raises SpecError with one line per fault of its heading."""
+    """Return the design table in a CSV or .xlsx file. Raises SpecError with one line per fault of its heading."""
     path = Path(path)
     with _readable(path):
         sheet = open_sheet(path)
@@ -389,7 +389,7 @@ def _readable(path: Path) -> Iterator[None]:
 
 
 def _filled(sheet: RecordFile) -> Iterator[Record]:
-    """The records that are neither blank nor a comment."""
+    """Yield the records that are neither blank nor a comment."""
     for number, cells in sheet.records():
         if not is_comment(cells) and not all(map(is_blank, cells)):
             yield number, cells

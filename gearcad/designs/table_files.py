@@ -36,7 +36,7 @@ _LONGEST_RUN = 1 << 20
 
 
 def open_workbook(path: Path) -> Workbook:
-    """The workbook in a file whose parts and cells are of a size that can be read. Raises SpecError, OSError."""
+    """Return the workbook in a file whose parts and cells are of a size that can be read. Raises SpecError, OSError."""
     with _explained(path), zipfile.ZipFile(path) as archive:
         for part in archive.infolist():
             if part.filename.lower().endswith((".xml", ".rels")):
@@ -73,7 +73,7 @@ class Workbook:
         return Layout.WORKBOOK
 
     def records(self) -> Iterator[tuple[int, Sequence[RawCell]]]:
-        """Number and cells of every row. Raises SpecError, OSError.
+        """Yield the number and cells of every row. Raises SpecError, OSError.
 
         openpyxl gives the values of formulas or the formulas, so the file is read twice side by side: a formula that no
         spreadsheet has evaluated yet has no value, and must not pass for a blank cell.
@@ -87,7 +87,7 @@ class Workbook:
 
 
 def _raw(cell: Any, source: Any) -> RawCell:
-    """The value of a cell; `source` is the same cell with its formula, if it has one."""
+    """Return the value of a cell; `source` is the same cell with its formula, if it has one."""
     value = cell.value
     if value is None:
         # A formula whose value is the empty text is marked as a text.
@@ -159,7 +159,7 @@ class RecordFile(Protocol):
 
 
 def open_sheet(path: Path) -> RecordFile:
-    """The sheet in a file: of a workbook the one in front. Raises SpecError for what is no table, OSError."""
+    """Return the sheet in a file: of a workbook the one in front. Raises SpecError for what is no table, OSError."""
     if path.exists() and not path.is_file() and not path.is_dir():
         raise SpecError(f"{path}: must be an ordinary file: it is read more than once")
     suffix = path.suffix.lower()
@@ -270,7 +270,7 @@ def _open_text(path: Path) -> _Text:
 
 
 def _heading_line(lines: Iterator[str]) -> str:
-    """The first line that is neither blank nor a comment; a comment in quotation marks may have several lines."""
+    """Return the first line that is neither blank nor a comment; a comment in quotation marks may have several lines."""
     in_comment = False
     for line in lines:
         start = line.lstrip(" \t,;")

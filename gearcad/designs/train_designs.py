@@ -45,7 +45,8 @@ class TrainTables(NamedTuple):
 
 
 def values_of(tables: Mapping[str, Any], where: Where) -> dict[str, Given]:
-    """The values of a spec under the keys of tables, each with the key under which it is written; that of `train.name` too.
+    """Return the values of a spec under the keys of tables, each with the key under which it is written; that of `train.name`
+    too.
 
     They need not make a train. Raises SpecError for what is unknown, and for parts that no key can name.
     """
@@ -95,7 +96,7 @@ def _parts(main: Mapping[str, Any], table: str, where: Where) -> Iterator[tuple[
 
 
 def _spelt(name: Any, key: str, where: Where) -> str:
-    """A name that the heading of a column can hold."""
+    """Return a name that the heading of a column can hold."""
     if not isinstance(name, str) or not name or name != name.strip() or not name.isprintable() or name == ALL:
         permitted = f"must be a text without space around it, and not {ALL}, which stands for all, to be the name of columns"
         raise SpecError(f"{where(key)}: {shown(key)} = {format_number(name)}: {permitted}", key)
@@ -120,7 +121,7 @@ def _plain(value: Any, field: FieldSchema) -> Any:
 
 
 def names_of(keys: Iterable[str]) -> dict[str, tuple[str, ...]]:
-    """The names of the parts of each kind, in their order."""
+    """Return the names of the parts of each kind, in their order."""
     found: dict[str, dict[str, None]] = {table: {} for table in TRAIN_PARTS}
     for key in filter(None, map(TrainKey.of, keys)):
         if key.table in TRAIN_PARTS and key.name != ALL:
@@ -132,7 +133,9 @@ def names_of(keys: Iterable[str]) -> dict[str, tuple[str, ...]]:
 
 
 def tables_of(values: Mapping[str, Any], where: Where) -> TrainTables:
-    """The tables that values under their keys make. Raises SpecError for a value of all parts of a kind that is not there."""
+    """Return the tables that values under their keys make. Raises SpecError for a value of all parts of a kind that is not
+    there.
+    """
     keys = {key: TrainKey.of(key) for key in values}
     names = names_of(values)
     main: dict[str, Any] = {}
@@ -160,7 +163,7 @@ def tables_of(values: Mapping[str, Any], where: Where) -> TrainTables:
 
 
 def _typed(value: Any, field: FieldSchema) -> Any:
-    """A cell's value as a spec has it: one number of a list as such, and true and false, which spreadsheets shout."""
+    """Return a cell's value as a spec has it: one number of a list as such, and true and false, which spreadsheets shout."""
     if field.members == (bool,) and isinstance(value, str):
         return _SWITCH.get(value.lower(), value)
     return (value,) if field.several and isinstance(value, float) else value
@@ -201,7 +204,9 @@ class DesignedPair(MeshPair):
 
 
 def designed_pair(design: PairDesign) -> DesignedPair:
-    """The pair of a design with its material, mounting, bodies and rating. Raises GeometryError for double helical gears."""
+    """Return the pair of a design with its material, mounting, bodies and rating. Raises GeometryError for double helical
+    gears.
+    """
     return DesignedPair(
         design=design,
         pair=design.pair,
@@ -258,7 +263,7 @@ class _Inside:
 
 
 def _of_tables(given: Mapping[str, Any], where: _Inside, mesh: str) -> PairDesign:
-    """Keys that stand in no table of their own are those of [pair]."""
+    """Return the keys that stand in no table of their own are those of [pair]."""
     for gear in _GEARS:
         if gear not in given:
             raise SpecError(
@@ -270,7 +275,7 @@ def _of_tables(given: Mapping[str, Any], where: _Inside, mesh: str) -> PairDesig
 
 
 def plain_name(text: str) -> str:
-    """A name for files that is near to any text."""
+    """Return a name for files that is near to any text."""
     cleaned = "".join(each if each.isalnum() or each in " ._-+()" else "-" for each in text[:60]).strip(" .-")
     try:
         require_plain_name(cleaned)
@@ -342,7 +347,7 @@ class TrainDesign(Design):
         super().require_kind(*kinds, why=why)
 
     def to_dict(self) -> JsonObject:
-        """The document of `data.json`: the train and its parts, each kind under its table, and the options."""
+        """Return the document of `data.json`: the train and its parts, each kind under its table, and the options."""
         options = {
             key: value
             for key, value in asdict(self.dynamics).items()
@@ -360,7 +365,7 @@ class _Reader:
     names: Mapping[str, str]
 
     def train(self, content: Any, default_name: str) -> tuple[Train, tuple[TrainModel, ...]]:
-        """The train of [train] and its parts, and the models beside its own."""
+        """Return the train of [train] and its parts, and the models beside its own."""
         given = self._table(content, "train", (*schema_of(Train), *_LISTS))
         for plural in _LISTS.values():
             if plural in given:
@@ -380,7 +385,7 @@ class _Reader:
             return train, models[1:]
 
     def dynamics(self, content: Any, train: Train) -> DynamicsOptions:
-        """The options of [dynamics]: some are of trains only whose meshes are those of pairs."""
+        """Return the options of [dynamics]: some are of trains only whose meshes are those of pairs."""
         also = {OF_TRAINS_OF_PAIRS} if any(mesh.pair is not None for mesh in train.meshes) else set[str]()
         schema = schema_of(DynamicsOptions)
         permitted = tuple(key for key, field in schema.items() if OF_PAIRS not in field.marks or also & {*field.marks})
@@ -395,7 +400,7 @@ class _Reader:
             return DynamicsOptions(**_numbers(DynamicsOptions, chosen))
 
     def _parts(self, listed: Any, key: str) -> tuple[Any, ...]:
-        """The inertias, shafts or meshes of a train."""
+        """Return the inertias, shafts or meshes of a train."""
         if not isinstance(listed, list):
             raise SpecError(f"{self.where(f'train.{key}')}: train.{key}: must be headed [[train.{key}]], once for each")
         kind, found = TRAIN_PARTS[key], []
@@ -441,7 +446,7 @@ class _Reader:
         return {name: _number(value, whole=False) for name, value in given.items()}
 
     def _table(self, content: Any, owner: str, permitted: tuple[str, ...]) -> dict[str, Any]:
-        """The values of one table, none of them unknown."""
+        """Return the values of one table, none of them unknown."""
         if not isinstance(content, Mapping):
             raise SpecError(f"{self.where(owner)}: {owner} = {format_number(content)}: must be a table")
         for key in content:
@@ -465,7 +470,7 @@ class _Reader:
             ) from error
 
     def _written(self, owner: str, field: str) -> str:
-        """The key under which the user writes a field; what a train says of a part's field is about the part's table."""
+        """Return the key under which the user writes a field; what a train says of a part's field is about the part's table."""
         if owner in self.names:
             return f"{self.names[owner]}.{field}"
         for found in (TrainKey.of(f"{table}.{field}") for table in TRAIN_PARTS) if owner == "train" else ():
@@ -491,7 +496,7 @@ def _models(given: Any) -> tuple[TrainModel, ...]:
 
 
 def _numbers(kind: type[DataclassInstance], given: Mapping[str, Any]) -> dict[str, Any]:
-    """Values of a type's fields, with numbers as the fields have them."""
+    """Return the values of a type's fields, with numbers as the fields have them."""
     return {name: _number(value, whole=schema_of(kind)[name].whole) for name, value in given.items()}
 
 

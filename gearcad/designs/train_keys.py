@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 def _plain(kind: type[DataclassInstance], *others: str) -> dict[str, FieldSchema]:
-    """The fields of a type that are no parts, without `others`."""
+    """Return the fields of a type that are no parts, without `others`."""
     return {name: each for name, each in schema_of(kind).items() if each.part is None and name not in others}
 
 
@@ -75,7 +75,7 @@ PLANETARY["material"] |= names_of_materials(*OF_SETS)
 
 
 def explain_unknown_planetary_column(heading: str) -> str:
-    """The end of the message about a heading of a table of planetary trains that is no key."""
+    """Return the end of the message about a heading of a table of planetary trains that is no key."""
     first, dot, rest = heading.partition(".")
     near = difflib.get_close_matches(first.lower(), PLANETARY, n=1, cutoff=0.75) if dot else []
     table, field = (near[0], rest) if near else ("planetary", heading)
@@ -114,7 +114,7 @@ def _but(kind: type[DataclassInstance], *others: str) -> dict[str, FieldSchema]:
 
 
 def _flat(name: str, field: FieldSchema) -> dict[str, FieldSchema]:
-    """A field, or those of its part with a dot."""
+    """Return a field, or those of its part with a dot."""
     return {name: field} if field.part is None else {f"{name}.{key}": each for key, each in schema_of(field.part).items()}
 
 
@@ -178,7 +178,7 @@ def general_key(key: str) -> str:
 
 
 def explain_unknown_key_of_train(key: str, names: Mapping[str, tuple[str, ...]] | None = None) -> str:
-    """The end of the message about a key that no train has, or that this one with parts of these `names` has not."""
+    """Return the end of the message about a key that no train has, or that this one with parts of these `names` has not."""
     table, dot, rest = key.partition(".")
     if rest.startswith(f"{TORQUES}.") and names is not None:
         return _unknown_part("inertia", rest[len(TORQUES) + 1 :], f"{MAIN}.{TORQUES}.{{}}", names)
@@ -211,14 +211,14 @@ def _permitted(known: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _full(table: str, name: str, field: str, names: Mapping[str, tuple[str, ...]] | None) -> str:
-    """A key, that of all parts where the name is none of them."""
+    """Return a key, that of all parts where the name is none of them."""
     if table not in TRAIN_PARTS:
         return f"{table}.{field}"
     return f"{table}.{name if name and (names is None or name in names[table]) else ALL}.{field}"
 
 
 def _near(field: str, tables: Iterable[str]) -> list[tuple[str, str]]:
-    """Keys of these tables that are spelt so, or else alike, each with its table."""
+    """Return the keys of these tables that are spelt so, or else alike, each with its table."""
     known = {key: [home for home in tables if key in TRAIN[home]] for table in tables for key in TRAIN[table]}
     field = field.rpartition(".")[2].lower()
     spelt = [field] if field in known else difflib.get_close_matches(field, known, n=1)
@@ -251,7 +251,7 @@ _USUAL = tuple(table for table in COLUMNS if table not in ("gear", "rack"))
 
 
 def nearest_table(name: str) -> str | None:
-    """The table that was meant by `name`, if any."""
+    """Return the table that was meant by `name`, if any."""
     if name.lower() in TRAIN:
         return name.lower()
     near = difflib.get_close_matches(name.lower(), (*KEYS, *OF_SETS, "planetary"), n=1, cutoff=0.75)
@@ -259,7 +259,7 @@ def nearest_table(name: str) -> str | None:
 
 
 def explain_unknown_column(heading: str, main: str) -> str:
-    """The end of the message about a heading of a design table that is no key; bare keys are those of the table `main`."""
+    """Return the end of the message about a heading of a design table that is no key; bare keys are those of the table `main`."""
     if main == "train":
         return explain_unknown_key_of_train(heading)
     if main == "planetary":

@@ -192,7 +192,7 @@ class SpecValues(NamedTuple):
 
 
 def read_values(path: Path | str) -> SpecValues:
-    """The values of a spec, which need not make a design. Raises SpecError."""
+    """Return the values of a spec, which need not make a design. Raises SpecError."""
     tables, where = read_tables(path)
     kind = kind_of(tables)
     made, main = type_of(kind), MAIN_TABLES[kind][0]
@@ -214,7 +214,7 @@ def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
 
 
 def _cell(key: str, given: Given, where: Where) -> Cell:
-    """A value as a cell can hold it."""
+    """Return a value as a cell can hold it."""
     value = given.value
     if general_key(key) in LISTS and isinstance(value, list | tuple) and all(type(item) in (int, float) for item in value):
         return tuple(float(item) for item in value)
@@ -277,7 +277,7 @@ class Choices:
     values: tuple[Cell, ...]
 
     def at(self, fractions: NDArray[np.float64]) -> list[Cell]:
-        """The values at fractions 0 ... 1 of the list."""
+        """Return the values at fractions 0 ... 1 of the list."""
         return [self.values[int(fraction * len(self.values))] for fraction in fractions]
 
     def found_from(self, folder: Path) -> Choices:
@@ -296,7 +296,7 @@ class KeyRange:
     whole: bool
 
     def at(self, fractions: NDArray[np.float64]) -> list[Cell]:
-        """The values at fractions 0 ... 1 of the way from the first to the last; as likely the one as the other."""
+        """Return the values at fractions 0 ... 1 of the way from the first to the last; as likely the one as the other."""
         low, high = sorted((self.first, self.last))
         if self.whole:
             return [int(low) + int(fraction * (high - low + 1)) for fraction in fractions]
@@ -367,7 +367,7 @@ def _known_to_train(name: str, base: Collection[str]) -> str | None:
 
 
 def _key_of_train(text: str, name: str, base: Collection[str]) -> str:
-    """The key of a train; one without a table belongs to [train]."""
+    """Return the key of a train; one without a table belongs to [train]."""
     key = _known_to_train(name, base)
     if key is not None:
         return key
@@ -377,7 +377,7 @@ def _key_of_train(text: str, name: str, base: Collection[str]) -> str:
 
 
 def _full_key(text: str, name: str, kind: DesignKind) -> str:
-    """The key with its table; one without belongs to [pair] or [gear]."""
+    """Return the key with its table; one without belongs to [pair] or [gear]."""
     main = MAIN_TABLES[kind][0]
     if kind is DesignKind.PLANETARY:
         return _key_of_planetary(text, name)
@@ -395,7 +395,7 @@ def _full_key(text: str, name: str, kind: DesignKind) -> str:
 
 
 def _key_of_planetary(text: str, name: str) -> str:
-    """The key of a planetary train; one without a table belongs to [planetary]."""
+    """Return the key of a planetary train; one without a table belongs to [planetary]."""
     main = DesignKind.PLANETARY.value
     key = name if name.partition(".")[0] in PLANETARY else f"{main}.{name}"
     table, _, field = key.partition(".")
@@ -413,7 +413,7 @@ def _value(key: str, text: str) -> Cell:
 
 
 def _ends(text: str, key: str, values: str, *, counted: bool) -> tuple[float, float, str]:
-    """The two ends of a span, and the text of the count ("" where there must be none)."""
+    """Return the two ends of a span, and the text of the count ("" where there must be none)."""
     parts = [part.strip() for part in values.split(":")]
     ends = [value for part in parts[:2] if isinstance(value := _value(key, part), int | float)]
     if len(ends) < 2 or len(parts) != (3 if counted else 2):
@@ -461,7 +461,7 @@ def _require_whole(text: str, key: str, values: Sequence[Cell]) -> None:
 
 
 def without_varied(base: Mapping[str, Value], varied: Collection[str]) -> dict[str, Value]:
-    """The values of a spec that stand beside keys that vary: not those in whose place these are."""
+    """Return the values of a spec that stand beside keys that vary: not those in whose place these are."""
     return {key: value for key, value in base.items() if not _replaced(key, varied)}
 
 
@@ -506,7 +506,7 @@ class Variants:
 
 
 def read_variants(spec: Path | str, variations: Sequence[str]) -> Variants:
-    """The designs of a spec (TOML) with keys varied as texts such as "shaft.*.damping_ratio=0.01,0.1" say.
+    """Return the designs of a spec (TOML) with keys varied as texts such as "shaft.*.damping_ratio=0.01,0.1" say.
 
     A key with one value is only set. Several models of a train, and nothing else, are those of one design: a list of models.
     Raises SpecError for the spec and for what makes no design, ParameterError for a variation and for more than MOST_VARIANTS.
@@ -579,7 +579,7 @@ def _label(values: Mapping[str, Cell]) -> str:
 
 
 def _text(value: Cell) -> str:
-    """A value as a user would type it, to its last digit."""
+    """Return a value as a user would type it, to its last digit."""
     if isinstance(value, tuple):
         return " ".join(map(_text, value))
     shown = format_number(value) if isinstance(value, int | float) else value

@@ -45,7 +45,7 @@ class PlaneCurve(Protocol):
     def kind(self) -> Enum: ...
 
     def direction(self, s: ArrayLike) -> Floats:
-        """Direction of travel as an angle from +x (rad)."""
+        """Return the direction of travel as an angle from +x (rad)."""
 
     def points(self, s: ArrayLike) -> Floats:
         """Cartesian points (..., 2) in mm."""
@@ -58,7 +58,7 @@ class Curve(PlaneCurve, Protocol):
     def kind(self) -> CurveKind: ...
 
     def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
-        """Radius (mm) and half tooth angle (rad) at s."""
+        """Return the radius (mm) and half tooth angle (rad) at s."""
 
 
 class _Cartesian:
@@ -294,7 +294,7 @@ def parameter_at(curve: Curve, radius: Floats) -> Floats:
 
 
 def parameters_within(curve: PlaneCurve, chord_error: float) -> Floats:
-    """Parameters s (n,), 0 ... 1, at which a polyline stays within `chord_error` (mm) of the curve.
+    """Return the parameters s (n,), 0 ... 1, at which a polyline stays within `chord_error` (mm) of the curve.
 
     Points lie densest where the curve bends most: the local chord is sqrt(8 e / curvature).
     """

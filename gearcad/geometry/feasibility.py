@@ -161,7 +161,7 @@ def _cut_by(gear: GearData, teeth: int) -> GearData:
 
 
 def _generates(gear: GearData, teeth: int) -> bool:
-    """Whether a cutter of so many teeth generates the flanks up to the tip form circle."""
+    """Return whether a cutter of so many teeth generates the flanks up to the tip form circle."""
     if generating_involute(gear, teeth) <= 0:
         return False
     length = abs(tangent_length(gear.tip_diameter - 2 * gear.body.tip_chamfer, gear.base_diameter))

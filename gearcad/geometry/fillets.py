@@ -31,19 +31,19 @@ class FilletTool(Protocol):
     def last_angle(self) -> float: ...
 
     def cut(self, theta: ArrayLike) -> tuple[Any, Any]:
-        """Points that the tip cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
+        """Return the points that the tip cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
 
     def direction(self, theta: ArrayLike, half_pitch: float) -> NDArray[np.float64]:
-        """Direction of travel from root to tip (rad), on the flank y > 0 of a tooth on +x."""
+        """Return the direction of travel from root to tip (rad), on the flank y > 0 of a tooth on +x."""
 
     def theta_at(self, radius: ArrayLike, last: float) -> NDArray[np.float64]:
         """theta in [0, last] that cuts at a radius (mm), to machine precision."""
 
     def undercuts(self, base_radius: float, sine: float) -> bool:
-        """Whether part of the involute is cut away; base radius in mm, `sine` of the transverse pressure angle."""
+        """Return whether part of the involute is cut away; base radius in mm, `sine` of the transverse pressure angle."""
 
     def form_radius(self, base_radius: float, sine: float) -> float:
-        """Radius (mm) of the root form circle where nothing is undercut."""
+        """Return the radius (mm) of the root form circle where nothing is undercut."""
 
 
 class ProtuberanceCut(NamedTuple):
@@ -90,7 +90,7 @@ class ToolTip:
         radius: float,
         thinning: float,
     ) -> ToolTip:
-        """The tip of a tool that reaches `depth` (mm) below the reference circle with the profile shift `shift` (mm).
+        """Return the tip of a tool that reaches `depth` (mm) below the reference circle with the profile shift `shift` (mm).
 
         u_c = pi m_n/4 + t/2 - x m_n tan a_n - (e - rho) tan a_n - rho/cos a_n,  v_c = -(e - rho);  e = depth.
         """
@@ -161,13 +161,13 @@ class ToolTip:
         return xi, self.v - self.radius * np.cos(theta)
 
     def roll(self, theta: ArrayLike) -> Any:
-        """Roll angle of the gear (rad) at which the tool point theta cuts: phi = (X - xi)/r."""
+        """Return the roll angle of the gear (rad) at which the tool point theta cuts: phi = (X - xi)/r."""
         theta = np.asarray(theta, float)
         xi, eta = self.outline(theta)
         return (-eta * np.tan(theta) * math.cos(self.helix_angle) - xi) / self.reference_radius
 
     def cut(self, theta: ArrayLike) -> tuple[Any, Any]:
-        """Points that the tip arc cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
+        """Return the points that the tip arc cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
         theta = np.asarray(theta, float)
         _, eta = self.outline(theta)
         across = -eta * np.tan(theta) * math.cos(self.helix_angle)
@@ -175,17 +175,17 @@ class ToolTip:
         return np.hypot(across, along), np.arctan2(across, along) - self.roll(theta)
 
     def direction(self, theta: ArrayLike, half_pitch: float) -> NDArray[np.float64]:
-        """Direction of travel from root to tip (rad), on the flank y > 0 of a tooth on +x."""
+        """Return the direction of travel from root to tip (rad), on the flank y > 0 of a tooth on +x."""
         theta = np.asarray(theta, float)
         slope: NDArray[np.float64] = np.arctan(np.tan(theta) * math.cos(self.helix_angle))
         return half_pitch + np.asarray(self.roll(theta)) - np.pi / 2 + slope
 
     def undercuts(self, base_radius: float, sine: float) -> bool:
-        """True if the tip cuts away part of the involute: h > r sin^2 alpha_t; `sine` of the transverse pressure angle."""
+        """Return whether the tip cuts away part of the involute: h > r sin^2 alpha_t; `sine` of the transverse pressure angle."""
         return self.flank_depth > self.reference_radius * sine**2
 
     def form_radius(self, base_radius: float, sine: float) -> float:
-        """Radius (mm) of the root form circle where nothing is undercut; base radius in mm, `sine` of alpha_t."""
+        """Return the radius (mm) of the root form circle where nothing is undercut; base radius in mm, `sine` of alpha_t."""
         roll_length = self.reference_radius * sine - self.flank_depth / sine
         return math.hypot(base_radius, roll_length)
 
@@ -290,11 +290,13 @@ class ShaperTip:
         return self.tip_radius - self.radius
 
     def _corner(self, theta: Floats) -> tuple[Floats, Floats]:
-        """Points of the corner, radially and across, from the cutter's axis with the corner's middle on the radial line."""
+        """Return the points of the corner, radially and across, from the cutter's axis with the corner's middle on the radial
+        line.
+        """
         return self._middle_radius + self.radius * np.cos(theta), self.radius / self._c * np.sin(theta)
 
     def outline(self, theta: ArrayLike) -> tuple[Floats, Floats]:
-        """Points of the corner along and across the middle of the cutter's tooth, from the cutter's axis (mm)."""
+        """Return the points of the corner along and across the middle of the cutter's tooth, from the cutter's axis (mm)."""
         along, across = self._corner(np.asarray(theta, float))
         cosine, sine = math.cos(self.middle_angle), math.sin(self.middle_angle)
         return along * cosine - across * sine, along * sine + across * cosine
@@ -358,7 +360,7 @@ class ShaperTip:
         return root_between(excess, 0.0, math.pi / 2, xtol=1e-15, rtol=8.9e-16)
 
     def _root_of(self, radius: float) -> float:
-        """Roll length of the cutter's involute at a radius (mm)."""
+        """Return the roll length of the cutter's involute at a radius (mm)."""
         return math.sqrt(max((radius - self.base_radius) * (radius + self.base_radius), 0.0))
 
     @property
@@ -414,7 +416,7 @@ class ShaperTip:
         return _Contact(normal, gamma, gamma - normal.delta - self.middle_angle, rise, reach)
 
     def cut(self, theta: ArrayLike) -> tuple[Any, Any]:
-        """Points that the corner cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
+        """Return the points that the corner cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
         theta = np.asarray(theta, float)
         if not self.rolls:
             along, across = self._corner(theta)
@@ -446,7 +448,7 @@ class ShaperTip:
         return np.hypot(x, y), np.arctan2(y, x) - turn * self.share
 
     def direction(self, theta: ArrayLike, half_pitch: float) -> Floats:
-        """Direction of travel from root to tip (rad), on the flank y > 0 of a tooth on +x."""
+        """Return the direction of travel from root to tip (rad), on the flank y > 0 of a tooth on +x."""
         theta = np.asarray(theta, float)
         if not self.rolls:
             return half_pitch - (self._normal(theta).delta + self.middle_angle) - math.pi / 2
@@ -456,7 +458,7 @@ class ShaperTip:
     # ------------------------------------------------------------------ where it ends
 
     def form_radius(self, base_radius: float, sine: float) -> float:
-        """Radius (mm) of the root form circle where nothing is undercut: sqrt(r_b^2 + (a_0 sin a_w0 +- t_F0)^2).
+        """Return the radius (mm) of the root form circle where nothing is undercut: sqrt(r_b^2 + (a_0 sin a_w0 +- t_F0)^2).
 
         `base_radius` (mm) of the gear; `sine` of the transverse pressure angle is that of a rack's rolling, not needed here.
         """
@@ -468,11 +470,11 @@ class ShaperTip:
         return math.sqrt(max((self.centre_distance - bases) * (self.centre_distance + bases), 0.0))
 
     def _reach(self, base_radius: float) -> float:
-        """Roll length (mm) on the gear where the join cuts; negative where it would be beyond the base circle."""
+        """Return the roll length (mm) on the gear where the join cuts; negative where it would be beyond the base circle."""
         return self.action(base_radius) + self._side * self.join_length
 
     def undercuts(self, base_radius: float, sine: float) -> bool:
-        """Whether the corner cuts away part of an involute with this base radius (mm); that of a ring it never does."""
+        """Return whether the corner cuts away part of an involute with this base radius (mm); that of a ring it never does."""
         return not self.internal and self._reach(base_radius) < 0
 
     def theta_at(self, radius: ArrayLike, last: float) -> Floats:

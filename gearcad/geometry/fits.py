@@ -153,7 +153,7 @@ def limit_deviations(tolerance_class: str, size: float) -> LimitDeviations:
 
 
 def grade_of_class(tolerance_class: str) -> int:
-    """The grade of a class: 7 of "H7". Raises ParameterError."""
+    """Return the grade of a class: 7 of "H7". Raises ParameterError."""
     return _parted(tolerance_class)[1]
 
 
@@ -186,7 +186,7 @@ def _parted(tolerance_class: str) -> tuple[str, int]:
 
 
 def _shaft_lower(letter: str, grade: int, size: float) -> float:
-    """Lower deviation of shafts k to u: k is 0 outside of grades 4 to 7."""
+    """Return the lower deviation of shafts k to u: k is 0 outside of grades 4 to 7."""
     if letter in _INTERFERENCE:
         return float(_INTERFERENCE[letter][bisect_left(_FINE_UP_TO, size)])
     if letter == "k" and not 4 <= grade <= 7:
@@ -291,7 +291,8 @@ def require_allowance(name: object, parameter: str = "tooth_allowance") -> None:
 
 
 def tooth_thickness_allowance(name: str, reference_diameter: float, thinning: float = 0.0) -> ToothAllowance:
-    """The allowances of "cd25" and its like at a reference diameter d (mm; a ring's may be negative, as ISO 21771 has it).
+    """Return the allowances of "cd25" and its like at a reference diameter d (mm; a ring's may be negative, as ISO 21771 has
+    it).
 
     A series alone, as "25", has its tolerance with the `thinning` (mm) in the middle.
     Raises ParameterError for another name, and beyond 10,000 mm.
@@ -395,7 +396,7 @@ def backlash(
     base_helix_angle: Values,
     centre_distance: Values,
 ) -> Backlash[Values]:
-    """The working pitch less both tooth thicknesses on the working pitch circles, of gears at a centre distance."""
+    """Return the working pitch less both tooth thicknesses on the working pitch circles, of gears at a centre distance."""
     ratio = teeth.wheel / teeth.pinion
     pressure_angle = degrees(arccos((base_diameters.pinion + base_diameters.wheel) / (2 * centre_distance)))
     working = involute(pressure_angle)

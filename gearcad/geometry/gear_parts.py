@@ -48,7 +48,7 @@ class BasicRack:
         require_fields(self)
 
     def full_root_radius(self, dedendum: float | None = None, thinning: float = 0.0) -> float:
-        """Largest root radius (in normal modules), see `full_root_radius`.
+        """Return the largest root radius (in normal modules), see `full_root_radius`.
 
         `dedendum` replaces the rack's own where a root diameter is prescribed.
         """
@@ -56,7 +56,7 @@ class BasicRack:
 
 
 def full_root_radius(pressure_angle: float, dedendum: Values, thinning: Values) -> Values:
-    """Largest root radius (in normal modules): the arc that touches both flanks and the bottom of the rack's space.
+    """Return the largest root radius (in normal modules): the arc that touches both flanks and the bottom of the rack's space.
 
     rho = (pi/4 + t/2 - h_fP tan a) cos a / (1 - sin a), with the tooth thinning t in normal modules (the tool's
     tooth is thicker by as much). Negative where the tool's flanks meet before its tip: no such tool exists.

@@ -73,7 +73,7 @@ class Inspection:
         return (teeth - 1) * self._normal_base_pitch + cosine * across
 
     def span_contact_diameter(self, teeth: int) -> float:
-        """Diameter on which the anvils touch: d_y^2 = d_b^2 + (W_k cos beta_b)^2, the anvils placed symmetrically."""
+        """Return the diameter on which the anvils touch: d_y^2 = d_b^2 + (W_k cos beta_b)^2, the anvils placed symmetrically."""
         reach = self.span_measurement(teeth) * math.cos(math.radians(self.base_helix_angle))
         return math.hypot(self.base_diameter, reach)
 
@@ -93,7 +93,9 @@ class Inspection:
         return math.pi / self.teeth - math.radians(self.base_half_angle)
 
     def _ball_circle(self, ball: float) -> float:
-        """Diameter d_K on which the ball's centre lies: inv alpha_Kt = inv alpha_t + D/(d_b cos beta_b) - space half angle."""
+        """Return the diameter d_K on which the ball's centre lies: inv alpha_Kt = inv alpha_t + D/(d_b cos beta_b) - space half
+        angle.
+        """
         require_number("ball_diameter", ball, "mm", above=0)
         half_space = math.pi / self.teeth - self.normal_tooth_thickness / (self.normal_module * self.teeth)
         reach = ball / (self.base_diameter * math.cos(math.radians(self.base_helix_angle)))
@@ -135,7 +137,9 @@ class Inspection:
         return math.ceil(steps)
 
     def _touching(self, wanted: float) -> float:
-        """Pressure angle (rad) where the ball touches: the one wanted, or less where the centre would be too far out."""
+        """Return the pressure angle (rad) where the ball touches: the one wanted, or less where the centre would be too far
+        out.
+        """
         farthest = max(_FARTHEST_CENTRE, (wanted + math.pi / 2) / 2)
         return min(wanted, math.atan(farthest - self._space_at_base))
 
@@ -147,7 +151,8 @@ class Inspection:
         return touching, min(touching + space, math.pi / 2 - 1e-9)
 
     def ball_contact_diameter(self, ball: float) -> float:
-        """Diameter on which a ball of diameter `ball` touches the flanks: tan alpha_y = tan alpha_K - D cos beta_b/d_b.
+        """Return the diameter on which a ball of diameter `ball` touches the flanks: tan alpha_y = tan alpha_K - D cos
+        beta_b/d_b.
 
         The base circle for a ball so large that it would have to touch beyond it.
         """
@@ -156,7 +161,7 @@ class Inspection:
         return self.base_diameter * math.hypot(1.0, max(tangent, 0.0))
 
     def over_balls(self, ball: float) -> float:
-        """Dimension over two balls of diameter `ball` in opposite spaces, both centres in one transverse plane.
+        """Return the dimension over two balls of diameter `ball` in opposite spaces, both centres in one transverse plane.
 
         M = d_K + D for an even number of teeth, d_K cos(pi/(2 z)) + D for an odd one. Raises GeometryError for a ball so
         small that it drops to the base circle.
@@ -165,11 +170,11 @@ class Inspection:
         return circle * (math.cos(math.pi / (2 * self.teeth)) if self.teeth % 2 else 1.0) + ball
 
     def between_balls(self, ball: float) -> float:
-        """Dimension between two balls in opposite spaces of a ring. Raises GeometryError for an external gear."""
+        """Return the dimension between two balls in opposite spaces of a ring. Raises GeometryError for an external gear."""
         raise GeometryError("teeth", self.teeth, "must be below 0: an external gear is measured over balls, not between them")
 
     def over_pins(self, pin: float) -> float:
-        """Dimension over two pins of diameter `pin` between parallel planes.
+        """Return the dimension over two pins of diameter `pin` between parallel planes.
 
         As over balls, but on a helical gear with an odd number of teeth the pins roll along their spaces until they lie
         diametrically opposite, `pin_axial_shift` apart along the axis: M = d_K + D there.
@@ -202,7 +207,7 @@ class Inspection:
     # ------------------------------------------------------------------ what to know before measuring
 
     def _touches_root(self, ball: float, root: float) -> bool:
-        """Whether a ball that touches both flanks would reach beyond the root circle of diameter `root` (mm)."""
+        """Return whether a ball that touches both flanks would reach beyond the root circle of diameter `root` (mm)."""
         inwards = 1 if self.teeth > 0 else -1
         return inwards * (abs(self._ball_circle(ball)) - inwards * ball - abs(root)) < 0
 
@@ -259,7 +264,7 @@ class InternalInspection(Inspection):
         return (spaces - 1) * self._normal_base_pitch + cosine * across
 
     def span_contact_diameter(self, spaces: int) -> float:
-        """Diameter (negative) on which the anvils touch, placed symmetrically: d_y^2 = d_b^2 + W_k^2."""
+        """Return the diameter (negative) on which the anvils touch, placed symmetrically: d_y^2 = d_b^2 + W_k^2."""
         return -math.hypot(self.base_diameter, self.span_measurement(spaces))
 
     @cached_property
@@ -274,7 +279,7 @@ class InternalInspection(Inspection):
         return math.floor(steps)
 
     def _touching(self, wanted: float) -> float:
-        """Pressure angle (rad) where the ball touches: the one wanted, or more where the centre would be too far in."""
+        """Return the pressure angle (rad) where the ball touches: the one wanted, or more where the centre would be too far in."""
         nearest = min(_NEAREST_CENTRE, wanted / 2)
         return max(wanted, math.atan(nearest - self._space_at_base))
 
@@ -294,7 +299,7 @@ class InternalInspection(Inspection):
         raise GeometryError("teeth", self.teeth, "must be above 0: a ring is measured between balls, not over them")
 
     def between_balls(self, ball: float) -> float:
-        """Dimension between two balls of diameter `ball` in opposite spaces, both centres in one transverse plane.
+        """Return the dimension between two balls of diameter `ball` in opposite spaces, both centres in one transverse plane.
 
         M = |d_K| - D for an even number of teeth, |d_K| cos(pi/(2 z)) - D for an odd one. Raises GeometryError for a ball so
         large that its centre would be inside the base circle.
@@ -307,7 +312,7 @@ class InternalInspection(Inspection):
         raise GeometryError("teeth", self.teeth, "must be above 0: a ring is measured between pins, not over them")
 
     def between_pins(self, pin: float) -> float:
-        """Dimension between two pins of diameter `pin` in a spur ring, as between balls.
+        """Return the dimension between two pins of diameter `pin` in a spur ring, as between balls.
 
         Raises GeometryError for a helical ring: a straight pin touches its hollow flanks at the pin's ends.
         """
@@ -409,7 +414,8 @@ class Chord(NamedTuple):
 
 
 def chord_below_tip(teeth: Inspection, addendum: float, height: float) -> Chord:
-    """The chord of a tooth of an external gear at a height below its tip circle, `addendum` over the reference circle (mm).
+    """Return the chord of a tooth of an external gear at a height below its tip circle, `addendum` over the reference circle
+    (mm).
 
     Taken on the virtual gear of z_v = z/cos^3 beta teeth, as the chordal thickness is: there d_y = d_b/cos alpha_y,
     psi_y = psi + inv alpha_n - inv alpha_y, s = d_y sin psi_y and h = r_a - d_y cos(psi_y)/2. Raises GeometryError for a height
@@ -424,7 +430,7 @@ def chord_below_tip(teeth: Inspection, addendum: float, height: float) -> Chord:
     base, tip = reference * math.cos(angle), reference / 2 + addendum
 
     def place(here: float) -> tuple[float, float]:
-        """Diameter and half tooth angle (rad) where the pressure angle is `here` (rad)."""
+        """Return the diameter and half tooth angle (rad) where the pressure angle is `here` (rad)."""
         return base / math.cos(here), at_base - math.tan(here) + here
 
     def too_deep(here: float) -> float:

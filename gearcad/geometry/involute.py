@@ -34,13 +34,14 @@ def involute(angle: ArrayLike) -> Any:
 
 
 def involute_at_roll(roll: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The involute where the roll angle is `roll` (rad): that is tan(alpha), so inv(alpha) = roll - atan(roll)."""
+    """Return the involute where the roll angle is `roll` (rad): that is tan(alpha), so inv(alpha) = roll - atan(roll)."""
     result: NDArray[np.float64] = roll - np.arctan(roll)
     return result
 
 
 def tangent_length(diameter: Values, base_diameter: Values) -> Values:
-    """Length of the base tangent out to a circle, the radius of curvature of the involute there; 0 inside the base circle.
+    """Return the length of the base tangent out to a circle, the radius of curvature of the involute there; 0 inside the base
+    circle.
 
     All in mm, signed like the diameters: negative on an internal gear.
     """
@@ -51,7 +52,7 @@ def tangent_length(diameter: Values, base_diameter: Values) -> Values:
 def base_half_angle(
     teeth: Values, normal_thickness: Values, normal_module: Values, transverse_pressure_angle: Values
 ) -> Values:
-    """Half tooth angle on the base circle in degrees: s_n/(m_n z) + inv alpha_t (ISO 21771)."""
+    """Return half tooth angle on the base circle in degrees: s_n/(m_n z) + inv alpha_t (ISO 21771)."""
     return degrees(normal_thickness / (normal_module * teeth) + involute(transverse_pressure_angle))
 
 
@@ -60,7 +61,7 @@ def inverse_involute(value: float) -> float: ...
 @overload
 def inverse_involute(value: ArrayLike) -> NDArray[np.float64]: ...
 def inverse_involute(value: ArrayLike) -> Any:
-    """Pressure angle in degrees whose involute is `value` (dimensionless, >= 0), to machine precision.
+    """Return the pressure angle in degrees whose involute is `value` (dimensionless, >= 0), to machine precision.
 
     Newton on t - atan t = value for t = tan alpha: convex, so every step after the first approaches from above.
     Scalar or array. Raises ParameterError for a negative value.
@@ -102,7 +103,7 @@ _MOST_STEPS = 80
 def where_root_is(
     goal: Floats, last: float, root_of: Callable[[Floats], tuple[Floats, Floats]], *, resolution: float = 4e-16
 ) -> Floats:
-    """Places in [0, last] where sqrt(F) is `goal` (n,), F rising from 0 at 0 with the square of the place.
+    """Return the places in [0, last] where sqrt(F) is `goal` (n,), F rising from 0 at 0 with the square of the place.
 
     `root_of` gives sqrt(F) and F'/2 at places. Newton's rule is on sqrt(F), which is nearly linear; it ends with a step of no
     more than `resolution` of `last`.
@@ -171,7 +172,7 @@ def root_between(
 
 
 def _interpolated(before: float, here: float, other: float, f_before: float, f_here: float, f_other: float) -> float:
-    """The step from `here` to where a line through two places, or an inverse parabola through three, is 0."""
+    """Return the step from `here` to where a line through two places, or an inverse parabola through three, is 0."""
     if before == other:
         return -f_here * (here - before) / (f_here - f_before)
     rise, fall = (f_before - f_here) / (before - here), (f_other - f_here) / (other - here)

@@ -45,7 +45,7 @@ rim.
 
 
 def internal_tips(pair: PairData, ring: ToothProfile | None = None) -> InternalTips:
-    """The tips of both gears, or of another ring at their centre distance."""
+    """Return the tips of both gears, or of another ring at their centre distance."""
     mate = ToothTips.of(pair.wheel.profile if ring is None else ring)
     return InternalTips(ToothTips.of(pair.pinion.profile), mate, -pair.centre_distance)
 
@@ -110,7 +110,9 @@ def _trochoid_interference(pair: PairData, depth: float) -> GeometryError:
 
 
 def _shorter_tip(pair: PairData, margin: Callable[[InternalTips], float]) -> str | None:
-    """The longest tip of the ring (its diameter in mm, as text) whose margin is not negative, flanks in contact all along."""
+    """Return the longest tip of the ring (its diameter in mm, as text) whose margin is not negative, flanks in contact all
+    along.
+    """
     profile, tips = pair.wheel.profile, internal_tips(pair)
     pitch = min(pair.pinion.transverse_base_pitch, tips.last - tips.first)
     reach = tips.tangent + tips.last - pitch
@@ -133,7 +135,7 @@ def _shorter_tip(pair: PairData, margin: Callable[[InternalTips], float]) -> str
 
 
 def _more_teeth(pair: PairData, margin: Callable[[InternalTips], float]) -> int | None:
-    """The nearest number of teeth of the ring, negative, whose margin is not; None where it could not be changed alone."""
+    """Return the nearest number of teeth of the ring, negative, whose margin is not; None where it could not be changed alone."""
     if is_given(pair.centre_distance) or is_given(pair.wheel.tip_diameter):
         return None
     clear = _is_clear(pair)
@@ -167,7 +169,7 @@ def _sharp_tips(pair: PairData, teeth: int, tip_alteration: float) -> InternalTi
 
 
 def _distance_with(pair: PairData, teeth: int) -> float:
-    """The centre distance (mm, negative) without backlash for another number of teeth of the ring."""
+    """Return the centre distance (mm, negative) without backlash for another number of teeth of the ring."""
     return zero_backlash_centre_distance(
         normal_module=pair.wheel.normal_module,
         teeth=PerGear(pair.pinion.teeth, -teeth),
@@ -178,7 +180,9 @@ def _distance_with(pair: PairData, teeth: int) -> float:
 
 
 def _is_clear(pair: PairData) -> bool:
-    """Whether the ring's tip was drawn in just to stay off the pinion's fillet ("clear" in a spec): it follows the teeth."""
+    """Return whether the ring's tip was drawn in just to stay off the pinion's fillet ("clear" in a spec): it follows the
+    teeth.
+    """
     if pair.wheel.tip_alteration >= 0 or (clear := clear_tip_diameter(pair)) is None:
         return False
     return abs(clear - pair.wheel.tip_diameter) <= _TIP_CLEARANCE * pair.wheel.normal_module
@@ -221,7 +225,7 @@ def interference_notices(pair: PairData) -> Iterator[Notice]:
 
 
 def _fillet_margin(pair: PairData, role: Role) -> float:
-    """Roll length (mm) from the root form circle of a gear to the end of its mate's tip."""
+    """Return the roll length (mm) from the root form circle of a gear to the end of its mate's tip."""
     margins = interference_margins(pair)
     return margins.pinion_fillet if role is Role.PINION else margins.wheel_fillet
 
@@ -243,7 +247,7 @@ def _fillet_text(pair: PairData, role: Role, cut: FilletCut) -> str:
 
 
 def _clearing(pair: PairData, role: Role) -> str:
-    """The tip of a gear that clears its mate's fillet, for the end of a message."""
+    """Return the tip of a gear that clears its mate's fillet, for the end of a message."""
     limit = clear_tip_diameter(pair, role)
     return (
         ""
@@ -265,7 +269,8 @@ def _radial_text(pair: PairData, depth: float) -> str:
 
 
 def clear_tip_diameter(pair: PairData, role: Role = Role.WHEEL) -> float | None:
-    """The largest tip diameter (mm; negative of a ring) with which a gear stays off its mate's fillet; None where none does.
+    """Return the largest tip diameter (mm; negative of a ring) with which a gear stays off its mate's fillet; None where none
+    does.
 
     Its flank ends on the mate's root form circle, or before, where its edge would still cut the fillet.
     """
@@ -480,7 +485,7 @@ def _check_path(pair: PairData) -> None:
 
 
 def _nearest_to_ring(pair: PairData) -> float:
-    """Centre distance (mm, negative) in a ring at which the path of contact vanishes; infinite where it never does."""
+    """Return the centre distance (mm, negative) in a ring at which the path of contact vanishes; infinite where it never does."""
     reach = sum(tangent_length(gear.tip_form_diameter, gear.base_diameter) for gear in pair.gears)
     bases = sum(gear.base_diameter for gear in pair.gears) / 2
     return -math.hypot(bases, reach) if reach < 0 else math.inf

@@ -183,7 +183,7 @@ class FlankModification:
         return any((self.lead_crowning, self.end_relief, self.helix_angle_modification, self.twist))
 
     def to_dict(self) -> JsonObject:
-        """All fields, shapes as words."""
+        """Return all fields, shapes as words."""
         values = {each.name: getattr(self, each.name) for each in fields(self)}
         return {name: value.value if isinstance(value, ReliefShape) else value for name, value in values.items()}
 
@@ -253,7 +253,7 @@ class FlankForm:
         return amount / 1000
 
     def turn(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
-        """Angle (rad), counter-clockwise, by which the flank's points are turned: depth/r_b, in its shape.
+        """Return the angle (rad), counter-clockwise, by which the flank's points are turned: depth/r_b, in its shape.
 
         Taking material off turns the left flank clockwise and the right one counter-clockwise. The left one is that with
         y > 0 of a tooth on +x.
@@ -358,7 +358,7 @@ def check_flanks(form: FlankForm, profile: ToothProfile) -> None:
 
 
 def _inside(places: list[float], first: float, last: float) -> tuple[float, ...]:
-    """The places between both ends, in order; those that are one for a solid count once."""
+    """Return the places between both ends, in order; those that are one for a solid count once."""
     slack = max(_ONE, 1e-9 * (last - first))
     ordered = sorted(place for place in places if first + slack < place < last - slack)
     return tuple(ordered[:1]) + tuple(after for before, after in pairwise(ordered) if after - before > slack)

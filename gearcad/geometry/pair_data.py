@@ -87,7 +87,7 @@ def profile_shift_sum(
 def zero_backlash_centre_distance(
     *, normal_module: float, teeth: PerGear[int], helix_angle: float, pressure_angle: float, shift_sum: float
 ) -> float:
-    """Centre distance (mm) at which teeth with this shift sum mesh without backlash; angles in degrees (ISO 21771).
+    """Return the centre distance (mm) at which teeth with this shift sum mesh without backlash; angles in degrees (ISO 21771).
 
     a = a_d cos alpha_t/cos alpha_wt, see `working_involute`. Raises GeometryError for a sum so far off that there is none.
     """
@@ -114,7 +114,7 @@ def _beyond(limit: float, teeth: PerGear[int]) -> str:
 def specific_sliding(
     *, teeth: PerGear[int], base_radii: PerGear[float], tip_radii: PerGear[float], centre_distance: float
 ) -> PerGear[float]:
-    """Largest specific sliding at the roots of pinion (in A) and wheel (in E); radii and distance in mm.
+    """Return the largest specific sliding at the roots of pinion (in A) and wheel (in E); radii and distance in mm.
 
     zeta = 1 - (z_own/z_mate) (rho_mate/rho_own). Minus infinity where a tip reaches the base tangent point.
     """
@@ -170,7 +170,7 @@ def split_profile_shift(
 
 
 def farthest_centre_distance(base_diameters: PerGear[float], tip_diameters: PerGear[float]) -> float:
-    """Centre distance (mm) at which the path of contact vanishes: both tip form circles meet on the line of action."""
+    """Return the centre distance (mm) at which the path of contact vanishes: both tip form circles meet on the line of action."""
     tangents = PerGear.each(lambda role: tangent_length(tip_diameters.pick(role), base_diameters.pick(role)))
     return math.hypot(sum(base_diameters) / 2, sum(tangents))
 
@@ -308,7 +308,7 @@ class PairData(PairSizes[float], MatedPair):
         return self.zero_backlash_shift_sum + self.thinning_as_shift
 
     def centre_distance_for(self, shift_sum: float) -> float:
-        """The one at which these gears would mesh without backlash if x_1 + x_2 were `shift_sum` (no thinning)."""
+        """Return the one at which these gears would mesh without backlash if x_1 + x_2 were `shift_sum` (no thinning)."""
         return zero_backlash_centre_distance(**self._sizes, shift_sum=shift_sum)
 
     @property

@@ -57,7 +57,9 @@ class BaseTangent(Generic[Values]):
         return PathOfContact(start, end - self.pitch, middle, start + self.pitch, end)
 
     def lowest(self, path: PathOfContact[Values]) -> PerGear[Values]:
-        """Lengths of the base tangent out to the lowest points that the mate's tip reaches; beyond the base circle negative."""
+        """Return the lengths of the base tangent out to the lowest points that the mate's tip reaches; beyond the base circle
+        negative.
+        """
         return PerGear(path.A, self.length - path.E)
 
     def usable(self, path: PathOfContact[Values], form_diameters: PerGear[Values]) -> tuple[Values, Values]:
@@ -171,7 +173,7 @@ class ContactZone:
         return float(total) if np.ndim(total) == 0 else total
 
     def _length(self, travel: Floats) -> Floats:
-        """Length (mm) of the lines in one rectangle where one of them is at `travel` (mm) on the line of action."""
+        """Return the length (mm) of the lines in one rectangle where one of them is at `travel` (mm) on the line of action."""
         path, pitch, reach = self.path, self.pitch, self._reach
         most = math.ceil((path.E - path.A + reach) / pitch) + 1
         middle = path.A + np.mod(travel - path.A, pitch)

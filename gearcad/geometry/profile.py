@@ -125,7 +125,7 @@ class ToothProfile:
             raise GeometryError(key, height, "must be more: the ramp leaves no tip land", "mm")
 
     def _widest_chamfer(self, deepest: float) -> str:
-        """The largest tip chamfer (mm, as text) that leaves a land on the tip."""
+        """Return the largest tip chamfer (mm, as text) that leaves a land on the tip."""
 
         def land(chamfer: float) -> float:
             return self.tip_diameter * float(self._chamfer_of(chamfer).polar(1.0)[1]) - 2 * LEAST_LAND
@@ -324,7 +324,7 @@ class ToothProfile:
         return float(degrees) if degrees.ndim == 0 else degrees
 
     def points(self, chord_error: float = 0.001) -> Floats:
-        """Outline of tooth 0, counter-clockwise from space to space: (n, 2) in mm, within `chord_error` (mm).
+        """Return the outline of tooth 0, counter-clockwise from space to space: (n, 2) in mm, within `chord_error` (mm).
 
         The first and last points are the middles of the two neighbouring spaces.
         """
@@ -336,7 +336,7 @@ class ToothProfile:
         return np.concatenate([left[:-1] * [1, -1], left[::-1]])
 
     def contour(self, chord_error: float = 0.001) -> Floats:
-        """Outline of the whole gear, counter-clockwise: (n, 2) in mm, not repeating the first point."""
+        """Return the outline of the whole gear, counter-clockwise: (n, 2) in mm, not repeating the first point."""
         tooth = self.points(chord_error)[:-1]
         angle = 2 * math.pi / self.teeth * np.arange(self.teeth)[:, None]
         cosine, sine = np.cos(angle), np.sin(angle)

@@ -256,14 +256,15 @@ class RackProfile:
         return (*curves, Straight(RackCurveKind.TIP, top, (0.0, tip)))
 
     def half_thickness_on_flank(self, height: float) -> float:
-        """Half the transverse tooth thickness (mm) at a height (mm) if the flank went on to there."""
+        """Return half the transverse tooth thickness (mm) at a height (mm) if the flank went on to there."""
         return float(self._on_flank(height))
 
     def _on_flank(self, height: ArrayLike) -> Floats:
         return self.normal_thickness / 2 * self.stretch - np.asarray(height, float) * self.slope
 
     def half_thickness(self, height: ArrayLike) -> Any:
-        """Half the transverse tooth thickness (mm) at a height over the reference line (mm, root to tip), scalar or array.
+        """Return half the transverse tooth thickness (mm) at a height over the reference line (mm, root to tip), scalar or
+        array.
 
         Raises ParameterError for heights outside root ... tip.
         """
@@ -358,7 +359,7 @@ _MOST_SHOWN = 12
 
 
 def rack_html(rack: RackData, profile: RackProfile) -> str:
-    """A picture of the rack, and a table."""
+    """Return a picture of the rack, and a table."""
     view = (0.0, -rack.tip_height, rack.length, rack.total_height)
     picture = drawing(view, lambda pixel: _outline(rack, profile, (0.0, rack.length), None, pixel))
     return sheet(rack.name, picture, [], _rows(rack))
@@ -372,7 +373,7 @@ def rack_pair_html(
     pose: RackPose,
     figures: Iterable[tuple[symbols.Symbol, float]],
 ) -> str:
-    """A picture of both in mesh, the rack at its pose as far as it is near, and a table of the rack and the pair."""
+    """Return a picture of both in mesh, the rack at its pose as far as it is near, and a table of the rack and the pair."""
     reach = _MOST_SHOWN * profile.pitch
     near = max(0.0, -pose.y - reach), min(rack.length, -pose.y + reach)
     tip = pinion.tip_diameter / 2
@@ -394,7 +395,7 @@ def _rows(rack: RackData) -> list[tuple[symbols.Symbol, list[float | None]]]:
 
 
 def _outline(rack: RackData, profile: RackProfile, near: tuple[float, float], pose: RackPose | None, pixel: float) -> str:
-    """The section at z = 0 of the pinion, or of a rack by itself, between two places along it (mm)."""
+    """Return the section at z = 0 of the pinion, or of a rack by itself, between two places along it (mm)."""
     first, last = (int(place // profile.pitch) for place in near)
     middles = (np.arange(first - 1, last + 2) + 0.5) * profile.pitch
     tooth = _tooth(profile, CHORD_ERROR * pixel)
@@ -411,7 +412,7 @@ def _outline(rack: RackData, profile: RackProfile, near: tuple[float, float], po
 
 
 def _tooth(profile: RackProfile, chord_error: float) -> Floats:
-    """Points (n, 2) of a tooth from space to space, without the last one."""
+    """Return the points (n, 2) of a tooth from space to space, without the last one."""
     half = np.concatenate([curve.points(parameters_within(curve, chord_error))[:-1] for curve in profile.curves])
     return np.concatenate([half, [[0.0, profile.tip_height]], half[:0:-1] * [-1, 1]])
 
@@ -505,7 +506,7 @@ class Rack(RackData):
         return rack_html(self, self.profile)
 
     def to_dict(self) -> JsonObject:
-        """Inputs and derived properties under their field names, for JSON."""
+        """Return the inputs and derived properties under their field names, for JSON."""
         inputs = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "rack"}
         rack = {f.name: getattr(self.rack, f.name) for f in fields(self.rack)}
         warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}

@@ -130,15 +130,15 @@ class RackPairData(MatedPair):
         return self.travel_per_revolution / 360
 
     def rack_force(self, torque: float) -> float:
-        """Force (N) on the rack along its length for a torque on the pinion (N·m), without losses: 2000 T/d."""
+        """Return the force (N) on the rack along its length for a torque on the pinion (N·m), without losses: 2000 T/d."""
         return 2000 * torque / self.pinion.reference_diameter
 
     def torque_for(self, force: float) -> float:
-        """Torque on the pinion (N·m) for a force along the rack (N), without losses."""
+        """Return the torque on the pinion (N·m) for a force along the rack (N), without losses."""
         return force * self.pinion.reference_diameter / 2000
 
     def rack_speed(self, speed: float) -> float:
-        """Speed of the rack (m/s), which is that of the pitch line, for a speed of the pinion (rpm)."""
+        """Return the speed of the rack (m/s), which is that of the pitch line, for a speed of the pinion (rpm)."""
         return self.travel_per_revolution * speed / 60_000
 
 
@@ -189,7 +189,9 @@ def check_rack_mesh(pair: RackPairData) -> None:
 
 
 def _farthest(pair: RackPairData) -> float:
-    """The mounting distance at which the path of contact vanishes: the rack's tip form line through the path's last point."""
+    """Return the mounting distance at which the path of contact vanishes: the rack's tip form line through the path's last
+    point.
+    """
     pinion, sine = pair.pinion, math.sin(math.radians(pair.pinion.transverse_pressure_angle))
     last = tangent_length(pinion.tip_form_diameter, pinion.base_diameter)
     return pair.pitch_radius * (1 - sine**2) + last * sine + pair.rack.tip_form_height
@@ -271,7 +273,7 @@ def cut_by_pinion(pinion: ToothProfile, rack: RackProfile, place: RackPlace) -> 
 
 
 def _rack_edges(rack: RackProfile) -> list[tuple[float, float]]:
-    """Height and half thickness (mm) at the ends of the flank and of the tip land."""
+    """Return the height and half thickness (mm) at the ends of the flank and of the tip land."""
     end, tip = rack.tip_height - rack.tip_chamfer, rack.tip_height
     return sorted({(end, rack.half_thickness_on_flank(end)), (tip, rack.half_thickness(tip))})
 

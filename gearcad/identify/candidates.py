@@ -130,7 +130,7 @@ def on_involute(gear: Gear, place: Reading) -> bool:
 
 
 def _gear(measured: Measured, fit: FittedHypothesis) -> Gear | None:
-    """The gear of a fit, its numbers rounded, with the largest root radius up to its rack's that can be made."""
+    """Return the gear of a fit, its numbers rounded, with the largest root radius up to its rack's that can be made."""
     values, rack, size = fit.unknowns, fit.ways.racks[fit.best], fit.hypothesis.size
     sign = -1 if measured.left_hand else 1
     dedendum = round(float(values[Unknown.DEDENDUM]), _DIGITS)

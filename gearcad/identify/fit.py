@@ -113,7 +113,7 @@ def _over_flanks(inspection: Inspection, addendum: float, place: Reading) -> flo
 
 
 def _of_mate(measured: Measured, gauge: Gauge, unknowns: Floats) -> float:
-    """The centre distance without backlash, thinning apart; the tip circle of a mate whose tips stand as high."""
+    """Return the centre distance without backlash, thinning apart; the tip circle of a mate whose tips stand as high."""
     assert measured.mate_teeth is not None
     if gauge is Gauge.MATE_TIP_DIAMETER:
         of_mate = unknowns.copy()
@@ -132,7 +132,7 @@ def _of_mate(measured: Measured, gauge: Gauge, unknowns: Floats) -> float:
 def sensitivity(
     measured: Measured, places: Sequence[Reading], unknowns: Floats, varied: Sequence[int]
 ) -> tuple[Floats, Floats]:
-    """Readings (n,) and their derivatives (n, unknowns), 0 by those that are not `varied`."""
+    """Return the readings (n,) and their derivatives (n, unknowns), 0 by those that are not `varied`."""
     here = read_off(measured, places, unknowns)
     slopes = np.zeros((len(places), UNKNOWNS))
     for each in varied:
@@ -221,7 +221,7 @@ class FittedHypothesis:
 
 
 def fitted(measured: Measured, hypothesis: Hypothesis, start: Floats, steps: int = _MOST_STEPS) -> FittedHypothesis | None:
-    """The fit of a hypothesis from first values of the unknowns (u,); None where no such gear has these readings."""
+    """Return the fit of a hypothesis from first values of the unknowns (u,); None where no such gear has these readings."""
     made = ways(hypothesis, measured.mate_teeth is not None)
     read = np.array([abs(each.value) for each in measured.readings])
     noise = np.diag([each.uncertainty**2 for each in measured.readings])
@@ -263,7 +263,9 @@ def _retreat(measured: Measured, unknowns: Floats, before: Floats | None) -> Flo
 def _step(
     hypothesis: Hypothesis, made: Ways, unknowns: Floats, off: Floats, slopes: Floats, noise: Floats, way: int | None
 ) -> FittedHypothesis:
-    """The least of the sum of squares for readings that are linear in the unknowns, by every way; the best if none is set."""
+    """Return the least of the sum of squares for readings that are linear in the unknowns, by every way; the best if none is
+    set.
+    """
     bent = slopes @ made.roots
     variance = noise + bent @ bent.transpose(0, 2, 1)
     miss = off - (made.means - unknowns) @ slopes.T

@@ -127,7 +127,7 @@ def _start(measured: Measured, hypothesis: Hypothesis) -> Floats:
 
 
 def _first_shift(measured: Measured, start: Floats) -> float:
-    """The shift that brings a tip or root circle to its place: none of the gauges is far from its reading then."""
+    """Return the shift that brings a tip or root circle to its place: none of the gauges is far from its reading then."""
     known = next((each for each in measured.readings if each.gauge in _CIRCLES), None)
     if known is None:
         return 0.0
@@ -210,7 +210,7 @@ class Further(NamedTuple):
 
 
 def further(measured: Measured, rivals: Sequence[Candidate], uncertainty: float) -> Further:
-    """The measurements that tell the first of these apart from all the others best."""
+    """Return the measurements that tell the first of these apart from all the others best."""
     rivals = rivals[:_RIVALS]
     known = {each.place for each in measured.readings}
     places = {place.place: place for place in _places(measured, rivals, uncertainty) if place.place not in known}
@@ -233,7 +233,7 @@ def _separation(each: Deciding, rivals: Sequence[Candidate]) -> float:
 
 
 def _alike(found: Sequence[Deciding], number: int) -> bool:
-    """Whether a candidate differs from the first by less than an uncertainty wherever a gauge touches flanks of both."""
+    """Return whether a candidate differs from the first by less than an uncertainty wherever a gauge touches flanks of both."""
     flanks = [each for each in found if each.place.gauge not in _OFF_FLANKS]
     return len(flanks) > 1 and all(abs(each.predicted[number] - each.predicted[0]) < each.place.uncertainty for each in flanks)
 
@@ -292,7 +292,7 @@ _USUAL_UNCERTAINTY = 0.02
 
 
 def identify_gear(measured: Measured, count: int = 10) -> Identification:
-    """The gears that readings may be of, at most `count`, the most probable first.
+    """Return the gears that readings may be of, at most `count`, the most probable first.
 
     Raises GeometryError where no gear of any size comes near them.
     """

@@ -92,7 +92,7 @@ def _require_body(name: str, gear: Gear) -> None:
 
 
 def given_speeds(design: PlanetaryDesign) -> dict[str, float]:
-    """The speeds (rpm) of a train that its design has."""
+    """Return the speeds (rpm) of a train that its design has."""
     of_load = {design.train.input: design.load.speed} if design.load is not None and design.load.speed else {}
     return {**design.speeds, **of_load}
 
@@ -165,7 +165,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         return result.notices
 
     def files(self, result: ToothedDesign) -> dict[str, Writer]:
-        """Every file of the design, quickest first."""
+        """Return every file of the design, quickest first."""
         found = Data().files(result)
         parts, assembly = self._products(result)
         for kind in reversed(Format):

@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 
 
 def drawn_gears(design: ToothedDesign) -> tuple[DrawnGear, ...]:
-    """Each gear or rack of a design, with those it engages with; of those of a train that are alike in all the first."""
+    """Return each gear or rack of a design, with those it engages with; of those of a train that are alike in all the first."""
     if isinstance(design, RackDesign):
         return (DrawnGear(role="rack", gear=design.rack, material=design.material),)
     if isinstance(design, GearDesign):
@@ -98,7 +98,7 @@ def _of_train(design: PlanetaryDesign) -> Iterator[DrawnGear]:
 
 
 def _gears_of_train(design: PlanetaryDesign) -> Iterator[DrawnGear]:
-    """All of them, by the names of members, rims, and gears of stages."""
+    """Yield all of them, by the names of members, rims, and gears of stages."""
     mates: dict[str, tuple[Mate, ...]] = {}
     meshes = [(mesh.pair, (mesh.central.name, mesh.rim.name)) for mesh in design.train.meshes]
     meshes += [(stage.pair, (stage.pair.pinion.name, stage.pair.wheel.name)) for stage in design.train.stages]
@@ -215,7 +215,7 @@ class Draw(Job[ToothedDesign, Drawing]):
         return {"sheets": len(document["sheets"]), "warnings": [str(each) for each in notices]}
 
     def _pages(self, result: Drawing) -> dict[str, tuple[DrawingSheet, ...]]:
-        """Names of files, and the sheets in each."""
+        """Return the names of files, and the sheets in each."""
         alone = len(result.sheets) == 1
         found = {
             f"{_STEM if alone else f'{_STEM}-{sheet.name}'}.{kind.value}": (sheet,)
@@ -450,7 +450,7 @@ class Picture(Job[ToothedDesign, PictureShot]):
         return result.shot.loop.notices if result.shot.loop else ()
 
     def files(self, result: PictureShot) -> dict[str, Writer]:
-        """The image and the document."""
+        """Return the image and the document."""
         return {self.file: self.writer(result), "picture.json": partial(self.write_document, result)}
 
     def writer(self, result: PictureShot) -> Writer:
@@ -471,7 +471,7 @@ class Picture(Job[ToothedDesign, PictureShot]):
 
 
 def _toothed(design: ToothedDesign) -> list[Any]:
-    """Gears and racks of a design."""
+    """Return the gears and racks of a design."""
     racks = [design.rack] if isinstance(design, RackDesign) else []
     return [*design.gears.values(), *racks]
 

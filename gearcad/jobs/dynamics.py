@@ -136,7 +136,9 @@ def _highest(document: Mapping[str, Any], of: str, column: str) -> Iterator[tupl
 
 
 def _with_errors(document: Mapping[str, Any], *, named: bool) -> Iterator[tuple[str, float]]:
-    """The highest median of K_v and its highest upper quantile, where errors of teeth were drawn; of which mesh, if `named`."""
+    """Yield the highest median of K_v and its highest upper quantile, where errors of teeth were drawn; of which mesh, if
+    `named`.
+    """
     drawn = document.get("tooth_errors")
     for each in () if drawn is None else drawn["greatest"]:
         behind = f".{each['mesh']}" if named else ""
@@ -205,7 +207,7 @@ class Dynamics(ReportedJob[PairDesign | TrainDesign, Study]):
         return dynamics_columns(document)
 
     def files(self, result: Study) -> dict[str, Writer]:
-        """The report, the document, the arrays, the tables, and the specs of a train's pairs."""
+        """Return the report, the document, the arrays, the tables, and the specs of a train's pairs."""
         return {
             **({"dynamics.html": partial(_write_report, result, self.head)} if self.report else {}),
             "dynamics.json": partial(self.write_document, result),
@@ -347,7 +349,8 @@ def dynamics(
     progress: Progress | None = None,
     **inputs: Unpack[Inputs],
 ) -> Study:
-    """The dynamics of a pair as mounted, under a load, or of a train: natural frequencies, K_v over speed, one speed's course.
+    """Return the dynamics of a pair as mounted, under a load, or of a train: natural frequencies, K_v over speed, one speed's
+    course.
 
     `material`, `mounting`, `check` (CheckOptions: where bodies are held), `dynamics` (DynamicsOptions) and `rating`, as the
     load, stand in place of those of a design; a pair has the defaults, and a train holds its own.

@@ -135,7 +135,7 @@ class Job(ABC, Generic[Accepted, Result]):
         return {self.verb: {each.name: _plain(values[each.name]) for each in fields(self) if values[each.name] != each.default}}
 
     def part_of(self, file: str) -> str:
-        """The part to which a file belongs; "" if a row does not keep it."""
+        """Return the part to which a file belongs; "" if a row does not keep it."""
         return self.verb if file == f"{self.verb}.json" else ""
 
     def for_row(self, _design: Design, _parts: Collection[str]) -> Job[Any, Any]:
@@ -251,7 +251,8 @@ class Data(Job[Design, Design]):
 
 
 def data(subject: Subject | Train, load: Load | None = None, **inputs: Unpack[Inputs]) -> JsonObject:
-    """Every derived quantity of a gear, a rack, a pair or a train with its inputs, nested as data.json has it: mm, degrees.
+    """Return every derived quantity of a gear, a rack, a pair or a train with its inputs, nested as data.json has it: mm,
+    degrees.
 
     >>> from gearcad import Gear
     >>> data(Gear(teeth=20, normal_module=2, face_width=20))["gear"]["reference_diameter"]

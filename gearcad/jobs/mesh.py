@@ -64,7 +64,7 @@ def contact_zones(
 
 
 def make_decks(design: PairDesign, plan: MeshPlan, progress: Progress | None) -> dict[str, Deck]:
-    """The decks that the options of a plan ask for, by the names of their files.
+    """Return the decks that the options of a plan ask for, by the names of their files.
 
     Raises ParameterError, GeometryError and SolverError for what cannot be checked.
     """
@@ -91,7 +91,9 @@ def _decks(design: PairDesign, plan: MeshPlan) -> tuple[PairDecks, Callable[[flo
 def _makers(
     options: MeshOptions, decks: PairDecks, tooth: Callable[[float, Role], Deck]
 ) -> Iterator[tuple[str, Callable[[], Deck]]]:
-    """Names of files, and what makes their decks: at the roll angle of the options, or at so many over one base pitch."""
+    """Yield the names of files, and what makes their decks: at the roll angle of the options, or at so many over one base
+    pitch.
+    """
     count, pitch = options.positions, 360 / decks.pair.pinion.teeth
     for number in range(count):
         place = "" if count == 1 else f"_{number + 1:0{len(str(count))}}"
@@ -158,7 +160,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
         return result.notices
 
     def files(self, result: MeshResult) -> dict[str, Writer]:
-        """Every mesh in every format, then the document."""
+        """Return every mesh in every format, then the document."""
         found: dict[str, Writer] = {}
         for name, each in result.meshes.items():
             found |= {f"{name}.{kind.value}": partial(kind.entry.write, each) for kind in result.plan.options.formats}
@@ -175,12 +177,12 @@ class Mesh(Job[GearedDesign, MeshResult]):
         return self.verb if file == "mesh.json" or file.rpartition(".")[2] in SUFFIXES else ""
 
     def figures(self, document: JsonObject) -> JsonObject:
-        """The verdict and the summary."""
+        """Return the verdict and the summary."""
         return {"passed": document["passed"], **document["summary"], "warnings": document["warnings"]}
 
 
 def _pressed(plan: MeshPlan, pair: GearPair, material: Materials, load: Load) -> MeshPlan:
-    """The plan of a pair in mesh with the flanks that its load presses, and where these are meshed finely.
+    """Return the plan of a pair in mesh with the flanks that its load presses, and where these are meshed finely.
 
     In helical bodies the lines of contact run across whole flanks, which are as fine as their edges are everywhere.
     """

@@ -154,7 +154,7 @@ class Proposal(Pictured):
         return texts(self.notices)
 
     def to_dict(self) -> JsonObject:
-        """The proposal under the names of its document."""
+        """Return the proposal under the names of its document."""
         return {
             "model": self.model.value,
             "torque": self.torque,
@@ -278,7 +278,7 @@ class Modify(Job[PairDesign, Proposal]):
         return result.notices
 
     def figures(self, document: JsonObject) -> JsonObject:
-        """The modifications, and what the mesh comes to without and with them."""
+        """Return the modifications, and what the mesh comes to without and with them."""
         changes = {key: value for key, value in document["changes"].items() if key != "pair.name"}
         named = ("torque", "pressure_bound", "variants", "before", "after", "warnings")
         return {**{name: document[name] for name in named}, **changes}
@@ -318,7 +318,7 @@ def modify(
 
 
 def _model(design: PairDesign, pair: GearPair, torque: float, options: CheckOptions, agenda: Agenda) -> SolidPair:
-    """The solid bodies, as `gearcad check --model 3d` makes them."""
+    """Return the solid bodies, as `gearcad check --model 3d` makes them."""
     mounting = design.mounting or Mounting()
     return solid_pair(
         loaded_left(mounting.mounted(pair), torque),
@@ -416,8 +416,8 @@ def _turns(cycle: SolidCycle) -> Floats:
 
 
 def _best(tried: list[_Tried], limits: list[float]) -> _Tried:
-    """The one that keeps to the bound, to that of the material first; of several the one of least transmission error, unless
-    another is worth its price for edges of tips out of contact.
+    """Return the one that keeps to the bound, to that of the material first; of several the one of least transmission error,
+    unless another is worth its price for edges of tips out of contact.
     """
 
     def missed(each: _Tried) -> tuple[bool, bool]:

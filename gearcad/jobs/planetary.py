@@ -90,7 +90,7 @@ class Planetary(ReportedJob[PlanetaryDesign, Studied]):
         return found | {"warnings": document["warnings"]}
 
     def files(self, result: Studied) -> dict[str, Writer]:
-        """The report, both documents, and the specs of the meshes."""
+        """Return the report, both documents, and the specs of the meshes."""
         return {
             **({"planetary.html": partial(_write_report, result, self.head)} if self.report else {}),
             "data.json": partial(Data().write_document, result.design),
@@ -127,7 +127,8 @@ def planetary(
     progress: Progress | None = None,
     **inputs: Unpack[Inputs],
 ) -> PlanetaryStudy:
-    """Speeds, torques, efficiency, phases, forces, load sharing, stiffness and natural modes of a planetary train at its load.
+    """Return the speeds, torques, efficiency, phases, forces, load sharing, stiffness and natural modes of a planetary train at
+    its load.
 
     `speeds` {member: rpm}: of a differential, the second speed beside that of the input in `load` (TrainLoad). `material`,
     `dynamics` (DynamicsOptions: the method of the mesh stiffness) and `rating`, as load and speeds, stand in place of those of

@@ -162,7 +162,8 @@ def identify(
     angle_uncertainty: float = 1.0,
     count: int = 10,
 ) -> Identification:
-    """The standard gears that readings may be of, at most `count`, the most probable first. Lengths in mm, angles in degrees.
+    """Return the standard gears that readings may be of, at most `count`, the most probable first. Lengths in mm, angles in
+    degrees.
 
     `teeth` are negative for a ring, whose diameters are positive as they are read. `span` is {teeth or spaces spanned: mm},
     `chordal_thickness` {height below the tip: mm}, the others {diameter of the pins or balls: mm}. A reading is a number, or a

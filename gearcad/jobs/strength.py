@@ -165,7 +165,7 @@ class _LeastFigures(TypedDict):
 
 
 def _of_meshes(every: list[_LeastFigures]) -> JsonObject:
-    """The least of all meshes, whose torques are on different gears."""
+    """Return the least of all meshes, whose torques are on different gears."""
     finite = [each["life"] for each in every if each["life"] is not None]
     known = bool(every) and all(each["life_infinite"] is not None for each in every)
     flank, root = ([each["S_H_min"] for each in every], [each["S_F_min"] for each in every])
@@ -177,7 +177,7 @@ def _of_meshes(every: list[_LeastFigures]) -> JsonObject:
 
 
 def _least_of(document: Mapping[str, Any]) -> _LeastFigures:
-    """The least of both gears, and of flanks and roots."""
+    """Return the least of both gears, and of flanks and roots."""
     life = document["life"]["least"]
     return {
         "S_H_min": _least(document["safety"]["flank"].values()),
@@ -221,7 +221,9 @@ class Rate(ReportedJob[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRa
         return rate_strength(pair, design.materials, load, design.rating, body_load=_of_bodies(design, load))
 
     def document(self, result: StrengthRating | TrainStrength) -> JsonObject:
-        """Values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.STRENGTH` has the words."""
+        """Return the values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.STRENGTH` has the
+        words.
+        """
         return {"kind": self.verb, "name": result.name, "gearcad": __version__, **result.to_dict()}
 
     def notices(self, result: StrengthRating | TrainStrength) -> Sequence[Notice]:
@@ -236,7 +238,7 @@ class Rate(ReportedJob[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRa
         return rate_columns(document)
 
     def files(self, result: StrengthRating | TrainStrength) -> dict[str, Writer]:
-        """The document and the report; of a planetary train a report for each mesh."""
+        """Return the document and the report; of a planetary train a report for each mesh."""
         found: dict[str, Writer] = {"rate.json": partial(self.write_document, result)}
         if not self.report:
             return found
@@ -278,7 +280,7 @@ def _of_train(design: PlanetaryDesign) -> TrainStrength:
 
 
 def strength_in_study(design: PlanetaryDesign, study: PlanetaryStudy) -> TrainStrength:
-    """The rating of a train, of its study. Raises ParameterError without a load, SolverError where the study has none."""
+    """Return the rating of a train, of its study. Raises ParameterError without a load, SolverError where the study has none."""
     design.loaded(_NO_LOAD)
     if study.rating is None:
         raise SolverError(f"{design.name} is not rated: {study.why_not['rating']}")
@@ -380,7 +382,7 @@ class Stiffness(ReportedJob[PairDesign, StiffnessComparison]):
         return {**figures, "warnings": notes}
 
     def files(self, result: StiffnessComparison) -> dict[str, Writer]:
-        """The curves as CSV, the report, the document."""
+        """Return the curves as CSV, the report, the document."""
         return {
             "stiffness.csv": partial(_write_curves, result),
             **({"stiffness.html": partial(_stiffness_write_report, result, self.head)} if self.report else {}),

@@ -62,13 +62,13 @@ _TET_FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))
 def _with_middles(
     faces: tuple[tuple[int, ...], ...], edges: tuple[tuple[int, int], ...], vertices: int
 ) -> tuple[tuple[int, ...], ...]:
-    """Sides of an element of second order: after their vertices the nodes between those that follow each other."""
+    """Return the sides of an element of second order: after their vertices the nodes between those that follow each other."""
     number = {frozenset(edge): vertices + k for k, edge in enumerate(edges)}
     return tuple((*face, *(number[frozenset(pair)] for pair in zip(face, face[1:] + face[:1], strict=True))) for face in faces)
 
 
 def _plane(vertices: int) -> ElementShape:
-    """A triangle or quadrangle of second order."""
+    """Return a triangle or quadrangle of second order."""
     edges = tuple((k, (k + 1) % vertices) for k in range(vertices))
     return ElementShape(2, 2, vertices, edges, tuple((*edge, vertices + k) for k, edge in enumerate(edges)), "line3")
 
@@ -282,7 +282,7 @@ def _spanned(tangents: list[Floats]) -> Floats:
 
 
 def _longest_at_a_vertex(tangents: list[Floats]) -> Floats:
-    """Greatest product of the lengths of the edges that meet at a vertex of the simplex that the directions span."""
+    """Return the greatest product of the lengths of the edges that meet at a vertex of the simplex that the directions span."""
     corners = [np.zeros_like(tangents[0]), *tangents]
     products = [np.prod([_length(a - b) for a in corners if a is not b], axis=0) for b in corners]
     longest: Floats = np.maximum.reduce(products)

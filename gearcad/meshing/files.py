@@ -42,7 +42,7 @@ _BLANKS = np.frombuffer(b"    ", np.uint32)[0]
 
 
 def chunks(stop: int, start: int = 0) -> Iterator[slice]:
-    """Rows from `start` to `stop`, as many at a time as are written fastest."""
+    """Yield the rows from `start` to `stop`, as many at a time as are written fastest."""
     return (slice(at, min(at + _CHUNK, stop)) for at in range(start, stop, _CHUNK))
 
 
@@ -61,7 +61,7 @@ def wholes(numbers: NDArray[np.integer], width: int) -> Letters:
 
 
 def decimals_width(largest: float) -> int:
-    """Width of the columns that hold numbers up to this size (mm). Raises ParameterError from a kilometre on."""
+    """Return the width of the columns that hold numbers up to this size (mm). Raises ParameterError from a kilometre on."""
     whole = round(largest, DECIMALS)  # as it is written: 9.9999999999999 has two digits before the point
     if not whole < 10**_MOST_DIGITS:
         raise ParameterError("mesh", largest, f"must lie within {10**_MOST_DIGITS} mm of the origin", "mm")
@@ -69,7 +69,9 @@ def decimals_width(largest: float) -> int:
 
 
 def decimals(numbers: Floats, width: int) -> Letters:
-    """Numbers (...) with 12 decimals, right-aligned in columns (..., width), whose width is that of `decimals_width`."""
+    """Return the numbers (...) with 12 decimals, right-aligned in columns (..., width), whose width is that of
+    `decimals_width`.
+    """
     scaled = np.rint(numbers * 10.0**DECIMALS)
     rest = np.abs(scaled).astype(np.int64)
     text = np.empty((*numbers.shape, DECIMALS // 4), np.uint32)
@@ -89,7 +91,9 @@ def _before_point(digits: int) -> Letters:
 
 
 def lines(*pieces: bytes | Letters) -> str:
-    """Text of as many lines as the columns among the pieces have rows (n, ...); what is the same in each line is bytes."""
+    """Return the text of as many lines as the columns among the pieces have rows (n, ...); what is the same in each line is
+    bytes.
+    """
     columns = [piece if isinstance(piece, bytes) else piece.reshape(len(piece), -1) for piece in (*pieces, b"\n")]
     rows = next(len(column) for column in columns if not isinstance(column, bytes))
     text = np.empty((rows, sum(len(each) if isinstance(each, bytes) else each.shape[1] for each in columns)), np.uint8)
@@ -273,7 +277,7 @@ _SOLIDS = {Element.HEX8: "C3D8", Element.HEX20: "C3D20", Element.TET10: "C3D10"}
 
 
 def element_type(element: Element, *, plane_strain: bool = True) -> str:
-    """The element's name; of sections: in plane strain, or else in plane stress."""
+    """Return the element's name; of sections: in plane strain, or else in plane stress."""
     return _SOLIDS.get(element) or f"{'CPE' if plane_strain else 'CPS'}{element.shape.nodes}"
 
 
@@ -313,7 +317,9 @@ def write_elements(file: TextIO, mesh: ElementMesh, kind: str) -> None:
 
 
 def node_sets(mesh: ElementMesh) -> Mapping[str, NDArray[np.integer]]:
-    """Nodes of all sides, by name; of matched cuts in such an order that the k-th of one meets the k-th of the other."""
+    """Return the nodes of all sides, by name; of matched cuts in such an order that the k-th of one meets the k-th of the
+    other.
+    """
     ascending = {cut: pairs[np.argsort(pairs[:, 0])] for cut, pairs in mesh.matched.items()}  # of quadrangles both are, then
     matched = {f"{cut}_{end}": pairs[:, k] for cut, pairs in ascending.items() for k, end in enumerate(("behind", "ahead"))}
     return {name: mesh.nodes(name) for name in mesh.sides} | matched
@@ -341,7 +347,7 @@ def write_surface(file: TextIO, name: str, faces: Faces) -> None:
 
 
 def _listed(columns: Letters) -> Letters:
-    """Columns (n, k, width) with a comma before each."""
+    """Return the columns (n, k, width) with a comma before each."""
     return np.concatenate([np.full((*columns.shape[:2], 1), ord(","), np.uint8), columns], axis=2)
 
 
@@ -372,7 +378,7 @@ def _count(*numbers: int) -> bytes:
 
 
 def _groups(mesh: ElementMesh) -> dict[str, tuple[int, int]]:
-    """Dimension and number of each group by its name; each has one entity, of the same number."""
+    """Return the dimension and number of each group by its name; each has one entity, of the same number."""
     dimension = mesh.element.shape.dimension
     parts = {name: (dimension, number) for number, name in enumerate(mesh.parts, 1)}
     return parts | {name: (dimension - 1, number) for number, name in enumerate(mesh.sides, 1 + len(parts))}
@@ -396,7 +402,7 @@ def _write_entities(file: BinaryIO, mesh: ElementMesh) -> None:
 
 
 def _box(points: Floats, cells: Cells) -> NDArray[Any]:
-    """Least and greatest coordinates (2, 3) of the nodes of elements."""
+    """Return the least and greatest coordinates (2, 3) of the nodes of elements."""
     used = np.zeros(len(points), bool)
     used[cells] = True
     return np.stack([points[used].min(axis=0), points[used].max(axis=0)]).astype("<f8")
@@ -502,7 +508,7 @@ def _page(
     names: Iterable[str],
     dimension: int,
 ) -> str:
-    """Text of a file whose elements or faces have numbers, which have names."""
+    """Return the text of a file whose elements or faces have numbers, which have names."""
     table = (_NAME.format(number=number, dimension=dimension, name=quoteattr(name)) for number, name in enumerate(names, 1))
     return _PAGE.format(
         field=field,

@@ -243,7 +243,7 @@ class MeshOptions:
 
 
 def _members(parameter: str, text: str, kind: type[Member]) -> tuple[Member, ...]:
-    """Members of an enum by a text of their values with commas between them, each once. Raises ParameterError."""
+    """Return the members of an enum by a text of their values with commas between them, each once. Raises ParameterError."""
     if not isinstance(text, str):
         raise ParameterError(parameter, text, "must be a text, words with commas between them")
     names = text.replace(",", " ").lower().split()

@@ -57,7 +57,7 @@ class GearPlan(ABC):
 
     @abstractmethod
     def mesh(self, share: Share) -> ElementMesh:
-        """The mesh, in the gear's coordinates. Raises ParameterError, GeometryError and SolverError."""
+        """Return the mesh, in the gear's coordinates. Raises ParameterError, GeometryError and SolverError."""
 
     @property
     def notices(self) -> Iterable[Notice]:
@@ -205,12 +205,14 @@ class MeshPlan:
         return tuple(notice.within(name) for name, each in self.gears.items() for notice in each.notices)
 
     def pressed(self, zones: PerGear[Mapping[int, ContactRefinement]], *, left: bool) -> MeshPlan:
-        """The plan of a pair whose left or right flanks are pressed: they are fine in zones, by teeth."""
+        """Return the plan of a pair whose left or right flanks are pressed: they are fine in zones, by teeth."""
         fine = {role.value: _with_zones(self.gears[role.value], each) for role, each in zones.items()}
         return replace(self, gears=fine, left=left)
 
     def counted(self) -> MeshPlan:
-        """The plan with as many elements in each file as the options ask for. Raises ParameterError where that cannot be."""
+        """Return the plan with as many elements in each file as the options ask for. Raises ParameterError where that cannot
+        be.
+        """
         wanted = self.options.elements
         if wanted is None:
             return self
@@ -218,7 +220,7 @@ class MeshPlan:
         return replace(self, gears={name: each for names in together for name, each in self._scaled(names, wanted).items()})
 
     def _scaled(self, names: Sequence[str], wanted: int) -> dict[str, GearPlan]:
-        """Gears of one file, with as many elements together as are wanted; parts share them by their volumes."""
+        """Return the gears of one file, with as many elements together as are wanted; parts share them by their volumes."""
         chosen = {name: self.gears[name] for name in names}
         sectors = {name: each for name, each in chosen.items() if isinstance(each, SectorsPlan)}
         parts = {name: each for name, each in chosen.items() if isinstance(each, PartPlan)}
@@ -235,7 +237,7 @@ class MeshPlan:
 
 
 def _with_zones(plan: GearPlan, zones: Mapping[int, ContactRefinement]) -> GearPlan:
-    """A gear that is fine where it touches: in zones, or on the whole teeth of a part."""
+    """Return a gear that is fine where it touches: in zones, or on the whole teeth of a part."""
     if isinstance(plan, PartPlan):
         return replace(plan, refined_teeth=(*plan.refined_teeth, *zones))
     assert isinstance(plan, SectorsPlan)
@@ -280,7 +282,7 @@ def _planned(gear: Gear, options: MeshOptions, extent: Extent, element: Element)
 
 
 def _chosen(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | None) -> Mapping[str, Gear]:
-    """The gears that are meshed."""
+    """Return the gears that are meshed."""
     if options.gear == "both":
         return gears
     if pair is None:
@@ -326,7 +328,9 @@ def _usual_element(dimension: int, extent: Extent) -> Element:
 
 
 def _carrying(pair: GearPair) -> int:
-    """Teeth around tooth 0, it among them, that can carry at some roll angle within half a pitch from the pitch point."""
+    """Return the teeth around tooth 0, it among them, that can carry at some roll angle within half a pitch from the pitch
+    point.
+    """
     return 1 + 2 * int(pair.total_contact_ratio / 2 + 0.5)
 
 
@@ -417,7 +421,7 @@ def _require(plan: MeshPlan) -> None:
 
 
 def _most_nodes(plan: MeshPlan) -> int:
-    """Nodes of the largest file; a pair in mesh is one."""
+    """Return the nodes of the largest file; a pair in mesh is one."""
     every = [amount.nodes for each in plan.gears.values() if (amount := each.amount) is not None]
     return sum(every) if plan.pair is not None else max(every)
 

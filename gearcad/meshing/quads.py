@@ -65,7 +65,7 @@ class MeshQuality:
 
 
 def mesh_quality(points: Floats, triangles: NDArray[np.int64]) -> MeshQuality:
-    """The quality of quadratic triangles (m, 6) with nodes at `points` (n, 2)."""
+    """Return the quality of quadratic triangles (m, 6) with nodes at `points` (n, 2)."""
     corners = points[triangles[:, :3]]
     sides = np.linalg.norm(corners[:, [1, 2, 0]] - corners[:, [2, 0, 1]], axis=-1)  # side k faces corner k
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
@@ -94,7 +94,7 @@ def _jacobians(nodes: Floats) -> Floats:
 
 
 def transfinite(lower: Floats, upper: Floats, left: Floats, right: Floats) -> Floats:
-    """Vertices (rows, columns, 2) between the sides.
+    """Return the vertices (rows, columns, 2) between the sides.
 
     `lower` and `upper` (columns, 2) run from left to right, `left` and `right` (rows, 2) upwards; they share their corners. A
     vertex stands where the lines cross that join its ends, by length, on opposite sides, so the spacing of each side fades
@@ -111,7 +111,7 @@ def transfinite(lower: Floats, upper: Floats, left: Floats, right: Floats) -> Fl
 
 
 def _shares(line: Floats) -> Floats:
-    """Length of a polyline (n, 2) up to each point, over the whole."""
+    """Return the length of a polyline (n, 2) up to each point, over the whole."""
     run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(line, axis=0).T))]
     result: Floats = run / run[-1]
     return result
@@ -141,7 +141,7 @@ class Counts(NamedTuple):
 
 
 def quadrangles(across: float, up: float, outer: float, deep: float) -> float:
-    """Quadrangles of all blocks."""
+    """Return the quadrangles of all blocks."""
     return across * up + (across + 2 * outer) * deep
 
 
@@ -173,12 +173,12 @@ class LogPlane:
         return -log if self.inward else log
 
     def places(self, points: Floats) -> Floats:
-        """Places (..., 2) of points (..., 2) in mm."""
+        """Return the places (..., 2) of points (..., 2) in mm."""
         log = np.log(np.hypot(points[..., 0], points[..., 1]))
         return np.stack([np.arctan2(points[..., 1], points[..., 0]), -log if self.inward else log], -1)
 
     def points(self, places: Floats) -> Floats:
-        """Points (..., 2) in mm of places (..., 2)."""
+        """Return the points (..., 2) in mm of places (..., 2)."""
         log = -places[..., 1:] if self.inward else places[..., 1:]
         result: Floats = np.exp(log) * np.stack([np.cos(places[..., 0]), np.sin(places[..., 0])], -1)
         return result
@@ -202,17 +202,17 @@ class CurvePiece:
 
 
 def edges_of(pieces: tuple[CurvePiece, ...]) -> float:
-    """Edges that the sizes ask for on some pieces."""
+    """Return the edges that the sizes ask for on some pieces."""
     return sum(piece.grading.edges for piece in pieces)
 
 
 def least_of(pieces: tuple[CurvePiece, ...]) -> int:
-    """Edges that some pieces have at least."""
+    """Return the edges that some pieces have at least."""
     return sum(piece.least for piece in pieces)
 
 
 def shares(pieces: tuple[CurvePiece, ...], count: int) -> list[tuple[CurvePiece, int]]:
-    """Each piece with its edges, of `count` in all, in proportion to what is wanted (Webster's divisors)."""
+    """Return each piece with its edges, of `count` in all, in proportion to what is wanted (Webster's divisors)."""
     given = [piece.least for piece in pieces]
     for _ in range(count - sum(given)):
         most = max(range(len(pieces)), key=lambda k: pieces[k].grading.edges / (given[k] + 0.5))
@@ -319,7 +319,9 @@ class SectorLayout:
         return float(np.interp(-middle, -lean[at - 1 : at + 1], s[at - 1 : at + 1]))
 
     def _lean(self, s: Floats) -> Floats:
-        """Angle (rad) of the fillet to the radius at parameters (n,): a right one at the root circle, less further up."""
+        """Return the angle (rad) of the fillet to the radius at parameters (n,): a right one at the root circle, less further
+        up.
+        """
         fillet = self._curves[CurveKind.FILLET]
         result: Floats = fillet.polar(s)[1] - fillet.direction(s)
         return math.pi - result if self.plane.inward else result
@@ -342,7 +344,8 @@ class SectorLayout:
         return float(self.corner[1]) - self.plane.height(self.held_radius)
 
     def across_line(self, s: Floats) -> Floats:
-        """Angles and logarithms (n, 2) along the line across the tooth, s from 0 at the left split to 1 at the right one.
+        """Return the angles and logarithms (n, 2) along the line across the tooth, s from 0 at the left split to 1 at the right
+        one.
 
         Three quadrangles meet at the split, so each is given a third of the straight angle; hence the dip.
         """
@@ -353,7 +356,7 @@ class SectorLayout:
         return np.stack([half * place, self.corner[1] - dip * (1 - place**2)], -1)
 
     def down_line(self, s: Floats) -> Floats:
-        """Angles and logarithms (n, 2) along the line from the held circle (s = 0) up to the left split (s = 1)."""
+        """Return the angles and logarithms (n, 2) along the line from the held circle (s = 0) up to the left split (s = 1)."""
         slope = max(math.tan(math.pi / 3 - self._corner_lean), _LEAST_BEND)
         way = math.pi / self.gear.tooth_count * self._core_share - self.corner[0]
         down = self.depth * (1 - s)
@@ -361,7 +364,8 @@ class SectorLayout:
         return np.stack([self.corner[0] + moved, self.corner[1] - down], -1)
 
     def cut_line(self, down: Floats) -> Floats:
-        """Angles and logarithms (n, 2) on the cut ahead, level with those of the line below the split but for its upper end.
+        """Return the angles and logarithms (n, 2) on the cut ahead, level with those of the line below the split but for its
+        upper end.
 
         The root circle is deeper than the split; what that takes off is made up for within a few times as much.
         """
@@ -452,7 +456,7 @@ def mesh_quads(gear: Gear, held_radius: float, sizes: MeshSizes) -> QuadMesh:
 
 
 def fill_layout(layout: SectorLayout) -> QuadMesh:
-    """The quadrangles of a layout. Raises SolverError where they would be too distorted."""
+    """Return the quadrangles of a layout. Raises SolverError where they would be too distorted."""
     mesh = _quadratic(_Blocks(layout))
     worst = float(scaled_jacobians(Element.QUAD8, mesh.points[mesh.quads]).min())
     if worst < LEAST_SCALED_JACOBIAN:
@@ -569,20 +573,20 @@ def _along(pieces: tuple[CurvePiece, ...], count: int) -> Floats:
 
 
 def _with_middles(ends: Floats) -> Floats:
-    """Values (n + 1, ...) with the means of neighbours between them."""
+    """Return the values (n + 1, ...) with the means of neighbours between them."""
     result = np.empty((2 * len(ends) - 1, *ends.shape[1:]))
     result[::2], result[1::2] = ends, (ends[1:] + ends[:-1]) / 2
     return result
 
 
 def mirrored(points: Floats) -> Floats:
-    """Points (n, 2) on the other side of the tooth."""
+    """Return the points (n, 2) on the other side of the tooth."""
     result: Floats = points * np.array([1.0, -1.0])
     return result
 
 
 def _quadratic(blocks: _Blocks) -> QuadMesh:
-    """Vertices and the nodes between them: on the exact curves along the outline, half-way elsewhere."""
+    """Return the vertices and the nodes between them: on the exact curves along the outline, half-way elsewhere."""
     points, quads = blocks.points, blocks.quads
     pairs = np.stack([quads, np.roll(quads, -1, axis=1)], -1).reshape(-1, 2)
     edges, which = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)

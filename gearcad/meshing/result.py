@@ -194,7 +194,7 @@ class MeshResult(Pictured):
 
 
 def mesh_document(result: MeshResult, files: Iterable[str]) -> JsonObject:
-    """Lengths in mm, areas in mm², volumes in mm³, deviations in µm, angles in degrees, memory in bytes.
+    """Return the lengths in mm, areas in mm², volumes in mm³, deviations in µm, angles in degrees, memory in bytes.
 
     "summary" is of all meshes: sums of counts, the worst of all else. "meshes" are by gear, also where a file has both.
     """

@@ -74,7 +74,7 @@ def mesh_sector(
 
 
 def fill_polygon(outline: Floats, growth: float | None = None) -> tuple[Floats, Wholes]:
-    """Points and triangles (m, 3) that fill a polygon without adding to its corners, which come first.
+    """Return the points and triangles (m, 3) that fill a polygon without adding to its corners, which come first.
 
     Triangles have edges as the outline has near them; or, in a circle about the origin, longer ones by `growth` times the
     distance. Raises SolverError if gmsh fails.
@@ -156,7 +156,7 @@ _GROWTH = 1.3
 
 
 def with_shaft(mesh: SectorMesh, shaft_bore: float) -> SectorMesh:
-    """The sector and its share of a shaft with a bore of `shaft_bore` (mm), 0 for a solid one.
+    """Return the sector and its share of a shaft with a bore of `shaft_bore` (mm), 0 for a solid one.
 
     The sector's nodes and triangles come first; its cuts go on through the shaft, and it is held in the shaft's bore.
     """
@@ -173,7 +173,9 @@ def with_shaft(mesh: SectorMesh, shaft_bore: float) -> SectorMesh:
 
 
 def _radii(outer: float, inner: float, angle: float) -> Floats:
-    """Radii (mm) of the circles of nodes: edges as long as they are wide at first, `angle` (rad), then longer by and by."""
+    """Return the radii (mm) of the circles of nodes: edges as long as they are wide at first, `angle` (rad), then longer by and
+    by.
+    """
     ends = [outer]
     while ends[-1] > inner * (1 + angle / 2):
         ends.append(max(inner, ends[-1] * (1 - min(angle, _LONGEST))))
@@ -183,7 +185,7 @@ def _radii(outer: float, inner: float, angle: float) -> Floats:
 
 
 def _triangles(numbers: Wholes) -> Wholes:
-    """Two quadratic triangles in every cell of a grid of nodes, whose rows go inwards and whose columns go clockwise."""
+    """Return two quadratic triangles in every cell of a grid of nodes, whose rows go inwards and whose columns go clockwise."""
 
     def at(row: int, column: int) -> Wholes:
         rows, columns = numbers.shape
@@ -200,7 +202,7 @@ _CROWDING = 0.5
 
 
 def layer_planes(width: float, layers: int) -> Floats:
-    """Heights (layers + 1,) in mm of the planes between layers, closer together towards both ends."""
+    """Return the heights (layers + 1,) in mm of the planes between layers, closer together towards both ends."""
     share = np.linspace(0.0, 1.0, layers + 1)
     planes: Floats = width * (share - _CROWDING * np.sin(2 * np.pi * share) / (2 * np.pi))
     return planes
@@ -222,11 +224,11 @@ class Stack:
         return self.middle(self.layers)
 
     def plane(self, k: int) -> int:
-        """Number of the first node of plane k."""
+        """Return the number of the first node of plane k."""
         return k * self.nodes
 
     def middle(self, k: int) -> int:
-        """Number of the first node half-way up layer k."""
+        """Return the number of the first node half-way up layer k."""
         return (self.layers + 1) * self.nodes + k * self.half
 
     def elements(self, quads: Wholes, layer: int) -> Wholes:
@@ -238,7 +240,7 @@ class Stack:
         return np.concatenate([quads + self.plane(layer), quads + self.plane(layer + 1), *above], axis=1)
 
     def over(self, nodes: Wholes) -> Wholes:
-        """All nodes above section nodes: plane by plane, then half-way up layer by layer."""
+        """Return all nodes above section nodes: plane by plane, then half-way up layer by layer."""
         half = nodes[nodes < self.half]
         flat = [nodes + self.plane(k) for k in range(self.layers + 1)]
         return np.concatenate([*flat, *(half + self.middle(k) for k in range(self.layers))])
@@ -270,7 +272,7 @@ class SweptMesh:
         return self._stack.total
 
     def plane(self, k: int) -> int:
-        """Number of the first node of plane k."""
+        """Return the number of the first node of plane k."""
         return self._stack.plane(k)
 
     def elements(self, quads: Wholes, layer: int) -> Wholes:
@@ -278,14 +280,14 @@ class SweptMesh:
         return self._stack.elements(quads, layer)
 
     def side_faces(self, edges: Wholes, layer: int) -> Wholes:
-        """Faces (n, 8) of a layer over edges (n, 3) of the section - end, end, middle - seen with the sweep upwards."""
+        """Return the faces (n, 8) of a layer over edges (n, 3) of the section - end, end, middle - seen with the sweep upwards."""
         first, second, middle = edges.T
         low, high, half = self._stack.plane(layer), self._stack.plane(layer + 1), self._stack.middle(layer)
         corners = [first + low, second + low, second + high, first + high]
         return np.stack([*corners, middle + low, second + half, middle + high, first + half], -1)
 
     def over(self, nodes: Wholes) -> Wholes:
-        """All nodes of the mesh above section nodes: plane by plane, then half-way up layer by layer."""
+        """Return all nodes of the mesh above section nodes: plane by plane, then half-way up layer by layer."""
         return self._stack.over(nodes)
 
     @cached_property
@@ -313,11 +315,11 @@ class SweptMesh:
         return self.section.points[self._section_node]
 
     def to_space(self, vectors: Floats, nodes: Wholes | slice = slice(None)) -> Floats:
-        """Vectors (n, 3, ...) at the nodes, or some of them, from the turning axes to fixed ones."""
+        """Return the vectors (n, 3, ...) at the nodes, or some of them, from the turning axes to fixed ones."""
         return _turned_vectors(vectors, self.rate * self.heights[nodes])
 
     def to_turning(self, vectors: Floats, nodes: Wholes | slice = slice(None)) -> Floats:
-        """Vectors (n, 3, ...) at the nodes, or some of them, from fixed axes to the turning ones."""
+        """Return the vectors (n, 3, ...) at the nodes, or some of them, from fixed axes to the turning ones."""
         return _turned_vectors(vectors, -self.rate * self.heights[nodes])
 
     def side(self, side: OutlineSide) -> Wholes:
@@ -326,7 +328,7 @@ class SweptMesh:
 
 
 def turned(points: Floats, angles: Floats) -> Floats:
-    """Points (n, 2) turned by angles (n,) in rad."""
+    """Return the points (n, 2) turned by angles (n,) in rad."""
     cosine, sine = np.cos(angles), np.sin(angles)
     x, y = points.T
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], -1)

@@ -82,12 +82,12 @@ def assembled(train: TrainData) -> Fit:
 
 
 def _lead(mesh: SetMesh) -> float:
-    """Angle (rad) by which the central's section at the bottom of the rim is turned against its own bottom."""
+    """Return the angle (rad) by which the central's section at the bottom of the rim is turned against its own bottom."""
     return twist(mesh.central.gear, (mesh.central.gear.face_width - mesh.rim.gear.face_width) / 2)
 
 
 def train_pose(train: TrainData, carrier_angle: float = 0.0, central_turn: float = 0.0) -> TrainPose:
-    """The train with its carrier turned to an angle, and its fixed central (without one, the second) turned by another.
+    """Return the train with its carrier turned to an angle, and its fixed central (without one, the second) turned by another.
 
     Degrees; by what the other central and the planets turn, follows (Willis). Of a stage the gear on the side of the set
     turns with its member, and its tooth 0 stands on +x at carrier angle 0.
@@ -113,7 +113,7 @@ def train_pose(train: TrainData, carrier_angle: float = 0.0, central_turn: float
 
 
 def _planets(train: TrainData, fit: Fit, carrier_angle: float, turn: float) -> Iterator[PlanetPose]:
-    """The planets, turned on from where they fit, by degrees."""
+    """Yield the planets, turned on from where they fit, by degrees."""
     distance = float(train.centre_distance)
     names = [mesh.rim.name for mesh in train.meshes]
     for own, *rims in zip(train.angles, fit.rims_a, fit.rims_b, strict=True):
@@ -159,7 +159,7 @@ def _stages(train: TrainData, turned: Mapping[str, float]) -> tuple[StagePose, .
 
 
 def _mate(link: Link, axis: _Axis) -> tuple[_Axis, float]:
-    """The axis of the outer gear of a stage, and that gear's rotation (degrees)."""
+    """Return the axis of the outer gear of a stage, and that gear's rotation (degrees)."""
     stage, psi = link.stage, math.radians(link.stage.angle)
     inner, outer = stage.pair.gears.pick(link.outer.mate), stage.pair.gears.pick(link.outer)
     towards, outer_towards = psi + math.pi * outer.internal, psi + math.pi * (not inner.internal)
@@ -241,7 +241,8 @@ def _sign(value: float) -> int:
 def mesh_phases(
     train: TrainData, drive: Drive | None = None, *, carrier_angle: float = 0.0, central_turn: float = 0.0
 ) -> dict[str, MeshPhases]:
-    """The phases of both meshes by their names, in the pose at `carrier_angle` and `central_turn` (degrees; see `train_pose`).
+    """Return the phases of both meshes by their names, in the pose at `carrier_angle` and `central_turn` (degrees; see
+    `train_pose`).
 
     Without a `drive` the train's input turns counter-clockwise and drives. Raises ParameterError.
     """
@@ -292,8 +293,8 @@ def _ahead(mesh: SetMesh, planet: PlanetPose, *, side: int, turning: int) -> flo
 
 
 def _middle_of_hand(mesh: SetMesh) -> float:
-    """Height (mm) above the bottom of the rim's teeth of the middle of the common width, of double helical teeth of the lower
-    half's.
+    """Return the height (mm) above the bottom of the rim's teeth of the middle of the common width, of double helical teeth of
+    the lower half's.
     """
     middle = mesh.rim.gear.face_width / 2
     if not mesh.pair.double_helical:

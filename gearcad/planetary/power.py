@@ -85,7 +85,7 @@ def _note(stages: dict[str, PerGear[float]], link: Link, inner: float, outer: fl
 
 
 def _members(train: TrainData, speeds: Mapping[str, float], known: str, torque: float, eta: float) -> dict[str, float]:
-    """Torques on the members of the set: T_b = -i_0 eta^s T_a, T_a + T_b + T_c = 0, s the sign of T_a (w_a - w_c).
+    """Return the torques on the members of the set: T_b = -i_0 eta^s T_a, T_a + T_b + T_c = 0, s the sign of T_a (w_a - w_c).
 
     Where both signs agree with themselves - power that could as well be lost altogether - the one that loses less.
     """
@@ -122,7 +122,7 @@ def rolling_power(train: TrainData, torques: Mapping[str, float], speeds: Mappin
 
 
 def locking_efficiency(train: TrainData) -> float:
-    """The efficiency of a mesh up to which the set cannot be driven by a central to turn the carrier; 0: it always can."""
+    """Return the efficiency of a mesh up to which the set cannot be driven by a central to turn the carrier; 0: it always can."""
     of_a, of_b, _ = willis_row(train).values()
     ratio = -of_b / of_a
     return math.sqrt(min(ratio, 1 / ratio)) if ratio > 0 else 0.0
@@ -197,7 +197,7 @@ class PowerFlow:
 
 
 def power_flow(train: TrainData, load: TrainLoad, given_speeds: Mapping[str, float] | None = None) -> PowerFlow:
-    """The flow of power through a train that runs at `load`, with the second speed (rpm) that a differential needs.
+    """Return the flow of power through a train that runs at `load`, with the second speed (rpm) that a differential needs.
 
     The torque of `load` is positive where the input takes power and the output gives it away: from outside it then acts along
     the input's motion, or against the output's. At rest the motion is what a positive speed of the input would bring. A
@@ -239,7 +239,7 @@ def lossless_flow(train: TrainData, load: TrainLoad, given_speeds: Mapping[str, 
 
 
 def efficiency(train: TrainData, mesh_efficiency: float, *, back: bool = False) -> float:
-    """Power out over power in, from the input to the output or `back`, of a train with a fixed member.
+    """Return the power out over power in, from the input to the output or `back`, of a train with a fixed member.
 
     0 or below where the train locks itself: then the driven end would have to be driven, too.
     """
@@ -282,7 +282,7 @@ def _losses(train: TrainData, found: Balance, members: Mapping[str, float], eta:
 
 
 def _efficiency_of_all(found: Balance, signs: Mapping[str, float]) -> float | None:
-    """Power that goes out over power that goes in, of all shafts; None without load."""
+    """Return the power that goes out over power that goes in, of all shafts; None without load."""
     powers = [torque * signs[name] for name, torque in found.torques.items()]
     entering = sum(power for power in powers if power > 0)
     return -sum(power for power in powers if power < 0) / entering if entering else None
@@ -351,7 +351,7 @@ class TrainForces:
 
 
 def forces(train: TrainData, flow: PowerFlow) -> TrainForces:
-    """The forces of a flow of power; each mesh of the set has its N-th part of the torque on its central."""
+    """Return the forces of a flow of power; each mesh of the set has its N-th part of the torque on its central."""
     return TrainForces(
         meshes={mesh.name: _on_planet(train, mesh, flow) for mesh in train.meshes},
         pin=_on_pin(train, flow),
@@ -562,7 +562,7 @@ def stage_loads(train: TrainData, flow: PowerFlow) -> dict[str, Load]:
 
 
 def _on_pinion(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> float:
-    """Torque on the pinion of a mesh (N·m): T_1 = T_2 z_1/z_2 with signed teeth, T_2 that on the central."""
+    """Return the torque on the pinion of a mesh (N·m): T_1 = T_2 z_1/z_2 with signed teeth, T_2 that on the central."""
     ratio = mesh.pair.pinion.teeth / mesh.central.gear.teeth
     return flow.set_torques[mesh.central.name] / train.planets * ratio + 0.0
 

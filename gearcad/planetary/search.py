@@ -169,7 +169,7 @@ class SearchResult:
 
 
 def search(task: SearchTask, count: int = 20) -> SearchResult:
-    """The best sets for a ratio: by its deviation, then diameter, planets out of phase, hunting teeth, efficiency."""
+    """Return the best sets for a ratio: by its deviation, then diameter, planets out of phase, hunting teeth, efficiency."""
     met = _meeting(task)
     found, unmade, left = _best_sets(met.kept, count)
     nearest = () if found or left else _nearest(task)
@@ -224,7 +224,7 @@ def _best_sets(kept: list[ManySets], count: int) -> tuple[list[PlanetarySet], li
 
 
 def _nearest(task: SearchTask) -> tuple[float, ...]:
-    """The nearest ratios below and above that sets reach; none where all are farther off than WIDEST."""
+    """Return the nearest ratios below and above that sets reach; none where all are farther off than WIDEST."""
     tolerance = task.tolerance or 1.0
     while tolerance < WIDEST:
         tolerance = min(tolerance * WIDER, WIDEST)

@@ -184,7 +184,7 @@ class TeethGrid(NamedTuple):
 
 
 def grids(task: SearchTask, kind: SetType) -> Iterator[TeethGrid]:
-    """The sets of a type, those with one first central at a time; i_0 = 1 is left out."""
+    """Yield the sets of a type, those with one first central at a time; i_0 = 1 is left out."""
     (low, high), ring = task.teeth, MEMBERS[kind][0].startswith("ring")
     first, last = task.ring_teeth if ring else task.teeth
     planets, most = np.arange(low, high + 1), _window(task)
@@ -311,7 +311,7 @@ class MeshedTeeth:
         return result
 
     def form_reach(self, teeth: Wholes, shift: Floats) -> Floats:
-        """Length of the base tangent out to the root form circle of an outer gear; below 0 it is undercut."""
+        """Return the length of the base tangent out to the root form circle of an outer gear; below 0 it is undercut."""
         result: Floats = self.module * (shift - self.least_shift(teeth)) / math.sin(self.transverse_angle)
         return result
 
@@ -458,7 +458,7 @@ def tip_radius(mesh: MeshedTeeth, teeth: Wholes, rise: Floats) -> Floats:
 
 
 def ratios(task: SearchTask, kind: SetType, teeth: TeethGrid) -> Floats:
-    """Speed of the input over speed of the output: what is fixed adds nothing to Willis's sum."""
+    """Return the speed of the input over speed of the output: what is fixed adds nothing to Willis's sum."""
     row, members, roles = teeth.row, MEMBERS[kind], task.roles(kind)
     result: Floats = -row[members.index(roles.output)] / row[members.index(roles.input)]
     return result
@@ -540,7 +540,7 @@ def _whole_involutes(sets: ManySets) -> Bools:
 
 
 def _meshing(sets: ManySets) -> Bools:
-    """A contact ratio of 1 or more between the tips, all of it on involutes, and no tips that foul each other in a ring."""
+    """Return a contact ratio of 1 or more between the tips, all of it on involutes, and no tips that foul each other in a ring."""
     sizes, good = sets.sizes, np.ones(len(sets.planets), bool)
     parts = zip(sizes.meshes, sizes.rim_tips, sizes.central_tips, sizes.rim_shifts, sizes.central_shifts, strict=True)
     for mesh, rim_tip, central_tip, rim_shift, central_shift in parts:
@@ -556,14 +556,16 @@ def _meshing(sets: ManySets) -> Bools:
 
 
 def _reach(mesh: MeshedTeeth, teeth: Wholes, tip: Floats) -> Floats:
-    """Length of the base tangent out to a tip circle; 0 inside the base circle."""
+    """Return the length of the base tangent out to a tip circle; 0 inside the base circle."""
     base = mesh.base_radius(teeth)
     result: Floats = np.sqrt(np.maximum((tip - base) * (tip + base), 0.0))
     return result
 
 
 def _tip_margin(mesh: MeshedTeeth, distance: Floats, tips: tuple[Floats, Floats], shifts: tuple[Floats, Floats]) -> Floats:
-    """Angle by which the tips of planet and ring pass each other where their tip circles cross; infinite where they do not."""
+    """Return the angle by which the tips of planet and ring pass each other where their tip circles cross; infinite where they
+    do not.
+    """
     outer, inner = tips
     half = []  # tooth angle of the rim, space angle of the ring, at the tips
     for teeth, tip, shift, sign in zip((mesh.rim, -mesh.central), tips, shifts, (1, -1), strict=True):

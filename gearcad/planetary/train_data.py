@@ -152,7 +152,7 @@ class TrainData:
         return first, second
 
     def rim_of(self, central: Central) -> Rim:
-        """The rim that a central meshes with."""
+        """Return the rim that a central meshes with."""
         return next(rim for rim in self.rims if rim.name == central.meshes)
 
     @property
@@ -257,7 +257,7 @@ class TrainShaft:
     path: tuple[Link, ...] = ()
 
     def behind(self, stage: PairStage) -> TrainShaft:
-        """The shaft at the other end of a stage that is on this one."""
+        """Return the shaft at the other end of a stage that is on this one."""
         link = Link(stage=stage, outer=Role.WHEEL if stage.pinion == self.name else Role.PINION)
         inner, outer = link.teeth
         ratio, name = -Fraction(inner, outer), link.shafts[1]
@@ -265,7 +265,9 @@ class TrainShaft:
 
 
 def shafts_of(train: TrainData) -> dict[str, TrainShaft]:
-    """Every shaft by its name, the members of the set first. Raises GeometryError where a stage is not on one other shaft."""
+    """Return every shaft by its name, the members of the set first. Raises GeometryError where a stage is not on one other
+    shaft.
+    """
     found = {name: TrainShaft(name=name, member=name) for name in train.members}
     waiting = list(train.stages)
     while waiting:
@@ -443,7 +445,7 @@ def _way(train: TrainData, shaft: str, gone: tuple[PairStage, ...] = ()) -> tupl
 
 
 def _rim_extent(train: TrainData, name: str, rim: Gear) -> _Extent:
-    """Lower and upper end (mm) of a rim and of what meshes with it, above the bottom of the rim's teeth."""
+    """Return the lower and upper end (mm) of a rim and of what meshes with it, above the bottom of the rim's teeth."""
     centrals = [central.gear for central in train.centrals if central.meshes == name]
     ends = [_gear_extent(gear, (rim.face_width - gear.face_width) / 2) for gear in (rim, *centrals)]
     return min(low for low, _ in ends), max(high for _, high in ends)
@@ -479,7 +481,7 @@ def settle_centre_distance(train: TrainData) -> None:
 
 
 def _free_distance(pair: PairData) -> float:
-    """Centre distance (mm, a magnitude) at which a central and its rim run without backlash."""
+    """Return the centre distance (mm, a magnitude) at which a central and its rim run without backlash."""
     try:
         check_mates(pair)
         check_shift_sum(pair)
@@ -502,7 +504,7 @@ def _check_given(train: TrainData, pairs: list[PairData], distances: list[float]
 
 
 def _not_coaxial(train: TrainData, pairs: list[PairData], distances: list[float]) -> GeometryError:
-    """The error for meshes that run without backlash at two centre distances."""
+    """Return the error for meshes that run without backlash at two centre distances."""
     central, words = train.centrals[1], _words(pairs, distances)
     try:
         shift = _placed(pairs[1], distances[0]).zero_backlash_shift_sum - train.rim_of(central).gear.profile_shift
@@ -519,7 +521,7 @@ def _words(pairs: list[PairData], distances: list[float]) -> str:
 
 
 def _placed(pair: PairData, distance: float) -> PairData:
-    """The pair at a centre distance (mm, a magnitude)."""
+    """Return the pair at a centre distance (mm, a magnitude)."""
     return replace(pair, centre_distance=-distance if pair.internal else distance)
 
 

@@ -24,7 +24,8 @@ _ROLL = "roll angle of the pinion in °, 0 at the pitch point"
 
 
 def plot_contact_pressure(result: PlaneCheck, ax: Axes | None = None) -> Axes:
-    """Peak pressure of every pair of teeth along the path of contact, beside Hertz's under the load that the pair carries.
+    """Draw the peak pressure of every pair of teeth along the path of contact, beside Hertz's under the load that the pair
+    carries.
 
     Near the ends of the flanks there is no line: there the pressure is that of an edge. Contact of a corner is marked below.
     """
@@ -101,7 +102,7 @@ def plot_transmission_error(result: CheckResult, ax: Axes | None = None) -> Axes
 
 
 def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
-    """Greatest tension and compression of both fillets over one base pitch, beside the root stress of ISO 6336-3."""
+    """Draw the greatest tension and compression of both fillets over one base pitch, beside the root stress of ISO 6336-3."""
     axes = prepared(ax, _ROLL, "root stress in MPa")
     angles = result.cycle.course("roll_angle")
     standard = r"$\sigma_{F0}$" if result.load.application_factor == 1 else r"$\sigma_{F0} K_A$"
@@ -143,7 +144,9 @@ _ACROSS = "across the face, from the middle of the common width, in mm"
 
 
 def plot_line_loads(result: SolidCheck, ax: Axes | None = None) -> Axes:
-    """Line load over the plane of action, and the lines of contact of the position with the greatest pressure, or load."""
+    """Draw the line load over the plane of action, and the lines of contact of the position with the greatest pressure, or
+    load.
+    """
     axes = new_figure().subplots() if ax is None else ax
     cells = result.cells
     cells = cells.only(~cells.on_edge | (cells.line_load > 0))
@@ -157,7 +160,7 @@ def plot_line_loads(result: SolidCheck, ax: Axes | None = None) -> Axes:
 
 
 def plot_contact_pattern(result: SolidCheck, role: Role, ax: Axes | None = None) -> Axes:
-    """Greatest pressure of the cycle at every place of the flank of a gear, in the flank's outline.
+    """Draw the greatest pressure of the cycle at every place of the flank of a gear, in the flank's outline.
 
     Contact of edges is left out.
     """
@@ -194,7 +197,7 @@ def _map(axes: Axes, x: Floats, y: Floats, values: Floats, most: float | None, w
 
 
 def _greatest(x: Floats, y: Floats, values: Floats) -> tuple[Floats, Floats]:
-    """Places (2, m), each once, and the greatest value there: an edge touches at the same place many times."""
+    """Return the places (2, m), each once, and the greatest value there: an edge touches at the same place many times."""
     places, index = np.unique(np.stack([x, y], -1).round(_ROUNDED), axis=0, return_inverse=True)
     found = np.zeros(len(places))
     np.maximum.at(found, index.ravel(), values)
@@ -202,7 +205,7 @@ def _greatest(x: Floats, y: Floats, values: Floats) -> tuple[Floats, Floats]:
 
 
 def _joined(x: Floats, y: Floats) -> Triangulation:
-    """Triangles between places, but for those that would span a hole."""
+    """Return the triangles between places, but for those that would span a hole."""
     from matplotlib.tri import Triangulation
 
     triangles = Triangulation(x, y)
@@ -223,7 +226,7 @@ def plot_lines_share(result: SolidCheck, ax: Axes | None = None) -> Axes:
 
 
 def plot_harmonics(result: SolidCheck, ax: Axes | None = None) -> Axes:
-    """Amplitudes of the transmission error at the tooth frequency and its multiples."""
+    """Draw the amplitudes of the transmission error at the tooth frequency and its multiples."""
     axes = prepared(ax, "harmonic of the tooth frequency", "amplitude in µm")
     amplitudes = result.summary.transmission_error_harmonics
     bars = axes.bar(np.arange(len(amplitudes)) + 1, amplitudes, width=0.6, color=SERIES[0])
@@ -247,7 +250,9 @@ def plot_load_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
 
 
 def plot_root_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
-    """Greatest root tension of the cycle along the face of both gears; what stands out beyond the common width is pale."""
+    """Draw the greatest root tension of the cycle along the face of both gears; what stands out beyond the common width is
+    pale.
+    """
     axes, part = prepared(ax, _ACROSS, "root tension in MPa"), result.rating.edition.part(3)
     for role, (words, colour, marker) in GEARS.items():
         root = result.along_face.roots.pick(role)
@@ -291,7 +296,7 @@ def plot_contact_zone(result: PlaneCheck, ax: Axes | None = None) -> Axes:
 
 
 def _plot_field(result: PlaneCheck, ax: Axes | None, reach: float, most: float, names: PerGear[tuple[float, float]]) -> Axes:
-    """Fields within `reach` (mm) of the contact, colours up to `most` (MPa), the gears' names at parts of the axes."""
+    """Return the fields within `reach` (mm) of the contact, colours up to `most` (MPa), the gears' names at parts of the axes."""
     axes, stress = new_figure().subplots() if ax is None else ax, result.stress_field
     for field in stress.fields:
         drawn = axes.tripcolor(
@@ -313,7 +318,9 @@ def _plot_field(result: PlaneCheck, ax: Axes | None, reach: float, most: float, 
 
 
 def plot_fillets(result: PlaneCheck, ax: Axes | None = None) -> Axes:
-    """Stress along both fillets of each gear at its worst position, over the tangent's angle to the middle of the tooth."""
+    """Draw the stress along both fillets of each gear at its worst position, over the tangent's angle to the middle of the
+    tooth.
+    """
     axes = prepared(ax, "tangent angle, from the middle of the tooth, in °", "stress along the fillet in MPa")
     for role, (words, colour, marker) in GEARS.items():
         curves, found = result.fillet_curves.pick(role), result.root_peaks.pick(role)
@@ -331,7 +338,7 @@ def plot_fillets(result: PlaneCheck, ax: Axes | None = None) -> Axes:
 
 
 def plot_depth_profile(result: PlaneCheck, ax: Axes | None = None) -> Axes:
-    """Stresses below the middle of the worst contact by the pressures found (lines), and by Hertz (dots)."""
+    """Draw the stresses below the middle of the worst contact by the pressures found (lines), and by Hertz (dots)."""
     axes = prepared(ax, "depth below the flank in mm", "stress in MPa")
     profile = result.depth_profile
     depth = profile.found.depth
@@ -398,7 +405,7 @@ _MARKERS = ("o", "s", "^")
 
 
 def plot_sweep_pressure(result: CheckResult, ax: Axes | None = None) -> Axes:
-    """Greatest contact pressure over torque, beside the square root that Hertz has for a load shared in the same way."""
+    """Draw the greatest contact pressure over torque, beside the square root that Hertz has for a load shared in the same way."""
     axes = prepared(ax, _TORQUE, "peak pressure in MPa")
     torques, pressures = _swept(result, "contact_pressure")
     fine = np.linspace(0, torques[-1], 100)
@@ -412,7 +419,7 @@ def plot_sweep_pressure(result: CheckResult, ax: Axes | None = None) -> Axes:
 
 
 def plot_sweep_stiffness(result: CheckResult, ax: Axes | None = None) -> Axes:
-    """Mean mesh stiffness and M/phi of each gear over torque, as parts of their values at the greatest torque."""
+    """Draw the mean mesh stiffness and M/phi of each gear over torque, as parts of their values at the greatest torque."""
     axes = prepared(ax, _TORQUE, "part of the value at full torque in %")
     torques, stiffness = _swept(result, "mesh_stiffness")
     axes.plot(torques, 100 * stiffness / stiffness[-1], "^-", color=DARK, label=f"mesh: {short(stiffness[-1])} N/(mm µm)")
@@ -441,6 +448,6 @@ def plot_convergence(result: CheckResult, ax: Axes | None = None) -> Axes:
 
 
 def _swept(result: CheckResult, name: str) -> tuple[Floats, Floats]:
-    """Torques (N·m) in rising order, and a quantity at each; NaN where there is none."""
+    """Return the torques (N·m) in rising order, and a quantity at each; NaN where there is none."""
     points = result.trends.points
     return np.array([point.torque for point in points]), np.array([getattr(point, name) for point in points], float)

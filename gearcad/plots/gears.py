@@ -37,7 +37,7 @@ _MOVED, _PLACES = 0.06, 61
 
 
 def pair_inches(pair: GearPair) -> tuple[float, float]:
-    """Size of a picture of the pair, as high as its larger gear asks for."""
+    """Return the size of a picture of the pair, as high as its larger gear asks for."""
     if pair.internal:
         return _WIDTH, _MOST
     tips = [gear.tip_diameter for gear in (pair.pinion, pair.wheel)]
@@ -46,7 +46,7 @@ def pair_inches(pair: GearPair) -> tuple[float, float]:
 
 
 def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
-    """A transverse section of both gears, a tooth of the pinion in a space of the wheel, by the exact outlines unmodified.
+    """Draw a transverse section of both gears, a tooth of the pinion in a space of the wheel, by the exact outlines unmodified.
 
     Working pitch circles are dash-dotted; the path of contact of left flanks, from A to E, is drawn on the line of action.
     """
@@ -174,7 +174,7 @@ _FARTHEST = 5.0
 
 
 def plot_gear(gear: Gear, ax: Axes | None = None) -> Axes:
-    """A transverse section by the exact outline, unmodified, with reference and base circle."""
+    """Draw a transverse section by the exact outline, unmodified, with reference and base circle."""
     axes = new_figure(_SQUARE).subplots() if ax is None else ax
     fill_gear(axes, gear, (0.0, 0.0), 0.0, GEARS.pinion[1])
     round_about = np.linspace(0, 2 * math.pi, _ROUND)
@@ -249,7 +249,8 @@ def undercut_shift(gear: Gear, teeth: int) -> float:
 
 
 def pointed_shift(gear: Gear, teeth: int, land: float) -> float:
-    """The shift at which so many teeth with the gear's rack and tip alteration are `land` normal modules thick at the tip.
+    """Return the shift at which so many teeth with the gear's rack and tip alteration are `land` normal modules thick at the
+    tip.
 
     Not a number where that is above 5.
     """
@@ -288,12 +289,12 @@ _DIM = 0.45
 
 
 def plot_mesh(mesh: ElementMesh, ax: Axes | None = None) -> Axes:
-    """All elements of a section, or the surface of a body."""
+    """Draw all elements of a section, or the surface of a body."""
     return (plot_body_mesh if mesh.element.shape.dimension == 3 else plot_section_mesh)(mesh, ax)
 
 
 def plot_section_mesh(mesh: ElementMesh, ax: Axes | None = None, *, window: tuple[float, float, float] | None = None) -> Axes:
-    """All elements of a section, curved as they are, each part in its colour.
+    """Draw all elements of a section, curved as they are, each part in its colour.
 
     `window` is the middle (x, y) of what is shown and half its height, in mm; None shows all. Elements outside are left out.
     """
@@ -325,7 +326,8 @@ def plot_section_mesh(mesh: ElementMesh, ax: Axes | None = None, *, window: tupl
 
 
 def plot_body_mesh(mesh: ElementMesh, ax: Axes | None = None, *, yaw: float = 35.0, pitch: float = 30.0) -> Axes:
-    """The surface of a body with the edges of its elements, seen from `yaw` (deg, about its axis) and `pitch` above its end.
+    """Draw the surface of a body with the edges of its elements, seen from `yaw` (deg, about its axis) and `pitch` above its
+    end.
 
     Flanks, fillets, roots and tips have colours of their own.
     """
@@ -353,7 +355,7 @@ def plot_body_mesh(mesh: ElementMesh, ax: Axes | None = None, *, yaw: float = 35
 
 
 def _rim(shape: ElementShape) -> list[int]:
-    """Nodes of a plane element all round: vertices and those between them in turn."""
+    """Return the nodes of a plane element all round: vertices and those between them in turn."""
     return [node for k in range(shape.vertices) for node in (k, shape.vertices + k)]
 
 
@@ -364,12 +366,12 @@ def _rim_of_face(nodes: int) -> list[int]:
 
 
 def _width(elements: int) -> float:
-    """Width of lines (points), thinner where there are many."""
+    """Return the width of lines (points), thinner where there are many."""
     return float(np.clip(18 / math.sqrt(max(elements, 1)), 0.08, 0.6))
 
 
 def _look(yaw: float, pitch: float) -> Floats:
-    """Axes (3, 3) to the right, up and towards us of a body whose axis of rotation is z, x to the right at yaw 0."""
+    """Return the axes (3, 3) to the right, up and towards us of a body whose axis of rotation is z, x to the right at yaw 0."""
     a, b = math.radians(yaw), math.radians(pitch)
     right = np.array([math.cos(a), math.sin(a), 0.0])
     towards = np.array([math.sin(a) * math.cos(b), -math.cos(a) * math.cos(b), math.sin(b)])
@@ -377,7 +379,7 @@ def _look(yaw: float, pitch: float) -> Floats:
 
 
 def _normals(faces: Floats) -> Floats:
-    """Unit normals (n, 3) outwards of faces (n, nodes, 3) by their first three vertices."""
+    """Return the unit normals (n, 3) outwards of faces (n, nodes, 3) by their first three vertices."""
     normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
     result: Floats = normals / np.linalg.norm(normals, axis=-1, keepdims=True)
     return result
@@ -388,7 +390,7 @@ def _colour(side: str) -> str:
 
 
 def _mixed(colour: str, share: float) -> tuple[float, ...]:
-    """A colour with white."""
+    """Return a colour with white."""
     from matplotlib.colors import to_rgb
 
     return tuple(1 - share * (1 - channel) for channel in to_rgb(colour))

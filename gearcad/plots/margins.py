@@ -149,7 +149,7 @@ def _rooms(figure: Figure, renderer: RendererBase) -> Iterator[_Room]:
 
 
 def _filled(axes: Axes, grid: BboxBase) -> Bbox:
-    """The place of axes of a fixed aspect, as if they filled it: what they leave empty is elsewhere once they are moved.
+    """Return the place of axes of a fixed aspect, as if they filled it: what they leave empty is elsewhere once they are moved.
 
     Sides of the `grid` where a colour bar stands remain as they are.
     """

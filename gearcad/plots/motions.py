@@ -47,7 +47,8 @@ PINION_SPEED = "amplitude of pinion speed in rad/s"
 
 
 def plot_campbell(study: SpeedSpectra, ax: Axes | None = None, highest: float = 7000.0) -> Axes:
-    """Amplitudes of the pinion's speed on a logarithmic scale, up to a frequency (Hz); lines of teeth and natural frequencies.
+    """Draw the amplitudes of the pinion's speed on a logarithmic scale, up to a frequency (Hz); lines of teeth and natural
+    frequencies.
 
     A triangle above marks each chaotic speed: its column is a sample of what may come, not a result to be met again.
     """
@@ -75,7 +76,7 @@ def plot_campbell(study: SpeedSpectra, ax: Axes | None = None, highest: float = 
 
 
 def _edges(speeds: np.ndarray) -> np.ndarray:
-    """Edges of the columns: half-way between the speeds."""
+    """Return the edges of the columns: half-way between the speeds."""
     if len(speeds) == 1:
         return np.array([speeds[0] - 0.5, speeds[0] + 0.5])
     middle = (speeds[1:] + speeds[:-1]) / 2
@@ -128,7 +129,7 @@ class _Window(NamedTuple):
 
 
 def _close(history: TimeHistory) -> _Window:
-    """The last tooth meshes; where the mesh does not vary the first vibrations, for nothing is left of them in the end."""
+    """Return the last tooth meshes; where the mesh does not vary the first vibrations, for nothing is left of them in the end."""
     constant = history.model.zone is EngagedPairs.ONE_PAIR
     frequency = history.model.natural_frequency() if constant else history.model.tooth_frequency(history.speed)
     if not frequency:
@@ -142,7 +143,7 @@ def _close(history: TimeHistory) -> _Window:
 
 
 def plot_motion(history: TimeHistory, figure: Figure | None = None) -> Figure:
-    """Speeds of both gears over time, both counter-clockwise: the whole motion on the left, closely on the right."""
+    """Draw the speeds of both gears over time, both counter-clockwise: the whole motion on the left, closely on the right."""
     of = new_figure(MOTION_INCHES) if figure is None else figure
     panels, window, time = of.subplots(2, 2, sharey="row"), _close(history), 1e3 * history.time
     pinion, wheel = history.model.base_radii
@@ -218,12 +219,14 @@ _TRANSIENT_BINS = 600
 
 
 def factors_inches(run: Transient) -> tuple[float, float]:
-    """Size of a figure over speed."""
+    """Return the size of a figure over speed."""
     return FIGURE_INCHES[0], 1.4 + 2.6 * len(run.names[0])
 
 
 def plot_transient_factors(study: TrainStudy | ModalStudy, run: Transient, figure: Figure | None = None) -> Figure:
-    """Greatest force of every tooth period over speed, a panel for each mesh; broad and grey what lasts, where it is known."""
+    """Draw the greatest force of every tooth period over speed, a panel for each mesh; broad and grey what lasts, where it is
+    known.
+    """
     of, names = new_figure(factors_inches(run)) if figure is None else figure, run.names[0]
     panels = of.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
     speeds = np.abs(run.window_speed)
@@ -253,7 +256,7 @@ def _draw_lasting(axes: Axes, study: TrainStudy, run: Transient, mesh: int) -> N
 
 
 def transient_inches(run: Transient) -> tuple[float, float]:
-    """Size of a figure over time."""
+    """Return the size of a figure over time."""
     meshes, _, shafts = run.names
     return FIGURE_INCHES[0], 2.0 + 1.45 * (2 * len(meshes) + len(shafts))
 
@@ -339,7 +342,7 @@ _TOP_AXIS = 36.0
 
 
 def plot_lines(study: TrainStudy, ax: Axes | None = None) -> Axes:
-    """Amplitudes at the speed of the course, over orders of the tooth frequency, and of the pinion's shaft above."""
+    """Draw the amplitudes at the speed of the course, over orders of the tooth frequency, and of the pinion's shaft above."""
     from matplotlib.ticker import MaxNLocator
 
     course, teeth = study.course, study.train.meshes[0].teeth
@@ -373,12 +376,12 @@ def plot_lines(study: TrainStudy, ax: Axes | None = None) -> Axes:
 
 
 def waterfall_inches(study: TrainStudy) -> tuple[float, float]:
-    """Size of a figure with a panel for each mesh."""
+    """Return the size of a figure with a panel for each mesh."""
     return FIGURE_INCHES[0], _PANEL * len(study.up.mesh_names) + 0.4
 
 
 def plot_waterfall(study: TrainStudy, figure: Figure | None = None) -> Figure:
-    """Every line over speed and its own frequency, coloured by its amplitude, running up; natural frequencies across."""
+    """Draw every line over speed and its own frequency, coloured by its amplitude, running up; natural frequencies across."""
     of = new_figure(waterfall_inches(study)) if figure is None else figure
     panels = of.subplots(len(study.up.mesh_names), 1, sharex=True, squeeze=False)[:, 0]
     for mesh, (panel, name) in enumerate(zip(panels, study.up.mesh_names, strict=True)):
@@ -438,7 +441,7 @@ def _colour_bar(axes: Axes, norm: object, words: str) -> None:
 
 
 def _natural(study: TrainStudy) -> Floats:
-    """Natural frequencies (Hz) that teeth can shake."""
+    """Return the natural frequencies (Hz) that teeth can shake."""
     if study.on_bearings is not None:
         return study.on_bearings.frequency[study.on_bearings.shaken]
     return study.modes.frequency[study.modes.rigid :]

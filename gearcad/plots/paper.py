@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def axis_label(key: str) -> str:
-    """Words, symbol (as mathtext) and unit of a column: "pinion: tip diameter $d_{\\mathrm{a}}$ in mm"."""
+    """Return the words, symbol (as mathtext) and unit of a column: "pinion: tip diameter $d_{\\mathrm{a}}$ in mm"."""
     found = column_symbol(key)
     if found is None:
         return plain(key)
@@ -27,7 +27,7 @@ def axis_label(key: str) -> str:
 
 
 def mathtext(symbol: str) -> str:
-    """The symbol with its index upright: h_aP* becomes $h_{\\mathrm{aP}}^{*}$, and T1A $T_1A$."""
+    """Return the symbol with its index upright: h_aP* becomes $h_{\\mathrm{aP}}^{*}$, and T1A $T_1A$."""
     if not symbol:
         return ""
     body, _, index = symbol.rstrip("*").partition("_")
@@ -36,7 +36,7 @@ def mathtext(symbol: str) -> str:
 
 
 def plain(text: str) -> str:
-    """A text of the user's, not to be taken for mathtext."""
+    """Return a text of the user's, not to be taken for mathtext."""
     return text.replace("$", r"\$")
 
 
@@ -62,14 +62,14 @@ _LEGEND, _HANDLE, _LETTER = 5.9, 0.55, 0.072
 
 
 def new_figure(inches: tuple[float, float] = FIGURE_INCHES) -> Figure:
-    """An empty figure as wide as the text of a report, with margins as its texts need them."""
+    """Return an empty figure as wide as the text of a report, with margins as its texts need them."""
     from gearcad.plots.margins import FittedFigure
 
     return FittedFigure(inches)
 
 
 def prepared(ax: Axes | None, x: str, y: str) -> Axes:
-    """Axes with labels and grid; those of a new figure if none are given."""
+    """Return the axes with labels and grid; those of a new figure if none are given."""
     axes = new_figure().subplots() if ax is None else ax
     axes.set_xlabel(x)
     axes.set_ylabel(y)

@@ -98,7 +98,7 @@ _CHARACTERS, _LINES = 21, 3
 
 
 def lines_of(*texts: str) -> list[str]:
-    """Texts in short lines; of one that is too long, the beginning."""
+    """Return the texts in short lines; of one that is too long, the beginning."""
     found = []
     for text in texts:
         lines = textwrap.wrap(text, _CHARACTERS)
@@ -154,7 +154,7 @@ class _Turn(NamedTuple):
 
 
 def front_inches(train: PlanetaryTrain) -> tuple[float, float]:
-    """Size of the front view: a panel for each rim of a planet."""
+    """Return the size of the front view: a panel for each rim of a planet."""
     return (FIGURE_INCHES[0], FIGURE_INCHES[0] / 2 + 0.3) if train.stepped else _ONE
 
 
@@ -237,7 +237,7 @@ def _turns(train: PlanetaryTrain, pose: TrainPose, rim: Rim, turning: Mapping[st
 
 
 def _inside(gear: Gear) -> float:
-    """Radius of an arrow in the body of a gear (mm)."""
+    """Return the radius of an arrow in the body of a gear (mm)."""
     return (gear.body.bore + 2 * gear.root_diameter) / 6
 
 
@@ -264,7 +264,7 @@ def lever_places(train: PlanetaryTrain) -> dict[str, float]:
 
 
 def plot_ladder(train: PlanetaryTrain, speeds: Mapping[str, float], planet: float, unit: str, ax: Axes | None = None) -> Axes:
-    """Speeds of members by name and of a planet, in a unit: rungs from standstill to the line that all of them are on."""
+    """Draw the speeds of members by name and of a planet, in a unit: rungs from standstill to the line that all of them are on."""
     axes = prepared(new_figure().subplots() if ax is None else ax, f"speed in {unit}", "")
     places = lever_places(train)
     found = {name: speeds[name] for name in train.members} | {"planets": planet}
@@ -323,7 +323,7 @@ _NAMED = 12
 
 
 def phases_inches(train: PlanetaryTrain, stiffness: Mapping[str, PlanetMeshStiffness] | None) -> tuple[float, float]:
-    """Size of the picture: rows for the planets, and curves below where stiffnesses are known."""
+    """Return the size of the picture: rows for the planets, and curves below where stiffnesses are known."""
     return FIGURE_INCHES[0], 1.3 + 0.17 * min(train.planets, _NAMED) + (2.0 if stiffness else 0.0)
 
 
@@ -333,7 +333,7 @@ def plot_phases(
     stiffness: Mapping[str, PlanetMeshStiffness] | None = None,
     figure: Figure | None = None,
 ) -> Figure:
-    """A column for each mesh over one base pitch: dots where planets meet the pitch point, below the sum of stiffnesses."""
+    """Draw a column for each mesh over one base pitch: dots where planets meet the pitch point, below the sum of stiffnesses."""
     of = new_figure(phases_inches(train, stiffness)) if figure is None else figure
     rows = 0.6 + 0.17 * min(train.planets, _NAMED)
     heights = [rows, 2.0] if stiffness else [rows]
@@ -379,7 +379,7 @@ def _draw_sum(axes: Axes, train: PlanetaryTrain, ahead: tuple[float, ...], stiff
 
 
 def stiffness_sum(ahead: tuple[float, ...], stiffness: PlanetMeshStiffness, places: Floats) -> Floats:
-    """Stiffness (N/µm) of all planets together at places (n,) of a base pitch."""
+    """Return the stiffness (N/µm) of all planets together at places (n,) of a base pitch."""
     found: Floats = sum((stiffness.stiffness_at(place + places) for place in ahead), np.zeros_like(places))
     return found
 
@@ -397,7 +397,7 @@ _STYLES = ("--", ":", "-.")
 
 
 def plot_sharing(sharing: LoadSharing, ax: Axes | None = None) -> Axes:
-    """Shares of the planets, with what turns adding and taking; K_gamma as computed, and published ones beside it."""
+    """Draw the shares of the planets, with what turns adding and taking; K_gamma as computed, and published ones beside it."""
     axes = prepared(new_figure().subplots() if ax is None else ax, "planet", "share, 1: all alike")
     planets = np.arange(1, len(sharing.shares) + 1)
     reach = np.array([sharing.shares - sharing.least_shares, sharing.greatest_shares - sharing.shares]).clip(min=0.0)
@@ -422,7 +422,7 @@ def plot_sharing(sharing: LoadSharing, ax: Axes | None = None) -> Axes:
 
 
 def torsion_inches(torsion: TorsionalStiffness) -> tuple[float, float]:
-    """Size of the picture: a bar for each contribution."""
+    """Return the size of the picture: a bar for each contribution."""
     return FIGURE_INCHES[0], 1.1 + 0.3 * len(torsion.contributions)
 
 

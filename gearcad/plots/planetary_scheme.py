@@ -93,7 +93,7 @@ class Places:
         return self._heights[self._distance]
 
     def pitch(self, rim: str, sign: int) -> float:
-        """Height of the working circle of a rim on its outer (1) or inner side."""
+        """Return the height of the working circle of a rim on its outer (1) or inner side."""
         return self._heights[self._distance_of(rim, sign)]
 
     def _distance_of(self, rim: str, sign: int) -> float:
@@ -146,7 +146,7 @@ class Places:
     # ------------------------------------------------------------------ who comes out where
 
     def held_ring(self, name: str) -> bool:
-        """Whether a member is a ring that does not turn: it stands on the ground and needs no shaft."""
+        """Return whether a member is a ring that does not turn: it stands on the ground and needs no shaft."""
         return name == self.train.fixed and any(each.name == name and each.gear.internal for each in self.train.centrals)
 
     @cached_property
@@ -247,7 +247,7 @@ class Plan:
 
 
 def plan_of(train: PlanetaryTrain, flow: PowerFlow | None = None) -> Plan:
-    """The skeleton of a train, with arrows where power goes in and out: as it flows, or at its input and output."""
+    """Return the skeleton of a train, with arrows where power goes in and out: as it flows, or at its input and output."""
     return _Draft(train, power_ways(train, flow)).drawn()
 
 
@@ -313,7 +313,7 @@ class _Draft:
         self.axes[name] = (x, height)
 
     def _draw_out(self, name: str, side: int, place: float) -> float:
-        """The shaft of a member with its stages; how far out it comes."""
+        """Return the shaft of a member with its stages; how far out it comes."""
         reached = {name}
         for stage, inner, outer in placed_stages(self.train):
             if inner in reached:
@@ -328,7 +328,7 @@ class _Draft:
         return self._end(name, side, (place, height))
 
     def _draw_stage(self, stage: PairStage, shafts: tuple[str, str], side: int, x: float) -> float:
-        """A stage: the gear on the shaft towards the set, its mate, and the shaft of that; how far out it comes."""
+        """Return a stage: the gear on the shaft towards the set, its mate, and the shaft of that; how far out it comes."""
         inner, outer = shafts
         start, axis = self.axes[inner]
         diameters = stage.pair.working_pitch_diameters
@@ -352,7 +352,7 @@ class _Draft:
         return self._end(outer, side, (end, centre))
 
     def _end(self, name: str, side: int, at: Point) -> float:
-        """The end of a shaft: an arrow in or out, or ground; how far out it comes."""
+        """Return the end of a shaft: an arrow in or out, or ground; how far out it comes."""
         x, y = at
         if role_of(self.train, name) == "fixed":
             self.grounds.append(Ground(at, (side, 0)))
@@ -415,13 +415,13 @@ _SCHEME_ARROW = {"arrowstyle": "-|>", "linewidth": 1.4, "shrinkA": 0, "shrinkB":
 
 
 def scheme_inches(train: PlanetaryTrain, flow: PowerFlow | None = None) -> tuple[float, float]:
-    """Size of the scheme of a train."""
+    """Return the size of the scheme of a train."""
     (left, low, right, high), _ = _laid_out(plan_of(train, flow), train)
     return max(FIGURE_INCHES[0], right - left), high - low
 
 
 def plot_scheme(train: PlanetaryTrain, ax: Axes | None = None, flow: PowerFlow | None = None) -> Axes:
-    """Half section of the train in symbols: bars are teeth, hatched lines do not turn, power goes in and out along arrows.
+    """Draw half section of the train in symbols: bars are teeth, hatched lines do not turn, power goes in and out along arrows.
 
     Without its `flow` these are at input and output.
     """
@@ -464,7 +464,7 @@ _Name = tuple[Callout, list[str], float, float]
 
 
 def _laid_out(plan: Plan, train: PlanetaryTrain) -> tuple[tuple[float, float, float, float], list[_Name]]:
-    """The box of the picture, and all names in it."""
+    """Return the box of the picture, and all names in it."""
     left, low, right, high = plan.box
     xs = [point[0] for arrow in plan.arrows for point in (arrow.start, arrow.end)]
     left, right = min([left, *xs]) - _LEADER, max([right, *xs]) + _LEADER
@@ -480,7 +480,7 @@ def _laid_out(plan: Plan, train: PlanetaryTrain) -> tuple[tuple[float, float, fl
 
 
 def _words(train: PlanetaryTrain, part: str, ways: Mapping[str, str]) -> list[str]:
-    """A part's name, its teeth, what it is to the train, and which way power goes there."""
+    """Return a part's name, its teeth, what it is to the train, and which way power goes there."""
     role = role_words(train, part, ways)
     for rim in train.rims:
         if rim.name == part:

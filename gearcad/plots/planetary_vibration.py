@@ -53,12 +53,12 @@ class _Body(NamedTuple):
 
 
 def shown_families(modes: PlanetaryModes) -> list[ModeFamily]:
-    """The frequencies whose modes are drawn."""
+    """Return the frequencies whose modes are drawn."""
     return [family for family in modes.families if family.frequency > 0][:MOST_MODES]
 
 
 def modes_inches(modes: PlanetaryModes) -> tuple[float, float]:
-    """Size of the picture."""
+    """Return the size of the picture."""
     rows = math.ceil(len(shown_families(modes)) / _COLUMNS)
     return FIGURE_INCHES[0], 1.95 * rows
 
@@ -70,7 +70,7 @@ def mode_title(family: ModeFamily) -> str:
 
 
 def plot_modes(train: PlanetaryTrain, modes: PlanetaryModes, figure: Figure | None = None) -> Figure:
-    """A panel for each frequency, with the first of its modes: at rest pale, displaced in colour, much enlarged."""
+    """Draw a panel for each frequency, with the first of its modes: at rest pale, displaced in colour, much enlarged."""
     of = new_figure(modes_inches(modes)) if figure is None else figure
     families = shown_families(modes)
     panels = of.subplots(math.ceil(len(families) / _COLUMNS), _COLUMNS, squeeze=False).ravel()
@@ -192,7 +192,9 @@ def plot_train_campbell(train: PlanetaryTrain, campbell: PlanetaryCampbell, ax: 
 
 
 def highest_drawn(campbell: PlanetaryCampbell) -> float:
-    """Frequency (Hz) up to where the picture goes: the highest natural one, or what the lines reach if that is lower."""
+    """Return the frequency (Hz) up to where the picture goes: the highest natural one, or what the lines reach if that is
+    lower.
+    """
     natural = [family.frequency for family in campbell.families if family.frequency > 0]
     reached = max((line.per_rpm for line in campbell.lines), default=0.0) * campbell.highest_speed
     return _ABOVE * min(max(natural, default=1.0), max(reached, min(natural, default=1.0)))
@@ -392,7 +394,7 @@ def _widen(axes: Axes) -> None:
 
 
 def _rows(running: Running) -> tuple[tuple[Floats, Floats, str], tuple[Floats, Floats, str]]:
-    """Curves, the same without what the meshes do, and their words."""
+    """Return the curves, the same without what the meshes do, and their words."""
     twist = (np.atleast_2d(each) * _ARCSECONDS for each in (running.twist, running.slow_twist))
     return (running.shares, running.slow_shares, "share of a planet"), (*twist, "twist in arcsec")  # type: ignore[return-value]
 

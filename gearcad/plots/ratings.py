@@ -61,7 +61,7 @@ def plot_life(rating: StrengthRating, part: RatedPart = RatedPart.FLANK, ax: Axe
 
 
 def _loads(axes: Axes, rating: StrengthRating, part: RatedPart, role: Role) -> list[float]:
-    """A mark for each load of a gear; a line where its cycles are not known. Returns the stresses (MPa)."""
+    """Return a mark for each load of a gear; a line where its cycles are not known. Returns the stresses (MPa)."""
     (_, colour, marker), cycles = GEARS.pick(role), rating.parts[part].pick(role).cycles
     stresses = [case.stresses[part].pick(role) for case in rating.cases]
     words = f"stress of the {rating.gear_names.pick(role)}"
@@ -74,7 +74,7 @@ def _loads(axes: Axes, rating: StrengthRating, part: RatedPart, role: Role) -> l
 
 
 def plot_safeties(strength: TrainStrength, ax: Axes | None = None) -> Axes:
-    """Least safety of flank and root of every gear of a train, with the safeties that are required.
+    """Draw the least safety of flank and root of every gear of a train, with the safeties that are required.
 
     Raises GeometryError where none was judged.
     """

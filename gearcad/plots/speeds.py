@@ -71,7 +71,7 @@ def plot_factors(study: TrainStudy, ax: Axes | None = None) -> Axes:
 
 
 def plot_shaft_overload(study: TrainStudy, ax: Axes | None = None) -> Axes:
-    """Greatest torque of every shaft over its static one, where it has one, over speed."""
+    """Draw the greatest torque of every shaft over its static one, where it has one, over speed."""
     axes = prepared(ax, SPEED_WORDS, "greatest torque over the static one")
     kept = study.up.referred_shafts
     for shaft, width in zip(kept, layered(len(kept)), strict=True):
@@ -197,7 +197,7 @@ def tooth_axis(axes: Axes, study: TrainStudy) -> None:
 
 
 def course_inches(study: TrainStudy) -> tuple[float, float]:
-    """Size of a figure of the course."""
+    """Return the size of a figure of the course."""
     return FIGURE_INCHES[0], 4.0 + 1.7 * bool(study.up.shaft_names)
 
 
@@ -264,12 +264,14 @@ Curve = Callable[[KvChart], Floats]
 
 
 def displacement_inches(study: TrainStudy) -> tuple[float, float]:
-    """Size of a figure of displacements."""
+    """Return the size of a figure of displacements."""
     return FIGURE_INCHES[0], _PANEL * (3 if study.up.bearings is not None else 2) + _ABOVE
 
 
 def plot_displacements(study: TrainStudy, figure: Figure | None = None) -> Figure:
-    """Amplitudes of the inertias' turns, of the approach of the flanks, and of travels on bearings; running down dashed."""
+    """Draw the amplitudes of the inertias' turns, of the approach of the flanks, and of travels on bearings; running down
+    dashed.
+    """
     of = new_figure(displacement_inches(study)) if figure is None else figure
     up = study.up
     panels = of.subplots(3 if up.bearings is not None else 2, 1, sharex=True)
@@ -288,12 +290,12 @@ def _travels(chart: KvChart) -> Floats:
 
 
 def bearing_inches() -> tuple[float, float]:
-    """Size of a figure of bearings."""
+    """Return the size of a figure of bearings."""
     return FIGURE_INCHES[0], 3.3 + _ABOVE
 
 
 def plot_bearings(study: TrainStudy, figure: Figure | None = None) -> Figure:
-    """Greatest force on the bearings of each gear over speed, and at rest."""
+    """Draw the greatest force on the bearings of each gear over speed, and at rest."""
     of = new_figure(bearing_inches()) if figure is None else figure
     panel, loads = of.subplots(), study.up.bearings
     assert loads is not None  # a pair on bearings has them

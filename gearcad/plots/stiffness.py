@@ -99,12 +99,12 @@ def plot_parts(comparison: StiffnessComparison, cycle: MeshCycle, ax: Axes | Non
 
 
 def parts_inches(comparison: StiffnessComparison) -> tuple[float, float]:
-    """Size of a figure of all parts."""
+    """Return the size of a figure of all parts."""
     return FIGURE_INCHES[0], 1.1 + 2.0 * math.ceil(len(comparison.divided) / 2)
 
 
 def plot_parts_of_all(comparison: StiffnessComparison, figure: Figure | None = None) -> Figure:
-    """The parts by every method that knows them, side by side on axes of one scale."""
+    """Draw the parts by every method that knows them, side by side on axes of one scale."""
     cycles = comparison.divided
     rows = math.ceil(len(cycles) / 2)
     of = new_figure(parts_inches(comparison)) if figure is None else figure
@@ -128,7 +128,7 @@ def plot_parts_of_all(comparison: StiffnessComparison, figure: Figure | None = N
 
 
 def plot_load_dependence(comparison: StiffnessComparison, ax: Axes | None = None) -> Axes:
-    """Mean secant and mean tangent stiffness by every method over the torque."""
+    """Draw the mean secant and mean tangent stiffness by every method over the torque."""
     from matplotlib.lines import Line2D
 
     axes = prepared(ax, "torque on the pinion in N·m", "mean mesh stiffness in N/µm")
@@ -156,7 +156,7 @@ def plot_load_dependence(comparison: StiffnessComparison, ax: Axes | None = None
 
 
 def _along_path(comparison: StiffnessComparison, cycle: MeshCycle, values: Floats) -> tuple[Floats, Floats]:
-    """Places (m,) on the line of action from A to E and a little beyond, and values (m,) there.
+    """Return the places (m,) on the line of action from A to E and a little beyond, and values (m,) there.
 
     The cycle's own points, again every base pitch: where it jumps, the same place stands twice.
     """

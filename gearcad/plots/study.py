@@ -95,7 +95,7 @@ def plot_scatter(points: Points, ax: Axes | None = None) -> Axes:
 
 
 def _series(column: Column) -> list[tuple[str, list[int]]]:
-    """Each value of the column in words and its rows, numbers in order; none if its numbers are too many for that."""
+    """Return each value of the column in words and its rows, numbers in order; none if its numbers are too many for that."""
     distinct: list[Any] = list(dict.fromkeys(column.values)) if column.is_text else sorted(set(column.values))
     if len(distinct) > len(_SERIES):
         if column.is_text:
@@ -185,7 +185,7 @@ def _heights(points: Points) -> tuple[str, NDArray[np.float64], NDArray[np.float
 
 
 def _grid(x: NDArray[np.float64], y: NDArray[np.float64], z: NDArray[np.float64]) -> tuple[Any, ...] | None:
-    """Columns, rows and values of the grid that the points fill for the most part, if they do."""
+    """Return the columns, rows and values of the grid that the points fill for the most part, if they do."""
     import numpy as np
 
     (columns, column_of), (rows, row_of) = (np.unique(values, return_inverse=True) for values in (x, y))
@@ -197,7 +197,7 @@ def _grid(x: NDArray[np.float64], y: NDArray[np.float64], z: NDArray[np.float64]
 
 
 def _triangulation(x: NDArray[np.float64], y: NDArray[np.float64], key: str) -> Any:
-    """Triangles between the points as they look on the paper, where both axes are about as long."""
+    """Return the triangles between the points as they look on the paper, where both axes are about as long."""
     import numpy as np
     from matplotlib.tri import TriAnalyzer, Triangulation
 
@@ -246,7 +246,7 @@ def _set_wide(axes: Axes, wide: tuple[bool, bool], places: tuple[NDArray[np.floa
 
 
 def _prepared(points: Points, ax: Axes | None) -> Axes:
-    """Axes with title, labels and grid; those of a new figure if none are given."""
+    """Return the axes with title, labels and grid; those of a new figure if none are given."""
     from matplotlib.ticker import MaxNLocator
 
     axes = new_figure(_INCHES).subplots() if ax is None else ax

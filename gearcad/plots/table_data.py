@@ -65,7 +65,7 @@ class Points:
 
 
 def read_points(path: Path | str, x: str, y: str, *, colour: str | None = None, contour: str | None = None) -> Points:
-    """Points of the results at `path`; the third quantity is that of `colour`, which may be a text, or of `contour`.
+    """Return the points of the results at `path`; the third quantity is that of `colour`, which may be a text, or of `contour`.
 
     A key may lack its beginning if it fits one column all the same; one of [pair] or [gear] goes first. Raises SpecError for
     the file, ParameterError for a key.
@@ -121,13 +121,13 @@ def opened_records(file: TextIO, name: str) -> Iterator[tuple[list[str], Iterato
 
 
 def _with_point(cell: str) -> str:
-    """A number with a decimal comma as one with a point; a text as it is."""
+    """Return a number with a decimal comma as one with a point; a text as it is."""
     pointed = cell.replace(",", ".")
     return cell if plain_number(pointed) is None else pointed
 
 
 def _find_key(role: str, asked: str, headings: Sequence[str]) -> str:
-    """The heading that was meant."""
+    """Return the heading that was meant."""
     for key in (asked, *(f"{table}.{asked}" for table in _MAIN_TABLES)):
         if key in headings:
             return key
@@ -150,7 +150,7 @@ def _hint(asked: str, headings: Sequence[str]) -> str:
 
 
 def _near(asked: str, headings: Sequence[str]) -> list[str]:
-    """Headings with the symbol that was asked for, or that contain it, are spelt alike, or have most of its words."""
+    """Return the headings with the symbol that was asked for, or that contain it, are spelt alike, or have most of its words."""
     last = asked.rpartition(".")[2]
     written = {heading: found[1].symbol for heading in headings if (found := column_symbol(heading)) is not None}
     if near := [heading for heading, symbol in written.items() if symbol and _spelt(symbol) == _spelt(asked)]:
@@ -169,7 +169,7 @@ def _near(asked: str, headings: Sequence[str]) -> list[str]:
 
 
 def _spelt(symbol: str) -> str:
-    """A symbol as one types it: ε_α, eps_alpha and epsilonalpha are the same."""
+    """Return a symbol as one types it: ε_α, eps_alpha and epsilonalpha are the same."""
     named = "".join(sign if sign.isascii() else unicodedata.name(sign, sign).rpartition(" ")[2] for sign in symbol)
     return "".join(sign for sign in named.lower().replace("epsilon", "eps") if sign.isalnum())
 
@@ -179,7 +179,7 @@ def _words(key: str) -> set[str]:
 
 
 def _complete_rows(records: Iterator[list[str]], headings: Sequence[str], keys: list[str]) -> tuple[dict[int, list[str]], int]:
-    """The cells under `keys` of each good row by its number, and how many rows are not good."""
+    """Return the cells under `keys` of each good row by its number, and how many rows are not good."""
     status, *places = (headings.index(key) for key in (_STATUS, *keys))
     rows: dict[int, list[str]] = {}
     omitted = 0
@@ -205,7 +205,7 @@ def _numbers(path: Path, key: str, texts: Mapping[int, str]) -> Column:
 
 
 def _colour_column(key: str, texts: Mapping[int, str]) -> Column:
-    """Numbers if all are, else texts as they were before an apostrophe kept a spreadsheet from running them."""
+    """Return the numbers if all are, else texts as they were before an apostrophe kept a spreadsheet from running them."""
     numbers = [value for text in texts.values() if (value := plain_number(text)) is not None]
     if len(numbers) == len(texts):
         return Column(key, tuple(numbers))

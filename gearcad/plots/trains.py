@@ -66,13 +66,13 @@ class _Way(NamedTuple):
 
 
 def shapes_inches(train: Train, modes: NaturalModes) -> tuple[float, float]:
-    """Size of a figure of all shapes."""
+    """Return the size of a figure of all shapes."""
     rows = math.ceil(min(len(modes), MOST_SHAPES) / _columns(train, modes))
     return FIGURE_INCHES[0], 0.9 + 1.35 * rows
 
 
 def plot_shapes(train: Train, modes: NaturalModes, figure: Figure | None = None) -> Figure:
-    """A panel per mode, of the first twelve: the turn along the train, its greatest 1, with a jump at every mesh."""
+    """Draw a panel per mode, of the first twelve: the turn along the train, its greatest 1, with a jump at every mesh."""
     of = new_figure(shapes_inches(train, modes)) if figure is None else figure
     count, columns, way = min(len(modes), MOST_SHAPES), _columns(train, modes), _laid_out(train, modes)
     rows = math.ceil(count / columns)
@@ -115,7 +115,7 @@ def _draw_shape(axes: Axes, train: Train, modes: NaturalModes, mode: int, way: _
 
 
 def _finely(modes: NaturalModes, mode: int) -> tuple[Floats, Floats]:
-    """Places (q,) along every shaft, those of the modes and more between, and the turns (s, q) there.
+    """Return the places (q,) along every shaft, those of the modes and more between, and the turns (s, q) there.
 
     Half waves have few places where they are many: lines between these would cut their tops.
     """
@@ -227,12 +227,12 @@ def _farthest(distances: dict[_Node, float]) -> _Node:
 
 
 def energies_inches(modes: NaturalModes) -> tuple[float, float]:
-    """Size of a figure of all energies."""
+    """Return the size of a figure of all energies."""
     return FIGURE_INCHES[0], 1.4 + 0.32 * len(modes)
 
 
 def plot_energies(modes: NaturalModes, figure: Figure | None = None) -> Figure:
-    """Shares of the parts in the kinetic energy of every mode, on the left, and in the potential energy, on the right."""
+    """Draw the shares of the parts in the kinetic energy of every mode, on the left, and in the potential energy, on the right."""
     of = new_figure(energies_inches(modes)) if figure is None else figure
     left, right = of.subplots(1, 2, sharey=True)
     kinetic = [("inertia", modes.inertias, modes.kinetic_inertias), ("shaft", modes.shafts, modes.kinetic_shafts)]
@@ -292,12 +292,12 @@ _WIDE = 20.0
 
 
 def beside_inches(panels: int, studies: int) -> tuple[float, float]:
-    """Size of a figure with a panel for each mesh or shaft."""
+    """Return the size of a figure with a panel for each mesh or shaft."""
     return FIGURE_INCHES[0], _PANEL * panels + _ABOVE + 0.2 * -(-studies // _ROW)
 
 
 def study_colours(count: int) -> list[str]:
-    """A colour for each study; from light to dark, in their order, where there are many."""
+    """Return a colour for each study; from light to dark, in their order, where there are many."""
     if count <= len(SERIES):
         return list(SERIES[:count])
     from matplotlib import colormaps
@@ -338,7 +338,7 @@ def plot_approaches_beside(of: SideBySide, figure: Figure | None = None) -> Figu
 
 
 def plot_overloads_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
-    """Greatest torque of every shaft over its static one, a panel each, a colour for each study that has the shaft."""
+    """Draw the greatest torque of every shaft over its static one, a panel each, a colour for each study that has the shaft."""
 
     def curve(study: TrainStudy, chart: KvChart, name: str) -> Floats | None:
         return chart.shaft_factors[:, chart.shaft_names.index(name)] if name in study.shaft_overloads else None

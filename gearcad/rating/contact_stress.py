@@ -66,7 +66,7 @@ def half_width(load_per_width: Size, radius: Size, modulus: float) -> Size:
 
 
 def half_width_by_curvature(load_per_width: float, curvature: float, modulus: float) -> float:
-    """Half width a (mm) from the relative curvature 1/R (1/mm).
+    """Return half width a (mm) from the relative curvature 1/R (1/mm).
 
     The result is infinite where a concave surface is more curved than the convex one.
     """
@@ -110,13 +110,15 @@ class LineContact:
         return float(peak_pressure(self.load_per_width, self.radius, self.modulus))
 
     def pressure(self, x: ArrayLike) -> Any:
-        """Pressure (MPa) at `x` (mm) from the middle: p_0 sqrt(1 - x^2/a^2), 0 outside (Johnson 4.44). Scalar or array."""
+        """Return the pressure (MPa) at `x` (mm) from the middle: p_0 sqrt(1 - x^2/a^2), 0 outside (Johnson 4.44). Scalar or
+        array.
+        """
         across = np.asarray(x, float) / self.half_width
         found = self.peak_pressure * np.sqrt(np.clip(1 - across**2, 0, None))
         return float(found) if found.ndim == 0 else found
 
     def stresses(self, depth: ArrayLike) -> Stresses:
-        """Stresses on the axis of symmetry at `depth` (mm, 0 or more; scalar or array). Raises ParameterError.
+        """Return the stresses on the axis of symmetry at `depth` (mm, 0 or more; scalar or array). Raises ParameterError.
 
         sigma_z = -p_0 a/s and sigma_x = -p_0 ((a^2 + 2 z^2)/(a s) - 2 z/a) with s = sqrt(a^2 + z^2) (Johnson 4.46),
         the latter written as -p_0 a^3/(s (s + z)^2), which keeps its digits at any depth; sigma_y = nu (sigma_x + sigma_z).
@@ -162,7 +164,7 @@ class LineContact:
         return self._greatest("von_mises", (0.0, *(math.atanh(root) for root in inside)))
 
     def _greatest(self, name: str, candidates: tuple[float, ...]) -> StressPeak:
-        """The largest value of one of the `stresses` among the candidates t = arsinh(z/a)."""
+        """Return the largest value of one of the `stresses` among the candidates t = arsinh(z/a)."""
         found = self.stresses(self.half_width * np.sinh(candidates))
         values = getattr(found, name)
         best = int(np.argmax(values))
@@ -247,7 +249,7 @@ class FlankRating:
         }
 
     def to_dict(self) -> dict[str, float]:
-        """Values under their symbols."""
+        """Return the values under their symbols."""
         return {**self.factors, "sigma_H0": self.nominal_stress}
 
 
@@ -335,7 +337,8 @@ def single_contact_curvature(pair: GearPair) -> PerGear[float]:
 
 
 def inner_point_rolls(gears: PerGear[Any], transverse_contact_ratio: Values, own: Role) -> tuple[Values, Values]:
-    """Roll lengths over base radii of both flanks at the inner point of single contact of the gear `own`, its own first.
+    """Return the roll lengths over base radii of both flanks at the inner point of single contact of the gear `own`, its own
+    first.
 
     Either is above 0 where the point is on the involutes: in M_1 = tan alpha_wt/sqrt((sqrt(d_a1^2/d_b1^2 - 1) - 2 pi/z_1)
     (sqrt(d_a2^2/d_b2^2 - 1) - (eps_alpha - 1) 2 pi/z_2)), with the tip form circles for d_a, they are the two factors below
@@ -345,7 +348,7 @@ def inner_point_rolls(gears: PerGear[Any], transverse_contact_ratio: Values, own
 
 
 def _roll(gear: GearSizes[Values], pitches: Values) -> Values:
-    """Roll length over base radius, so many base pitches below the tip."""
+    """Return the roll length over base radius, so many base pitches below the tip."""
     return root((gear.tip_form_diameter / gear.base_diameter) ** 2 - 1) - pitches * (2 * math.pi / gear.teeth)
 
 

@@ -44,7 +44,7 @@ _FIFTH = 5
 
 
 def graded(fifth: Values, grade: int) -> Values:
-    """A tolerance of grade 5 in another, √2 times as much from each to the next.
+    """Return a tolerance of grade 5 in another, √2 times as much from each to the next.
 
     It is rounded as the standard has it: to whole µm above 10, to halves from 5 on, to tenths below.
     """
@@ -68,7 +68,7 @@ Both = float | tuple[float, float]
 
 
 def both(value: Both) -> PerGear[float]:
-    """The numbers of both gears."""
+    """Return the numbers of both gears."""
     return PerGear(*value) if isinstance(value, tuple) else PerGear(value, value)
 
 

@@ -319,13 +319,13 @@ _STATIC_SUPPORT = {Family.STRUCTURAL: (0.93, 200.0), Family.THROUGH_HARDENED: (0
 
 
 def strength_range(group: MaterialGroup) -> tuple[float, float] | None:
-    """The strengths (MPa) between which table 2 has rho' of a group, which stays beyond; None where none counts."""
+    """Return the strengths (MPa) between which table 2 has rho' of a group, which stays beyond; None where none counts."""
     points = _SLIP_LAYERS[Family.of(group)]
     return None if len(points) == 1 else (points[0][0], points[-1][0])
 
 
 def cautious_strength(notch_parameter: Values, group: MaterialGroup) -> Values | None:
-    """The strength in the range of a group that makes Y_delta_relT least, for a material whose own is not known."""
+    """Return the strength in the range of a group that makes Y_delta_relT least, for a material whose own is not known."""
     if (ends := strength_range(group)) is None:
         return None
     low, high = (notch_sensitivity_factor(notch_parameter, group, end) for end in ends)

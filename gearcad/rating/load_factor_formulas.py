@@ -411,7 +411,7 @@ def arrangement_factor(arrangement: BearingArrangement, stiffening: bool, diamet
 
 
 def offset_limit(arrangement: BearingArrangement) -> float:
-    """The most s/l that figure 13 has."""
+    """Return the most s/l that figure 13 has."""
     return 0.5 if arrangement is BearingArrangement.OVERHUNG else 0.3
 
 
@@ -490,5 +490,5 @@ def root_limit(total_contact_ratio: Values, transverse_contact_ratio: Values) ->
 
 
 def within(factor: Values, limit: Values) -> Values:
-    """A factor, at most its limit, and never below 1."""
+    """Return a factor, at most its limit, and never below 1."""
     return larger(smaller(factor, limit), 1.0)

@@ -64,7 +64,7 @@ _CAST_STEELS = (
 
 
 def per_family(columns: Mapping[tuple[Family, ...], _T]) -> dict[Family, _T]:
-    """A table as the standard prints it, where families share columns, by family."""
+    """Return a table as the standard prints it, where families share columns, by family."""
     return {family: entry for families, entry in columns.items() for family in families}
 
 

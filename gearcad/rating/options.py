@@ -78,7 +78,7 @@ class DutyOptions:
 
 
 def _spectrum(given: Any) -> tuple[tuple[float, ...], ...]:
-    """A spectrum from lists of numbers or from the text of a cell. Raises ParameterError."""
+    """Return a spectrum from lists of numbers or from the text of a cell. Raises ParameterError."""
     if isinstance(given, str):
         found = [_numbers(item) for item in given.split()]
     elif isinstance(given, list | tuple):
@@ -105,7 +105,7 @@ def _numbers(item: str) -> tuple[float, ...]:
 
 
 def _bin(numbers: tuple[Any, ...], given: Any) -> tuple[float, ...]:
-    """A share of the life, above 0, and shares of torque, 0 or more, and of speed, above 0. Raises ParameterError."""
+    """Return a share of the life, above 0, and shares of torque, 0 or more, and of speed, above 0. Raises ParameterError."""
     if len(numbers) not in (2, 3) or not all(map(is_finite_number, numbers)):
         raise ParameterError("spectrum", given, _PERMITTED)
     life, torque, speed = (*numbers, 1.0)[:3]

@@ -90,7 +90,7 @@ class VirtualGear(Generic[Values]):
         return with_sign(1.0, self.teeth)
 
     def half_angle(self, diameter: Values) -> Values:
-        """Half tooth angle (degrees) of the involute at a diameter (mm) that is not inside the base circle."""
+        """Return half tooth angle (degrees) of the involute at a diameter (mm) that is not inside the base circle."""
         at = degrees(arccos(smaller(self.base_diameter / diameter, 1.0)))
         return self.tooth_angle + degrees(involute(self.pressure_angle) - involute(at))
 
@@ -108,7 +108,7 @@ class LoadPoint(Generic[Values]):
     load_angle: Values
 
     def to_dict(self) -> dict[str, Values]:
-        """Values under their symbols."""
+        """Return the values under their symbols."""
         return {"d_en": self.diameter, "alpha_Fen": self.load_angle}
 
 
@@ -242,12 +242,12 @@ class RootSection(Generic[Values]):
 
 
 def lean_of(gear: Gear) -> float:
-    """Angle (deg) of the tangents at its root section to the middle of the tooth."""
+    """Return the angle (deg) of the tangents at its root section to the middle of the tooth."""
     return _RING_LEAN if gear.internal else _LEAN
 
 
 def root_section(gear: Gear, virtual: VirtualGear[float], load: LoadPoint[float]) -> RootSection[float]:
-    """The section at the tangents to the fillet, and the arm at which the load bends it.
+    """Return the section at the tangents to the fillet, and the arm at which the load bends it.
 
     Raises GeometryError for teeth without such a section, as of a gear with three.
     """
@@ -384,7 +384,9 @@ class _GeneratedFillet:
         return radius * np.cos(self.half_pitch - angle), radius * np.sin(self.half_pitch - angle)
 
     def lean(self, theta: ArrayLike) -> Floats:
-        """Angle (rad) between the tangent and the middle of the tooth: a right angle on the root circle, falling from there."""
+        """Return the angle (rad) between the tangent and the middle of the tooth: a right angle on the root circle, falling
+        from there.
+        """
         direction = self.tool.direction(theta, self.half_pitch)
         return math.pi + direction if self.internal else -direction
 
@@ -395,7 +397,7 @@ class _GeneratedFillet:
         return root_between(lambda theta: float(self.lean(theta)) - lean, 0.0, self.tool.last_angle, xtol=1e-15, rtol=8.9e-16)
 
     def curvature_radius(self, theta: float) -> float:
-        """Radius of curvature (mm), from differences of fourth order along the curve."""
+        """Return the radius of curvature (mm), from differences of fourth order along the curve."""
         near = theta + _STEP * _OFFSETS
         (x, y), lean = self.points(near), self.lean(near)
         return float(math.hypot(_SLOPE @ x, _SLOPE @ y) / abs(_SLOPE @ lean))
@@ -408,7 +410,7 @@ def substitute_radius(gear: Gear, cutter_teeth: int) -> float:
 
 
 def ring_section(gear: Gear, virtual: VirtualGear[float], load: LoadPoint[float], radius: float) -> RootSection[float] | None:
-    """The section at the 60-degree tangents of a ring whose substitute rack has a tip of `radius` rho_fPv (mm).
+    """Return the section at the 60-degree tangents of a ring whose substitute rack has a tip of `radius` rho_fPv (mm).
 
     G = rho_fPv - h_fP + x, H = (2/z_n) (pi/2 - E) - pi/6, theta as of external gears; then
     s_Fn = z_n sin(pi/6 - theta) + G/cos theta - rho_fPv, rho_F = rho_fPv + 2 G^2/(cos theta (z_n cos^2 theta - 2 G)),
@@ -454,12 +456,12 @@ class RackLoadPoint(LoadPoint[float]):
     height: float
 
     def to_dict(self) -> dict[str, float]:
-        """Values under their symbols: there is no diameter."""
+        """Return the values under their symbols: there is no diameter."""
         return {"h_en": self.height, "alpha_Fen": self.load_angle}
 
 
 def virtual_rack(rack: Rack) -> VirtualGear[float]:
-    """The normal section of a rack: a gear of infinite size."""
+    """Return the normal section of a rack: a gear of infinite size."""
     return VirtualGear(
         normal_module=rack.normal_module,
         pressure_angle=rack.rack.pressure_angle,
@@ -488,7 +490,7 @@ def rack_load_point(rack: Rack, virtual_contact_ratio: float) -> RackLoadPoint:
 
 
 def rack_section(rack: Rack, load: RackLoadPoint) -> RootSection[float]:
-    """The section at the 30-degree tangents, and the arm at which the load bends it.
+    """Return the section at the 30-degree tangents, and the arm at which the load bends it.
 
     The middle of the fillet's arc is u = s_n/2 + (h_f - rho) tan alpha_n + rho/cos alpha_n from the middle of the tooth. Raises
     GeometryError for a rack without fillets, or whose load passes below the section.

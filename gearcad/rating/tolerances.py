@@ -75,7 +75,7 @@ def equations(accuracy: Accuracy) -> Equations:
 
 
 def covered(accuracy: Accuracy) -> Mapping[str, Range | Whole]:
-    """The sizes that an edition covers, as magnitudes; one that is not named is not limited."""
+    """Return the sizes that an edition covers, as magnitudes; one that is not named is not limited."""
     return _COVERED[accuracy]
 
 

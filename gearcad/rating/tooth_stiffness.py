@@ -123,7 +123,7 @@ def _known(rim: RatedRim, edition: Edition) -> str:
 
 
 def rim_of(gear: Gear) -> RatedRim:
-    """The rim of a gear or a ring."""
+    """Return the rim of a gear or a ring."""
     return RingRim(ring_rim_ratio(gear)) if gear.internal else ExternalRim(rim_thickness_ratio(gear))
 
 
@@ -276,7 +276,7 @@ def mesh_stiffness_beta(mesh_alpha: Values) -> Values:
 
 
 def mesh_stiffness(pair: GearPair, materials: PerGear[Material], specific_load: float) -> MeshStiffness[float]:
-    """Stiffness of a pair at a specific load F_t K_A/b (N/mm); C_R, as C_B, is the mean of both gears."""
+    """Return the stiffness of a pair at a specific load F_t K_A/b (N/mm); C_R, as C_B, is the mean of both gears."""
     first, second = _by_teeth(pair)
     shifts = first.profile_shift, second.profile_shift
     return stiffness_of(

@@ -61,7 +61,7 @@ class Sheet(NamedTuple):
 
 
 def block(title: str, rows: Iterable[Row]) -> tuple[Block, ...]:
-    """A block of rows, if there are any."""
+    """Return a block of rows, if there are any."""
     found = tuple(rows)
     return (Block(title, found),) if found else ()
 
@@ -128,7 +128,7 @@ _OF_RACK = symbols_of(Rack) | symbols.RACK
 
 
 def _of_part(part: str) -> str:
-    """The fields of one part of a gear."""
+    """Return the fields of one part of a gear."""
     return " ".join(key for key in _OF_GEAR if key.startswith(f"{part}."))
 
 
@@ -180,7 +180,7 @@ _OF_SPUR_RINGS = {"span_measurement": "spur only", "between_pins": "spur only"}
 
 
 def gear_section(gears: Mapping[str, Gear], document: Mapping[str, Any], pair: Mapping[str, Any]) -> Section:
-    """The gears of a design's document, and beside their diameters those that each has in its `pair`."""
+    """Return the gears of a design's document, and beside their diameters those that each has in its `pair`."""
     every = {name: flattened(document[name] | _in_use(gear)) for name, gear in gears.items()}
     blocks: list[Block] = []
     for title, keys in _GEAR_BLOCKS.items():
@@ -231,6 +231,6 @@ def _in_use(gear: Gear) -> dict[str, Any]:
 
 
 def _given_pitch(part: Gear | Rack) -> dict[str, Any]:
-    """The diametral pitch, if it was given."""
+    """Return the diametral pitch, if it was given."""
     pitch = part.normal_diametral_pitch
     return {"normal_diametral_pitch": pitch if is_given(pitch) else None}

@@ -22,7 +22,7 @@ _OF_EVERY_RATING = ("standard", "accuracy", "accuracy_grade")
 
 
 def sheet_of(design: Design) -> Sheet:
-    """A column for each gear, then the pair, material, load, mounting and rating, then the notices."""
+    """Return a column for each gear, then the pair, material, load, mounting and rating, then the notices."""
     document = design.to_dict()
     if design.kind is DesignKind.TRAIN:
         from gearcad.sheet.trains import train_sections
@@ -55,7 +55,7 @@ def _sections(design: Design, document: Mapping[str, Any]) -> Iterator[Section]:
 
 
 def _material_section(document: Mapping[str, Any]) -> Section:
-    """The material of all gears, or a column for each."""
+    """Return the material of all gears, or a column for each."""
     every = document.get("materials", {})
     if not every and "material" in document:
         every = {"": document["material"]}

@@ -158,7 +158,7 @@ def safety_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> It
 
 
 def factor_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> dict[str, list[Quantity]]:
-    """All factors and stresses, each with its clause, by what they are of."""
+    """Return all factors and stresses, each with its clause, by what they are of."""
     values, verify = {**document["factors"], **document["stresses"]}, {each.rpartition(".")[2] for each in rating.verify}
     sources = document["sources"]
 
@@ -183,7 +183,9 @@ def factor_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> di
 
 
 def strength_sections(rating: StrengthRating, name: str = "") -> tuple[Section, ...]:
-    """Safeties, then factors by what they are of, a column for each gear, without what is not known; of a mesh its `name`."""
+    """Return the safeties, then factors by what they are of, a column for each gear, without what is not known; of a mesh its
+    `name`.
+    """
     document = rating.to_dict()
     groups = {"Safety": list(safety_quantities(rating, document)), **factor_quantities(rating, document)}
     before = f"{name}." if name else "strength."
@@ -193,7 +195,7 @@ def strength_sections(rating: StrengthRating, name: str = "") -> tuple[Section, 
 
 
 def train_strength_sections(strength: TrainStrength) -> tuple[Section, ...]:
-    """The least safeties of every gear, each with its mesh, then the sections of each mesh."""
+    """Return the least safeties of every gear, each with its mesh, then the sections of each mesh."""
     rows = []
     for name, gear in strength.members.items():
         least = [gear.least(part) for part in RatedPart]
@@ -219,7 +221,7 @@ def _row(before: str, of: Quantity, names: PerGear[str]) -> Row:
 
 
 def _hours(value: float | str | None) -> str:
-    """A life; beyond all machines no digits are told."""
+    """Return a life; beyond all machines no digits are told."""
     return f"> {LONGEST_LIFE:.0f}" if isinstance(value, float) and LONGEST_LIFE < value < math.inf else _text(value)
 
 

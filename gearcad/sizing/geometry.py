@@ -268,7 +268,7 @@ def shift_sum_at(
 
 
 def distance_for(shift_sum: Floats, teeth: Floats, normal_module: Floats, helix_angle: Floats, pressure_angle: float) -> Floats:
-    """Centre distance (mm) without backlash with x_1 + x_2, for sums of teeth; nan where there is none.
+    """Return the centre distance (mm) without backlash with x_1 + x_2, for sums of teeth; nan where there is none.
 
     As `zero_backlash_centre_distance` of one pair; angles in degrees.
     """

@@ -224,7 +224,7 @@ _FINE_WIDTH = 20.0
 
 
 def size_sets(task: SetSizeTask, count: int = 20, progress: Progress | None = None) -> SizedSets:
-    """The `count` lightest sets that bear the task. Raises SolverError where none does."""
+    """Return the `count` lightest sets that bear the task. Raises SolverError where none does."""
     result = search(task.sets, task.considered)
     agenda = Agenda(progress, _seconds(len(result.found), count))
     rough: list[_Rough] = []
@@ -373,7 +373,7 @@ def _rough(task: SetSizeTask, candidate: PlanetarySet) -> _Rough:
 
 
 def _sized(task: SetSizeTask, rough: _Rough) -> SizedSet | None:
-    """The lightest of all modules with the least width that holds; None where none does."""
+    """Return the lightest of all modules with the least width that holds; None where none does."""
     best: SizedSet | None = None
     candidate = rough.candidate
     for module in task.modules:
@@ -392,7 +392,7 @@ def _sized(task: SetSizeTask, rough: _Rough) -> SizedSet | None:
 
 
 def _widest(task: SetSizeTask, candidate: PlanetarySet, module: float) -> float:
-    """The most face width (mm), on its grid."""
+    """Return the most face width (mm), on its grid."""
     teeth = min(abs(each) for each in candidate.teeth.values())
     return max(_on_grid(task.width_ratio * teeth * module, math.floor), LEAST_WIDTH * module)
 
@@ -403,7 +403,7 @@ def _on_grid(width: float, rounded: Any) -> float:
 
 
 def _narrowest(task: SetSizeTask, candidate: PlanetarySet, module: float, widest: float) -> SizedSet | None:
-    """The least width that holds; None if the most does not."""
+    """Return the least width that holds; None if the most does not."""
     found = made(task, candidate, module, widest)
     if not found.holds:
         return None

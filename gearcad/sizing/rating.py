@@ -259,7 +259,7 @@ class ManyLoadFactors:
 
 
 def _larger(values: PerGear[Numbers]) -> Numbers:
-    """The larger of both gears."""
+    """Return the larger of both gears."""
     result: Numbers = np.maximum(values.pinion, values.wheel)
     return result
 
@@ -335,7 +335,7 @@ def line_ripple(contact_ratio: Floats, overlap_ratio: Floats) -> Floats:
 
 
 def disc_mass(pairs: ManyPairs, width: Floats, densities: PerGear[float]) -> Floats:
-    """Mass of both gears (kg), each a disc whose section is midway between those of its tip and its root circle.
+    """Return the mass of both gears (kg), each a disc whose section is midway between those of its tip and its root circle.
 
     That is within 1 % of the mass of the exact solids.
     """

@@ -207,7 +207,7 @@ class SizeTask:
 
 
 def _sorted(name: str, given: Any, permitted: Range) -> tuple[float, ...]:
-    """The values in order, each once. Raises ParameterError."""
+    """Return the values in order, each once. Raises ParameterError."""
     values: Sequence[Any] = given if isinstance(given, list | tuple) else [given]
     if not 1 <= len(values) <= _MOST_VALUES:
         raise ParameterError(name, len(values), f"must have from 1 to {_MOST_VALUES} values")

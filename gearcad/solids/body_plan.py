@@ -79,7 +79,7 @@ class EndCone:
         return cls(gear.profile.tip_diameter / 2 - side * gear.body.end_chamfer * slope, slope, side)
 
     def snapped(self, radii: Iterable[float], near: float) -> EndCone:
-        """The cone with its face radius moved onto the first of some radii that is nearer than `near` (mm)."""
+        """Return the cone with its face radius moved onto the first of some radii that is nearer than `near` (mm)."""
         return next((replace(self, face_radius=radius) for radius in radii if abs(radius - self.face_radius) < near), self)
 
     @property
@@ -105,17 +105,17 @@ class EndCone:
         return result
 
     def radius(self, setback: float) -> float:
-        """Radius (mm) at an axial distance (mm) from the end plane."""
+        """Return the radius (mm) at an axial distance (mm) from the end plane."""
         return self.face_radius + self.side * setback * self.slope
 
 
 def keyway_half_angle(body: Body) -> float:
-    """Half of the angle (rad) over which the keyway opens the bore."""
+    """Return half of the angle (rad) over which the keyway opens the bore."""
     return math.asin(body.keyway_width / body.bore)
 
 
 def require_rim(gear: Gear) -> float:
-    """The rim diameter (mm) of a ring. Raises GeometryError where none was given: the teeth alone are no body."""
+    """Return the rim diameter (mm) of a ring. Raises GeometryError where none was given: the teeth alone are no body."""
     rim = gear.body.rim_diameter
     if rim is None:
         permitted = f"must be given, at least {at_least(least_rim_diameter(gear))} mm: a solid of a ring ends there"
@@ -146,7 +146,9 @@ class End:
 
 
 def gear_ends(gear: Gear, junctions: Iterable[float]) -> tuple[End, End]:
-    """Lower and upper end of a gear; a chamfer's face radius snaps to the radii (mm) where pieces of the outline meet."""
+    """Return the lower and upper end of a gear; a chamfer's face radius snaps to the radii (mm) where pieces of the outline
+    meet.
+    """
     cone = EndCone.of(gear).snapped(junctions, _SNAP)
     return End(0.0, 1, cone), End(gear.face_width, -1, cone)
 
@@ -189,7 +191,7 @@ class OutlinePiece:
         return self.middle - offset if self.mirrored else self.middle + offset
 
     def height(self, c: float) -> float:
-        """Height over the reference line (mm)."""
+        """Return the height over the reference line (mm)."""
         (first, low), (last, high) = self.start, self.end
         if self.fillet is None:
             return low + (high - low) * (c - first) / (last - first)
@@ -198,7 +200,7 @@ class OutlinePiece:
 
 
 def outline_pieces(rack: Rack) -> list[OutlinePiece]:
-    """The outline over all c that the rectangle has, from left to right, each land in one piece."""
+    """Return the outline over all c that the rectangle has, from left to right, each land in one piece."""
     shift = rack.drift * rack.face_width
     low, high = min(0.0, -shift), max(rack.length, rack.length - shift)
     first, last = (math.floor(c / rack.transverse_pitch) for c in (low, high))
@@ -212,7 +214,7 @@ def outline_pieces(rack: Rack) -> list[OutlinePiece]:
 
 
 def _tooth(rack: Rack, middle: float) -> list[OutlinePiece]:
-    """One tooth without root lands."""
+    """Return one tooth without root lands."""
     left, right = list[OutlinePiece](), list[OutlinePiece]()
     for curve in rack.profile.curves:
         (x, y), (to_x, to_y) = curve.points(np.array([0.0, 1.0])).tolist()
@@ -288,7 +290,7 @@ class RackPlan:
         return place[0] - self._drift * place[1]
 
     def _way(self, lines: Floats, inner: Wholes, corners: _Corners, sides: Sequence[RackSide]) -> list[tuple[Edge, ...]]:
-        """Edges of each strip along one way round the rim; adds their vertices."""
+        """Return the edges of each strip along one way round the rim; adds their vertices."""
         at, side, edges, found = 0, sides[0], list[Edge](), list[tuple[Edge, ...]]()
         for place, line in self._stops(lines, inner, corners):
             self._places.append(place)
@@ -321,7 +323,7 @@ class RackPlan:
         return found
 
     def _corners(self, length: float, width: float) -> dict[tuple[RackSide, RackSide], int]:
-        """The vertex in each corner of the rectangle, by the sides that meet there: start or end, bottom or top."""
+        """Return the vertex in each corner of the rectangle, by the sides that meet there: start or end, bottom or top."""
         found = {}
         for one, x in ((RackSide.START, 0.0), (RackSide.END, length)):
             for other, z in ((RackSide.BOTTOM, 0.0), (RackSide.TOP, width)):
@@ -329,7 +331,7 @@ class RackPlan:
         return found
 
     def rim(self, side: RackSide) -> list[Edge]:
-        """The edges on one side, one behind the other: along +x, or along +z, each run as it is here."""
+        """Return the edges on one side, one behind the other: along +x, or along +z, each run as it is here."""
         edges = [edge for strip in self.strips for way in strip.ways for edge in way if edge.side is side]
         axis = 0 if side in (RackSide.BOTTOM, RackSide.TOP) else 1
         rising = [
@@ -339,7 +341,7 @@ class RackPlan:
         return sorted(rising, key=lambda edge: self.places[edge.start, axis])
 
     def chain(self, side: RackSide) -> list[int]:
-        """The vertices on one side, along +x or +z."""
+        """Return the vertices on one side, along +x or +z."""
         edges = self.rim(side)
         assert all(one.end == other.start for one, other in pairwise(edges))
         return [edges[0].start, *(edge.end for edge in edges)]

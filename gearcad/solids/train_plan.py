@@ -134,7 +134,7 @@ def stage_keys(train: PlanetaryTrain) -> list[PerGear[str]]:
 
 
 def train_bodies(train: PlanetaryTrain) -> dict[str, TrainBody]:
-    """The gears of a train by their keys: centrals, rims, pinion and wheel of each stage, no two of one name or colour."""
+    """Return the gears of a train by their keys: centrals, rims, pinion and wheel of each stage, no two of one name or colour."""
     gears = {central.name: central.gear for central in train.centrals} | {rim.name: rim.gear for rim in train.rims}
     for stage, keys in zip(train.stages, stage_keys(train), strict=True):
         gears |= {keys.pick(role): gear for role, gear in stage.pair.gears.items()}
@@ -146,7 +146,7 @@ def train_bodies(train: PlanetaryTrain) -> dict[str, TrainBody]:
 
 
 def _colours(train: PlanetaryTrain) -> Iterator[Colour]:
-    """A colour for each body: of centrals, rims, and gears of stages."""
+    """Yield a colour for each body: of centrals, rims, and gears of stages."""
     kinds = {internal: iter(TRAIN_COLOURS["rings" if internal else "suns"]) for internal in (False, True)}
     yield from (next(kinds[central.gear.internal]) for central in train.centrals)
     yield from TRAIN_COLOURS["rims"][: len(train.rims)]
@@ -175,7 +175,7 @@ class SweptSpace:
         return math.hypot(self.standing.axle.x, self.standing.axle.y)
 
     def about_the_train(self) -> _Extent:
-        """The radii between which it is, seen from the axis of the train (mm)."""
+        """Return the radii between which it is, seen from the axis of the train (mm)."""
         inner, outer = self.radii
         return max(self.distance - outer, inner - self.distance, 0.0), self.distance + outer
 
@@ -226,7 +226,7 @@ def _require_apart(parameter: str, value: float, moved: Sequence[Standing], othe
 
 
 def sweeps(standing: Standing) -> Iterator[SweptSpace]:
-    """The teeth of a gear down to its bore, or out to its rim, and its hubs."""
+    """Yield the teeth of a gear down to its bore, or out to its rim, and its hubs."""
     gear, body = standing.body.gear, standing.body.gear.body
     bottom, top = standing.z, standing.z + gear.face_width
     tip, bore = abs(gear.tip_diameter) / 2, body.bore / 2
@@ -253,7 +253,7 @@ def _off_axis(sweep: SweptSpace) -> bool:
 
 
 def overlap(one: _Extent, other: _Extent) -> bool:
-    """Whether two ranges (mm) have more than an end in common."""
+    """Return whether two ranges (mm) have more than an end in common."""
     return one[0] < other[1] - _TOUCHING and other[0] < one[1] - _TOUCHING
 
 
@@ -282,7 +282,7 @@ class CarrierPlan:
 
 
 def carrier_plan(layout: TrainLayout) -> CarrierPlan:
-    """The carrier of a train in mesh; a plate for which a stage leaves no room is left out.
+    """Return the carrier of a train in mesh; a plate for which a stage leaves no room is left out.
 
     Raises GeometryError for planets without bores, and where there is room for no plate.
     """
@@ -326,7 +326,7 @@ _EXPLODED_GAP = 0.3
 
 
 def moved_apart(layout: TrainLayout, carrier: CarrierPlan | None = None) -> TrainLayout:
-    """The layout with members above each other, in the order in which they stand; planets stay beside each
+    """Return the layout with members above each other, in the order in which they stand; planets stay beside each
     other, and so do the gears of a stage.
 
     A carrier, under the name it has in the train, stands above all.
@@ -362,7 +362,7 @@ class TrainPlan:
     def of(
         cls, train: PlanetaryTrain, *, carrier_angle: float = 0.0, carrier: bool = False, exploded: bool = False
     ) -> TrainPlan:
-        """The plan of a train, its carrier turned by so much (degrees).
+        """Return the plan of a train, its carrier turned by so much (degrees).
 
         Raises GeometryError for rings without a rim, bodies that stand in each other, a carrier for planets without bores.
         """

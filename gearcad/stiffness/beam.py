@@ -79,7 +79,7 @@ class BeamTooth:
 
     @classmethod
     def from_gear(cls, gear: Gear) -> BeamTooth:
-        """The tooth of a gear. Raises GeometryError where the virtual gear has no tooth."""
+        """Return the tooth of a gear. Raises GeometryError where the virtual gear has no tooth."""
         profile = gear.profile if not gear.helix_angle else _virtual_profile(gear)
         fillet, flank = profile.fillet, profile.involute
         base = profile.base_diameter / 2
@@ -101,7 +101,7 @@ class BeamTooth:
     # ------------------------------------------------------------------ the load
 
     def load_at(self, curvature: Floats) -> BeamLoad:
-        """The load where the involute's radius of curvature is `curvature` (n,) in mm, at the tip for one beyond it.
+        """Return the load where the involute's radius of curvature is `curvature` (n,) in mm, at the tip for one beyond it.
 
         At the tip circle a helical flank has a radius of curvature up to 1 % larger than that of its virtual gear.
         """
@@ -167,7 +167,9 @@ def _place(curve: Curve, slope: Slope, x: Floats) -> Floats:
 
 
 def _virtual_profile(gear: Gear) -> ToothProfile:
-    """The tooth that the gear's own tool would cut on the virtual spur gear of z_n teeth (ISO 6336-3:2006, (21) ... (27))."""
+    """Return the tooth that the gear's own tool would cut on the virtual spur gear of z_n teeth (ISO 6336-3:2006, (21) ...
+    (27)).
+    """
     virtual = VirtualGear.of(gear)
     d_n = virtual.reference_diameter
     return ToothProfile(

@@ -124,7 +124,7 @@ class StiffnessComparison(Pictured):
         return texts(self.notices)
 
     def to_dict(self, harmonics: int = 0) -> JsonObject:
-        """The document of `stiffness.json`, with so many Fourier coefficients of each curve."""
+        """Return the document of `stiffness.json`, with so many Fourier coefficients of each curve."""
         return {
             "load": asdict(self.load),
             **materials_document(self.material),
@@ -152,7 +152,7 @@ _COLUMNS = ("method", "roll_angle", "path_position", "mesh_stiffness", "tangent_
 
 
 def curves_csv(comparison: StiffnessComparison) -> str:
-    """The curves of all methods, one row for each roll angle of each: degrees, mm from T1, N/µm, µm, µm/N.
+    """Return the curves of all methods, one row for each roll angle of each: degrees, mm from T1, N/µm, µm, µm/N.
 
     Load shares stand under `load_share.PAIR`, compliances under `compliance.PART`; blank where a method has none.
     """

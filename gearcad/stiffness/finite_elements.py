@@ -79,7 +79,7 @@ class StrainEnergy(SliceMethod):
         yield from super().notices(load)
 
     def single(self, lengths: Floats, load: Load) -> SinglePair:
-        """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
+        """Return one pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
         curvatures, gears = self.curvatures(lengths), self.mounted.gears
         first, second = curvatures
         pinion, wheel = (elasticity.modulus for elasticity in self.elasticities)
@@ -142,7 +142,9 @@ def _precut_roots(gear: Gear, size: float, virtual: float) -> dict[str, Any]:
 
 
 def _sections(gear: Gear, inner_radius: float) -> list[tuple[float, Gear, float]]:
-    """Weights, spur gears and inner radii (mm) for the gear's section: itself, or the neighbours of its virtual gear."""
+    """Return the weights, spur gears and inner radii (mm) for the gear's section: itself, or the neighbours of its virtual
+    gear.
+    """
     if not gear.helix_angle:
         return [(1.0, gear, inner_radius)]
     side, virtual = -1 if gear.internal else 1, abs(gear.virtual_teeth)
@@ -203,11 +205,11 @@ class ContactMethod(StiffnessMethod):
 
     @abstractmethod
     def _position(self, roll_angle: float, torque: float) -> _Position:
-        """The mesh at a roll angle (deg) under a torque on the pinion (N·m), signed."""
+        """Return the mesh at a roll angle (deg) under a torque on the pinion (N·m), signed."""
 
     @abstractmethod
     def _single(self, torque: float) -> float:
-        """Greatest stiffness of one pair alone (N/(mm·µm))."""
+        """Return the greatest stiffness of one pair alone (N/(mm·µm))."""
 
     def _cycle(self, load: Load, count: int) -> MeshCycle:
         torque, force = math.copysign(self.torque(load), load.torque), self.force(load)
@@ -322,7 +324,7 @@ class SolidContact(ContactMethod):
     """Those of a check, if there was one, for the sign of torque that it had; else they are made."""
 
     def model(self, torque: float) -> SolidPair:
-        """The bodies, condensed; under a negative torque on the pinion those of the mirrored pair."""
+        """Return the bodies, condensed; under a negative torque on the pinion those of the mirrored pair."""
         if self.bodies is not None:
             return self.bodies
         return self._loaded_left if torque > 0 else self._loaded_right
@@ -336,7 +338,7 @@ class SolidContact(ContactMethod):
         return self._made(-1.0)
 
     def _made(self, torque: float) -> SolidPair:
-        """The bodies for the sign of a torque."""
+        """Return the bodies for the sign of a torque."""
         mounting, share = replace(self.mounting, centre_distance_change=0.0), self._bodies.seconds / self.expected.seconds
         pair = loaded_left(self.mounted, torque)
         return solid_pair(pair, self.material, body=self.body, mounting=mounting, tell=lambda done: self.tell(share * done))
@@ -364,5 +366,5 @@ class SolidContact(ContactMethod):
 
 
 def _closed(values: Floats) -> Floats:
-    """Values (n, ...) over a base pitch, and the first again at its end."""
+    """Return the values (n, ...) over a base pitch, and the first again at its end."""
     return np.concatenate([values, values[:1]])

@@ -131,7 +131,9 @@ class Slices:
         return found
 
     def _positions(self, count: int) -> tuple[Floats, Floats]:
-        """Places (n,) of the middle pair over a base pitch, each piece between jumps or bends with both its ends; middles."""
+        """Return the places (n,) of the middle pair over a base pitch, each piece between jumps or bends with both its ends;
+        middles.
+        """
         centre, pitch = self.pair.path_of_contact.C, self.pitch
         start = centre - pitch / 2
         corners = [end + lean * self.reach / 2 for end in self.path for lean in (-1, 1)]
@@ -216,7 +218,7 @@ class StiffnessMethod(ABC):
             raise GeometryError("pair.usable_contact_ratio", ratio, f"must be at least 1 for a mesh stiffness: {reason}")
 
     def __call__(self, load: Load, positions: int = 0) -> MeshCycle:
-        """The mesh cycle under a load, at so many `positions` for once if any are given.
+        """Return the mesh cycle under a load, at so many `positions` for once if any are given.
 
         Raises ParameterError without a torque, and what the method's solver raises.
         """
@@ -292,10 +294,10 @@ class SliceMethod(StiffnessMethod):
 
     @abstractmethod
     def single(self, lengths: Floats, load: Load) -> SinglePair:
-        """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
+        """Return one pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
 
     def curvatures(self, lengths: Floats) -> PerGear[Floats]:
-        """Radii of curvature (n,) of both flanks in the section across the line of contact (mm)."""
+        """Return the radii of curvature (n,) of both flanks in the section across the line of contact (mm)."""
         lean = math.cos(math.radians(self.mounted.pinion.base_helix_angle))
         return PerGear(lengths / lean, (self.mounted.base_tangent.length - lengths) / lean)
 

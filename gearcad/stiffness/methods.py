@@ -150,7 +150,7 @@ class _MethodInputs(NamedTuple):
     positions: int
 
     def method(self, wanted: str | StiffnessMethod) -> StiffnessMethod | GearcadError:
-        """A method, or why it cannot treat the pair. Raises ParameterError for an unknown name."""
+        """Return a method, or why it cannot treat the pair. Raises ParameterError for an unknown name."""
         if not isinstance(wanted, str):
             return wanted
         if wanted not in METHODS:

@@ -116,7 +116,7 @@ class PlanePairContact(PairContact):
         return float(scale * math.sqrt(inside) / (2 * abs(two))) if two < 0 < inside else math.nan
 
     def centre(self, role: Role) -> float:
-        """Roll length (mm) at the centre of pressure on a gear's flank."""
+        """Return the roll length (mm) at the centre of pressure on a gear's flank."""
         return float((self.pair.cells.lengths.pick(role) * self.pressures).sum() / self.pressures.sum())
 
 
@@ -135,7 +135,7 @@ class PlaneCycle(LoadedCycle[PlanePair, PlanePosition, PlanePairContact]):
     """Two sections over one base pitch; forces, stiffness and pressures are those of the common face width, all alike."""
 
     def solve(self, angle: float) -> PlanePosition:
-        """The position at a roll angle (deg). Raises SolverError."""
+        """Return the position at a roll angle (deg). Raises SolverError."""
         model, solution = self.model, self.model.solve(angle, self.torque)
         contacts = _contacts(model, solution)
         loads = PerGear.each(lambda role: tooth_loads(contacts, role))
@@ -157,12 +157,12 @@ class PlaneCycle(LoadedCycle[PlanePair, PlanePosition, PlanePairContact]):
         )
 
     def contacts_at(self, angle: float) -> tuple[PlanePairContact, ...]:
-        """The contacts alone at a roll angle (deg). Raises SolverError."""
+        """Return the contacts alone at a roll angle (deg). Raises SolverError."""
         return _contacts(self.model, self.model.solve(angle, self.torque))
 
 
 def tooth_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[ToothLoad]:
-    """Loads on the teeth of a gear, counted as its own teeth follow each other."""
+    """Return the loads on the teeth of a gear, counted as its own teeth follow each other."""
     sense = TOOTH_ORDER.pick(role)
     return [(sense * contact.tooth, contact.centre(role), contact.force) for contact in contacts]
 
@@ -174,7 +174,7 @@ def root_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[list[
 
 
 def _hub_torque(model: PlanePair, contacts: tuple[PlanePairContact, ...], role: Role) -> float:
-    """Torque (N·m) that the loads put on a gear's hub."""
+    """Return the torque (N·m) that the loads put on a gear's hub."""
     body = model.bodies.pick(role)
     return sum(body.hub_torque(contact.centre(role)) * contact.force for contact in contacts) * model.width / 1000
 
@@ -251,13 +251,13 @@ def _start_distances(model: PlanePair, pair: ContactPair) -> PerGear[float]:
 
 
 def _reach(pair: ContactPair, force: float, modulus: float) -> float:
-    """Distance (mm) from edges and starts of reliefs beyond which a contact is that of two cylinders."""
+    """Return the distance (mm) from edges and starts of reliefs beyond which a contact is that of two cylinders."""
     return INTERIOR * half_width_by_curvature(force, 1 / pair.plain_radius, modulus)
 
 
 def _start_pressures(model: PlanePair, pair: ContactPair, pressures: Floats, to_starts: PerGear[float]) -> PerGear[float]:
-    """Greatest pressures (MPa) near the starts of each gear's reliefs; NaN where cells are too wide for a transition, or an end
-    of a flank lies in the contact.
+    """Return the greatest pressures (MPa) near the starts of each gear's reliefs; NaN where cells are too wide for a
+    transition, or an end of a flank lies in the contact.
     """
     cells, (low, high) = pair.cells, overlap(model.line, pair.lengths.pinion)
     pressed = cells.place[pressures > 0]
@@ -269,7 +269,7 @@ def _start_pressures(model: PlanePair, pair: ContactPair, pressures: Floats, to_
 
 
 def conformal(contact: PlanePairContact) -> bool:
-    """Whether a contact in a hollow flank is too wide to be treated as that of two cylinders."""
+    """Return whether a contact in a hollow flank is too wide to be treated as that of two cylinders."""
     return contact.pair.lengths.wheel < 0 and _hollow(contact).conformal
 
 
@@ -330,7 +330,7 @@ def von_mises(x: Floats, y: Floats, shear: Floats, elasticity: PlaneElasticity) 
 def greatest_von_mises(
     places: Floats, width: float, pressures: Floats, half_width: float, elasticity: PlaneElasticity
 ) -> tuple[float, float]:
-    """Greatest von Mises stress (MPa) below a contact, and its depth (mm)."""
+    """Return the greatest von Mises stress (MPa) below a contact, and its depth (mm)."""
     middle = float((places * pressures).sum() / pressures.sum())
     x, depth = np.meshgrid(
         middle + half_width * np.linspace(-1.2, 1.2, 49), half_width * np.linspace(0.05, 2.0, 79), indexing="ij"
@@ -369,7 +369,9 @@ class ToothField:
 
 
 def contact_frame(cycle: PlaneCycle, contact: PlanePairContact) -> tuple[Floats, Floats]:
-    """Centre of a contact (mm) in the frame of the field; directions to the pinion's tip and into the wheel, as columns."""
+    """Return the centre of a contact (mm) in the frame of the field; directions to the pinion's tip and into the wheel, as
+    columns.
+    """
     model = cycle.model
     angle = np.radians(model.pair.working_transverse_pressure_angle)
     beside, along = np.array([np.cos(angle), -np.sin(angle)]), np.array([np.sin(angle), np.cos(angle)])
@@ -380,7 +382,7 @@ def contact_frame(cycle: PlaneCycle, contact: PlanePairContact) -> tuple[Floats,
 
 
 def tooth_field(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: int) -> ToothField:
-    """The field in a tooth of a gear, counted like the pairs of teeth in contact.
+    """Return the field in a tooth of a gear, counted like the pairs of teeth in contact.
 
     Loads on teeth further away than the model's neighbours are left out.
     """
@@ -424,14 +426,14 @@ def _pose(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: int) ->
 
 
 def _turn(angle: Floats) -> Floats:
-    """Matrix (2, 2) that turns by an angle (rad)."""
+    """Return the matrix (2, 2) that turns by an angle (rad)."""
     return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
 
 
 def _smooth_stresses(
     body: PlaneCompliance, position: PlanePosition, role: Role, tooth: int, own: PlanePairContact | None
 ) -> Floats:
-    """Stresses (n, 3) - xx, yy, xy - at the nodes of a tooth in its frame, less those of the strips."""
+    """Return the stresses (n, 3) - xx, yy, xy - at the nodes of a tooth in its frame, less those of the strips."""
     mesh = body.ring.sector.mesh
     smooth, singular = np.zeros((2, 2 * len(mesh.points)))
     for contact in position.contacts:
@@ -462,7 +464,7 @@ def _at_length(body: PlaneCompliance, columns: Floats, length: float) -> Floats:
 
 
 def _element_stresses(body: PlaneCompliance, triangles: Wholes, moved: Floats) -> Floats:
-    """Stresses (m, 6, 3) at the nodes of the elements by displacements of all nodes."""
+    """Return the stresses (m, 6, 3) at the nodes of the elements by displacements of all nodes."""
     corners = body.ring.sector.mesh.points[triangles]
     gradient = field_gradients("tri6", corners, moved.reshape(-1, 2)[triangles], node_places("tri6"))
     lame, shear = body.elasticity.lame
@@ -472,7 +474,7 @@ def _element_stresses(body: PlaneCompliance, triangles: Wholes, moved: Floats) -
 
 
 def _strips(body: PlaneCompliance, contact: PlanePairContact, role: Role, points: Floats) -> Floats:
-    """Stresses (..., 3) - xx, yy, xy - at points of the tooth's frame (mm) by the pressures of its contact."""
+    """Return the stresses (..., 3) - xx, yy, xy - at points of the tooth's frame (mm) by the pressures of its contact."""
     cells = contact.pair.cells
     touch = contact.pair.lengths.pick(role)
     inward = body.flank.inward(np.array(touch))
@@ -487,7 +489,7 @@ def _strips(body: PlaneCompliance, contact: PlanePairContact, role: Role, points
 
 
 def _near_contact(body: PlaneCompliance, contact: PlanePairContact, role: Role) -> NDArray[np.bool_]:
-    """Elements that a circle around the contact reaches: their own circles meet it."""
+    """Return the elements that a circle around the contact reaches: their own circles meet it."""
     mesh = body.ring.sector.mesh
     corners = mesh.points[mesh.triangles[:, :3]]
     middle = corners.mean(axis=1)
@@ -498,7 +500,9 @@ def _near_contact(body: PlaneCompliance, contact: PlanePairContact, role: Role) 
 
 
 def _lattice(parts: int) -> tuple[Floats, Wholes]:
-    """Points (n, 2) that divide the edges of a triangle into parts, and the small triangles (parts^2, 3) between them."""
+    """Return the points (n, 2) that divide the edges of a triangle into parts, and the small triangles (parts^2, 3) between
+    them.
+    """
     number = {(i, j): 0 for j in range(parts + 1) for i in range(parts + 1 - j)}
     number = {place: index for index, place in enumerate(number)}
     upright = [(number[i, j], number[i + 1, j], number[i, j + 1]) for i, j in number if i + j < parts]

@@ -32,7 +32,8 @@ if TYPE_CHECKING:
 
 
 def flamant_displacement(points: Floats, load_at: Floats, inward: Floats, elasticity: PlaneElasticity) -> Floats:
-    """Displacement (..., 2) in mm at `points` (..., 2) by 1 N per mm of width at `load_at` along the unit vector `inward`.
+    """Return the displacement (..., 2) in mm at `points` (..., 2) by 1 N per mm of width at `load_at` along the unit vector
+    `inward`.
 
     The constant of the logarithm is such that it is ln r with r in mm; at the load itself the value is left at 0.
     """
@@ -54,7 +55,7 @@ def flamant_displacement(points: Floats, load_at: Floats, inward: Floats, elasti
 
 
 def flamant_traction(points: Floats, normals: Floats, load_at: Floats, inward: Floats) -> Floats:
-    """Traction (..., 2) in MPa on elements of surface at `points` with `normals` (..., 2), by the same load.
+    """Return the traction (..., 2) in MPa on elements of surface at `points` with `normals` (..., 2), by the same load.
 
     sigma_rr = -2 cos(theta)/(pi r) is the only stress.
     """
@@ -91,28 +92,28 @@ class PlaneFlank(LoadedFlank):
     lengths: Floats
 
     def arc(self, lengths: Floats) -> Floats:
-        """Arc length along the involute (mm) from the base circle, which rises towards the tip: rho |rho|/(2 r_b)."""
+        """Return the arc length along the involute (mm) from the base circle, which rises towards the tip: rho |rho|/(2 r_b)."""
         result: Floats = np.copysign(lengths**2, lengths) / (2 * self.base_radius)
         return result
 
     def length_at(self, arc: float) -> float:
-        """Roll length (mm) at an arc length (mm)."""
+        """Return the roll length (mm) at an arc length (mm)."""
         return math.copysign(math.sqrt(2 * self.base_radius * abs(arc)), arc)
 
     def inward(self, lengths: Floats) -> Floats:
-        """Unit normals (..., 2) into the tooth."""
+        """Return the unit normals (..., 2) into the tooth."""
         heading = self.heading(lengths)
         return np.stack([np.sin(heading), -np.cos(heading)], -1)
 
     def points(self, lengths: Floats | float) -> Floats:
-        """Points (..., 2) at roll lengths (mm)."""
+        """Return the points (..., 2) at roll lengths (mm)."""
         radius, angle = self.polar(np.asarray(lengths, float))
         result: Floats = radius[..., None] * np.stack([np.cos(angle), np.sin(angle)], -1)
         return result
 
 
 def flank_of(gear: Gear, mesh: SectorMesh) -> PlaneFlank:
-    """The loaded flank of a sector mesh."""
+    """Return the loaded flank of a sector mesh."""
     nodes = mesh.sides[OutlineSide.LEFT_FLANK][::-1]
     lengths = LoadedFlank(gear).roll_lengths(np.hypot(*mesh.points[nodes].T))
     return PlaneFlank(gear, nodes, lengths)
@@ -189,11 +190,12 @@ class PlaneCompliance(FlankCompliance):
         return {"nodes": self.nodes, **asdict(mesh_quality(mesh.points, mesh.triangles))}
 
     def hub_torque(self, length: float) -> float:
-        """Torque on the hub (N mm per mm of width) by a load of 1 N per mm at a roll length (mm)."""
+        """Return the torque on the hub (N mm per mm of width) by a load of 1 N per mm at a roll length (mm)."""
         return -float(np.interp(length, self.loads, self.torques))
 
     def response(self, tooth: int) -> Compliance:
-        """Normal displacement of a flank by a load on tooth 0: the regular part of tooth 0, all of it of another tooth.
+        """Return the normal displacement of a flank by a load on tooth 0: the regular part of tooth 0, all of it of another
+        tooth.
 
         Teeth are counted counter-clockwise.
         """
@@ -255,7 +257,7 @@ class PlaneCompliance(FlankCompliance):
 
 
 def _within(spline: CubicSpline, at: Floats) -> Floats:
-    """Values at places, beyond the ends those of the ends."""
+    """Return the values at places, beyond the ends those of the ends."""
     result: Floats = spline(np.clip(at, spline.x[0], spline.x[-1]))
     return result
 
@@ -281,7 +283,7 @@ def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> Pla
 
 
 def _load_places(flank: PlaneFlank) -> Floats:
-    """Roll lengths of vertices of the flank: 3 % of its length apart, closer by and by towards the tip corner.
+    """Return the roll lengths of vertices of the flank: 3 % of its length apart, closer by and by towards the tip corner.
 
     An undercut flank ends in a corner at the root as well, where no load can be taken off as one on a straight edge.
     """
@@ -298,7 +300,7 @@ def _load_places(flank: PlaneFlank) -> Floats:
 
 
 def near_elements(gear: Gear, mesh: SectorMesh) -> Wholes:
-    """Elements of the tooth and a module of the body below it: where Flamant's field is taken off."""
+    """Return the elements of the tooth and a module of the body below it: where Flamant's field is taken off."""
     centre = mesh.points[mesh.triangles[:, :3]].mean(axis=1)
     radius, root = np.hypot(*centre.T), gear.profile.root_diameter / 2
     if gear.internal:
@@ -307,7 +309,7 @@ def near_elements(gear: Gear, mesh: SectorMesh) -> Wholes:
 
 
 def _boundary_edges(triangles: Wholes) -> Wholes:
-    """Edges (n, 3) - end, end, middle - that belong to one of the triangles only, counter-clockwise."""
+    """Return the edges (n, 3) - end, end, middle - that belong to one of the triangles only, counter-clockwise."""
     edges = triangles[:, [[0, 1, 3], [1, 2, 4], [2, 0, 5]]].reshape(-1, 3)
     _, index, times = np.unique(edges[:, 2], return_index=True, return_counts=True)
     once: Wholes = edges[index[times == 1]]
@@ -315,7 +317,7 @@ def _boundary_edges(triangles: Wholes) -> Wholes:
 
 
 def _traction_forces(mesh: SectorMesh, edges: Wholes, loads_at: Floats, inward: Floats) -> Floats:
-    """Nodal forces (2 n, m) of the tractions of Flamant's fields on the edges, each by the load at a point (m, 2)."""
+    """Return the nodal forces (2 n, m) of the tractions of Flamant's fields on the edges, each by the load at a point (m, 2)."""
     places, weight = quadrature("line3", _ALONG)
     shape, slope = (
         np.ascontiguousarray(each.T) for each in (shape_values("line3", places), shape_slopes("line3", places)[:, 0])
@@ -344,7 +346,7 @@ class Fillets:
     body: PlaneCompliance
 
     def stresses(self, side: OutlineSide, loads: list[ToothLoad]) -> Floats:
-        """Stress (MPa) at the points of a side of tooth 0."""
+        """Return the stress (MPa) at the points of a side of tooth 0."""
         total = np.zeros(len(self.places(side)[0]))
         for tooth, length, force in loads:
             # A load on tooth j is seen from tooth 0 as the load on tooth 0 is from tooth -j.
@@ -353,11 +355,11 @@ class Fillets:
         return total
 
     def greatest(self, side: OutlineSide, loads: list[ToothLoad]) -> RootStress:
-        """The largest tension on the left fillet, or compression on the right one, of tooth 0."""
+        """Return the largest tension on the left fillet, or compression on the right one, of tooth 0."""
         return self._at_root(side, self.stresses(side, loads), 1 if side is OutlineSide.LEFT_FILLET else -1)
 
     def extreme(self, side: OutlineSide, loads: list[ToothLoad]) -> RootStress:
-        """The largest tension (left fillet) or compression (right one) of the loaded teeth.
+        """Return the largest tension (left fillet) or compression (right one) of the loaded teeth.
 
         Of a rim that bends: of the roots of all teeth, on both sides.
         """
@@ -369,13 +371,13 @@ class Fillets:
         return max(found, key=lambda stress: sign * stress.stress)
 
     def bore_tension(self, loads: list[ToothLoad]) -> float | None:
-        """The largest tension (MPa) on the surface of a bore that nothing keeps round."""
+        """Return the largest tension (MPa) on the surface of a bore that nothing keeps round."""
         if not self.body.ring.support.bends:
             return None
         return float(max(stress.max() for stress in self._all_round(OutlineSide.HELD, loads, 1)))
 
     def _all_round(self, side: OutlineSide, loads: list[ToothLoad], sign: int) -> Iterator[Floats]:
-        """Stresses of every tooth of the gear, with the key where it adds most tension (1) or compression (-1)."""
+        """Yield the stresses of every tooth of the gear, with the key where it adds most tension (1) or compression (-1)."""
         torque = self.body.flank.base_radius * sum(force for *_, force in loads)
         by_key = torque * sign * (sign * self._by_key(side)).max(axis=0)
         for own in range(self.body.ring.support.teeth):
@@ -388,7 +390,7 @@ class Fillets:
         return RootStress(float(stresses[at]), float(radii[at]), float(angles[at]))
 
     def places(self, side: OutlineSide) -> tuple[Floats, Floats]:
-        """Radius (mm) and tangent angle (deg) of each point."""
+        """Return the radius (mm) and tangent angle (deg) of each point."""
         return self._geometry[side][:2]
 
     @cached_property
@@ -415,7 +417,9 @@ class Fillets:
         return found
 
     def _response(self, side: OutlineSide, tooth: int) -> CubicSpline | None:
-        """Stress on a side of a tooth by 1 N per mm on tooth 0, as a function of the load's roll length; None if unknown."""
+        """Return the stress on a side of a tooth by 1 N per mm on tooth 0, as a function of the load's roll length; None if
+        unknown.
+        """
         support = self.body.ring.support
         place = (tooth + self.body.neighbours) % support.teeth if support.bends else tooth + self.body.neighbours
         return self._splines[side][place] if 0 <= place < len(self._splines[side]) else None
@@ -436,7 +440,7 @@ class Fillets:
         return self._stresses(moved, body.hub_forces)
 
     def _by_key(self, side: OutlineSide) -> Floats:
-        """Stresses (teeth, points) of a side by a torque of 1 (N mm per mm) from the key, less that from all round."""
+        """Return the stresses (teeth, points) of a side by a torque of 1 (N mm per mm) from the key, less that from all round."""
         ring = self.body.ring
         if ring.support.hold is not Hold.KEY:
             return np.zeros((1, 1))
@@ -449,7 +453,7 @@ class Fillets:
         return self._stresses(ring.solve(load)[0], ring.hub_forces(load))
 
     def _stresses(self, moved: Floats, hub_forces: Floats | None) -> dict[OutlineSide, Floats]:
-        """Stresses (teeth, points, m) of each side by displacements (teeth in full, 2 n, m)."""
+        """Return the stresses (teeth, points, m) of each side by displacements (teeth in full, 2 n, m)."""
         rows = SurfaceStresses(
             *(np.concatenate(of) for of in zip(*(self._geometry[side][2] for side in self._sides), strict=True))
         )

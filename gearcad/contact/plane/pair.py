@@ -113,21 +113,21 @@ def solve_contact(
 
 
 def _middles(pairs: tuple[ContactPair, ...]) -> Bools:
-    """Cells (n,) in the middle third of what is around the least gap of each pair: half widths of windows of three."""
+    """Return the cells (n,) in the middle third of what is around the least gap of each pair: half widths of windows of three."""
     places = [pair.cells.place for pair in pairs]
     away = [np.abs(place - place[pair.cells.gap.argmin()]) for place, pair in zip(places, pairs, strict=True)]
     return np.concatenate([each <= each.max() / 3 for each in away])
 
 
 def _touching(pairs: tuple[ContactPair, ...], like: ContactSolution) -> Bools:
-    """Cells (n,) that lie where another solution presses."""
+    """Return the cells (n,) that lie where another solution presses."""
     pressed = {pair.tooth: (pair.cells.place, pressure) for pair, pressure in zip(like.pairs, like.pressures, strict=True)}
     nowhere = np.zeros(1), np.zeros(1)
     return np.concatenate([np.interp(pair.cells.place, *pressed.get(pair.tooth, nowhere)) > 0 for pair in pairs])
 
 
 def compliance_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, role: Role) -> Floats:
-    """Displacement of a gear's flank over cell i, times its width, by the pressure on cell j.
+    """Return the displacement of a gear's flank over cell i, times its width, by the pressure on cell j.
 
     (n, n) in mm²/MPa.
     """
@@ -148,7 +148,7 @@ def compliance_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, rol
 
 
 def _edge_block(cells: ContactCells, body: PlaneCompliance) -> Floats:
-    """The straight edge's part: k(d) integrated over both cells in closed form."""
+    """Return the straight edge's part: k(d) integrated over both cells in closed form."""
     log = -2 / (np.pi * body.elasticity.modulus)
     constant = -(1 + body.elasticity.ratio) / (np.pi * body.elasticity.modulus)
     count, h = len(cells.place), cells.width
@@ -192,7 +192,7 @@ def contact_pairs(
     *,
     single: bool = False,
 ) -> tuple[ContactPair, ...]:
-    """Pairs of flanks when the middle pair touches at `pinion_length` (mm from T1).
+    """Return the pairs of flanks when the middle pair touches at `pinion_length` (mm from T1).
 
     Each has `cells` within `span(tooth, reduced radius)` (mm) on both sides of its contact, or fewer that are not narrower
     than `least_width` (mm). Beyond the path of contact the corner of a tip can touch while teeth bend: such pairs count up
@@ -205,7 +205,7 @@ def contact_pairs(
 
 
 def touching_teeth(line: LineOfAction, pinion_length: float, farthest_gap: float, *, single: bool = False) -> dict[int, float]:
-    """Teeth whose flanks come as near as `farthest_gap` (mm), and where along the tangent (mm) they are nearest."""
+    """Return the teeth whose flanks come as near as `farthest_gap` (mm), and where along the tangent (mm) they are nearest."""
     near = facing_pairs(line, pinion_length).items()
     return {tooth: place for tooth, (gap, place) in near if gap <= farthest_gap and not (single and tooth)}
 
@@ -304,7 +304,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         return rigid_approach(self.line, self.roll_length(roll_angle), single=single)
 
     def solve(self, roll_angle: float, torque: float, *, single: bool = False) -> ContactSolution:
-        """The contact at a roll angle (deg) and torque (N·m); `single` lets no other pair of teeth touch.
+        """Return the contact at a roll angle (deg) and torque (N·m); `single` lets no other pair of teeth touch.
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
@@ -315,7 +315,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         return found
 
     def _solved(self, roll_angle: float, force: float, single: bool) -> ContactSolution:
-        """The contact at a roll angle (deg) and a normal force (N per mm)."""
+        """Return the contact at a roll angle (deg) and a normal force (N per mm)."""
         farthest = self._farthest(roll_angle, force, single)
         if len(touching_teeth(self.line, self.roll_length(roll_angle), farthest, single=single)) == 1:  # it carries all
             return self._pressed(roll_angle, force, lambda _tooth: force, single, _CELLS)
@@ -337,7 +337,9 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         cells: int,
         like: ContactSolution | None = None,
     ) -> ContactSolution:
-        """The contact, with windows for what each pair of teeth is thought to carry (N per mm); about `like` another one."""
+        """Return the contact, with windows for what each pair of teeth is thought to carry (N per mm); about `like` another
+        one.
+        """
 
         def span(tooth: int, radius: float) -> float:
             return _WINDOW * float(half_width(carried(tooth), radius, self.modulus))
@@ -350,11 +352,11 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         return solve_contact(pairs, self.bodies, force, like)
 
     def _farthest(self, roll_angle: float, force: float, single: bool) -> float:
-        """Gap (mm) from which flanks can touch as teeth bend."""
+        """Return the gap (mm) from which flanks can touch as teeth bend."""
         return self.rigid_approach(roll_angle, single=single) + force / _SOFT
 
     def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
-        """Greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places of its path of contact."""
+        """Return the greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places of its path of contact."""
         lengths = np.linspace(*self.pair.usable_path, count + 2)[1:-1]
         approaches = [
             self.solve(angle, torque, single=True).approach - self.rigid_approach(angle, single=True)

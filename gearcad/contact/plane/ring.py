@@ -40,7 +40,8 @@ class Ring:
     chain: Chain | None
 
     def solve(self, loads: Floats) -> tuple[Floats, Floats]:
-        """Displacements (sectors, 2 n, m) in the frame of each sector (mm) and torques on the hub (m,) (N mm per mm).
+        """Return the displacements (sectors, 2 n, m) in the frame of each sector (mm) and torques on the hub (m,) (N mm per
+        mm).
 
         `loads` (2 n, m) act on tooth 0, in x and y of its frame (N per mm of width).
         """
@@ -60,7 +61,7 @@ class Ring:
         return displacements, torques
 
     def _solved(self, right: Floats) -> Floats:
-        """Displacements (dofs, m) by forces (dofs, m)."""
+        """Return the displacements (dofs, m) by forces (dofs, m)."""
         padded = np.r_[right, np.zeros((1, right.shape[1]))]
         left, arrived = np.zeros_like(padded), dict[int, Arrived]()
         left[self.cuts] = right[self.cuts]
@@ -94,7 +95,7 @@ class Ring:
         return self.matrix + np.diag(springs)
 
     def hub_forces(self, loads: Floats) -> Floats:
-        """Dofs (3, m) of a hub that follows the bore, which balance loads (2 n, m) on tooth 0."""
+        """Return the dofs (3, m) of a hub that follows the bore, which balance loads (2 n, m) on tooth 0."""
         assert self.motions is not None  # the hub of a bore that is held has none
         return np.asarray(np.linalg.solve(self.motions.T @ self.hub, self.motions.T @ self._on_dofs(loads)), float)
 
@@ -118,7 +119,7 @@ def assemble(
     cuts: Cuts,
     support: Support | None = None,
 ) -> Ring:
-    """Tooth 0 and `neighbours` on each side from the fine mesh, the rest of the ring of `teeth` from the coarse one.
+    """Return the tooth 0 and `neighbours` on each side from the fine mesh, the rest of the ring of `teeth` from the coarse one.
 
     `held` None makes the full ring, else a body of so many teeth (odd, at least those in full), its outer cuts as `cuts` says,
     whose bore must be held.
@@ -151,7 +152,7 @@ def assemble(
 
 
 def _joined(blocks: list[tuple[Wholes, Floats]]) -> tuple[Wholes, Floats]:
-    """The dofs (k,) of matrices, each once, and the sum (k, k) of all; dof -1 is left out."""
+    """Return the dofs (k,) of matrices, each once, and the sum (k, k) of all; dof -1 is left out."""
     every = np.unique(np.concatenate([dofs for dofs, _ in blocks]))
     matrix = np.zeros((len(every), len(every)))
     for dofs, block in blocks:

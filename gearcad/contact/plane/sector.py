@@ -39,7 +39,7 @@ _ORDER = 4
 
 
 def node_dofs(nodes: Wholes) -> Wholes:
-    """Dofs (..., 2 n) of nodes (..., n)."""
+    """Return the dofs (..., 2 n) of nodes (..., n)."""
     return (2 * nodes[..., None] + np.arange(2)).reshape(*nodes.shape[:-1], 2 * nodes.shape[-1])
 
 
@@ -75,7 +75,7 @@ class Dissected:
     fronts: list[_Front]
 
     def forward(self, loads: Floats) -> Arrived:
-        """Loads (dofs, m) moved to the dofs that are kept."""
+        """Return the loads (dofs, m) moved to the dofs that are kept."""
         left, moved = loads.copy(), list[Floats | None]()
         loaded: Bools = np.any(loads, axis=1)
         work = np.zeros((loads.shape[1], loads.shape[1]))
@@ -112,7 +112,7 @@ def dissect(points: Floats, triangles: Wholes, matrices: Floats, kept: Wholes, h
 
 
 def _ordered(centres: Floats, chosen: Wholes) -> Wholes:
-    """Elements in an order in which each half is on one side of a line, across the length of where they are."""
+    """Return the elements in an order in which each half is on one side of a line, across the length of where they are."""
     if len(chosen) <= _FEW:
         return chosen
     away = centres[chosen] - centres[chosen].mean(axis=0)
@@ -192,7 +192,7 @@ class _Dissection:
 
 
 def _matrix(entries: Wholes, values: Floats, size: int) -> Floats:
-    """A matrix (size, size) of the sums of values at entries, which are counted row by row."""
+    """Return a matrix (size, size) of the sums of values at entries, which are counted row by row."""
     result: Floats = np.bincount(entries, values, size * size).astype(float, copy=False)
     return result.reshape(size, size)
 
@@ -230,7 +230,9 @@ class PlaneElasticity:
 
 
 def element_stiffness(mesh: SectorMesh, elasticity: PlaneElasticity, elements: Wholes | None = None) -> Floats:
-    """Stiffness (m, 12, 12) in N/mm per mm of width of all elements, or of some: x and y of each of its nodes in turn."""
+    """Return the stiffness (m, 12, 12) in N/mm per mm of width of all elements, or of some: x and y of each of its nodes in
+    turn.
+    """
     return stiffness_matrices("tri6", _nodes(mesh, elements), elasticity.lame, _ORDER)
 
 
@@ -240,7 +242,7 @@ def element_mass(mesh: SectorMesh, elements: Wholes | None = None) -> Floats:
 
 
 def element_forces(triangles: Wholes, matrices: Floats, moved: Floats) -> Floats:
-    """Forces (2 n, k) of elements (m, 6) with their matrices (m, 12, 12) by displacements (2 n, k) of all nodes."""
+    """Return the forces (2 n, k) of elements (m, 6) with their matrices (m, 12, 12) by displacements (2 n, k) of all nodes."""
     dofs = node_dofs(triangles)
     moves: Bools = np.any(moved, axis=1)
     strained = moves[dofs].any(axis=1)
@@ -267,12 +269,14 @@ _PARTS = 16
 
 
 def with_support(mesh: SectorMesh, support: Support) -> SectorMesh:
-    """The sector with what of the shaft belongs to it."""
+    """Return the sector with what of the shaft belongs to it."""
     return with_shaft(mesh, support.shaft_bore) if support.hold is Hold.SHAFT else mesh
 
 
 def held_nodes(mesh: SectorMesh, support: Support) -> Wholes:
-    """Nodes that belong to the hub; of a ring on bolts those of a sector that has one, but for its cuts, which all share."""
+    """Return the nodes that belong to the hub; of a ring on bolts those of a sector that has one, but for its cuts, which all
+    share.
+    """
     if support.floats:
         return np.empty(0, int)
     if support.hold is not Hold.BOLTS:
@@ -284,7 +288,8 @@ def held_nodes(mesh: SectorMesh, support: Support) -> Wholes:
 
 
 def hub_seen_by(tooth: int, support: Support) -> Floats:
-    """Dofs of the hub as the sector of a tooth, counted from the loaded one, sees them, from those that that one sees.
+    """Return the dofs of the hub as the sector of a tooth, counted from the loaded one, sees them, from those that that one
+    sees.
 
     Those of a hub that floats are the torque and two forces; the other has its turn.
     """
@@ -295,7 +300,7 @@ def hub_seen_by(tooth: int, support: Support) -> Floats:
 
 
 def hub_tractions(mesh: SectorMesh, whole: SectorMesh, support: Support) -> Floats:
-    """Nodal forces (2 n, 3) on the `whole` of a sector by torque and forces of unit shape, of a hub that floats."""
+    """Return the nodal forces (2 n, 3) on the `whole` of a sector by torque and forces of unit shape, of a hub that floats."""
     if support.hold is Hold.SHAFT:
         shaft = np.arange(len(mesh.triangles), len(whole.triangles))
         return element_forces(whole.triangles[shaft], element_mass(whole, shaft), rigid_motions(whole.points).reshape(-1, 3))
@@ -303,7 +308,7 @@ def hub_tractions(mesh: SectorMesh, whole: SectorMesh, support: Support) -> Floa
 
 
 def key_load(mesh: SectorMesh, support: Support) -> Floats:
-    """Nodal forces (2 n, 1) by which a key under the middle of the sector gives a torque of 1 (N mm per mm).
+    """Return the nodal forces (2 n, 1) by which a key under the middle of the sector gives a torque of 1 (N mm per mm).
 
     The shear over a bore as wide as the keyway, or as the sector if that is narrower.
     """
@@ -312,14 +317,14 @@ def key_load(mesh: SectorMesh, support: Support) -> Floats:
 
 
 def rigid_motions(points: Floats) -> Floats:
-    """Displacements (n, 2, 3) of points by a turn of 1 rad and by shifts along x and y of 1."""
+    """Return the displacements (n, 2, 3) of points by a turn of 1 rad and by shifts along x and y of 1."""
     x, y = points.T
     zero, one = np.zeros_like(x), np.ones_like(x)
     return np.stack([np.stack([-y, x], -1), np.stack([one, zero], -1), np.stack([zero, one], -1)], -1)
 
 
 def _on_bore(mesh: SectorMesh, half: float) -> Floats:
-    """Nodal forces (2 n, 3) by rigid motions' parts along the bore, as tractions up to `half` (rad) from its middle."""
+    """Return the nodal forces (2 n, 3) by rigid motions' parts along the bore, as tractions up to `half` (rad) from its middle."""
     edges = edges_of_chain(mesh.sides[OutlineSide.HELD])
     part, weight = quadrature("line3", _ALONG)
     s = (np.arange(_PARTS)[:, None] + part[:, 0]).reshape(-1, 1) / _PARTS
@@ -420,7 +425,7 @@ class Sector:
         return self.axes.polar(element_forces(self.whole.triangles, self.stiffness, self.axes.plain(moved)))
 
     def inside(self, loads: Floats) -> Floats:
-        """Loads (dofs, m), but for those on cuts and hub."""
+        """Return the loads (dofs, m), but for those on cuts and hub."""
         found = loads.copy()
         found[self.condensed.kept] = found[self.held] = 0.0
         return found
@@ -444,7 +449,7 @@ class Sector:
 
 
 def make_sector(mesh: SectorMesh, elasticity: PlaneElasticity, support: Support | None = None) -> Sector:
-    """Stiffness of a sector with polar dofs on its cuts."""
+    """Return the stiffness of a sector with polar dofs on its cuts."""
     support = support or Support()
     whole = with_support(mesh, support)
     stiffness = element_stiffness(whole, elasticity, np.arange(len(mesh.triangles)))

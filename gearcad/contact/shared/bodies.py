@@ -65,7 +65,7 @@ class Chain:
         return Chain(condensed(both, keep), other.onward @ self.onward)
 
     def seen(self, turn: Floats) -> Floats:
-        """The matrix on the hub's dofs from which `turn` makes those that the first sector sees."""
+        """Return the matrix on the hub's dofs from which `turn` makes those that the first sector sees."""
         hub = len(self.onward)
         matrix = self.matrix.copy()
         matrix[:, -hub:] = matrix[:, -hub:] @ turn
@@ -102,7 +102,7 @@ class Chain:
 
 
 def polar_turn(angles: Floats, components: int) -> Any:
-    """Matrix (scipy CSR) from radial and tangential dofs of nodes at `angles` (n,) in rad to those along x and y.
+    """Return the matrix (scipy CSR) from radial and tangential dofs of nodes at `angles` (n,) in rad to those along x and y.
 
     Of three `components` the third, along the axis, stays. An angle of 0 leaves a node as it is.
     """
@@ -124,7 +124,7 @@ def cut_held(cuts: Cuts, dofs: int, components: int) -> NDArray[np.bool_]:
 
 
 def condensed(matrix: Floats, keep: int) -> Floats:
-    """The symmetric matrix with the dofs from `keep` on free of load."""
+    """Return the symmetric matrix with the dofs from `keep` on free of load."""
     inner = np.linalg.solve(matrix[keep:, keep:], matrix[keep:, :keep])
     reduced: Floats = matrix[:keep, :keep] - matrix[:keep, keep:] @ inner
     return (reduced + reduced.T) / 2
@@ -333,7 +333,7 @@ class BodyModel:
         return replace(self, solid=True)
 
     def describe(self, pair: GearPair) -> dict[str, str]:
-        """The bodies of pinion and wheel in words, as documents have them."""
+        """Return the bodies of pinion and wheel in words, as documents have them."""
         radii, supports = self.inner_radii(pair), self.supports(pair)
         each = PerGear.each(lambda role: self._words(pair.gears.pick(role), radii.pick(role), supports.pick(role)))
         return each._asdict()

@@ -18,7 +18,7 @@ from gearcad.geometry import FlankForm, Gear, GearPair, ReliefShape
 
 
 def loaded_left(pair: GearPair, torque: float) -> GearPair:
-    """The pair if a torque on its pinion loads the pinion's left flanks, else its mirror image."""
+    """Return the pair if a torque on its pinion loads the pinion's left flanks, else its mirror image."""
     return pair if torque > 0 else replace(pair, pinion=mirrored(pair.pinion), wheel=mirrored(pair.wheel))
 
 
@@ -34,7 +34,7 @@ def gears_loaded_left(pair: GearPair) -> PerGear[Gear]:
 
 
 def mirrored(gear: Gear) -> Gear:
-    """The mirror image in the plane x-z."""
+    """Return the mirror image in the plane x-z."""
     if gear.helix_angle:
         return replace(gear, helix_angle=-gear.helix_angle)
     if not gear.modification.helix_angle_modification:
@@ -114,7 +114,9 @@ class TransverseFlank:
         return self.base_radius * np.cos(turn) + length * np.sin(turn) - self.base_radius
 
     def facing(self, contact: float | Floats, place: Floats) -> tuple[Floats, Floats]:
-        """Roll lengths at places along the tangent (towards the tip), and how far the flank lies behind the tangent (mm)."""
+        """Return the roll lengths at places along the tangent (towards the tip), and how far the flank lies behind the tangent
+        (mm).
+        """
         base = self.base_radius
         turn = (np.copysign(np.sqrt(np.maximum(contact**2 + 2 * base * place, 1e-12)), base) - contact) / base
         for _ in range(_ROUNDS):
@@ -147,7 +149,7 @@ class LineOfAction:
         return not (self.proud or any(flank.form.modification.present for flank in self.flanks))
 
     def lengths(self, pinion_length: float) -> PerGear[float]:
-        """Roll lengths of both flanks (mm) that touch at `pinion_length` (mm from T1)."""
+        """Return the roll lengths of both flanks (mm) that touch at `pinion_length` (mm from T1)."""
         return PerGear(pinion_length, self.whole - pinion_length)
 
     def taken_back(self, tooth: int, lengths: PerGear[Floats]) -> Floats:
@@ -161,8 +163,8 @@ class LineOfAction:
 
 @lru_cache(16)
 def line_of_action(pair: GearPair, pitch_error: float = 0.0) -> LineOfAction:
-    """The line of action of a pair in the transverse section through the middle of its common face width; left flanks of the
-    pinion carry.
+    """Return the line of action of a pair in the transverse section through the middle of its common face width; left flanks of
+    the pinion carry.
 
     `pitch_error` (µm) is how far the flanks of the middle pair of teeth stand proud, both together.
     """
@@ -186,13 +188,13 @@ def rigid_approach(line: LineOfAction, pinion_length: float, *, single: bool = F
 
 
 def facing_teeth(line: LineOfAction) -> range:
-    """Every pair of teeth whose flanks can face each other."""
+    """Return every pair of teeth whose flanks can face each other."""
     reach = math.ceil(sum(max(flank.last, -flank.first) for flank in line.flanks) / line.pitch)
     return range(-reach, reach + 1)
 
 
 def pairs_within(line: LineOfAction, pinion_length: float, gap: float) -> int:
-    """The most pairs of teeth whose flanks come as near as a gap (mm) at once, over one base pitch.
+    """Return the most pairs of teeth whose flanks come as near as a gap (mm) at once, over one base pitch.
 
     The middle pair touches about `pinion_length` (mm from T1).
     """
@@ -227,7 +229,9 @@ def overlap(line: LineOfAction, pinion_length: float) -> tuple[float, float]:
 
 
 def nearest(line: LineOfAction, tooth: int, pinion_length: float) -> tuple[float, float] | None:
-    """The least gap (mm) between the flanks of a pair of teeth, and its place along the tangent; None if they do not face."""
+    """Return the least gap (mm) between the flanks of a pair of teeth, and its place along the tangent; None if they do not
+    face.
+    """
     low, high = overlap(line, pinion_length)
     if low >= high:
         return None
@@ -247,7 +251,9 @@ def nearest(line: LineOfAction, tooth: int, pinion_length: float) -> tuple[float
 
 
 def facing_gap(line: LineOfAction, tooth: int, pinion_length: float, place: Floats) -> tuple[PerGear[Floats], Floats]:
-    """Roll lengths (n,) of both flanks that face each other at places along the tangent, and the gap between them (mm)."""
+    """Return the roll lengths (n,) of both flanks that face each other at places along the tangent, and the gap between them
+    (mm).
+    """
     touching = line.lengths(pinion_length)
     (lengths, behind), (wheel_lengths, wheel_behind) = (
         flank.facing(length, sense * place) for flank, length, sense in zip(line.flanks, touching, (1, -1), strict=True)

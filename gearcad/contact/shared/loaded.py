@@ -29,7 +29,7 @@ TOOTH_ORDER = PerGear(1, -1)
 
 
 def roll_lengths(radii: Floats, base_radius: float) -> Floats:
-    """Roll lengths (mm) of an involute at radii (n,) in mm: from the base tangent point, 0 inside the base circle."""
+    """Return the roll lengths (mm) of an involute at radii (n,) in mm: from the base tangent point, 0 inside the base circle."""
     result: Floats = np.sqrt(np.maximum((radii - base_radius) * (radii + base_radius), 0))
     return result
 
@@ -54,17 +54,17 @@ class LoadedFlank:
         return -1 if self.gear.internal else 1
 
     def roll_lengths(self, radii: Floats) -> Floats:
-        """Roll lengths (mm) at radii (n,) in mm."""
+        """Return the roll lengths (mm) at radii (n,) in mm."""
         return self.upward * roll_lengths(radii, self.base_radius)
 
     def polar(self, lengths: Floats) -> tuple[Floats, Floats]:
-        """Radii (mm) and angles (rad) of places in the transverse section."""
+        """Return the radii (mm) and angles (rad) of places in the transverse section."""
         roll = lengths / self.base_radius
         angle: Floats = math.radians(self.gear.profile.base_half_angle) - involute_at_roll(roll)
         return np.hypot(self.base_radius, lengths), angle
 
     def heading(self, lengths: Floats) -> Floats:
-        """Angles (rad) of the tangents of the base circle that places lie on, to the middle of the tooth."""
+        """Return the angles (rad) of the tangents of the base circle that places lie on, to the middle of the tooth."""
         return math.radians(self.gear.profile.base_half_angle) - np.asarray(lengths) / self.base_radius
 
 
@@ -123,7 +123,7 @@ class EngagedPair:
         return self.pair.pinion.base_diameter / 2
 
     def force(self, torque: float) -> float:
-        """Normal force in the transverse section (N per mm of common width) at a torque on the pinion (N·m)."""
+        """Return the normal force in the transverse section (N per mm of common width) at a torque on the pinion (N·m)."""
         return abs(torque) * 1000 / self.base_radius / self.width
 
     def require_narrow_contact(self, torque: float, modulus: float) -> None:
@@ -149,12 +149,12 @@ class EngagedPair:
         return self.pair.path_of_contact.C + math.radians(roll_angle) * self.base_radius
 
     def roll_angle(self, length: Floats) -> Floats:
-        """Roll angles (deg) of the pinion at which the middle pair touches at places (n,) in mm from T1."""
+        """Return the roll angles (deg) of the pinion at which the middle pair touches at places (n,) in mm from T1."""
         result: Floats = np.degrees((length - self.pair.path_of_contact.C) / self.base_radius)
         return result
 
     def roll_angles(self, count: int) -> Floats:
-        """Roll angles (deg) over one base pitch, as many before the pitch point as after it.
+        """Return the roll angles (deg) over one base pitch, as many before the pitch point as after it.
 
         Those that fewer positions have in common with more are the same to the last digit.
         """
@@ -193,7 +193,7 @@ class FlexiblePair(EngagedPair, ABC, Generic[Body]):
 
     @abstractmethod
     def single_stiffness(self, torque: float) -> float:
-        """Greatest stiffness (N/(mm·µm)) of one pair of teeth alone, over its path of contact, at a torque (N·m)."""
+        """Return the greatest stiffness (N/(mm·µm)) of one pair of teeth alone, over its path of contact, at a torque (N·m)."""
 
 
 P = TypeVar("P")
@@ -357,8 +357,8 @@ class _Sampled:
 
 
 def _roof(first: float, second: float, before: float, after: float) -> tuple[float, float]:
-    """The most that can stand between two values, and at which part of the way, from the slopes `before` and `after` (per
-    interval). Infinite where only one of them is known, and nothing beside it.
+    """Return the most that can stand between two values, and at which part of the way, from the slopes `before` and `after`
+    (per interval). Infinite where only one of them is known, and nothing beside it.
     """
     if math.isnan(first) and math.isnan(second):
         return -math.inf, 0.5
@@ -516,11 +516,11 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
 
     @abstractmethod
     def solve(self, angle: float) -> Position:
-        """The position at a roll angle (deg). Raises SolverError."""
+        """Return the position at a roll angle (deg). Raises SolverError."""
 
     @abstractmethod
     def contacts_at(self, angle: float) -> tuple[C, ...]:
-        """The contacts alone at a roll angle (deg). Raises SolverError."""
+        """Return the contacts alone at a roll angle (deg). Raises SolverError."""
 
     @property
     def every(self) -> tuple[Position, ...]:
@@ -574,7 +574,9 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
         return np.array([getattr(position, name) for position in self.every])
 
     def mean(self, name: str) -> tuple[Floats, Floats]:
-        """The mean of a quantity over the base pitch, by a curve through all positions, and how far straight lines are off."""
+        """Return the mean of a quantity over the base pitch, by a curve through all positions, and how far straight lines are
+        off.
+        """
         from scipy.interpolate import PchipInterpolator
 
         if not self.model.repeats:  # nothing joins the last position to the first
@@ -592,7 +594,7 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
         return replace(self, between=(*self.between, *add_positions(self._known, self._span, self.solve, quantities)))
 
     def extreme(self, quantity: ExtremeQuantity[Position]) -> Extreme | None:
-        """The greatest value of all positions, and what may be missed of it; None where there is none."""
+        """Return the greatest value of all positions, and what may be missed of it; None where there is none."""
         return extreme(self._known, self._span, quantity)
 
     @property

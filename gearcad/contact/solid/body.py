@@ -66,7 +66,9 @@ class SolidSector:
         return node_dofs(self.mesh.over(self._off_hub(self.mesh.section.ahead)))
 
     def _off_hub(self, cut: Wholes) -> Wholes:
-        """The nodes of a cut of the section that are not on the hub: all but the last, which lies on the bore, if that is."""
+        """Return the nodes of a cut of the section that are not on the hub: all but the last, which lies on the bore, if that
+        is.
+        """
         return cut if self.free else cut[:-1]
 
     @cached_property
@@ -100,7 +102,7 @@ class SolidSector:
         return angles
 
     def stiffness(self, quads: Wholes | None = None) -> Any:
-        """Matrix (scipy CSR, N/mm) over the section's quadrangles, or some of them, in the turning axes."""
+        """Return the matrix (scipy CSR, N/mm) over the section's quadrangles, or some of them, in the turning axes."""
         import scipy.sparse
 
         chosen = self.mesh.section.quads if quads is None else self.mesh.section.quads[quads]
@@ -236,12 +238,14 @@ class Around(Protocol):
     """Response of the sectors beside tooth 0 to its motions, even and odd."""
 
     def cuts(self, behind: Floats, hub: Floats, parity: int) -> list[Floats]:
-        """Displacements (n, m) of the cuts ahead of teeth 0, 1 ... by those of the cut behind tooth 0 and the hub (hub, m)."""
+        """Return the displacements (n, m) of the cuts ahead of teeth 0, 1 ... by those of the cut behind tooth 0 and the hub
+        (hub, m).
+        """
         ...
 
 
 def ring_around(sector: ToothSpan, rest: int, neighbours: int) -> tuple[Around, tuple[Floats, Floats]]:
-    """The rest of a ring: so many sectors, of which those of `neighbours` on each side are told.
+    """Return the rest of a ring: so many sectors, of which those of `neighbours` on each side are told.
 
     Second its matrices (n + hub, n + hub), even and odd, on the cut behind tooth 0 and the hub, with the energy of a ToothSpan.
     """
@@ -372,7 +376,8 @@ class SolidBody:
     tell: Share = field(default=unheard, compare=False, repr=False)
 
     def solve(self, loads: Floats, wanted: Wholes | None = None, *, at: Wholes | None = None) -> Moved:
-        """Displacements of the nodes `wanted` (n,) of each tooth, and torques, by loads (3 k, m) in N at nodes (k,) of tooth 0.
+        """Return the displacements of the nodes `wanted` (n,) of each tooth, and torques, by loads (3 k, m) in N at nodes (k,)
+        of tooth 0.
 
         None are all nodes. Loads and displacements are in the turning axes.
         """
@@ -449,7 +454,7 @@ class SolidBody:
         return reaction
 
     def _teeth(self, solved: Forward, joints: _Joints, nodes: Wholes) -> Iterator[tuple[int, Floats]]:
-        """Every tooth, and the displacements (3 n, m) of nodes of it, in polar axes at the cuts."""
+        """Yield every tooth, and the displacements (3 n, m) of nodes of it, in polar axes at the cuts."""
         sector, reversal = self.sector, self.sector.span.reversal
         even, odd = (self._closed.around.cuts(joints.cuts[p], joints.hub[p], p) for p in (0, 1))
         ahead = [one + two for one, two in zip(even, odd, strict=True)]
@@ -492,7 +497,7 @@ def assemble_body(
     condensed: Share = unheard,
     solved: Share = unheard,
 ) -> SolidBody:
-    """A ring of `teeth` equal sectors, or a body of `held` teeth (odd, at least 3), its outer cuts as `cuts` says.
+    """Return a ring of `teeth` equal sectors, or a body of `held` teeth (odd, at least 3), its outer cuts as `cuts` says.
 
     The bore of a ring may be `free`; `condensed` and `solved` hear how much of the condensation is done, and of a solution.
     """

@@ -60,7 +60,8 @@ class FrontTree:
         return found, arrived(len(self.fronts)).reshape(-1, count)
 
     def backward(self, top: Floats, loads: Sequence[tuple[slice, Solved]], nodes: Wholes) -> Floats:
-        """Displacements (3 n, m) of nodes by those on top (3 k, m), and by what `forward` gave for some of the columns.
+        """Return the displacements (3 n, m) of nodes by those on top (3 k, m), and by what `forward` gave for some of the
+        columns.
 
         They are 0 for nodes that nobody has.
         """
@@ -159,7 +160,7 @@ class Forward(NamedTuple):
     top: tuple[Floats, Floats]
 
     def dot(self, other: Forward) -> tuple[Floats, Floats]:
-        """Sums over all fronts of products, even and odd (n, m): of loads (n) with displacements by the others (m)."""
+        """Return the sums over all fronts of products, even and odd (n, m): of loads (n) with displacements by the others (m)."""
         result = []
         for parity in (0, 1):
             total = self.top[parity].T @ other.top[parity]
@@ -220,7 +221,7 @@ class _Orbits:
         return places
 
     def gathered(self, left: Floats, parity: int) -> Floats:
-        """Loads (3 k, m) at the nodes that stand, from loads (n, 3, m) at those on top."""
+        """Return the loads (3 k, m) at the nodes that stand, from loads (n, 3, m) at those on top."""
         right = left[np.searchsorted(self.top, self.every)]
         right[self.places[self.moved]] += PARITIES[parity] * TURNED[:, None] * left[np.searchsorted(self.top, self.moved)]
         result: Floats = np.ascontiguousarray(right).reshape(-1, left.shape[-1])
@@ -228,7 +229,7 @@ class _Orbits:
         return result
 
     def scattered(self, moved: Floats, parity: int) -> Floats:
-        """Displacements (n, 3, ...) of the nodes on top, from those (k, 3, ...) of the nodes that stand."""
+        """Return the displacements (n, 3, ...) of the nodes on top, from those (k, 3, ...) of the nodes that stand."""
         spread = np.zeros((len(self.top), *moved.shape[1:]))
         spread[np.searchsorted(self.top, self.every)] = moved
         turned = (PARITIES[parity] * TURNED).reshape(-1, *[1] * (moved.ndim - 2))
@@ -242,7 +243,7 @@ class _Orbits:
         return signs.ravel()
 
     def still(self, parity: int) -> Wholes:
-        """Dofs, among those of every node, of nodes on the axis that do not move."""
+        """Return the dofs, among those of every node, of nodes on the axis that do not move."""
         alone = np.flatnonzero(self.turn.on_axis[self.between])
         return node_dofs(alone).reshape(-1, 3)[:, PARITIES[parity] * TURNED < 0].ravel()
 

@@ -88,7 +88,7 @@ class SolidPairContact(PairContact):
         return np.sort(np.r_[np.flatnonzero(self.interior), ends + here / (here - there)])
 
     def between(self, values: Floats, place: float | Floats) -> Floats:
-        """Values (n,) of the cells at places between them."""
+        """Return the values (n,) of the cells at places between them."""
         return np.asarray(np.interp(place, np.arange(len(values)), values))
 
     @property
@@ -143,7 +143,7 @@ class SolidCycle(LoadedCycle[SolidPair, SolidPosition, SolidPairContact]):
     """Solid gears over one base pitch: also how load and root stress are spread over the face width."""
 
     def solve(self, angle: float) -> SolidPosition:
-        """The position at a roll angle (deg). Raises SolverError."""
+        """Return the position at a roll angle (deg). Raises SolverError."""
         model, solution = self.model, self.model.solve(angle, self.torque)
         contacts, flat = _contacts(model, solution), math.cos(model.helix)
         loads = PerGear.each(lambda role: tooth_loads(model, contacts, role))
@@ -161,7 +161,7 @@ class SolidCycle(LoadedCycle[SolidPair, SolidPosition, SolidPairContact]):
         )
 
     def contacts_at(self, angle: float) -> tuple[SolidPairContact, ...]:
-        """The contacts alone at a roll angle (deg). Raises SolverError."""
+        """Return the contacts alone at a roll angle (deg). Raises SolverError."""
         return _contacts(self.model, self.model.solve(angle, self.torque))
 
     @property
@@ -200,7 +200,7 @@ class SolidCycle(LoadedCycle[SolidPair, SolidPosition, SolidPairContact]):
         return float(load[inside].max() / load.mean())
 
     def root_along_face(self, role: Role) -> tuple[Floats, Floats]:
-        """Heights (n,) in mm of a gear, and the greatest root tension of the cycle there (n,) in MPa."""
+        """Return the heights (n,) in mm of a gear, and the greatest root tension of the cycle there (n,) in MPa."""
         fillet = self.model.fillets.pick(role).loaded
         stresses: Floats = np.array([position.tension.pick(role).along_face for position in self.every])
         return fillet.heights_between, stresses.max(axis=0)
@@ -225,7 +225,7 @@ def tooth_loads(model: SolidPair, contacts: tuple[SolidPairContact, ...], role: 
 
 
 def _hub_torque(body: SolidCompliance, loads: list[ToothForces]) -> float:
-    """Torque (N·m) that the loads put on the hub."""
+    """Return the torque (N·m) that the loads put on the hub."""
     return float(sum(force @ -body.torques for _, force in loads)) / 1000
 
 
@@ -238,7 +238,7 @@ def _compression(fillet: SolidFillet, loads: list[ToothForces]) -> SolidRootStre
 
 
 def _states(fillet: SolidFillet, loads: list[ToothForces]) -> list[FilletState]:
-    """The fillet of each tooth in contact."""
+    """Return the fillet of each tooth in contact."""
     return [fillet.state([(tooth - own, force) for tooth, force in loads]) for own, _ in loads]
 
 
@@ -247,7 +247,7 @@ def _bore_tension(bore: SolidFillet | None, loads: list[ToothForces]) -> float |
 
 
 def _greatest(fillet: SolidFillet, stresses: list[Floats], sign: int) -> SolidRootStress:
-    """The most stressed place of the root of the most stressed tooth."""
+    """Return the most stressed place of the root of the most stressed tooth."""
     root, along, across = np.flatnonzero(fillet.is_root), fillet.along_root, fillet.along_face
     every = [sign * across @ stress[:, root] @ along.T for stress in stresses]
     worst = max(every, key=np.max)
@@ -302,7 +302,7 @@ def wide_solid_contacts(cycle: SolidCycle) -> Iterator[Notice]:
 
 
 def _hollow(contact: SolidPairContact) -> Iterator[HollowContact]:
-    """Cells away from all edges."""
+    """Yield the cells away from all edges."""
     lengths = contact.line.places.pinion[0]
     return map(HollowContact, contact.half_widths[contact.interior].tolist(), lengths[contact.interior].tolist())
 
@@ -378,7 +378,7 @@ class SolidField:
 
 
 def worst_field(cycle: SolidCycle, role: Role) -> SolidField:
-    """The field of the most stressed tooth of a gear where its root tension is greatest."""
+    """Return the field of the most stressed tooth of a gear where its root tension is greatest."""
     position = cycle.worst_position(role)
     fillet, loads = cycle.model.fillets.pick(role).loaded, tooth_loads(cycle.model, position.contacts, role)
 
@@ -390,7 +390,7 @@ def worst_field(cycle: SolidCycle, role: Role) -> SolidField:
 
 
 def solid_field(cycle: SolidCycle, position: SolidPosition, role: Role, tooth: int = 0) -> SolidField:
-    """The field of a tooth of a gear, counted as its teeth follow each other where flanks with y > 0 carry.
+    """Return the field of a tooth of a gear, counted as its teeth follow each other where flanks with y > 0 carry.
 
     A ring's is that of the ring as it stands, flanks with y < 0 loaded. Loads on teeth further away than the model's neighbours
     are left out.
@@ -440,7 +440,9 @@ def write_field(field: SolidField, path: Path, most: float) -> None:
 
 
 def nodal_stress(points: Floats, hexahedra: Wholes, displacement: Floats, material: Material) -> Floats:
-    """Stresses (n, 6) at the nodes: from 2 x 2 x 2 points of each element, outward, and the mean of all elements around."""
+    """Return the stresses (n, 6) at the nodes: from 2 x 2 x 2 points of each element, outward, and the mean of all elements
+    around.
+    """
     gradient = field_gradients(SWEPT, points[hexahedra], displacement[hexahedra], quadrature(SWEPT, _AT_STRAINS).places)
     at_nodes = np.einsum("aq,mqs->mas", _outward(), _stress(gradient, material), optimize=True)
     total, times = np.zeros((len(points), 6)), np.zeros(len(points))
@@ -451,7 +453,7 @@ def nodal_stress(points: Floats, hexahedra: Wholes, displacement: Floats, materi
 
 
 def _stress(gradient: Floats, material: Material) -> Floats:
-    """Stresses (..., 6) by gradients of displacement (..., 3, 3)."""
+    """Return the stresses (..., 6) by gradients of displacement (..., 3, 3)."""
     first, second = lame(material)
     strain = (gradient + np.swapaxes(gradient, -1, -2)) / 2
     stress = 2 * second * strain + first * np.trace(strain, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
@@ -460,7 +462,7 @@ def _stress(gradient: Floats, material: Material) -> Floats:
 
 @cache
 def _outward() -> Floats:
-    """Weights (20, 8) with which values at the points, trilinear between them, give those at the nodes."""
+    """Return the weights (20, 8) with which values at the points, trilinear between them, give those at the nodes."""
     points = quadrature(SWEPT, _AT_STRAINS).places
     low, high = points.min(), points.max()
     order = [int(np.abs(low + (high - low) * corner - points).sum(axis=1).argmin()) for corner in node_places("hex8")]

@@ -68,7 +68,7 @@ class HalfTurn:
         return result
 
     def turned(self, values: Floats) -> Floats:
-        """Loads or displacements (dofs, ...) after the turn."""
+        """Return the loads or displacements (dofs, ...) after the turn."""
         vectors = values.reshape(len(self.nodes), 3, -1)[self.nodes]
         result: Floats = (vectors * TURNED[:, None]).reshape(values.shape)
         return result
@@ -92,7 +92,7 @@ class ElementBlock(NamedTuple):
     last: int
 
     def nodes(self, mesh: SweptMesh) -> Wholes:
-        """Nodes (m, 20) of the hexahedra, layer by layer."""
+        """Return the nodes (m, 20) of the hexahedra, layer by layer."""
         chosen = mesh.section.quads[self.quads]
         return np.concatenate([mesh.elements(chosen, layer) for layer in range(self.first, self.last)])
 
@@ -121,7 +121,7 @@ class SolidPart:
         return self.flops + sum(part.all_flops for part in self.parts)
 
     def every(self) -> Iterator[SolidPart]:
-        """All parts of it in the order in which they go, itself last."""
+        """Yield all parts of it in the order in which they go, itself last."""
         for part in self.parts:
             yield from part.every()
         yield self
@@ -173,7 +173,7 @@ class _Counted(NamedTuple):
 
 
 def dissected(turn: HalfTurn, kept: Wholes, held: Wholes) -> Halves:
-    """The halves of a sector that are least work: of its layers, or of its section.
+    """Return the halves of a sector that are least work: of its layers, or of its section.
 
     Nodes above the section's nodes `kept`, those of the cuts, are not to go, those above `held` are nobody's.
     """
@@ -261,7 +261,7 @@ class _Dissection:
         return _Counted(SolidPart(nodes[own], nodes[~own], tuple(each.part for each in given)), times[~own])
 
     def _parts(self, box: ElementBlock) -> list[ElementBlock]:
-        """The boxes on both sides of where fewest nodes stand; none if hexahedra are few."""
+        """Return the boxes on both sides of where fewest nodes stand; none if hexahedra are few."""
         quads, first, last = box
         layers, found = last - first, []
         if len(quads) > _QUADS:
@@ -275,7 +275,7 @@ class _Dissection:
         return min(found, key=lambda each: each[0])[1] if found else []
 
     def _line(self, quads: Wholes) -> _Line:
-        """The line with the fewest nodes on it, among those that leave a fair part of the quadrangles on each side."""
+        """Return the line with the fewest nodes on it, among those that leave a fair part of the quadrangles on each side."""
         key = quads.tobytes()
         if key not in self.lines:
             section = self.mesh.section

@@ -98,8 +98,8 @@ class QuadraticFaces:
         return summing(self.nodes)
 
     def forces(self, traction: Callable[[Floats, Floats], Floats], singular_at: Floats, near: int) -> Floats:
-        """Forces (n, 3) on the nodes that are `used` of a traction field that is singular at one point; `near` Gauss points
-        each way around it.
+        """Return the forces (n, 3) on the nodes that are `used` of a traction field that is singular at one point; `near` Gauss
+        points each way around it.
         """
         distance = np.linalg.norm(self._centres - singular_at, axis=-1)
         close = np.flatnonzero(distance < (1 + _CLOSE) * self._sizes)
@@ -109,12 +109,12 @@ class QuadraticFaces:
         return result
 
     def among(self, nodes: Wholes) -> QuadraticFaces:
-        """The faces all of whose nodes are among some."""
+        """Return the faces all of whose nodes are among some."""
         chosen = np.isin(self.nodes, nodes).all(axis=1)
         return QuadraticFaces(self.nodes[chosen], self.points[chosen])
 
     def smooth_forces(self, mesh: SweptMesh, traction: Callable[[Floats, Floats], Floats]) -> Floats:
-        """Nodal forces (n, 3, ...) of a smooth traction field."""
+        """Return the nodal forces (n, 3, ...) of a smooth traction field."""
         nodal = np.einsum("qa,mqc...->mac...", _rule(_FAR)[0], traction(*self._far))
         used, sums = self._sums
         result = np.zeros((mesh.nodes, *nodal.shape[2:]))
@@ -123,7 +123,9 @@ class QuadraticFaces:
 
 
 def summing(nodes: Wholes) -> tuple[Wholes, Any]:
-    """The nodes (n,) that elements use, sorted, and the matrix (scipy CSR, n x elements' nodes) that sums values at them."""
+    """Return the nodes (n,) that elements use, sorted, and the matrix (scipy CSR, n x elements' nodes) that sums values at
+    them.
+    """
     import scipy.sparse
 
     used, index = np.unique(nodes, return_inverse=True)
@@ -132,7 +134,7 @@ def summing(nodes: Wholes) -> tuple[Wholes, Any]:
 
 
 def boundary_faces(mesh: SweptMesh, quads: Wholes) -> QuadraticFaces:
-    """The faces around the hexahedra over some section quadrangles: sides of all layers, and both ends."""
+    """Return the faces around the hexahedra over some section quadrangles: sides of all layers, and both ends."""
     section = mesh.section.quads[quads]
     edges = section[:, np.array(Element.QUAD8.shape.faces)].reshape(-1, 3)
     _, index, times = np.unique(edges[:, 2], return_index=True, return_counts=True)
@@ -151,7 +153,7 @@ it reverses.
 
 
 def rigid_motions(points: Floats, middle: float) -> Floats:
-    """Displacements (..., 3, 6) of points (..., 3) in mm by the dofs of the hub as motions of 1 rad or 1 mm.
+    """Return the displacements (..., 3, 6) of points (..., 3) in mm by the dofs of the hub as motions of 1 rad or 1 mm.
 
     `middle` (mm) is the height of the axes of tilting.
     """
@@ -162,7 +164,9 @@ def rigid_motions(points: Floats, middle: float) -> Floats:
 
 
 def bore_forces(mesh: SweptMesh) -> Floats:
-    """Nodal forces (3 nodes, 6) in the turning axes, by tractions on the bore like a rigid motion's part along its surface."""
+    """Return the nodal forces (3 nodes, 6) in the turning axes, by tractions on the bore like a rigid motion's part along its
+    surface.
+    """
     section = mesh.section
     inner = np.isin(section.quads, mesh.side(OutlineSide.HELD))
     faces = boundary_faces(mesh, np.flatnonzero(inner.sum(axis=1) >= _ON_ARC)).among(mesh.over(mesh.side(OutlineSide.HELD)))

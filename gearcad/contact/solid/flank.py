@@ -44,14 +44,14 @@ class SolidFlank(LoadedFlank):
         return math.radians(self.gear.base_helix_angle)
 
     def points(self, places: Places) -> Floats:
-        """Points (n, 3) in space (mm)."""
+        """Return the points (n, 3) in space (mm)."""
         length, z = np.broadcast_arrays(*places)
         radius, start = self.polar(length)
         angle = start + self.rate * z
         return np.stack([radius * np.cos(angle), radius * np.sin(angle), z], -1)
 
     def inward(self, places: Places) -> Floats:
-        """Unit normals (n, 3) into the tooth."""
+        """Return the unit normals (n, 3) into the tooth."""
         length, z = np.broadcast_arrays(*places)
         heading = self.heading(length) + self.rate * z
         flat, rise = math.cos(self.helix), math.sin(self.helix)
@@ -96,7 +96,7 @@ class GridSpline:
         return result
 
     def weights(self, places: Places) -> Floats:
-        """Weights (n, places of the grid) at places."""
+        """Return the weights (n, places of the grid) at places."""
         (low, high), (back, front) = self._bounds
         rows = self._rows(self._up(np.clip(places[0], low, high)))
         columns = self._columns(self._along(np.clip(places[1], back, front)))
@@ -114,8 +114,8 @@ def surface_displacement(distance: Floats, material: Material) -> Floats:
 def half_space_displacement(
     points: Floats, load_at: Floats, inward: Floats, material: Material, forces: Floats | float = 1.0
 ) -> Floats:
-    """Displacement (..., 3) in mm at `points` (..., 3) by `forces` (N) at `load_at` along the unit vector `inward`; 0 at the
-    load. Of several loads, (m, 3) and (m,), the sum.
+    """Return the displacement (..., 3) in mm at `points` (..., 3) by `forces` (N) at `load_at` along the unit vector `inward`;
+    0 at the load. Of several loads, (m, 3) and (m,), the sum.
 
     2 pi E/(1 + nu) u = ((2 (1 - nu) + c^2) n + (c - (1 - 2 nu)/(1 + c)) (a - z n)/s)/s.
     """
@@ -131,8 +131,8 @@ def half_space_displacement(
 def half_space_normal_displacement(
     points: Floats, normals: Floats, load_at: Floats, inward: Floats, material: Material, forces: Floats
 ) -> Floats:
-    """Displacements (n, m) in mm along `normals` (n, 3) at points (n, 3), each the sum by a group of loads (m, k, 3), alike in
-    all groups: `forces` (k,) in N.
+    """Return the displacements (n, m) in mm along `normals` (n, 3) at points (n, 3), each the sum by a group of loads (m, k,
+    3), alike in all groups: `forces` (k,) in N.
     """
     from gearcad.contact.solid.kernels import add_normal_displacements
 
@@ -147,7 +147,7 @@ def half_space_normal_displacement(
 def half_space_traction(
     points: Floats, normals: Floats, load_at: Floats, inward: Floats, material: Material, forces: Floats | float = 1.0
 ) -> Floats:
-    """Traction (..., 3) in MPa on elements of surface at `points` with `normals` t (..., 3), by the same loads.
+    """Return the traction (..., 3) in MPa on elements of surface at `points` with `normals` t (..., 3), by the same loads.
 
     2 pi s^2 p = -3 c^2 (t.a/s) n - b (t.n) n + b t
                  + ((1 - 2 nu) (2 + c)/(1 + c)^2 (t.r) - 3 c (t.a/s)) r,  r = (a - z n)/s,  b = (1 - 2 nu) (c - 1/(1 + c)):
@@ -162,7 +162,7 @@ def half_space_traction(
 
 
 def _rows(vectors: Floats) -> Floats:
-    """Vectors (..., 3) as rows of doubles."""
+    """Return the vectors (..., 3) as rows of doubles."""
     return np.ascontiguousarray(vectors, dtype=float).reshape(-1, 3)
 
 
@@ -182,24 +182,26 @@ class Images:
     """
 
     def loads(self, at: Floats, inward: Floats) -> tuple[Floats, Floats, Floats]:
-        """Points (..., m, 3), inward normals (..., m, 3) and forces (m,) in N of all that stands for 1 N at points (..., 3)."""
+        """Return the points (..., m, 3), inward normals (..., m, 3) and forces (m,) in N of all that stands for 1 N at points
+        (..., 3).
+        """
         flip = np.array([1.0, 1.0, -1.0])
         ends = np.array([0.0, self.flank.gear.face_width])
         where = at[..., None, :] * flip + np.outer(2 * ends, [0.0, 0.0, 1.0])
         return where, np.broadcast_to(inward[..., None, :] * flip, where.shape), np.full(2, self.factor)
 
     def displacement(self, points: Floats, at: Floats, inward: Floats) -> Floats:
-        """Displacement (..., 3) in mm at points by all that."""
+        """Return the displacement (..., 3) in mm at points by all that."""
         where, to, forces = self.loads(at, inward)
         return half_space_displacement(points, where, to, self.material, forces)
 
     def traction(self, points: Floats, normals: Floats, at: Floats, inward: Floats) -> Floats:
-        """Traction (..., 3) in MPa on elements of surface by all that."""
+        """Return the traction (..., 3) in MPa on elements of surface by all that."""
         where, to, forces = self.loads(at, inward)
         return half_space_traction(points, normals, where, to, self.material, forces)
 
     def normal(self, moved: Places, loaded: Places) -> Floats:
-        """Normal displacements (n, m) in mm at places by all that stands for 1 N at each loaded place."""
+        """Return the normal displacements (n, m) in mm at places by all that stands for 1 N at each loaded place."""
         points, normals = self.flank.points(moved), self.flank.inward(moved)
         where, to, forces = self.loads(self.flank.points(loaded), self.flank.inward(loaded))
         return half_space_normal_displacement(points, normals, where, to, self.material, forces)
@@ -347,11 +349,11 @@ class SolidCompliance(FlankCompliance):
         }
 
     def moved_weights(self, places: Places) -> Floats:
-        """Weights (n, places of the grid) with which responses at the grid give those at places of the flank."""
+        """Return the weights (n, places of the grid) with which responses at the grid give those at places of the flank."""
         return self._moved_weights.weights(places)
 
     def load_weights(self, places: Places) -> Floats:
-        """Weights (n, loads) with which responses to the unit loads give those to a load at places of the flank."""
+        """Return the weights (n, loads) with which responses to the unit loads give those to a load at places of the flank."""
         return self._load_weights.weights(places)
 
     @cached_property
@@ -374,17 +376,17 @@ class SolidCompliance(FlankCompliance):
         return Images(self.flank, self.material)
 
     def taken_off_traction(self, points: Floats, normals: Floats) -> Floats:
-        """Traction (..., 3, loads) in MPa by the fields that were taken off, on elements of surface of tooth 0."""
+        """Return the traction (..., 3, loads) in MPa by the fields that were taken off, on elements of surface of tooth 0."""
         field, places = TakenOff(self.flank, self.material), self.loads.places
         loads = zip(self.flank.points(places), self.flank.inward(places), strict=True)
         return np.stack([field.traction(points, normals, at, inward) for at, inward in loads], -1)
 
     def surface_displacements(self, tooth: int) -> Floats:
-        """Displacements (n, 3, loads) in mm of the nodes `surface` of tooth k, in fixed axes."""
+        """Return the displacements (n, 3, loads) in mm of the nodes `surface` of tooth k, in fixed axes."""
         return self.body.sector.mesh.to_space(self.displacements[self.neighbours + tooth], self.surface)
 
     def tooth_displacements(self, tooth: int, loads: Sequence[ToothForces]) -> Floats:
-        """Displacements (nodes, 3) in mm of all nodes of a tooth, in fixed axes, by loads on it and its neighbours.
+        """Return the displacements (nodes, 3) in mm of all nodes of a tooth, in fixed axes, by loads on it and its neighbours.
 
         Loads on teeth further away than those whose responses are known are left out.
         """
@@ -400,7 +402,7 @@ class SolidCompliance(FlankCompliance):
         return mesh.to_space(found.reshape(-1, 3))
 
     def torque(self, places: Places) -> Floats:
-        """Torque on the hub (N mm) by 1 N at each place."""
+        """Return the torque on the hub (N mm) by 1 N at each place."""
         return -(self.load_weights(places) @ self.torques)
 
 
@@ -439,20 +441,20 @@ def solid_compliance(
 
 
 def _surface(mesh: SweptMesh, *, free: bool) -> Wholes:
-    """Nodes (n,), sorted, of the loaded flank, of the fillets, and of the bore if it is free."""
+    """Return the nodes (n,), sorted, of the loaded flank, of the fillets, and of the bore if it is free."""
     sides = (OutlineSide.LEFT_FLANK, OutlineSide.LEFT_FILLET, OutlineSide.RIGHT_FILLET, *([OutlineSide.HELD] if free else []))
     return np.unique(mesh.over(np.unique(np.concatenate([mesh.side(side) for side in sides]))))
 
 
 def _normal(mesh: SweptMesh, vectors: Floats, nodes: Wholes, inward: Floats) -> Floats:
-    """Normal displacements (n, m) from vectors (n, 3, m) at nodes in turning axes."""
+    """Return the normal displacements (n, m) from vectors (n, 3, m) at nodes in turning axes."""
     flat = turned(inward[:, :2], -mesh.rate * mesh.heights[nodes])
     result: Floats = np.einsum("ncm,nc->nm", vectors, np.c_[flat, inward[:, 2]])
     return result
 
 
 def _flank_grid(flank: SolidFlank, mesh: SweptMesh) -> tuple[Wholes, FlankGrid]:
-    """Nodes of the flank, plane by plane from root to tip, and their places."""
+    """Return the nodes of the flank, plane by plane from root to tip, and their places."""
     chain = mesh.side(OutlineSide.LEFT_FLANK)[::-1]
     lengths = flank.roll_lengths(np.hypot(*mesh.section.points[chain].T))
     nodes = np.concatenate([chain + mesh.plane(k) for k in range(len(mesh.planes))])
@@ -460,7 +462,8 @@ def _flank_grid(flank: SolidFlank, mesh: SweptMesh) -> tuple[Wholes, FlankGrid]:
 
 
 def _load_grid(grid: FlankGrid, gear: Gear, start: float) -> FlankGrid:
-    """Rows on vertices of the flank but for its tip corner, the first not above `start`; a column half-way up every layer.
+    """Return the rows on vertices of the flank but for its tip corner, the first not above `start`; a column half-way up every
+    layer.
 
     An undercut flank ends in a corner at the root as well, where no load can be taken off as one on a half-space. Raises
     SolverError where there is one row only, and nothing between rows.
@@ -479,7 +482,7 @@ def _spread(count: int, wanted: int) -> Wholes:
 
 
 def _near_quads(gear: Gear, mesh: SweptMesh) -> Wholes:
-    """Quadrangles of the tooth and a module of the body below it: where the half-space's field is taken off."""
+    """Return the quadrangles of the tooth and a module of the body below it: where the half-space's field is taken off."""
     centre = mesh.section.points[mesh.section.quads[:, :4]].mean(axis=1)
     radius, root = np.hypot(*centre.T), gear.profile.root_diameter / 2
     if gear.internal:

@@ -87,7 +87,7 @@ _APART = 0.5
 
 
 def node_dofs(nodes: Wholes) -> Wholes:
-    """Dofs (..., 3 n) of nodes (..., n)."""
+    """Return the dofs (..., 3 n) of nodes (..., n)."""
     return (3 * nodes[..., None] + np.arange(3)).reshape(*nodes.shape[:-1], -1)
 
 
@@ -216,8 +216,8 @@ class Elimination:
         return matrix
 
     def eliminated(self, part: SolidPart, known: dict[int, Floats] | None = None) -> Floats:
-        """The matrix, its lower triangle only, on the dofs of the nodes that a part leaves; `known` are those of some parts of
-        it, by their identities, and go.
+        """Return the matrix, its lower triangle only, on the dofs of the nodes that a part leaves; `known` are those of some
+        parts of it, by their identities, and go.
         """
         known = {} if known is None else known
         if id(part) in known:
@@ -247,7 +247,7 @@ class Elimination:
 
 
 def _apart(part: SolidPart, most: float) -> list[SolidPart]:
-    """The parts of one, or of its parts, that are no more than so many operations."""
+    """Return the parts of one, or of its parts, that are no more than so many operations."""
     if part.all_flops <= most or not part.parts:
         return [part]
     return [each for one in part.parts for each in _apart(one, most)]
@@ -261,12 +261,12 @@ class Reversal:
     signs: Floats
 
     def rows(self, values: Floats) -> Floats:
-        """Values (n, ...) after the turn."""
+        """Return the values (n, ...) after the turn."""
         result: Floats = values[self.image] * self.signs.reshape(-1, *[1] * (values.ndim - 1))
         return result
 
     def both(self, matrix: Floats) -> Floats:
-        """A matrix (n, n), its rows and columns after the turn."""
+        """Return a matrix (n, n), its rows and columns after the turn."""
         return self.rows(self.rows(matrix).T).T
 
     @cached_property
@@ -283,7 +283,7 @@ class Reversal:
         return np.concatenate([(values[first] + turned) / np.sqrt(2), values[alone]])
 
     def whole(self, part: Floats, parity: int) -> Floats:
-        """The values (n, m) of a part."""
+        """Return the values (n, m) of a part."""
         first, alone = self._pairs
         alone = alone[self.signs[alone] == PARITIES[parity]]
         values = np.zeros((len(self.image), part.shape[1]))
@@ -332,7 +332,7 @@ class ToothSpan:
         return result
 
     def matrix(self) -> Floats:
-        """Matrix on [cut behind, cut ahead, hub]."""
+        """Return the matrix on [cut behind, cut ahead, hub]."""
         n, near, ahead = self.cut, self.near, self.reversal.rows(self.far)
         return np.block(
             [
@@ -352,13 +352,15 @@ class ToothSpan:
         return np.block([[near[:, :n], across], [across.T, turn.T @ self.hub @ turn]])
 
     def inward(self, aside: float) -> Floats:
-        """Forces (n, n + hub) at the cut ahead by the cut behind and the hub of such a row."""
+        """Return the forces (n, n + hub) at the cut ahead by the cut behind and the hub of such a row."""
         far = self.reversal.rows(self.far)
         far[:, self.cut :] = far[:, self.cut :] @ self.seen(-aside)
         return far
 
     def pushed(self, ends: Floats, aside: float) -> Floats:
-        """Forces (n, m) at the cut ahead by displacements of the cut behind and the hub (n + hub, m): as by `inward`."""
+        """Return the forces (n, m) at the cut ahead by displacements of the cut behind and the hub (n + hub, m): as by
+        `inward`.
+        """
         n, (even, odd) = self.cut, self.matrices
         given = np.concatenate([ends[:n] / 2, self.seen(-aside) @ ends[n:]])
         return self.reversal.rows(even[:n] @ given - odd[:n] @ given)
@@ -385,7 +387,7 @@ class Inside:
     hub: tuple[Floats, Floats] | None
 
     def moved(self, ends: Floats, parity: int) -> Floats:
-        """Displacements (n, m) by those of the cut behind and the hub (n + hub, m)."""
+        """Return the displacements (n, m) by those of the cut behind and the hub (n + hub, m)."""
         reversal, n = self.side.reversal, self.side.cut
         force = self.side.pushed(ends, self.aside)
         if self.hub is not None:
@@ -396,7 +398,7 @@ class Inside:
 
 
 def joined(side: ToothSpan, middle: ToothSpan | None) -> tuple[ToothSpan, Inside]:
-    """A row on both sides of another one, or of none."""
+    """Return a row on both sides of another one, or of none."""
     teeth = 2 * side.teeth + (0 if middle is None else middle.teeth)
     n, aside, reversal = side.cut, (teeth - side.teeth) / 2, side.reversal
 

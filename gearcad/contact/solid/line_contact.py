@@ -83,7 +83,8 @@ class ContactLine:
 def contact_lines(
     pair: GearPair, line: LineOfAction, flank: SolidFlank, pinion_length: float, cells: int, farthest_gap: float
 ) -> tuple[ContactLine, ...]:
-    """The lines when the middle pair of teeth touches at `pinion_length` (mm from T1) in the middle of the common face width.
+    """Return the lines when the middle pair of teeth touches at `pinion_length` (mm from T1) in the middle of the common face
+    width.
 
     Cells count where the exact flanks are nearer than `farthest_gap` (mm).
     """
@@ -172,7 +173,9 @@ def _bent(line: LineOfAction) -> PerGear[tuple[float, float]]:
 
 
 def near_path(line: LineOfAction, farthest_gap: float) -> float:
-    """Length (mm) of the line of action over which exact flanks, or edges of their tips, come nearer than a gap (mm)."""
+    """Return the length (mm) of the line of action over which exact flanks, or edges of their tips, come nearer than a gap
+    (mm).
+    """
     nominal = np.linspace(0.0, sum(max(abs(each.first), abs(each.last)) for each in line.flanks), _PLACES)
     usable, (*_, gap, _) = _facing(line, nominal)
     return float(np.ptp(nominal[usable & (gap < farthest_gap)]))
@@ -200,7 +203,7 @@ class Gaps(NamedTuple):
 
 
 def gaps(lines: tuple[ContactLine, ...], pair: GearPair, mounting: Mounting, helix: float) -> Gaps:
-    """Gaps and curvatures of all cells: of the exact flanks, their modifications, and the mounting.
+    """Return the gaps and curvatures of all cells: of the exact flanks, their modifications, and the mounting.
 
     A misaligned axis of the wheel is turned, as a rigid body, about its middle in the common face width. Turned in the plane
     of action it recedes along the line of action and moves along the axis; turned across it, flanks face each other nearer to
@@ -216,7 +219,7 @@ def gaps(lines: tuple[ContactLine, ...], pair: GearPair, mounting: Mounting, hel
 def line_gap(
     line: ContactLine, pair: GearPair, mounting: Mounting, helix: float, depths: Sequence[Floats] | Floats
 ) -> tuple[Floats, Floats]:
-    """Gaps along the normal and reduced radii (..., n) in mm of a line, flanks taken back by `depths` (..., n) in mm
+    """Return the gaps along the normal and reduced radii (..., n) in mm of a line, flanks taken back by `depths` (..., n) in mm
     at the `places_beside` it.
     """
     here, before, middle, after = depths
@@ -239,9 +242,9 @@ def turned_back(line: ContactLine, pair: GearPair, mounting: Mounting, helix: fl
 
 
 def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list[PerGear[Places]]:
-    """Places on the pinion's and the wheel's flank on the line, and three along the tangent, towards the pinion's tip, which
-    are what it takes to tell slope and curvature: a little before the line, on it and after it, or at the ends of the flanks
-    as near to it as they all lie on them.
+    """Return the places on the pinion's and the wheel's flank on the line, and three along the tangent, towards the pinion's
+    tip, which are what it takes to tell slope and curvature: a little before the line, on it and after it, or at the ends of
+    the flanks as near to it as they all lie on them.
 
     The wheel has slid along the tangent where its axis is turned across, so that the pinion meets it nearer to its tip.
     """
@@ -361,11 +364,11 @@ class Responses:
         return len(self.lengths)
 
     def split(self, values: Floats) -> list[Floats]:
-        """Values of all cells (..., n) by line."""
+        """Return the values of all cells (..., n) by line."""
         return np.split(values, np.cumsum([len(line.across) for line in self.lines])[:-1], axis=-1)
 
     def half_space(self, half_widths: Floats) -> Floats:
-        """Displacements (n, n) in mm/N of both half-spaces, for ellipses as wide as that (mm) on each side."""
+        """Return the displacements (n, n) in mm/N of both half-spaces, for ellipses as wide as that (mm) on each side."""
         result = np.zeros_like(self.apart)
         for here in self._own_cells:
             apart, own, half = self.apart[here, here], OWN_DISTANCE * half_widths[here], self.lengths[here] / 2
@@ -391,7 +394,7 @@ class Responses:
 
 
 def responses(lines: tuple[ContactLine, ...], bodies: PerGear[SolidCompliance], modulus: float) -> Responses:
-    """The responses of both bodies to loads on all cells of a position."""
+    """Return the responses of both bodies to loads on all cells of a position."""
     smooth = PerGear.each(lambda role: _smooth(lines, bodies.pick(role), role))
     sizes = [len(line.across) for line in lines]
     apart = np.full((sum(sizes), sum(sizes)), np.inf)
@@ -599,7 +602,7 @@ class _Widths:
 
 
 def _spread(given: Responses, widths: Floats) -> Floats:
-    """Weights (n, n) that even out forces over about a half width along the line.
+    """Return the weights (n, n) that even out forces over about a half width along the line.
 
     An ellipse cannot change its width faster than that; cells that are shorter would each go their own way.
     """

@@ -87,7 +87,7 @@ class SolidFillet:
         return result
 
     def state(self, loads: list[ToothForces]) -> FilletState:
-        """Stresses on tooth 0 by loads on it and its neighbours."""
+        """Return the stresses on tooth 0 by loads on it and its neighbours."""
         along, axial, shear = sum(
             (self._responses[-tooth] @ forces for tooth, forces in loads if -tooth in self._responses),
             start=np.zeros((3, len(self.heights), len(self.radii))),
@@ -113,7 +113,7 @@ class SolidFillet:
         return shape_values("quad8", places), shape_slopes("quad8", places).swapaxes(0, 1)
 
     def _at_points(self, values: Floats) -> Floats:
-        """Values (layers, edges, 2 points, ...) as (heights, along the profile, ...)."""
+        """Return the values (layers, edges, 2 points, ...) as (heights, along the profile, ...)."""
         layers, edges, _, *rest = values.shape
         return np.moveaxis(values, 2, 1).reshape(2 * layers, edges, *rest)
 
@@ -182,14 +182,14 @@ class SolidFillets(NamedTuple):
 
 
 def solid_fillets(body: SolidCompliance) -> SolidFillets:
-    """The fillets of tooth 0 of a body, and its bore."""
+    """Return the fillets of tooth 0 of a body, and its bore."""
     bore = SolidFillet(body, OutlineSide.HELD) if body.body.sector.free else None
     return SolidFillets(SolidFillet(body, OutlineSide.LEFT_FILLET), SolidFillet(body, OutlineSide.RIGHT_FILLET), bore)
 
 
 def _between(places: Floats) -> Floats:
-    """Weights (n, places) of a spline at the places (m,) and steps between them: the greatest of a few values would depend on
-    where they happen to stand.
+    """Return the weights (n, places) of a spline at the places (m,) and steps between them: the greatest of a few values would
+    depend on where they happen to stand.
     """
     from scipy.interpolate import CubicSpline
 

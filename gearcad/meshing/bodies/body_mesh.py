@@ -45,7 +45,8 @@ _FEWEST = 2
 
 
 def body_planes(gear: Gear, sizes: MeshSizes, layers: int | None = None) -> Floats:
-    """Heights z (n + 1,) in mm of the planes between layers, closer together at the ends of the face and of end reliefs.
+    """Return the heights z (n + 1,) in mm of the planes between layers, closer together at the ends of the face and of end
+    reliefs.
 
     As many as the sizes ask for, or so many `layers`; of double helical teeth as many in both halves. Raises ParameterError for
     fewer than the end reliefs ask for.
@@ -71,7 +72,7 @@ def check_planes(gear: Gear, planes: Floats) -> None:
 
 
 def _thickness(gear: Gear, sizes: MeshSizes) -> float:
-    """The greatest thickness (mm) of a layer.
+    """Return the greatest thickness (mm) of a layer.
 
     Over a layer that turns by phi a parabola is off a point that turns on the radius R by R phi^3/(72 sqrt 3) at the most.
     """
@@ -83,7 +84,7 @@ def _thickness(gear: Gear, sizes: MeshSizes) -> float:
 
 
 def _gradings(gear: Gear, thickness: float) -> list[Grading]:
-    """The face width graded in pieces between its ends and those of end reliefs."""
+    """Return the face width graded in pieces between its ends and those of end reliefs."""
     ends = np.array([0.0, *gear.flank_form.height_breaks, gear.face_width])
     lengths = np.diff(ends)
     thin = np.minimum(_THINNER * thickness, np.minimum(np.r_[lengths, np.inf], np.r_[np.inf, lengths]))
@@ -100,7 +101,7 @@ def _gradings(gear: Gear, thickness: float) -> list[Grading]:
 
 
 def _shared(wanted: list[float], layers: int) -> list[int]:
-    """Layers of each piece, at least one, of so many in all, in proportion to what is wanted (Webster's divisors)."""
+    """Return the layers of each piece, at least one, of so many in all, in proportion to what is wanted (Webster's divisors)."""
     if layers < len(wanted):
         permitted = f"must be at least {len(wanted)}: one on each side of where an end relief begins"
         raise ParameterError("layers", layers, permitted)
@@ -203,7 +204,7 @@ class _Swept:
     # ------------------------------------------------------------------ places
 
     def _points(self) -> Floats:
-        """Each plane turned by the helix, and its nodes by what modifies their flanks."""
+        """Return each plane turned by the helix, and its nodes by what modifies their flanks."""
         stack = self._stack
         middles = (self.planes[1:] + self.planes[:-1]) / 2
         heights = np.r_[self.planes, middles] if stack.half else self.planes
@@ -235,7 +236,7 @@ class _Swept:
         return found
 
     def _over(self, edges: Faces) -> Faces:
-        """Sides of hexahedra over edges of the section."""
+        """Return the sides of hexahedra over edges of the section."""
         starts = np.arange(self._layers, dtype=np.int32)[:, None] * np.int32(len(self.section.cells))
         sides = np.tile(edges.sides + np.int8(_FIRST_SIDE), self._layers)
         return Faces((starts + edges.elements).ravel(), sides)
@@ -244,7 +245,7 @@ class _Swept:
         return {name: np.stack([self._above(nodes) for nodes in pairs.T], -1) for name, pairs in self.section.matched.items()}
 
     def _above(self, nodes: Wholes) -> Wholes:
-        """All nodes of the mesh above section nodes."""
+        """Return all nodes of the mesh above section nodes."""
         return self._stack.over(nodes[nodes < self._stack.nodes])
 
 
@@ -264,7 +265,7 @@ def posed(
 
 
 def poses(pair: GearPair, roll_angle: float, approach: float = 0.0, *, solid: bool, left: bool = True) -> PerGear[Pose]:
-    """The poses of both gears of `posed`: of solids, or of sections, which are not turned by the helix and lie at z = 0."""
+    """Return the poses of both gears of `posed`: of solids, or of sections, which are not turned by the helix and lie at z = 0."""
     angle = math.radians(pair.working_transverse_pressure_angle)
     lengths = _lengths(pair, roll_angle)
     rolled = PerGear(lengths.pinion + approach, lengths.wheel)
@@ -303,20 +304,20 @@ def contacts(pair: GearPair, roll_angle: float, beyond: float = 0.0, *, left: bo
 
 
 def _middle(pair: GearPair, wheel_z: float) -> float:
-    """Height (mm) on the pinion of the middle of the common face width, or of the common width of the lower halves."""
+    """Return the height (mm) on the pinion of the middle of the common face width, or of the common width of the lower halves."""
     if not pair.double_helical:
         return pair.pinion.face_width / 2 + pair.common_width.offset
     return (max(0.0, wheel_z) + min(pair.pinion.half_width, wheel_z + pair.wheel.half_width)) / 2
 
 
 def _lengths(pair: GearPair, roll_angle: float) -> PerGear[float]:
-    """Roll lengths (mm) at which the flanks of tooth 0 touch."""
+    """Return the roll lengths (mm) at which the flanks of tooth 0 touch."""
     length = pair.path_of_contact.C + math.radians(roll_angle) * pair.pinion.base_diameter / 2
     return PerGear(length, pair.base_tangent.length - length)
 
 
 def _moved(mesh: ElementMesh, pose: Pose) -> ElementMesh:
-    """The mesh turned about the z axis and shifted."""
+    """Return the mesh turned about the z axis and shifted."""
     turn = math.radians(pose.rotation)
     cosine, sine = math.cos(turn), math.sin(turn)
     points: Floats = mesh.points @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
@@ -428,7 +429,7 @@ class _Section(NamedTuple):
 
 
 def _in_disc(sectors: Sectors, edges: int) -> int:
-    """Elements inside the inner circle."""
+    """Return the elements inside the inner circle."""
     angles = 2 * math.pi * np.arange(edges) / edges
     circle = sectors.inside * np.stack([np.cos(angles), np.sin(angles)], -1)
     return len(disc(circle, sectors.element, sectors.sizes.growth).cells)

@@ -27,12 +27,14 @@ RIM = "rim"
 
 
 def body_side(gear: Gear) -> str:
-    """The side where the body ends away from the teeth."""
+    """Return the side where the body ends away from the teeth."""
     return RIM if gear.internal else BORE
 
 
 def rises(gear: Gear, name: str) -> bool:
-    """Whether the "left" or "right" flank is the one with y > 0 of a tooth on +x: the left one is, but that of a ring not."""
+    """Return whether the "left" or "right" flank is the one with y > 0 of a tooth on +x: the left one is, but that of a ring
+    not.
+    """
     return (name == "left") != gear.internal
 
 
@@ -78,28 +80,34 @@ class ElementMesh:
     matched: Mapping[str, Wholes] = field(default_factory=dict)
 
     def face_cells(self, name: str) -> Cells:
-        """Nodes (n, nodes of a face) of a named side, face by face, its vertices first, normals outwards."""
+        """Return the nodes (n, nodes of a face) of a named side, face by face, its vertices first, normals outwards."""
         faces = self.sides[name]
         local = np.array(self.element.shape.faces)[faces.sides]
         found: Cells = self.cells[faces.elements[:, None], local]
         return found
 
     def nodes(self, name: str) -> Cells:
-        """Numbers (n,) of the nodes of a named side, in order."""
+        """Return the numbers (n,) of the nodes of a named side, in order."""
         return np.unique(self.face_cells(name))
 
     def to_meshio(self) -> Any:
-        """A meshio.Mesh of elements and faces of sides; parts and sides are its cell sets, nodes of sides its point sets."""
+        """Return a meshio.Mesh of elements and faces of sides; parts and sides are its cell sets, nodes of sides its point
+        sets.
+        """
 
         return meshio_mesh(self)
 
     def to_skfem(self) -> Any:
-        """A mesh of scikit-fem, with the parts as subdomains and the sides as boundaries; nodes have other numbers there."""
+        """Return a mesh of scikit-fem, with the parts as subdomains and the sides as boundaries; nodes have other numbers
+        there.
+        """
 
         return skfem_mesh(self)
 
     def to_pyvista(self) -> Any:
-        """A pyvista.UnstructuredGrid, with fields of the nodes for each kind of side. Raises ImportError without PyVista."""
+        """Return a pyvista.UnstructuredGrid, with fields of the nodes for each kind of side. Raises ImportError without
+        PyVista.
+        """
 
         return pyvista_grid(self)
 
@@ -134,7 +142,7 @@ _TOOTH = re.compile(r"(.+)_(\d+)")
 
 
 def side_fields(mesh: ElementMesh) -> Iterator[tuple[str, NDArray[np.int16] | NDArray[np.uint8]]]:
-    """A field of the nodes for each kind of side, one at a time.
+    """Yield a field of the nodes for each kind of side, one at a time.
 
     "left_flank" holds the tooth's number on the nodes of all left flanks, and -1 elsewhere; what is there once, as "bore",
     is 1 on its nodes and 0 elsewhere.
@@ -237,7 +245,9 @@ def pyvista_grid(mesh: ElementMesh) -> Any:
 
 
 def meshio_mesh(mesh: ElementMesh) -> Any:
-    """A meshio.Mesh: elements, then faces of all sides; parts and sides are its cell sets, nodes of sides its point sets."""
+    """Return a meshio.Mesh: elements, then faces of all sides; parts and sides are its cell sets, nodes of sides its point
+    sets.
+    """
     made = _with_sets(mesh, mesh.element.value, mesh.points, mesh.cells, mesh.element.shape.face)
     made.point_sets = {name: mesh.nodes(name) for name in mesh.sides}
     return made
@@ -251,7 +261,7 @@ In short elements far from the origin, scikit-fem's own search asks for steps th
 
 
 def skfem_mesh(mesh: ElementMesh) -> Any:
-    """A mesh of scikit-fem, of second order as ours is; parts are its subdomains, sides its boundaries.
+    """Return a mesh of scikit-fem, of second order as ours is; parts are its subdomains, sides its boundaries.
 
     hex20 and quad8 gain the nodes inside of faces and elements that scikit-fem wants, where their own shape functions put
     them: the geometry stays as it is. Nodes have numbers of scikit-fem's own. Its search for places in hexahedra and
@@ -285,7 +295,7 @@ def _vertices_first(mesh: ElementMesh) -> ElementMesh:
 
 
 def _with_sets(mesh: ElementMesh, kind: str, points: Floats, cells: Cells, face: str) -> Any:
-    """A meshio.Mesh of elements and faces of these kinds, with our parts and sides as its cell sets."""
+    """Return a meshio.Mesh of elements and faces of these kinds, with our parts and sides as its cell sets."""
     import meshio
 
     faces = [mesh.face_cells(name)[:, : _FACE_NODES[face]] for name in mesh.sides]
@@ -302,7 +312,7 @@ def _with_sets(mesh: ElementMesh, kind: str, points: Floats, cells: Cells, face:
 
 
 def _with_face_nodes(mesh: ElementMesh) -> tuple[Floats, Cells]:
-    """Points and elements (m, 26) of hexahedra with a node more in each face, in VTK's order."""
+    """Return the points and elements (m, 26) of hexahedra with a node more in each face, in VTK's order."""
     faces = mesh.cells[:, np.array(mesh.element.shape.faces)[list(_VTK_FACES)]].reshape(-1, 8)
     _, first, number = np.unique(np.sort(faces[:, :4]), axis=0, return_index=True, return_inverse=True)
     middles = shape_values("quad8", np.full((1, 2), 0.5))[0] @ mesh.points[faces[first]]
@@ -311,7 +321,7 @@ def _with_face_nodes(mesh: ElementMesh) -> tuple[Floats, Cells]:
 
 
 def _with_centres(points: Floats, cells: Cells, own: Wholes, kind: str) -> tuple[Floats, Cells]:
-    """Points and elements with a node more in the middle of each, where the shape functions of this kind put it."""
+    """Return the points and elements with a node more in the middle of each, where the shape functions of this kind put it."""
     middle = shape_values(kind, np.full((1, node_places(kind).shape[1]), 0.5))[0]
     centres = middle @ points[cells[:, own]]
     numbers = np.arange(len(points), len(points) + len(cells), dtype=np.int32)

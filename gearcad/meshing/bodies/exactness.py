@@ -44,13 +44,13 @@ def exact_volume(gear: Gear, held_radius: float) -> float:
 
 
 def _body(gear: Gear, curves: Iterable[Curve], held_radius: float) -> float:
-    """Area (mm²) between the curves of half a tooth, twice, and the circle where the body ends."""
+    """Return the area (mm²) between the curves of half a tooth, twice, and the circle where the body ends."""
     between = _area(curves) - math.pi / gear.tooth_count * held_radius**2
     return -between if gear.internal else between
 
 
 def _area(curves: Iterable[Curve]) -> float:
-    """Area (mm²) from the curves of half a tooth, twice, down to the centre."""
+    """Return the area (mm²) from the curves of half a tooth, twice, down to the centre."""
     area = 0.0
     for curve in curves:
         radius, angle = _polar(curve)
@@ -60,7 +60,7 @@ def _area(curves: Iterable[Curve]) -> float:
 
 
 def _polar(curve: Curve) -> tuple[Chebyshev, Chebyshev]:
-    """Radius (mm) and half tooth angle (rad) along a curve."""
+    """Return the radius (mm) and half tooth angle (rad) along a curve."""
     places = (1 + chebpts1(_DEGREE + 1)) / 2
     radius, angle = (Chebyshev.fit(places, values, _DEGREE, domain=[0, 1]) for values in curve.polar(places))
     return radius, angle
@@ -135,7 +135,7 @@ def deviations(mesh: ElementMesh, gear: Gear) -> Deviations:
 
 
 def face_samples(mesh: ElementMesh, name: str) -> Iterator[Floats]:
-    """Places (n, 3) on the faces of a side, some thousand faces at a time."""
+    """Yield the places (n, 3) on the faces of a side, some thousand faces at a time."""
     faces = mesh.face_cells(name)
     shapes = shape_values(mesh.element.shape.face, _places(mesh.element.shape.face))
     for start in range(0, len(faces), _CHUNK):
@@ -143,7 +143,9 @@ def face_samples(mesh: ElementMesh, name: str) -> Iterator[Floats]:
 
 
 def chamfer_distances(gear: Gear, tooth: int, points: Floats, *, solid: bool) -> list[Floats]:
-    """Distances (n,) in mm of points (n, 3) near them from the left and the right tip chamfer of a tooth, if it has them."""
+    """Return the distances (n,) in mm of points (n, 3) near them from the left and the right tip chamfer of a tooth, if it has
+    them.
+    """
     place = 2 * math.pi * tooth / gear.tooth_count
     chamfers = [each for each in flank_curves(gear) if each.curve.kind is CurveKind.CHAMFER]
     return [_Surface(gear, each, left, place, solid).distances(points) for each in chamfers for left in (True, False)]
@@ -185,7 +187,7 @@ class _Surface:
     solid: bool
 
     def distances(self, points: Floats) -> Floats:
-        """Distances (n,) in mm of points (n, 3) that are near the surface."""
+        """Return the distances (n,) in mm of points (n, 3) that are near the surface."""
         curve, sense = self.piece.curve, 1 if self.left else -1
         x, y, z = points.T
         gear, middle = self.gear, self.gear.half_width / 2
@@ -206,7 +208,7 @@ class _Surface:
         return distance
 
     def _on_radius(self, radius: Floats) -> Floats:
-        """Parameters (n,) of the curve's points on these radii (mm), or of its ends."""
+        """Return the parameters (n,) of the curve's points on these radii (mm), or of its ends."""
         curve = self.piece.curve
         if isinstance(curve, Involute):
             base = curve.base_radius
@@ -221,7 +223,7 @@ class _Surface:
         return on_curve
 
     def _speed(self, s: Floats) -> Floats:
-        """Length (mm) per parameter."""
+        """Return the length (mm) per parameter."""
         low, high = np.maximum(s - _SMALL, 0.0), np.minimum(s + _SMALL, 1.0)
         curve = self.piece.curve
         step = np.hypot(*(curve.points(high) - curve.points(low)).T)
@@ -273,7 +275,7 @@ def side_deviations(mesh: ElementMesh, gear: Gear, held_radius: float) -> SideDe
 
 
 def matched_distance(mesh: ElementMesh, gear: Gear, teeth: int) -> float:
-    """Greatest distance (mm) of nodes ahead from those behind that are turned by so many teeth; 0 without cuts."""
+    """Return the greatest distance (mm) of nodes ahead from those behind that are turned by so many teeth; 0 without cuts."""
     turn = 2 * math.pi * teeth / gear.tooth_count
     cosine, sine = math.cos(turn), math.sin(turn)
     turned = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])

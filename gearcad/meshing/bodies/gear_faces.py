@@ -89,7 +89,7 @@ class RadialLengths:
         return replace(self, lengths=[length / factor for length in self.lengths], mean=self.mean / factor)
 
     def at(self, radius: float) -> float:
-        """The length at a radius (mm), or that at the next end."""
+        """Return the length at a radius (mm), or that at the next end."""
         place = min(max((radius - self.first) / self.step, 0.0), len(self.lengths) - 1.001)
         low = int(place)
         return self.lengths[low] + (place - low) * (self.lengths[low + 1] - self.lengths[low])
@@ -241,7 +241,7 @@ def _length_callback(radial: Mapping[tuple[int, int], RadialLengths], interrupte
 
 
 def _by_radius(gmsh: Any, faces: Sequence[int], radial: Sequence[RadialLengths | None]) -> dict[tuple[int, int], RadialLengths]:
-    """The lengths of faces and of their edges, by gmsh's dimensions and tags."""
+    """Return the lengths of faces and of their edges, by gmsh's dimensions and tags."""
     found = {(_SURFACES, tag): lengths for tag, lengths in zip(faces, radial, strict=True) if lengths is not None}
     for (_, tag), lengths in list(found.items()):
         found |= {(_CURVES, int(curve)): lengths for curve in gmsh.model.get_adjacencies(_SURFACES, tag)[1]}
@@ -256,7 +256,7 @@ def _grouped(faces: Sequence[int], lengths: Sequence[float]) -> dict[float, list
 
 
 def _constant(gmsh: Any, length: float, faces: Sequence[int]) -> int:
-    """The field of a length on faces and their edges."""
+    """Return the field of a length on faces and their edges."""
     field = gmsh.model.mesh.field.add("Constant")
     gmsh.model.mesh.field.set_number(field, "VIn", length)
     gmsh.model.mesh.field.set_numbers(field, "SurfacesList", faces)
@@ -264,7 +264,7 @@ def _constant(gmsh: Any, length: float, faces: Sequence[int]) -> int:
 
 
 def _growing(gmsh: Any, faces: Sequence[int], least: float, wanted: EdgeLengths) -> int:
-    """The field of lengths that grow away from edges that are meshed, into the faces, and from these into the body."""
+    """Return the field of lengths that grow away from edges that are meshed, into the faces, and from these into the body."""
     field = gmsh.model.mesh.field.add("Extend")
     curves = [tag for _, tag in gmsh.model.get_entities(_CURVES)]
     gmsh.model.mesh.field.set_numbers(field, "CurvesList", curves)
@@ -332,7 +332,7 @@ class GearFaces:
         return [_SURFACE_RULES[face.surface](self, face) for face in faces]
 
     def _tooth(self, face: BrepFace) -> tuple[int, float]:
-        """The tooth whose middle is nearest, and the angle (rad) from there."""
+        """Return the tooth whose middle is nearest, and the angle (rad) from there."""
         x, y, z = face.middle
         pitch = 2 * math.pi / self.gear.tooth_count
         angle = math.atan2(y, x) - float(section_turn(self.gear, np.asarray(z)))
@@ -370,7 +370,7 @@ class GearFaces:
         return GearFace(face.surface, name, tooth % gear.tooth_count, radius=known)
 
     def _outside(self, face: BrepFace, radius: float) -> GearFace:
-        """The rim of a ring, or one of its bolt holes."""
+        """Return the rim of a ring, or one of its bolt holes."""
         body = self.gear.body
         if body.rim_diameter is not None and abs(radius - body.rim_diameter / 2) < _NEAR:
             return GearFace(face.surface, RIM, radius=body.rim_diameter / 2)
@@ -461,7 +461,9 @@ def edge_lengths(
     told: Sequence[GearFace],
     faces: Sequence[BrepFace],
 ) -> EdgeLengths:
-    """Lengths on these faces, of which it was told what they are: `size` (mm) on teeth that are not `refined`, and less."""
+    """Return the lengths on these faces, of which it was told what they are: `size` (mm) on teeth that are not `refined`, and
+    less.
+    """
     inside = min(grading.inside * size, _thickness(gear) / _THIN)
     size = min(size, inside)
     usual = _along_flanks(gear, size, grading)
@@ -481,7 +483,7 @@ def edge_lengths(
 
 
 def _along_flanks(gear: Gear, size: float, grading: TetrahedronGrading) -> dict[CurveKind, RadialLengths]:
-    """Lengths on what flanks are swept from, as sections have them: at most `size` (mm), less where they bend."""
+    """Return the lengths on what flanks are swept from, as sections have them: at most `size` (mm), less where they bend."""
     module, cosine = gear.normal_module, math.cos(math.radians(gear.helix_angle))
     plain = dict.fromkeys(("flank", "corner", "fillet", "outline", "cut", "rim"), size / module)
     turn = FILLET_ANGLE * cosine**2 / grading.fillet_elements  # in the section normal to the helix fillets bend the more
@@ -498,7 +500,7 @@ def _along_flanks(gear: Gear, size: float, grading: TetrahedronGrading) -> dict[
 
 
 def _tetrahedron_sizes_by_radius(curve: Curve, length: EdgeLength, least: float) -> RadialLengths:
-    """Lengths over the radius, `least` (mm) at the least."""
+    """Return the lengths over the radius, `least` (mm) at the least."""
     s = np.linspace(0.0, 1.0, _PLACES)
     run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(curve.points(s), axis=0).T))]
     lengths, radius = np.maximum(length(run, float(run[-1])), least), curve.polar(s)[0]
@@ -523,7 +525,7 @@ def expected_tetrahedra(lengths: EdgeLengths, faces: Sequence[BrepFace]) -> floa
 
 
 def _thickness(gear: Gear) -> float:
-    """The least of rim, hub and face width (mm), whatever there is of them."""
+    """Return the least of rim, hub and face width (mm), whatever there is of them."""
     body, root = gear.body, gear.profile.root_diameter
     outside = body.rim_diameter or root
     rim = (outside - root if gear.internal else root - body.opening_diameter) / 2

@@ -166,7 +166,9 @@ def _of_edges(element: Element, nodes: Floats) -> tuple[Floats, Floats]:
 
 @cache
 def _corners(element: Element) -> tuple[Wholes, Wholes, Floats]:
-    """Edges that meet at the corners of faces, (n,) and (n,), and -1 where one of them ends there and the other begins."""
+    """Return the edges that meet at the corners of faces, (n,) and (n,), and -1 where one of them ends there and the other
+    begins.
+    """
     shape = element.shape
     faces = [range(shape.vertices)] if shape.dimension == 2 else [face[: _FACE_VERTICES[shape.face]] for face in shape.faces]
     ends = np.array(shape.edges)
@@ -183,7 +185,7 @@ def _corners(element: Element) -> tuple[Wholes, Wholes, Floats]:
 
 
 def _worst(mesh: ElementMesh, least: Floats) -> tuple[WorstElement, ...]:
-    """The elements with the least scaled Jacobians, the worst first."""
+    """Return the elements with the least scaled Jacobians, the worst first."""
     few = np.argpartition(least, min(_NAMED_ELEMENTS, len(least) - 1))[:_NAMED_ELEMENTS]
     few = few[np.argsort(least[few], kind="stable")]
     places = mesh.points[mesh.cells[few, : mesh.element.shape.vertices]].mean(axis=1)
@@ -195,7 +197,7 @@ def _worst(mesh: ElementMesh, least: Floats) -> tuple[WorstElement, ...]:
 
 
 def _nearest_sides(mesh: ElementMesh, places: Floats) -> list[str]:
-    """The named sides, if there are any, with the faces nearest to places (n, 3)."""
+    """Return the named sides, if there are any, with the faces nearest to places (n, 3)."""
     names, distances = [""], [np.full(len(places), np.inf)]
     vertices = _FACE_VERTICES[mesh.element.shape.face]
     for name, faces in mesh.sides.items():
@@ -229,7 +231,7 @@ class Measure(NamedTuple):
 
 
 def together(measures: Iterable[Measure]) -> Measure:
-    """The measure of sides together."""
+    """Return the measure of sides together."""
     size, outward, moments = 0.0, np.zeros(3), np.zeros(3)
     for each in measures:
         size, outward, moments = size + each.size, outward + each.outward, moments + each.moments
@@ -245,7 +247,7 @@ def openness(whole: Measure, dimension: int) -> float:
 
 
 def measure_side(mesh: ElementMesh, name: str) -> Measure:
-    """The measure of a named side."""
+    """Return the measure of a named side."""
     nodes, face = mesh.face_cells(name), mesh.element.shape.face
     parts = [
         _measure(mesh.points[nodes[start : start + _MEASURE_CHUNK]], face) for start in range(0, len(nodes), _MEASURE_CHUNK)
@@ -254,7 +256,9 @@ def measure_side(mesh: ElementMesh, name: str) -> Measure:
 
 
 def measure_whole(mesh: ElementMesh) -> float:
-    """Area (mm²) of a section or volume (mm³) of a body, by the theorem of Gauss: its named sides are all of its surface."""
+    """Return the area (mm²) of a section or volume (mm³) of a body, by the theorem of Gauss: its named sides are all of its
+    surface.
+    """
     return sum(measure_side(mesh, name).enclosed for name in mesh.sides) / mesh.element.shape.dimension
 
 

@@ -72,7 +72,7 @@ def lengths_near(gear: Gear, zone: ContactRefinement) -> HalfLengths:
 
 
 def _length(curves: tuple[Curve, ...], kind: CurveKind) -> float:
-    """Length (mm) of a straight piece of the outline, 0 if there is none."""
+    """Return the length (mm) of a straight piece of the outline, 0 if there is none."""
     return sum(
         float(np.hypot(*np.diff(curve.points(np.array([0.0, 1.0])), axis=0)[0])) for curve in curves if curve.kind is kind
     )
@@ -186,7 +186,7 @@ class _Rings:
         return 2 * math.pi * self._radius / len(self.last)
 
     def _add(self, points: Floats) -> Wholes:
-        """Numbers of new vertices."""
+        """Return the numbers of new vertices."""
         count = sum(len(each) for each in self.points)
         self.points.append(points)
         return count + np.arange(len(points))
@@ -255,7 +255,7 @@ class _Rings:
 
 
 def _evenly(points: Floats, share: float = 1.0) -> Floats:
-    """Points (n, 2) of a circle moved along it to equal distances, or by a share of the way."""
+    """Return the points (n, 2) of a circle moved along it to equal distances, or by a share of the way."""
     angles = np.unwrap(np.arctan2(points[:, 1], points[:, 0]))
     even = 2 * math.pi * np.arange(len(points)) / len(points)
     even += float(np.mean(angles - even))
@@ -264,7 +264,7 @@ def _evenly(points: Floats, share: float = 1.0) -> Floats:
 
 
 def _band(outside: Wholes, inside: Wholes) -> Wholes:
-    """Quadrangles between two circles of as many vertices."""
+    """Return the quadrangles between two circles of as many vertices."""
     result: Wholes = np.stack([outside, np.roll(outside, -1), np.roll(inside, -1), inside], -1)
     return result
 
@@ -333,7 +333,7 @@ class Sectors:
         return rim_radius(self.gear) if self.disc else self.held_radius
 
     def of(self, tooth: int) -> SectorSides:
-        """The sector of a tooth. Raises GeometryError and SolverError."""
+        """Return the sector of a tooth. Raises GeometryError and SolverError."""
         kind = self._kind(tooth)
         if kind not in self.known:
             self.known[kind] = self._meshed(kind)

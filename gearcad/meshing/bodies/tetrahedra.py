@@ -61,13 +61,13 @@ class ExactFlank:
     left: bool
 
     def points(self, s: Floats, z: Floats, teeth: Wholes) -> Floats:
-        """Points (n, 3) of the surfaces of these teeth."""
+        """Return the points (n, 3) of the surfaces of these teeth."""
         radius, angle = self.curve.curve.polar(s)
         angle = self._sign * angle + self._turn(s, z, teeth)
         return np.stack([radius * np.cos(angle), radius * np.sin(angle), z], -1)
 
     def nearest(self, points: Floats, teeth: Wholes) -> Floats:
-        """Parameters (n,) of the points of the surfaces of these teeth that are nearest at the same height.
+        """Return the parameters (n,) of the points of the surfaces of these teeth that are nearest at the same height.
 
         Those of points at an end of the curve are 0 or 1 and nothing near it.
         """
@@ -87,13 +87,13 @@ class ExactFlank:
         return 1 if self.left else -1
 
     def _turn(self, s: Floats, z: Floats, teeth: Wholes) -> Floats:
-        """Angles (rad) by which points of tooth 0 at z = 0 are turned into place."""
+        """Return the angles (rad) by which points of tooth 0 at z = 0 are turned into place."""
         own = self.curve.turn(self.gear.flank_form, s, height_in_half(self.gear, z), left=self.left)
         found: Floats = own + section_turn(self.gear, z) + 2 * math.pi / self.gear.tooth_count * teeth
         return found
 
     def _unturned(self, points: Floats, s: Floats, teeth: Wholes) -> Floats:
-        """Points (n, 2) as they lie beside the curve, which is that of a left flank."""
+        """Return the points (n, 2) as they lie beside the curve, which is that of a left flank."""
         x, y, z = points.T
         turn = -self._turn(s, z, teeth)
         cosine, sine = np.cos(turn), np.sin(turn)
@@ -133,7 +133,7 @@ _CHUNK = 100_000
 
 
 def mended(points: Floats, cells: Cells, free: Bools) -> Floats:
-    """Points (n, 3) with some of the `free` ones moved, which are middles of inner edges of tetrahedra (m, 10).
+    """Return the points (n, 3) with some of the `free` ones moved, which are middles of inner edges of tetrahedra (m, 10).
 
     Where a surface curves into flat elements, their other edges have to bend with it. A middle is tried along the mean way that
     the others of its element have gone from half-way, and stays where the worst element that has it is best.
@@ -154,7 +154,7 @@ def mended(points: Floats, cells: Cells, free: Bools) -> Floats:
 
 
 def poor_elements(points: Floats, cells: Cells) -> Indices:
-    """Numbers of the elements that are poor."""
+    """Return the numbers of the elements that are poor."""
     return np.flatnonzero(_least_in_chunks(points, cells) < _POOR)
 
 
@@ -168,7 +168,7 @@ def _least(points: Floats, cells: Cells) -> Floats:
 
 
 def _ways(points: Floats, cell: Cells, free: Bools) -> list[tuple[int, Floats]]:
-    """The free middles of an element, and the mean way that its others have gone from half-way."""
+    """Return the free middles of an element, and the mean way that its others have gone from half-way."""
     ends = points[cell[np.array(Element.TET10.shape.edges)]]
     off = points[cell[4:]] - ends.mean(1)
     fixed = ~free[cell[4:]]
@@ -203,7 +203,7 @@ Edges = tuple[tuple[int, int], ...]
 
 
 def inner_edges(points: Floats, cells: Cells, inner: Bools) -> list[Edges]:
-    """The edges in which tetrahedra (m, 4) can be parted; `inner` (m, 6) tells which of theirs are inside."""
+    """Return the edges in which tetrahedra (m, 4) can be parted; `inner` (m, 6) tells which of theirs are inside."""
     found = dict[Edges, None]()
     for cell, free in zip(cells, inner, strict=True):
         if free.sum() == 1:
@@ -219,7 +219,7 @@ def _pair(cell: Cells, edge: int) -> tuple[int, int]:
 
 
 def _crossing(places: Floats, free: Bools) -> tuple[int, int] | None:
-    """Two edges inside that nearly cross, of a tetrahedron with vertices at places (4, 3)."""
+    """Return two edges inside that nearly cross, of a tetrahedron with vertices at places (4, 3)."""
     ends = places[_EDGES]
     middles, lengths = ends.mean(1), np.linalg.norm(ends[:, 1] - ends[:, 0], axis=-1)
     for one, other in _OPPOSITE.tolist():
@@ -230,7 +230,9 @@ def _crossing(places: Floats, free: Bools) -> tuple[int, int] | None:
 
 
 def part_edges(points: Floats, cells: Cells, wanted: list[Edges]) -> tuple[Floats, Cells]:
-    """Points (n, 3) and tetrahedra (m, 4) with a vertex more for each of these; left out are those beside another one."""
+    """Return the points (n, 3) and tetrahedra (m, 4) with a vertex more for each of these; left out are those beside another
+    one.
+    """
     taken, more = set[int](), list[Floats]()
     kept, added = np.ones(len(cells), bool), list[Cells]()
     for edges in wanted:
@@ -286,7 +288,8 @@ _ROUND = ((0, 1), (1, 2), (2, 0))
 
 
 def quadratic(gear: Gear, faces: Sequence[GearFace], filled: TetrahedronMesh) -> tuple[Floats, Cells]:
-    """Points (n, 3) in mm, vertices first, then the middles of edges, and cells (m, 10): order of nodes as TET10 has it.
+    """Return the points (n, 3) in mm, vertices first, then the middles of edges, and cells (m, 10): order of nodes as TET10 has
+    it.
 
     Nodes on flanks, fillets, chamfers and lands are on the exact, modified ones. Raises SolverError if a vertex is not on
     the face that it was said to be on.
@@ -304,7 +307,7 @@ def quadratic(gear: Gear, faces: Sequence[GearFace], filled: TetrahedronMesh) ->
 
 
 def _curved(gear: Gear, faces: Sequence[GearFace], filled: TetrahedronMesh) -> tuple[Floats, Cells, Bools]:
-    """Points, cells, and which of the points are middles of edges inside."""
+    """Return the points, cells, and which of the points are middles of edges inside."""
     edges, middles = _edges(filled.tetrahedra)
     surface = _Surface(gear, faces, filled, edges)
     vertices, along = surface.vertices()
@@ -321,7 +324,7 @@ def _upright(filled: TetrahedronMesh) -> Cells:
 
 
 def _edges(cells: Cells) -> tuple[Cells, Cells]:
-    """Edges (n, 2), lower vertex first, in order, and those (m, 6) of each tetrahedron."""
+    """Return the edges (n, 2), lower vertex first, in order, and those (m, 6) of each tetrahedron."""
     keys, found = np.unique(_keys(cells[:, Element.TET10.shape.edges]), return_inverse=True)
     return np.stack(np.divmod(keys, _BASE), -1).astype(np.int32), found.reshape(-1, 6).astype(np.int32)
 
@@ -330,7 +333,7 @@ _BASE = 2**31
 
 
 def _keys(pairs: Cells) -> Wholes:
-    """A number for each pair of nodes (..., 2), whatever their order."""
+    """Return a number for each pair of nodes (..., 2), whatever their order."""
     low, high = np.moveaxis(np.sort(pairs, -1).astype(np.int64), -1, 0)
     found: Wholes = low * _BASE + high
     return found
@@ -373,7 +376,7 @@ class _Surface:
         return [np.unique(np.searchsorted(known, _keys(cells[:, _ROUND]))) for cells in self.filled.triangles]
 
     def _on(self, surface: SurfaceKind) -> Iterator[_Meshed]:
-        """Faces on a kind of surface."""
+        """Yield the faces on a kind of surface."""
         for face, cells, edges in zip(self.faces, self.filled.triangles, self._edge_numbers, strict=True):
             if face.surface is surface:
                 yield _Meshed(face, np.unique(cells), edges)
@@ -414,7 +417,7 @@ class _Surface:
         return self._marked(SurfaceKind.CONE)
 
     def _end_heights(self, radius: Floats, z: Floats) -> Floats:
-        """Heights (mm) of the nearer end at these radii (mm); the halves of a double helical gear have two each."""
+        """Return the heights (mm) of the nearer end at these radii (mm); the halves of a double helical gear have two each."""
         (lower, upper), width = self._ends, self.gear.face_width
         inside = height_in_half(self.gear, z)
         heights = np.where(inside < self.gear.half_width / 2, lower.height(radius), upper.height(radius))
@@ -431,7 +434,7 @@ class _Surface:
     # ------------------------------------------------------------------ where they go
 
     def vertices(self) -> tuple[Floats, list[Floats]]:
-        """Vertices (n, 3), and the parameters along the profile of those on each piece of the flanks, NaN elsewhere."""
+        """Return the vertices (n, 3), and the parameters along the profile of those on each piece of the flanks, NaN elsewhere."""
         points, found = self.filled.points.copy(), []
         for swept in self._swept:
             at = points[swept.nodes]
@@ -461,12 +464,12 @@ class _Surface:
         return points
 
     def _placed(self, flank: ExactFlank, s: Floats, z: Floats, teeth: Wholes, conical: Bools) -> Floats:
-        """Points (n, 3) of a flank; those that are on the cone of an end chamfer too are as high as that is."""
+        """Return the points (n, 3) of a flank; those that are on the cone of an end chamfer too are as high as that is."""
         radius, _ = flank.curve.curve.polar(s)
         return flank.points(s, np.where(conical, self._end_heights(radius, z), z), teeth)
 
     def _round_cone(self, points: Floats) -> Floats:
-        """Points (n, 3) moved onto the cones of the end chamfers."""
+        """Return the points (n, 3) moved onto the cones of the end chamfers."""
         lower, upper = self._ends
         inside = height_in_half(self.gear, points[:, 2])
         setback = np.minimum(inside - lower.z, upper.z - inside)
@@ -474,7 +477,7 @@ class _Surface:
 
 
 def _at_radius(points: Floats, radius: Floats, axis: tuple[float, float] = (0.0, 0.0)) -> Floats:
-    """Points (n, 3) moved to a radius (mm) about an axis (mm)."""
+    """Return the points (n, 3) moved to a radius (mm) about an axis (mm)."""
     middle = np.array([*axis, 0.0])
     moved: Floats = points - middle
     moved[:, :2] *= (radius / np.hypot(moved[:, 0], moved[:, 1]))[:, None]
@@ -579,7 +582,7 @@ class _Part:
 
 
 def _solved(expected: _Expected, aim: float, most: float) -> float:
-    """The size (mm), at most `most`, for which so many are expected: the smaller it is, the more there are."""
+    """Return the size (mm), at most `most`, for which so many are expected: the smaller it is, the more there are."""
     low, high = 0.0, most
     for _ in range(60):
         middle = (low + high) / 2
@@ -601,7 +604,7 @@ def _require_few(lengths: EdgeLengths, told: Sequence[GearFace], faces: Sequence
 
 
 def _sides(gear: Gear, faces: Sequence[GearFace], filled: TetrahedronMesh, cells: Cells) -> dict[str, Faces]:
-    """The triangles on faces of each name, as sides of tetrahedra."""
+    """Return the triangles on faces of each name, as sides of tetrahedra."""
     groups: dict[str, list[Cells]] = {}
     for face, triangles in zip(faces, filled.triangles, strict=True):
         parts = _halved(gear, face.tooth, triangles, filled.points) if face.name == ROOT else {face.name: triangles}
@@ -617,13 +620,13 @@ def _sides(gear: Gear, faces: Sequence[GearFace], filled: TetrahedronMesh, cells
 
 
 def _in_order(name: str) -> tuple[float, str]:
-    """Sides of teeth, tooth by tooth, then the others."""
+    """Return the sides of teeth, tooth by tooth, then the others."""
     side, _, tooth = name.rpartition("_")
     return (int(tooth), side) if tooth.isdigit() else (math.inf, name)
 
 
 def _halved(gear: Gear, tooth: int, triangles: Cells, points: Floats) -> dict[str, Cells]:
-    """A root land parted at the middle of the space: what is of this tooth, and of the next. No edges run along there."""
+    """Return a root land parted at the middle of the space: what is of this tooth, and of the next. No edges run along there."""
     x, y, z = points[triangles].mean(1).T
     middle = (tooth + 0.5) * 2 * math.pi / gear.tooth_count
     ahead = np.mod(np.arctan2(y, x) - section_turn(gear, z) - middle, 2 * math.pi) < math.pi
@@ -652,6 +655,6 @@ def _side_places(cells: Cells, triangles: Cells) -> Wholes:
 
 
 def _tetrahedra_keys(triples: Wholes, count: int) -> Wholes:
-    """A number for each triple of nodes, which are as many as `count`: some million, or it would not be one of its own."""
+    """Return a number for each triple of nodes, which are as many as `count`: some million, or it would not be one of its own."""
     found: Wholes = (triples[:, 0] * count + triples[:, 1]) * count + triples[:, 2]
     return found

@@ -128,7 +128,7 @@ class PartStrength:
         return Verdict.PASSED if self.safety >= self.required else Verdict.FAILED
 
     def stresses(self) -> dict[str, float | None]:
-        """Stresses (MPa) under their symbols."""
+        """Return the stresses (MPa) under their symbols."""
         of = self.part.index
         return {f"sigma_{of}": self.stress, f"sigma_{of}G": self.strength, f"sigma_{of}P": self.permissible_stress}
 
@@ -215,7 +215,7 @@ class Duty:
         return self.cycles_per_hour.map(lambda rate: rate * hours)
 
     def cases(self, scale: float = 1.0) -> tuple[LoadCase, ...]:
-        """The loads with all torques times `scale`; bins without torque are left out."""
+        """Return the loads with all torques times `scale`; bins without torque are left out."""
         found = self._found.get(scale)
         if found is None:
             found = self._found[scale] = tuple(self._case(each, scale) for each in self.bins if each.torque)
@@ -237,7 +237,7 @@ class Duty:
         )
 
     def stresses(self, part: RatedPart, role: Role, scale: float = 1.0) -> tuple[Floats, Floats]:
-        """Shares of the load cycles (n,), and the stress of each (n,) in MPa, of one part."""
+        """Return the shares of the load cycles (n,), and the stress of each (n,) in MPa, of one part."""
         cases = self.cases(scale)
         return np.array([case.cycle_share for case in cases]), np.array([case.stresses[part].pick(role) for case in cases])
 
@@ -329,7 +329,7 @@ def safety_at_failure(cycles: Floats, stresses: Floats, curve: Points, *, endura
 
 
 def life_at_failure(life: float, damage: float) -> float:
-    """The life at which the damage is 1, by the damage of a life, in its unit (h or cycles); infinite without damage."""
+    """Return the life at which the damage is 1, by the damage of a life, in its unit (h or cycles); infinite without damage."""
     return math.inf if damage == 0 else life / damage
 
 
@@ -350,12 +350,12 @@ def equivalent_torque(cycles: Floats, torques: Floats, exponent: float) -> float
 
 
 def permissible_torque(torque: float, safety: float, required: float, power: float) -> float:
-    """The torque at which a safety is the required one, where load factors do not depend on it: T (S/S_min)^power."""
+    """Return the torque at which a safety is the required one, where load factors do not depend on it: T (S/S_min)^power."""
     return torque * math.pow(safety / required, power)
 
 
 def torque_at_safety(safety_of: Callable[[float], float], required: float, torque: float) -> float:
-    """The greatest torque whose safety is at least the required one, where load factors depend on it.
+    """Return the greatest torque whose safety is at least the required one, where load factors depend on it.
 
     `safety_of` a torque falls with it; the search begins at `torque`. Infinite if 10^12 times that is not enough, 0 where the
     safety is too low at 10^-12 of it: then vibration and deviations alone are too much.

@@ -213,7 +213,7 @@ class NotchStrength(Generic[Values]):
 
 
 def notch_strength(material: Material, group: MaterialGroup, notch_parameter: Values) -> NotchStrength[Values]:
-    """The material's own, or that of its group which makes the factor least."""
+    """Return the material's own, or that of its group which makes the factor least."""
     grey = Family.of(group) is Family.GREY_IRON
     name, own = ("tensile_strength", material.tensile_strength) if grey else ("yield_strength", material.yield_strength)
     if own is not None or (cautious := cautious_strength(notch_parameter, group)) is None:

@@ -230,7 +230,7 @@ _ROLES = re.compile(rf"(?<!\w)({'|'.join(role.value for role in Role)})(?!\w)")
 
 
 def called(rating: StrengthRating, names: PerGear[str]) -> StrengthRating:
-    """The rating with `names` in all that it says; documents keep values under "pinion" and "wheel"."""
+    """Return the rating with `names` in all that it says; documents keep values under "pinion" and "wheel"."""
     by_role = {role.value: name for role, name in names.items()}
 
     def said(text: str) -> str:
@@ -361,7 +361,7 @@ def _scuffing_safety(of: StrengthRating) -> dict[str, float | None]:
 
 
 def _governing(of: StrengthRating) -> dict[str, Any] | None:
-    """The load of a spectrum, counted from 1, of which stresses and load factors are; None without a spectrum."""
+    """Return the load of a spectrum, counted from 1, of which stresses and load factors are; None without a spectrum."""
     if not of.options.bins or of.governing is None:
         return None
     load = of.governing.load

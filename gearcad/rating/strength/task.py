@@ -335,7 +335,7 @@ def _defaults(task: StrengthTask) -> Iterator[str]:
 
 
 def _constant(material: Material, key: str) -> str:
-    """A property of a material with its key and unit."""
+    """Return a property of a material with its key and unit."""
     unit = schema_of(Material)[key].symbol.unit
     return f"material.{key} = {format_number(getattr(material, key))}{f' {unit}' if unit else ''}"
 

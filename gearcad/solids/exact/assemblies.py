@@ -39,7 +39,7 @@ _TOLERANCE = 1e-7
 
 
 def bracket_boundary(pair: GearPair) -> Boundary:
-    """The bracket where the pair stands, its arm below the gears. Raises GeometryError for gears without bores."""
+    """Return the bracket where the pair stands, its arm below the gears. Raises GeometryError for gears without bores."""
     gears, pose = pair.gears, pair.wheel_pose()
     bores, heights = gears.map(_bore), PerGear(0.0, pose.z)
     low = min(z - gear.body.hub_ends[0] for z, gear in zip(heights, gears, strict=True))
@@ -66,7 +66,7 @@ def _bore(gear: Gear) -> float:
 
 
 def _arm(recorder: Recorder, length: float, radius: float, heights: tuple[float, float]) -> tuple[Chain, Chain]:
-    """The sides of an arm from x = 0 to `length`, rounded about both; its contours, counter-clockwise seen from +z."""
+    """Return the sides of an arm from x = 0 to `length`, rounded about both; its contours, counter-clockwise seen from +z."""
     corners = [(0.0, -radius), (length, -radius), (length, radius), (0.0, radius)]
     rings = [[recorder.vertex((x, y, z)) for x, y in corners] for z in heights]
     rise = heights[1] - heights[0]
@@ -99,7 +99,7 @@ def _arm(recorder: Recorder, length: float, radius: float, heights: tuple[float,
 
 
 def _round_end(x: float, y: float, radius: float) -> CylinderSurface:
-    """The half cylinder that begins at a corner: u = 0 there."""
+    """Return the half cylinder that begins at a corner: u = 0 there."""
     return CylinderSurface(Frame((x, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, math.copysign(1.0, y), 0.0)), radius)
 
 
@@ -115,7 +115,7 @@ class PartNames(NamedTuple):
 
 
 def part_names(pair: GearPair) -> PartNames:
-    """Names of the parts as products: for CAD and PDM no two designs may share one.
+    """Return the names of the parts as products: for CAD and PDM no two designs may share one.
 
     A gear that was given a name of its own keeps it; else it is the pair's name and what the part is.
     """

@@ -43,19 +43,22 @@ def _nodes(degree: int) -> tuple[Floats, Floats]:
 
 @cache
 def _check(degree: int) -> tuple[Floats, Floats]:
-    """Points between the nodes (the extremes of the interpolation error lie close to them), and their Bernstein values."""
+    """Return the points between the nodes (the extremes of the interpolation error lie close to them), and their Bernstein
+    values.
+    """
     nodes, _ = _nodes(degree)
     t = np.sort(np.concatenate([nodes[:-1] + f * np.diff(nodes) for f in (0.25, 0.5, 0.75)])).astype(float)
     return t, bernstein(degree, t)
 
 
 def interpolate(function: Callable[[Floats], Floats], degree: int) -> Floats:
-    """Poles (degree + 1, k) of the Bezier that interpolates `function` ((n,) in [0, 1] -> (n, k)), ends exact."""
+    """Return the poles (degree + 1, k) of the Bezier that interpolates `function` ((n,) in [0, 1] -> (n, k)), ends exact."""
     return _through(function(_nodes(degree)[0]))
 
 
 def interpolate_surface(function: Callable[[Floats, Floats], Floats], degrees: tuple[int, int]) -> Floats:
-    """Poles (n + 1, m + 1, k) of the Bezier surface of degrees n and m that interpolates `function` ((n,), (m,) -> (n, m, k)).
+    """Return the poles (n + 1, m + 1, k) of the Bezier surface of degrees n and m that interpolates `function` ((n,), (m,) ->
+    (n, m, k)).
 
     An edge depends on the values there alone, so neighbours have its poles in common.
     """
@@ -64,7 +67,7 @@ def interpolate_surface(function: Callable[[Floats, Floats], Floats], degrees: t
 
 
 def _through(values: Floats) -> Floats:
-    """Poles (n + 1, ...) of the Bezier through the values at the nodes of degree n, ends exact."""
+    """Return the poles (n + 1, ...) of the Bezier through the values at the nodes of degree n, ends exact."""
     to_poles = _nodes(len(values) - 1)[1]
     poles: Floats = (to_poles @ values.reshape(len(values), -1)).reshape(values.shape)
     poles[0], poles[-1] = values[0], values[-1]
@@ -79,7 +82,9 @@ def fit(
     least: int = 2,
     most: int = MOST_DEGREE,
 ) -> Floats | None:
-    """Poles of the lowest-degree interpolant with `error(values, t) <= tolerance` between the nodes; None if there is none."""
+    """Return the poles of the lowest-degree interpolant with `error(values, t) <= tolerance` between the nodes; None if there
+    is none.
+    """
     for degree in range(least, most + 1):
         poles = interpolate(function, degree)
         t, basis = _check(degree)
@@ -194,13 +199,13 @@ OnSurface = LineOnSurface | BezierOnSurface
 
 
 def vector(values: Sequence[float] | Floats) -> Vector:
-    """Three numbers as plain floats."""
+    """Return three numbers as plain floats."""
     x, y, z = (float(value) for value in values)
     return x, y, z
 
 
 def unit(direction: Vector) -> Vector:
-    """A direction as a vector of length 1."""
+    """Return a direction as a vector of length 1."""
     x, y, z = direction
     length = math.sqrt(x * x + y * y + z * z)
     return x / length, y / length, z / length
@@ -217,7 +222,7 @@ def level_circle(radius: float, z: float, axis: Point = ORIGIN) -> CircleCurve:
 
 
 def straight_line(start: Sequence[float], end: Sequence[float]) -> tuple[StraightLine, float]:
-    """The line through two points, and the parameter (distance) of the second."""
+    """Return the line through two points, and the parameter (distance) of the second."""
     step = np.subtract(end, start)
     length = float(np.linalg.norm(step))
     return StraightLine(vector(start), vector(step / length)), length
@@ -314,7 +319,7 @@ class Boundary:
 
 
 def backward(chain: Chain) -> Chain:
-    """A chain of edges run the other way."""
+    """Return a chain of edges run the other way."""
     return [(edge, not along) for edge, along in reversed(chain)]
 
 
@@ -346,7 +351,7 @@ class Recorder:
         return moved
 
     def turned(self, angle: float) -> int:
-        """The place of a thing turned about z (rad)."""
+        """Return the place of a thing turned about z (rad)."""
         return self._place(0.0, angle)
 
     def _place(self, z: float, angle: float) -> int:
@@ -355,7 +360,7 @@ class Recorder:
         return len(self._places) - 1
 
     def vertex(self, point: Sequence[float]) -> int:
-        """A vertex at a point."""
+        """Return a vertex at a point."""
         x, y, z = point
         if self.here:
             place = self._places[self.here]
@@ -375,7 +380,7 @@ class Recorder:
         return np.arange(first, first + len(places) * count).reshape(len(places), count).tolist()
 
     def edge(self, curve: CurveForm, start: int, end: int, first: float, last: float, place: int | None = None) -> int:
-        """An edge on a curve (in a place) from the vertex `start` at the parameter `first` to `end` at `last`."""
+        """Return an edge on a curve (in a place) from the vertex `start` at the parameter `first` to `end` at `last`."""
         self._edges.append(BoundaryEdge(curve, self.here if place is None else place, start, end, first, last))
         return len(self._edges) - 1
 

@@ -113,7 +113,7 @@ def _flow(surface: SurfaceForm, run: _Run) -> Floats:
 
 @cache
 def _gauss() -> tuple[Floats, Floats]:
-    """Points and weights on 0 ... 1."""
+    """Return the points and weights on 0 ... 1."""
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
     return (nodes + 1) / 2, weights / 2
 
@@ -138,7 +138,7 @@ def _on_plane(frame: Frame, curve: CurveForm, t: Floats, place: Turn) -> tuple[F
 
 
 def _in_space(curve: CurveForm, t: Floats) -> tuple[Floats, Floats]:
-    """Points and derivatives (n, 3) of a curve at the parameters t (n,)."""
+    """Return the points and derivatives (n, 3) of a curve at the parameters t (n,)."""
     match curve:
         case StraightLine(start, direction):
             return np.add(start, np.multiply.outer(t, direction)), np.broadcast_to(direction, (len(t), 3))
@@ -158,7 +158,7 @@ def _ellipse(frame: Frame, major: float, minor: float, t: Floats) -> tuple[Float
 
 
 def _bezier(poles: Floats, t: Floats) -> tuple[Floats, Floats]:
-    """Points and derivatives (n, k) of a Bezier span at t (n,) in 0 ... 1."""
+    """Return the points and derivatives (n, k) of a Bezier span at t (n,) in 0 ... 1."""
     degree = len(poles) - 1
     return bernstein(degree, t) @ poles, bernstein(degree - 1, t) @ (degree * np.diff(poles, axis=0))
 
@@ -188,13 +188,13 @@ def _at_origin(frame: Frame) -> Frame:
 
 
 def _laid_out(frame: Frame, x: Floats, y: Floats, z: Floats | float) -> Floats:
-    """Points (3, n, k) from their coordinates in a frame."""
+    """Return the points (3, n, k) from their coordinates in a frame."""
     axes = np.array([frame.along, np.cross(frame.axis, frame.along), frame.axis])
     return np.array(frame.origin)[:, None, None] + np.tensordot(axes.T, np.stack(np.broadcast_arrays(x, y, z)), 1)
 
 
 def _on_bezier(poles: Floats, u: Floats, s: Floats) -> tuple[Floats, Floats, Floats]:
-    """Points (3, n, k) of a Bezier surface at u (n, k) and s (n,) in 0 ... 1, and their derivatives by both."""
+    """Return the points (3, n, k) of a Bezier surface at u (n, k) and s (n,) in 0 ... 1, and their derivatives by both."""
     along, across = poles.shape[1] - 1, len(poles) - 1
     curves = np.einsum("nj,ijc->nic", bernstein(along, s), poles)  # of constant v, one for each s
     slopes = np.einsum("nj,ijc->nic", bernstein(along - 1, s), along * np.diff(poles, axis=1))
@@ -217,5 +217,5 @@ def mass_properties(gear: Gear, density: float) -> MassProperties:
 
 
 def rack_mass(rack: Rack, density: float) -> float:
-    """Mass (kg) of a rack made of a material of `density` (kg/m³)."""
+    """Return the mass (kg) of a rack made of a material of `density` (kg/m³)."""
     return moments(rack_boundary(rack)).volume * density * 1e-9

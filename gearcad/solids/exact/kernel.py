@@ -49,7 +49,7 @@ class _Maker:
         self._lay()
 
     def solid(self) -> Any:
-        """The closed solid."""
+        """Return the closed solid."""
         from OCP.TopoDS import TopoDS_Shell, TopoDS_Solid
 
         builder, shell, solid = self.builder, TopoDS_Shell(), TopoDS_Solid()
@@ -62,7 +62,7 @@ class _Maker:
         return solid
 
     def _faces(self) -> Iterator[Any]:
-        """Every face, its normal outwards; those of other teeth are those of the first one, moved."""
+        """Yield every face, its normal outwards; those of other teeth are those of the first one, moved."""
         from OCP.TopoDS import TopoDS_Face
 
         turns, moved, sources, turned = self.places.turns, self.places.moved, self.sources, self.turned
@@ -87,14 +87,14 @@ class _Maker:
             yield shape
 
     def _form(self, form: CurveForm | SurfaceForm | OnSurface) -> Any:
-        """A curve or surface of the kernel, the same one whenever it is asked for."""
+        """Return a curve or surface of the kernel, the same one whenever it is asked for."""
         made = self.forms.get(form)
         if made is None:
             made = self.forms[form] = _kernel_form(form)
         return made
 
     def _vertex(self, source: tuple[int, int]) -> tuple[Any, Any]:
-        """A vertex, as a copy of its source at a place, as the start and as the end of an edge."""
+        """Return a vertex, as a copy of its source at a place, as the start and as the end of an edge."""
         made = self.vertices.get(source)
         if made is not None:
             return made
@@ -127,7 +127,7 @@ class _Maker:
         return sources, turned
 
     def _edge(self, number: int) -> Any:
-        """An edge that is no copy, with its curve and vertices."""
+        """Return an edge that is no copy, with its curve and vertices."""
         shape = self.edges.get(number)
         if shape is not None:
             return shape
@@ -157,7 +157,7 @@ class _Maker:
                     self.builder.UpdateEdge(self._edge(source), *laid)
 
     def _wire(self, loop: Chain) -> Any:
-        """A closed loop of edges."""
+        """Return a closed loop of edges."""
         from OCP.TopoDS import TopoDS_Wire
 
         wire, add, moved, turned = TopoDS_Wire(), self.builder.Add, self.places.moved, self.turned

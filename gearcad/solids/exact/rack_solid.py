@@ -47,7 +47,7 @@ _CLOSE = 1e-10
 
 
 def flat_surface(piece: OutlinePiece, drift: float) -> PlaneSurface:
-    """The plane of a straight piece, its normal up."""
+    """Return the plane of a straight piece, its normal up."""
     (c, y), (to_c, to_y) = piece.start, piece.end
     normal, along = (y - to_y, to_c - c, drift * (to_y - y)), (drift, 0.0, 1.0)
     return PlaneSurface(Frame((c, y, 0.0), unit(normal), unit(along)))
@@ -78,7 +78,7 @@ class FilletSurface:
         return math.hypot(1.0, self.drift)
 
     def surface(self) -> CylinderSurface:
-        """The cylinder of the surface."""
+        """Return the cylinder of the surface."""
         c, y = self._axis
         return CylinderSurface(Frame((c, y, 0.0), unit((self.drift, 0.0, 1.0)), (0.0, 1.0, 0.0)), self._radius)
 
@@ -98,7 +98,7 @@ class FilletSurface:
         return LineOnSurface(self.u(c), self.v(c, z), 0, 1)
 
     def level(self, z: float) -> CircleCurve | EllipseCurve:
-        """The ellipse at height z, with the parameter u - pi/2."""
+        """Return the ellipse at height z, with the parameter u - pi/2."""
         c, y = self._axis
         frame = Frame((c + self.drift * z, y, z), (0.0, 0.0, 1.0), (-1.0, 0.0, 0.0))
         if self.drift == 0:
@@ -112,7 +112,7 @@ class FilletSurface:
         return self._sine(self._stretch * z, -self.drift * self._radius, first, last)
 
     def upright(self, x: float) -> EllipseCurve:
-        """The ellipse in the plane of constant x, with the parameter u - pi/2."""
+        """Return the ellipse in the plane of constant x, with the parameter u - pi/2."""
         c, y = self._axis
         side = math.copysign(1.0, self.drift)
         frame = Frame((x, y, (x - c) / self.drift), (side, 0.0, 0.0), (0.0, 0.0, side))
@@ -152,7 +152,7 @@ _ENDS = {
 
 
 def rack_boundary(rack: Rack) -> Boundary:
-    """The rack as a closed boundary: flanks and lands are planes, fillets cylinders of their true radius.
+    """Return the rack as a closed boundary: flanks and lands are planes, fillets cylinders of their true radius.
 
     As a `Rack` lies: along x, teeth up (+y), z = 0 ... face width.
     """
@@ -186,7 +186,7 @@ class _Builder:
         return self.recorder.boundary()
 
     def _points(self) -> Floats:
-        """Vertices of the plan at their heights, then the back's corners."""
+        """Return the vertices of the plan at their heights, then the back's corners."""
         plan, pieces = self.plan, self.pieces
         inside = {}
         for strip in plan.strips:
@@ -205,7 +205,7 @@ class _Builder:
     # ------------------------------------------------------------------ edges
 
     def _straight(self, start: int, end: int) -> tuple[int, bool]:
-        """The straight edge between two vertices, and whether it runs this way: upwards, or from the lesser number."""
+        """Return the straight edge between two vertices, and whether it runs this way: upwards, or from the lesser number."""
         low, high = sorted((start, end), key=lambda number: (self.points[number, 2], number))
         if (low, high) not in self.edges:
             line, length = straight_line(self.points[low].tolist(), self.points[high].tolist())
@@ -213,7 +213,7 @@ class _Builder:
         return self.edges[low, high], start == low
 
     def _on_rim(self, edge: Edge, piece: OutlinePiece) -> tuple[int, bool]:
-        """The edge between the toothed side and an end face, and whether it runs in the order of c."""
+        """Return the edge between the toothed side and an end face, and whether it runs in the order of c."""
         if piece.fillet is None or (self.rack.drift == 0 and edge.side in (RackSide.START, RackSide.END)):
             return self._straight(edge.start, edge.end)
         key = edge.start, edge.end
@@ -222,7 +222,7 @@ class _Builder:
         return self.edges[key], True
 
     def _arc(self, edge: Edge, fillet: FilletSurface) -> int:
-        """An ellipse between two vertices; c rises with its parameter."""
+        """Return an ellipse between two vertices; c rises with its parameter."""
         ends = edge.start, edge.end
         first, last = (fillet.u(float(self.plan.along[number])) - math.pi / 2 for number in ends)
         x, _, z = self.points[edge.start].tolist()
@@ -291,6 +291,6 @@ class _Builder:
         self.recorder.face(self._plane(around[0], (0, -1, 0)), [loop])
 
     def _plane(self, number: int, normal: Vector) -> PlaneSurface:
-        """The plane through a vertex."""
+        """Return the plane through a vertex."""
         along = (0.0, 0.0, 1.0) if normal[0] else (1.0, 0.0, 0.0)
         return PlaneSurface(Frame(vector(self.points[number]), normal, along))

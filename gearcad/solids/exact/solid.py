@@ -62,7 +62,7 @@ class Occurrence:
 
 
 def placed(offset: Vector = (0.0, 0.0, 0.0), rotation: float = 0.0) -> Frame:
-    """The frame of what is turned by `rotation` (degrees) about its z axis, then moved by `offset` (mm)."""
+    """Return the frame of what is turned by `rotation` (degrees) about its z axis, then moved by `offset` (mm)."""
     angle = math.radians(rotation)
     return Frame(offset, (0.0, 0.0, 1.0), (math.cos(angle), math.sin(angle), 0.0))
 
@@ -75,7 +75,7 @@ _PRODUCT = "product"
 
 
 def cad_solid(boundary: Boundary) -> cadquery.Solid:
-    """The solid of a boundary."""
+    """Return the solid of a boundary."""
     import cadquery
 
     made = kernel_solid(boundary)
@@ -85,7 +85,7 @@ def cad_solid(boundary: Boundary) -> cadquery.Solid:
 
 
 def cad_assembly(product: AssembledProduct) -> cadquery.Assembly:
-    """An assembly, what is alike in it one solid."""
+    """Return an assembly, what is alike in it one solid."""
     return _assembly(product, {})
 
 
@@ -208,7 +208,7 @@ def _keyway_corners(gear: Gear) -> list[tuple[float, float]]:
 
 
 def _opening(gear: Gear, recorder: Recorder, z: float) -> Contour:
-    """Contour of bore and keyway at height z: the arc of the bore, lower wall, floor, upper wall."""
+    """Return the contour of bore and keyway at height z: the arc of the bore, lower wall, floor, upper wall."""
     radius = gear.body.bore / 2
     if not gear.body.keyway_width:
         return circle(recorder, radius, z)
@@ -260,14 +260,14 @@ def add_ring_blank(gear: Gear, recorder: Recorder, lower: Chain, upper: Chain) -
 
 
 def _bolts(gear: Gear) -> list[Point]:
-    """Axes of the bolt holes (mm), the first on +x."""
+    """Return the axes of the bolt holes (mm), the first on +x."""
     radius, count = gear.body.bolt_circle / 2, gear.body.bolt_holes
     angles = [2 * math.pi * i / count for i in range(count)]
     return [(radius * math.cos(angle), radius * math.sin(angle)) for angle in angles]
 
 
 def gear_boundary(gear: Gear) -> Boundary:
-    """The gear as a closed boundary, within 1 nm of the exact involute and fillet, or of its modified flanks.
+    """Return the gear as a closed boundary, within 1 nm of the exact involute and fillet, or of its modified flanks.
 
     Teeth from z = 0 to the face width, tooth 0 centred on +x at z = 0. Raises GeometryError for a ring
     without a rim diameter.

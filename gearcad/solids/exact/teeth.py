@@ -46,7 +46,7 @@ class Contour:
 
 
 def circle(recorder: Recorder, radius: float, z: float, axis: Point = ORIGIN) -> Contour:
-    """A circle about an axis through the point (x, y); it starts on the side of +x."""
+    """Return a circle about an axis through the point (x, y); it starts on the side of +x."""
     start = recorder.vertex((axis[0] + radius, axis[1], z))
     return Contour([recorder.edge(level_circle(radius, z, axis), start, start, 0.0, 2 * math.pi)], [start])
 
@@ -112,7 +112,7 @@ class _ToothRing:
         self.side_edges = self._side_edges()
 
     def _vertices_around(self, points: Floats) -> list[list[int]]:
-        """Vertices at points (n, 3) of tooth 0 and of every other tooth, by tooth."""
+        """Return the vertices at points (n, 3) of tooth 0 and of every other tooth, by tooth."""
         angle = self.pitch * np.arange(self.teeth)[:, None]
         x, y, z = points.T
         cosine, sine = np.cos(angle), np.sin(angle)
@@ -120,7 +120,7 @@ class _ToothRing:
         return self.recorder.vertices_around(np.stack(turned, -1), self.places)
 
     def _vertices(self, which: int) -> list[list[int]]:
-        """Vertices of an end by tooth and station; the station after the last junction belongs to the next tooth."""
+        """Return the vertices of an end by tooth and station; the station after the last junction belongs to the next tooth."""
         layout, count = self.layout, len(self.layout.pieces)
         stations = layout.place(layout.ends[which], layout.segments[which][1])
         made = self._vertices_around(np.delete(stations, count, axis=0))
@@ -147,7 +147,7 @@ class _ToothRing:
         return [[j for j, segment in enumerate(segments) if segment.piece == k] for k in range(len(self.layout.pieces))]
 
     def _columns(self) -> list[list[list[int]]]:
-        """Vertices along the teeth, upwards, by tooth and junction."""
+        """Return the vertices along the teeth, upwards, by tooth and junction."""
         layout = self.layout
         columns = []
         for k, rises in enumerate(layout.rises):
@@ -230,7 +230,7 @@ class _ToothRing:
                 self._face(patch, loop, place)
 
     def _crossings(self, curves: dict[int, BezierCurve], k: int, after: int, follows: list[int]) -> dict[int, list[int]]:
-        """Edges by tooth where two stretches of a flank meet, by the height (its number) at which they do."""
+        """Return the edges by tooth where two stretches of a flank meet, by the height (its number) at which they do."""
         found: dict[int, list[int]] = {height: [] for height in curves}
         for i, (j, place) in enumerate(zip(follows, self.places, strict=True)):
             for height, curve in curves.items():
@@ -243,21 +243,21 @@ class _ToothRing:
         self.recorder.face(surface, [loop], outward=self.outward, place=place)
 
     def _lay_end(self, which: int, k: int, surface: SurfaceForm) -> list[Chain]:
-        """The edges of an end on a piece of every tooth, by tooth, laid on its surface."""
+        """Return the edges of an end on a piece of every tooth, by tooth, laid on its surface."""
         chain, edges = self.chains[which][k], self.edges[which]
         for j in chain:
             self.recorder.lay_copies([tooth[j] for tooth in edges], surface, self.drawn[which][j].on_face, self.places)
         return [[(tooth[j], True) for j in chain] for tooth in edges]
 
     def _rises(self, k: int, stretch: int) -> list[Chain]:
-        """The edges by tooth at a junction on a stretch of the face width; none where an end chamfer has taken them."""
+        """Return the edges by tooth at a junction on a stretch of the face width; none where an end chamfer has taken them."""
         place = stretch - self.layout.rises[k][0].stretch
         if 0 <= place < len(self.layout.rises[k]):
             return [[(sides[k][place], True)] for sides in self.side_edges]
         return [[] for _ in self.side_edges]
 
     def _vertex(self, i: int, k: int, height: int) -> int:
-        """The vertex at a junction of a tooth where a stretch begins or the one before ends."""
+        """Return the vertex at a junction of a tooth where a stretch begins or the one before ends."""
         return self.columns[i][k][height - self.layout.rises[k][0].stretch]
 
     # -------------------------------------------------------------- ends
@@ -313,7 +313,7 @@ class _ToothRing:
         return loop
 
     def _foot(self, end: End, i: int, cone: ConeSurface, start: int, stop: int, first: float, last: float) -> int:
-        """The arc on an end's plane where the cone of tooth i begins."""
+        """Return the arc on an end's plane where the cone of tooth i begins."""
         arc = self.recorder.edge(level_circle(end.cone.face_radius, end.z), start, stop, first, last, self.places[i])
         self.recorder.lay(arc, cone, LineOnSurface(0, 0, end.widens, 0), place=self.places[i])
         return arc

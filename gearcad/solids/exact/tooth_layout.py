@@ -45,7 +45,9 @@ _SAME = 1e-7
 
 
 def accuracy_for(gear: Gear) -> float:
-    """Largest deviation (mm) allowed to a fitted section: 1 nm, and less on gears so small that 0.1 ppm of volume shows."""
+    """Return the largest deviation (mm) allowed to a fitted section: 1 nm, and less on gears so small that 0.1 ppm of volume
+    shows.
+    """
     return min(1e-6, 2e-7 * gear.normal_module)
 
 
@@ -63,12 +65,12 @@ class FlankSpan:
     left: bool
 
     def polar(self, u: Floats) -> tuple[Floats, Floats]:
-        """Radius (mm) and polar angle (rad) at u (n,)."""
+        """Return the radius (mm) and polar angle (rad) at u (n,)."""
         x, y = (boundary.bernstein(len(self.poles) - 1, u) @ self.poles).T
         return np.hypot(x, y), np.arctan2(y, x)
 
     def turn(self, form: FlankForm, u: Floats, z: Floats) -> Floats:
-        """Angle (rad) by which the modifications turn the point at u at height z (mm); u and z broadcast."""
+        """Return the angle (rad) by which the modifications turn the point at u at height z (mm); u and z broadcast."""
         return self.curve.turn(form, self.first + u * (self.last - self.first), z, left=self.left)
 
     @property
@@ -131,7 +133,7 @@ def tooth_outline(gear: Gear, cuts: Sequence[float] = ()) -> tuple[Piece, ...]:
 
 
 def _cut(curve: Curve, radii: Sequence[float]) -> list[float]:
-    """Parameters from 0 to 1, with those between where a curve crosses one of the radii (mm)."""
+    """Return the parameters from 0 to 1, with those between where a curve crosses one of the radii (mm)."""
     start, end = (float(curve.polar(s)[0]) for s in (0.0, 1.0))
     side = 1 if start < end else -1  # the radii of a ring's flank fall
     inside, last = list[float](), side * start
@@ -165,7 +167,7 @@ def _fitted_throughout(curve: FlankCurve, first: float, last: float, tolerance: 
 
 
 def _halved(curve: FlankCurve, first: float, last: float, deviation: Error, tolerance: float) -> list[FlankSpan]:
-    """The span of a curve on [first, last], or those of its halves, until the degree is moderate."""
+    """Return the span of a curve on [first, last], or those of its halves, until the degree is moderate."""
 
     def parameter(t: Floats) -> Floats:
         return first + t * (last - first)
@@ -215,7 +217,7 @@ _SHARE = 0.1
 
 
 def required(poles: Floats | None, what: str) -> Floats:
-    """The poles; SolverError if there are none."""
+    """Return the poles; SolverError if there are none."""
     if poles is None:
         raise SolverError(f"{what} needs a higher degree than the CAD kernel has ({boundary.MOST_DEGREE})")
     return poles
@@ -236,22 +238,23 @@ class Sweep:
         self.heights: tuple[float, ...] = (0.0, gear.face_width)
 
     def turn(self, piece: FlankSpan, u: Floats, z: Floats) -> Floats:
-        """Angle (rad) by which the point at u of a piece is turned at height z (mm); u and z broadcast."""
+        """Return the angle (rad) by which the point at u of a piece is turned at height z (mm); u and z broadcast."""
         return self.rate * z
 
     def patches(self, piece: FlankSpan) -> list[Floats]:
-        """Poles (n + 1, m + 1, 3) of the surface of a piece on every stretch."""
+        """Return the poles (n + 1, m + 1, 3) of the surface of a piece on every stretch."""
         return [self._screwed(piece.poles)]
 
     def section(self, piece: FlankSpan, which: int) -> Floats:
-        """Poles (n + 1, 3) of a piece on the plane of the lower (0) or upper (1) end."""
+        """Return the poles (n + 1, 3) of a piece on the plane of the lower (0) or upper (1) end."""
         z = which * self.width
         cosine, sine = math.cos(self.rate * z), math.sin(self.rate * z)
         x, y = piece.poles.T
         return np.stack([cosine * x - sine * y, sine * x + cosine * y, np.full(len(x), z)], -1)
 
     def side(self, piece: FlankSpan, u: int, place: tuple[float, float], stretch: int) -> tuple[Floats, Floats]:
-        """Poles (m + 1, 3) of the edge along the tooth at the end u = 0 or 1 of a piece, and those of its polar angle (rad).
+        """Return the poles (m + 1, 3) of the edge along the tooth at the end u = 0 or 1 of a piece, and those of its polar
+        angle (rad).
 
         `place` is that end's radius (mm) and polar angle (rad).
         """
@@ -276,7 +279,7 @@ class Sweep:
         return required(boundary.fit(rotation, error, bound), "the twist of the teeth")
 
     def _screwed(self, poles: Floats) -> Floats:
-        """Poles (n, m + 1, 3) of the screw surface through section poles (n, 2)."""
+        """Return the poles (n, m + 1, 3) of the screw surface through section poles (n, 2)."""
         x, y = poles[:, :1], poles[:, 1:]
         cosine, sine = self._rotation.T
         heights = np.broadcast_to(np.linspace(0, self.width, len(cosine)), (len(poles), len(cosine)))
@@ -315,7 +318,7 @@ class ModifiedSweep(Sweep):
         return None if poles is None else len(poles) - 1
 
     def _stretches(self, spans: list[FlankSpan], low: float, high: float) -> list[tuple[float, float, int]]:
-        """Stretches from `low` to `high` with their degrees along z, the same one for all pieces."""
+        """Return the stretches from `low` to `high` with their degrees along z, the same one for all pieces."""
 
         def along(t: Floats) -> Floats:
             z = low + t * (high - low)
@@ -341,7 +344,7 @@ class ModifiedSweep(Sweep):
         return self.patches(piece)[stretch][-u], np.array([first, 2 * middle - (first + last) / 2, last])
 
     def _fitted(self, piece: FlankSpan) -> list[Floats]:
-        """Poles of the surface of a piece on every stretch, of one degree along u."""
+        """Return the poles of the surface of a piece on every stretch, of one degree along u."""
         places = np.concatenate([low + _PROBES * (high - low) for low, high in pairwise(self.heights)])
 
         def across(u: Floats) -> Floats:
@@ -478,7 +481,7 @@ class ToothLayout:
     # -------------------------------------------------------------- stations of the outline
 
     def _flank_at(self, k: int) -> tuple[FlankSpan, int]:
-        """A flank's piece at a junction, and its u there. One of both neighbours is a flank's, and the first piece is."""
+        """Return a flank's piece at a junction, and its u there. One of both neighbours is a flank's, and the first piece is."""
         piece, before = self.pieces[k % len(self.pieces)], self.pieces[k - 1]
         if isinstance(piece, FlankSpan):
             return piece, 0
@@ -486,7 +489,7 @@ class ToothLayout:
         return before, 1
 
     def turn(self, k: int, z: Floats) -> Floats:
-        """Angle (rad) by which a junction is turned at heights z (mm)."""
+        """Return the angle (rad) by which a junction is turned at heights z (mm)."""
         piece, u = self._flank_at(k)
         return self.sweep.turn(piece, np.array(float(u)), z)
 
@@ -517,18 +520,18 @@ class ToothLayout:
         return found, np.array([*zip(radius, turned, strict=True), following, *breaks])
 
     def place(self, end: End, stations: Floats) -> Floats:
-        """Points (n, 3) of stations (radius, polar angle) on an end of tooth 0."""
+        """Return the points (n, 3) of stations (radius, polar angle) on an end of tooth 0."""
         radius, angle = stations.T
         return np.stack([radius * np.cos(angle), radius * np.sin(angle), end.height(radius)], -1)
 
     def _rises(self, k: int) -> list[Rise]:
-        """The stretches of the face width that there are at a junction."""
+        """Return the stretches of the face width that there are at a junction."""
         low, high = (float(end.height(self.junctions[k, 0])) for end in self.ends)
         parts = [(max(low, a), min(high, b)) for a, b in pairwise(self.sweep.heights)]
         return [Rise(stretch, a, b) for stretch, (a, b) in enumerate(parts) if b - a > _SAME]
 
     def stretches(self, k: int) -> range:
-        """The stretches of the face width that there are on a piece."""
+        """Return the stretches of the face width that there are on a piece."""
         after = (k + 1) % len(self.pieces)
         low, high = (float(end.height(self.junctions[[k, after], 0]).mean()) for end in self.ends)
         first, last = np.searchsorted(self.sweep.heights[1:-1], [low, high], side="right")
@@ -537,7 +540,7 @@ class ToothLayout:
     # -------------------------------------------------------------- curves
 
     def draw(self, end: End, segment: Segment) -> Drawn:
-        """The curves of one segment."""
+        """Return the curves of one segment."""
         piece = self.pieces[segment.piece]
         if isinstance(piece, LandArc):
             z = float(end.height(piece.radius))

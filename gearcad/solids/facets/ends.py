@@ -39,7 +39,7 @@ _TIE = 1e-12
 
 
 def zip_levels(lower: Chain, upper: Chain) -> list[tuple[int, int, int]]:
-    """Triangles between two open chains, `lower` nearer to the axis."""
+    """Return the triangles between two open chains, `lower` nearer to the axis."""
     (a, inner), (b, outer) = lower, upper
     i = j = 0
     faces = []
@@ -54,7 +54,7 @@ def zip_levels(lower: Chain, upper: Chain) -> list[tuple[int, int, int]]:
 
 
 def upright(corners: Floats, least: float) -> bool:
-    """Whether all triangles with corners (n, 3, 2) in mm run counter-clockwise and are nowhere lower than `least` (mm)."""
+    """Return whether all triangles with corners (n, 3, 2) in mm run counter-clockwise and are nowhere lower than `least` (mm)."""
     one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     area = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
     longest = np.hypot(*np.moveaxis(corners - np.roll(corners, 1, axis=1), -1, 0)).max(axis=1)
@@ -62,14 +62,14 @@ def upright(corners: Floats, least: float) -> bool:
 
 
 def middles(angle: Floats) -> Floats:
-    """Angle of the middle of every edge of a closed chain, in -pi ... pi."""
+    """Return the angle of the middle of every edge of a closed chain, in -pi ... pi."""
     middle = angle + 0.5 * np.mod(np.roll(angle, -1) - angle, 2 * np.pi)
     result: Floats = np.mod(middle + np.pi, 2 * np.pi) - np.pi
     return result
 
 
 def keyway_order(order: Floats, wall: float, lower_wall: int, outer: Floats) -> Floats:
-    """The order in which to zip the edges of a bore with keyway: their middles, `order`, with those of its walls moved.
+    """Return the order in which to zip the edges of a bore with keyway: their middles, `order`, with those of its walls moved.
 
     A wall runs radially, so its middle does not tell which outer points it faces: that must be one beyond the angle
     `wall` (rad) at which the bore ends. `lower_wall` is the number of that edge; the floor and the upper wall follow.
@@ -89,7 +89,7 @@ def keyway_order(order: Floats, wall: float, lower_wall: int, outer: Floats) -> 
 
 
 def zip_rings(inner: Wholes, inner_order: Floats, outer: Wholes, outer_order: Floats) -> Wholes:
-    """Triangles (n, 3) between two closed chains around the axis, each zipped in the order of its edges' angles.
+    """Return the triangles (n, 3) between two closed chains around the axis, each zipped in the order of its edges' angles.
 
     Edge i runs from vertex i to vertex i + 1, and the last one back to the first; orders are in -pi ... pi.
     """
@@ -139,20 +139,22 @@ class ToothEnd:
         self.own: list[tuple[int, float]] = []
 
     def opposite(self, level: int) -> int:
-        """Number of the point on the left flank."""
+        """Return the number of the point on the left flank."""
         return 2 * self.grid.flank_steps + self.grid.tip_steps - level
 
     def span(self, level: int) -> tuple[float, float]:
-        """Angles of the right and the left flank there."""
+        """Return the angles of the right and the left flank there."""
         return self.turn[level] + self.right[level], self.turn[level] + self.left[level]
 
     def tip(self) -> Chain:
-        """Angles and numbers along the tip land."""
+        """Return the angles and numbers along the tip land."""
         level, (right, left) = self.grid.flank_steps, self.span(self.grid.flank_steps)
         return np.linspace(right, left, self.grid.tip_steps + 1).tolist(), list(range(level, self.opposite(level) + 1))
 
     def chain(self, level: int, between: Sequence[float]) -> Chain:
-        """Angles and numbers along a level from the right flank to the left one; adds points at the angles `between`."""
+        """Return the angles and numbers along a level from the right flank to the left one; adds points at the angles
+        `between`.
+        """
         right, left = self.span(level)
         first = len(self.own)
         self.own += [(level, angle) for angle in between]
@@ -169,7 +171,7 @@ class ToothEnd:
         return result
 
     def own_vertices(self) -> Floats:
-        """The points added on all teeth (n, 3)."""
+        """Return the points added on all teeth (n, 3)."""
         level = np.array([i for i, _ in self.own], int)
         angle = np.array([a for _, a in self.own]) + 2 * math.pi / self.grid.teeth * np.arange(self.grid.teeth)[:, None]
         return points_at(self.grid.radius[level], angle, self.z[level])
@@ -181,7 +183,7 @@ class ToothEnd:
 
 
 def points_at(radius: Floats, angle: Floats, z: Floats) -> Floats:
-    """Points (n, 3) from polar coordinates, broadcast together."""
+    """Return the points (n, 3) from polar coordinates, broadcast together."""
     return np.stack(np.broadcast_arrays(radius * np.cos(angle), radius * np.sin(angle), z), -1).reshape(-1, 3)
 
 
@@ -291,7 +293,7 @@ class _RingCapper(ToothEnd):
     # ------------------------------------------------------------------ strips
 
     def _strips(self) -> tuple[Wholes, int, Chain]:
-        """Triangles of one tooth, and the outermost level to which they reach."""
+        """Return the triangles of one tooth, and the outermost level to which they reach."""
         inner, faces = self.tip(), list[tuple[int, int, int]]()
         for level in reversed(range(self.grid.flank_steps)):
             before = len(self.own)
@@ -308,7 +310,7 @@ class _RingCapper(ToothEnd):
         return np.array(faces).reshape(-1, 3), 0, inner
 
     def _candidates(self, level: int, inner: Chain) -> Iterator[list[float]]:
-        """Angles of points between both ends of a level, outside the chain `inner`."""
+        """Yield the angles of points between both ends of a level, outside the chain `inner`."""
         right, left = self.span(level)
         if self.on_cone is not None and level >= self.grid.face_level:
             clear = _CLEAR * self.end.step
@@ -319,7 +321,7 @@ class _RingCapper(ToothEnd):
             yield np.linspace(right, left, chords + 1)[1:-1].tolist()
 
     def _generators(self) -> Floats | None:
-        """Angles of the points on the cone: those of the tip land, parted if need be, and further ones by the step."""
+        """Return the angles of the points on the cone: those of the tip land, parted if need be, and further ones by the step."""
         grid, tip, step = self.grid, self.grid.flank_steps, self.end.step
         if not grid.cone.present or grid.face_level == tip:
             return None
@@ -390,7 +392,7 @@ class Plate:
 
 
 def bolt_plate(body: Body, free: float, rim: float, step: float, parts: int) -> Plate:
-    """The plate of a ring whose teeth and cones end at the radius `free` (mm) and whose rim has the radius `rim` (mm).
+    """Return the plate of a ring whose teeth and cones end at the radius `free` (mm) and whose rim has the radius `rim` (mm).
 
     `step` (rad) of the chords of a hole; those of the two circles are parted into `parts` each.
     """
@@ -430,7 +432,7 @@ def bolt_plate(body: Body, free: float, rim: float, step: float, parts: int) -> 
 
 
 def _window(share: float, least: float, most: float) -> tuple[float, float]:
-    """Half the angle of a window about the axis, and half of what lies between two windows.
+    """Return half the angle of a window about the axis, and half of what lies between two windows.
 
     `share` of a hole is half a pitch, `least` what the hole itself takes, `most` what its centre sees of the inner circle.
     """
@@ -439,7 +441,7 @@ def _window(share: float, least: float, most: float) -> tuple[float, float]:
 
 
 def _collar(corners: Floats, radius: float, step: float) -> tuple[Floats, Wholes]:
-    """Outline (m, 2) of a hole about (0, 0), and faces between it and the corners (n, 2) of a window around it.
+    """Return the outline (m, 2) of a hole about (0, 0), and faces between it and the corners (n, 2) of a window around it.
 
     Faces number the corners, then the outline.
     """
@@ -495,7 +497,7 @@ class Builder:
         return np.arange(self.count - len(points), self.count)
 
     def side(self) -> Wholes:
-        """The faces of all teeth, away from the axis: layers x teeth x period, every cell cut along its better diagonal."""
+        """Return the faces of all teeth, away from the axis: layers x teeth x period, every cell cut along its better diagonal."""
         grid, layers = self.grid, self.grid.layers
         radius, setback, angle = grid.outline
         z = layers.heights(setback)[:, None, :]
@@ -511,7 +513,9 @@ class Builder:
         return faces
 
     def circle(self, radius: float, parts: int = 1) -> Floats:
-        """Points (n, 2) in mm of a regular polygon about the axis, from the far side; sides that would do in `parts` each."""
+        """Return the points (n, 2) in mm of a regular polygon about the axis, from the far side; sides that would do in `parts`
+        each.
+        """
         sides = parts * max(LEAST_SIDES, math.ceil(2 * math.pi / arc_step(radius, self.chord_error)))
         angle = -np.pi + 2 * np.pi / sides * np.arange(sides)
         return radius * np.column_stack([np.cos(angle), np.sin(angle)])

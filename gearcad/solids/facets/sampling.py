@@ -47,22 +47,22 @@ HELIX_SHARE = 0.6
 
 
 def outermost_radius(gear: Gear) -> float:
-    """Radius (mm) of the circle that the toothed side reaches out to: the tips, on a ring the roots."""
+    """Return the radius (mm) of the circle that the toothed side reaches out to: the tips, on a ring the roots."""
     return max(gear.profile.tip_diameter, gear.profile.root_diameter) / 2
 
 
 def arc_step(radius: float, chord_error: float) -> float:
-    """Largest angle (rad) that a chord of a circle may span within `chord_error` (mm)."""
+    """Return the largest angle (rad) that a chord of a circle may span within `chord_error` (mm)."""
     return 2 * math.acos(max(1 - chord_error / radius, 0.5))
 
 
 def least_distance(gear: Gear, chord_error: float) -> float:
-    """Distance (mm) below which two points are made one: nothing against the chord error, or two steps of a float32."""
+    """Return the distance (mm) below which two points are made one: nothing against the chord error, or two steps of a float32."""
     return max(1e-3 * chord_error, 3e-7 * outermost_radius(gear))
 
 
 def aim_for(gear: Gear, chord_error: float) -> float:
-    """Largest deviation (mm) of an edge that keeps a gear's triangles within `chord_error` (mm)."""
+    """Return the largest deviation (mm) of an edge that keeps a gear's triangles within `chord_error` (mm)."""
     return _CONVEX * chord_error if gear.modification.present else chord_error
 
 
@@ -101,7 +101,7 @@ class Layers:
         return cls(kappa, width, knots, counts, min(_MARGIN * chord_error, (width / 2 - gear.body.end_chamfer) / 4))
 
     def turn(self, z: Floats) -> Floats:
-        """Angle (rad) by which the section at heights z (mm) is turned."""
+        """Return the angle (rad) by which the section at heights z (mm) is turned."""
         return self.start + self.kappa * z
 
     @property
@@ -110,7 +110,7 @@ class Layers:
         return sum(self.counts)
 
     def heights(self, setback: Floats) -> Floats:
-        """Heights z (count + 1, n) in mm of the points whose columns stop short of the ends by `setback` (n,)."""
+        """Return the heights z (count + 1, n) in mm of the points whose columns stop short of the ends by `setback` (n,)."""
         above = 0.0 * setback if self.apex else setback
         if len(self.counts) == 1:
             share = np.linspace(0.0, 1.0, self.count + 1)[:, None]
@@ -128,7 +128,8 @@ class Layers:
 
 
 def _count(gear: Gear, kappa: float, low: float, high: float, aim: float) -> int:
-    """Layers between two heights (mm): so many that half of the bend of a modified flank along z would use up `aim` (mm).
+    """Return the layers between two heights (mm): so many that half of the bend of a modified flank along z would use up `aim`
+    (mm).
 
     The other half is left to the bend of the profile, as both add up in a diagonal.
     """
@@ -148,7 +149,7 @@ _STEP = 1e-4
 
 
 def bulges(gear: Gear, piece: FlankCurve) -> bool:
-    """Whether the Gaussian curvature of what a piece sweeps is above zero, so that triangles deviate most inside."""
+    """Return whether the Gaussian curvature of what a piece sweeps is above zero, so that triangles deviate most inside."""
     swept = gear.internal and gear.helix_angle != 0 and not gear.modification.present
     return swept and piece.curve.kind is CurveKind.FILLET
 
@@ -165,7 +166,9 @@ class _Deviations(NamedTuple):
 
 
 def split(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone, aim: float) -> Floats:
-    """The parameters with the cells split that are off by more than `aim` (mm): long in z, on the cone, or bent unevenly."""
+    """Return the parameters with the cells split that are off by more than `aim` (mm): long in z, on the cone, or bent
+    unevenly.
+    """
     for _ in range(_PASSES):
         worst = (_inside_cells if bulges(gear, piece) else _on_edges)(gear, piece, s, layers, cone)
         if cone.present:
@@ -193,7 +196,7 @@ def falling_cells(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone
 
 
 def _on_edges(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> Floats:
-    """Largest deviation (mm) in each column of cells (len(s) - 1,): on its sides, or on the better diagonals."""
+    """Return the largest deviation (mm) in each column of cells (len(s) - 1,): on its sides, or on the better diagonals."""
     flanks = [[np.abs(d) for d in deviations] for deviations in _deviations(gear, piece, s, layers, cone)]
     worst: Floats = np.max([np.maximum(a.max(axis=0), np.minimum(b, c).max(axis=0)) for a, b, c in flanks], axis=0)
     return worst
@@ -209,7 +212,7 @@ def _inside_cells(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone
 
 
 def _inside(one: Floats, two: Floats, three: Floats) -> Floats:
-    """Largest deviation of triangles whose edges deviate by these amounts, all to one side.
+    """Return the largest deviation of triangles whose edges deviate by these amounts, all to one side.
 
     By the lengths that an edge's deviation is an eighth of the square of, half the square of the radius of the circle through
     the corners: 4 abc/(2 (ab + bc + ca) - a^2 - b^2 - c^2); of an obtuse triangle that of its longest edge.
@@ -320,7 +323,7 @@ def _of_modified(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone:
 
 
 def _normal(surface: Callable[[Floats, Floats], Floats], s: Floats, z: Floats, width: float) -> Floats:
-    """Unit normals of a surface by differences."""
+    """Return the unit normals of a surface by differences."""
     step = _STEP * width
     along = surface(np.clip(s + _STEP, 0, 1), z) - surface(np.clip(s - _STEP, 0, 1), z)
     normal = np.cross(along, surface(s, z + step) - surface(s, z - step))
@@ -429,7 +432,7 @@ def tooth_grid(gear: Gear, chord_error: float, *, apex: bool = False) -> ToothGr
 
 
 def _profile(gear: Gear, pieces: list[FlankCurve], samples: list[Floats], cone: EndCone) -> tuple[Floats, Floats, int]:
-    """Radius (mm) and half angle (rad) of the profile points, and the index of the one where the cone begins."""
+    """Return the radius (mm) and half angle (rad) of the profile points, and the index of the one where the cone begins."""
     polar = [piece.curve.polar(s) for piece, s in zip(pieces, samples, strict=True)]
     radius = np.concatenate([polar[0][0][:1], *(r[1:] for r, _ in polar)])
     angle = np.concatenate([polar[0][1][:1], *(a[1:] for _, a in polar)])
@@ -455,7 +458,7 @@ def _lands(gear: Gear, radius: Floats, angle: Floats, turns: tuple[Floats, Float
 
 
 def _samples(gear: Gear, piece: FlankCurve, layers: Layers, cone: EndCone, chord_error: float) -> Floats:
-    """Parameters of a curve, among them those where the cone begins and where it crosses a knot of the layers."""
+    """Return the parameters of a curve, among them those where the cone begins and where it crosses a knot of the layers."""
     near, aim = least_distance(gear, chord_error), aim_for(gear, chord_error)
     s = parameters_within(piece.curve, (1 - HELIX_SHARE) * aim if bulges(gear, piece) else aim)
     if cone.present:
@@ -493,7 +496,7 @@ def _land_steps(half_angle: float, radius: float, chord_error: float, near: floa
 
 
 def _with_radius(curve: Curve, s: Floats, at: float, near: float) -> Floats:
-    """The parameters with the one at a radius (mm) among them, in place of any other closer than `near` (mm)."""
+    """Return the parameters with the one at a radius (mm) among them, in place of any other closer than `near` (mm)."""
     radius = curve.polar(s)[0]
     rising = math.copysign(1.0, radius[-1] - radius[0])
     if not rising * radius[0] + near < rising * at < rising * radius[-1] - near:

@@ -60,7 +60,7 @@ class DiscBuilder(Builder):
         return np.arctan2(loop[:, 1], loop[:, 0]), low, high
 
     def _tooth_end(self, inner_radius: float, *, top: bool) -> GearEnd:
-        """One end of the teeth around something of a radius (mm)."""
+        """Return one end of the teeth around something of a radius (mm)."""
         first = self.grid.layers.count * self.grid.teeth * self.grid.period if top else 0
         step = arc_step(self.gear.tip_diameter / 2, self.chord_error)
         return GearEnd(first_vertex=first, top=top, inner_radius=inner_radius, step=step)
@@ -98,7 +98,7 @@ class DiscBuilder(Builder):
 
 
 def _keyed_bore(body: Body, step: float) -> Floats:
-    """Outline (2 h + 3, 2) of a bore with keyway, from the far side: h chords, wall, floor, wall, h chords."""
+    """Return the outline (2 h + 3, 2) of a bore with keyway, from the far side: h chords, wall, floor, wall, h chords."""
     radius, half_width, ends = body.bore / 2, body.keyway_width / 2, keyway_half_angle(body)
     angle = np.linspace(ends, np.pi, math.ceil((np.pi - ends) / step) + 1)
     upper = radius * np.column_stack([np.cos(angle), np.sin(angle)])
@@ -214,13 +214,17 @@ class RingBuilder(Builder):
 
 
 def _between(inner: _Loop, angle: Floats) -> Wholes:
-    """Triangles between a chain and a circle around it with points at these angles; they number the chain's points first."""
+    """Return the triangles between a chain and a circle around it with points at these angles; they number the chain's points
+    first.
+    """
     count = len(inner.angle)
     return zip_rings(np.arange(count), middles(inner.angle), count + np.arange(len(angle)), middles(angle))
 
 
 def double_facets(gear: Gear, chord_error: float) -> tuple[Floats, Wholes]:
-    """Vertices (n, 3) in mm and faces (m, 3) of a double helical gear, within `chord_error` (mm) of the exact surface."""
+    """Return the vertices (n, 3) in mm and faces (m, 3) of a double helical gear, within `chord_error` (mm) of the exact
+    surface.
+    """
     half = halves(gear)[0].gear
     grid = tooth_grid(half, chord_error, apex=not gear.double_helix.gap_width)
     pitch = 2 * math.pi / gear.tooth_count
@@ -252,12 +256,12 @@ class _HalfBuilder(DiscBuilder):
         self.open: Wholes = np.concatenate(rings)
 
     def _apex(self) -> Wholes:
-        """The outline of all teeth in the middle."""
+        """Return the outline of all teeth in the middle."""
         around = self.grid.teeth * self.grid.period
         return self.grid.layers.count * around + np.arange(around)
 
     def _gap(self, radius: float, middle: float) -> Wholes:
-        """The inner end of the teeth, and the ground of the gap (mm) up to the middle."""
+        """Return the inner end of the teeth, and the ground of the gap (mm) up to the middle."""
         cap = cap_teeth(self.grid, self._tooth_end(radius, top=True), self.count)
         self.add(cap.vertices)
         circle, heights = self.circle(radius), (self.gear.face_width, middle)
@@ -317,7 +321,8 @@ def gear_chord_error(gear: Gear, chord_error: float) -> float:
 
 
 def tessellate(gear: Gear, chord_error: float = 0.005) -> Facets:
-    """Triangles of the whole gear with its flanks as modified, nowhere more than `chord_error` (mm) from the exact surface.
+    """Return the triangles of the whole gear with its flanks as modified, nowhere more than `chord_error` (mm) from the exact
+    surface.
 
     Teeth from z = 0 to the face width, hubs beyond. Errors above 0.01 m_n are made that, so that small teeth keep their
     shape. Raises ParameterError for a chord error that is not positive, or below what the float32 of mesh files resolves,
@@ -342,7 +347,8 @@ def rack_chord_error(rack: Rack, chord_error: float) -> float:
 
 
 def tessellate_rack(rack: Rack, chord_error: float = 0.005) -> Facets:
-    """Triangles of the whole rack, nowhere more than `chord_error` (mm) from the exact surface; only its fillets are curved.
+    """Return the triangles of the whole rack, nowhere more than `chord_error` (mm) from the exact surface; only its fillets are
+    curved.
 
     As a `Rack` lies: along x, teeth up (+y), z = 0 ... face width. Errors above 0.01 m_n are made that. Raises ParameterError
     for a chord error that is not positive, or below what the float32 of mesh files resolves.
@@ -352,7 +358,7 @@ def tessellate_rack(rack: Rack, chord_error: float = 0.005) -> Facets:
 
 
 def _lines(rack: Rack, chord_error: float) -> tuple[Floats, set[int]]:
-    """Points (n, 2) of the outline over all c, and which of them are middles of spaces."""
+    """Return the points (n, 2) of the outline over all c, and which of them are middles of spaces."""
     points, middles = list[tuple[float, float]](), set[int]()
     for piece in outline_pieces(rack):
         (c, y), (to_c, to_y) = piece.start, piece.end
@@ -369,7 +375,7 @@ def _lines(rack: Rack, chord_error: float) -> tuple[Floats, set[int]]:
 
 
 def _along_arc(piece: OutlinePiece, chord_error: float) -> list[tuple[float, float]]:
-    """Points of a fillet from its start, without its end; the chord error is kept in the end faces, too."""
+    """Return the points of a fillet from its start, without its end; the chord error is kept in the end faces, too."""
     assert piece.fillet is not None
     steps = math.ceil(piece.fillet.last / arc_step(piece.fillet.radius, chord_error / piece.fillet.stretch))
     points = piece.fillet.points(np.linspace(0.0, 1.0, steps + 1))
@@ -398,7 +404,7 @@ class _Builder:
         self.vertices = np.concatenate([top, under])
 
     def faces(self) -> Triangles:
-        """All triangles, counter-clockwise from outside."""
+        """Return all triangles, counter-clockwise from outside."""
         chains = {side: self.plan.chain(side) for side in RackSide}
         found = self._strips()
         for side, chain in chains.items():
@@ -406,7 +412,7 @@ class _Builder:
         return found + self._back(chains[RackSide.BOTTOM], chains[RackSide.TOP])
 
     def _strips(self) -> Triangles:
-        """Every strip as a fan: it is convex, and flat."""
+        """Return every strip as a fan: it is convex, and flat."""
         found: Triangles = []
         for strip in self.plan.strips:
             one, other = ([way[0].start, *(edge.end for edge in way)] for way in strip.ways)
@@ -415,7 +421,7 @@ class _Builder:
         return found
 
     def _end_face(self, side: RackSide, chain: Sequence[int]) -> Triangles:
-        """An end face, in parts between the vertices that have one below them."""
+        """Return an end face, in parts between the vertices that have one below them."""
         axis = 0 if side in (RackSide.BOTTOM, RackSide.TOP) else 2
         if side in (RackSide.BOTTOM, RackSide.TOP):
             cuts = [i for i, number in enumerate(chain) if number in self.below]
@@ -429,7 +435,7 @@ class _Builder:
         return found if side in (RackSide.TOP, RackSide.START) else [(a, c, b) for a, b, c in found]
 
     def _mountain(self, chain: Wholes | list[int], axis: int) -> Triangles:
-        """Triangles between a chain that never runs back along an axis and the straight line that closes it below."""
+        """Return the triangles between a chain that never runs back along an axis and the straight line that closes it below."""
         found, stack = list[tuple[int, int, int]](), list[tuple[int, Point]]()
         for number, point in zip(chain, self.vertices[chain][:, (axis, 1)].tolist(), strict=True):
             while len(stack) > 1 and _turn(stack[-2][1], stack[-1][1], point) < 0:

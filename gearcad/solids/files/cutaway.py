@@ -58,7 +58,7 @@ def _at(lines: Floats, levels: Floats, low: Indices, high: Indices, level: Indic
 
 
 def _levels(u: Floats) -> tuple[Floats, Indices]:
-    """The levels, rising, and at which each end (m, 2) is."""
+    """Return the levels, rising, and at which each end (m, 2) is."""
     values, places = np.unique(u.ravel(), return_inverse=True)
     if not len(values):
         return np.zeros(2), np.zeros(u.shape, np.intp)
@@ -153,7 +153,7 @@ def _true(faces: Wholes) -> Wholes:
 
 
 def _crossings(vertices: Floats, height: Floats, one: Wholes, others: Wholes) -> tuple[Floats, Wholes]:
-    """The vertices with those where edges (k, m) cross height 0 behind them, each once, and the numbers (k, m) of these.
+    """Return the vertices with those where edges (k, m) cross height 0 behind them, each once, and the numbers (k, m) of these.
 
     An edge that ends at height 0 crosses it at that vertex.
     """
@@ -167,7 +167,7 @@ def _crossings(vertices: Floats, height: Floats, one: Wholes, others: Wholes) ->
 
 
 def _clipped(lines: Floats, height: Floats) -> Floats:
-    """The parts of lines (m, 2, 3) above height 0, that of their ends being (m, 2)."""
+    """Return the parts of lines (m, 2, 3) above height 0, that of their ends being (m, 2)."""
     lines, height = lines[(height > 0).any(axis=1)], height[(height > 0).any(axis=1)]
     fall = np.where(height[:, 0] == height[:, 1], 1.0, height[:, 0] - height[:, 1])
     crossing = lines[:, 0] + (height[:, 0] / fall)[:, None] * (lines[:, 1] - lines[:, 0])
@@ -186,7 +186,7 @@ def _cut_face(lines: Floats, point: Floats, normal: Floats, level: Floats) -> Cu
 
 
 def _fewest_levels(lines: Floats, normal: Floats) -> Floats:
-    """The one of two directions in a plane along which fewer levels have ends of lines."""
+    """Return the one of two directions in a plane along which fewer levels have ends of lines."""
     one = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
     one /= np.linalg.norm(one)
     directions = one, np.cross(normal, one)
@@ -238,7 +238,7 @@ class Camera:
 
 
 def framed(points: Floats, direction: ViewDirection, aspect: float) -> Camera:
-    """The camera that has all points (n, 3) in a picture of width over height `aspect`, with a margin."""
+    """Return the camera that has all points (n, 3) in a picture of width over height `aspect`, with a margin."""
     axes = direction.axes
     seen = points @ axes.T
     low, high = seen.min(axis=0), seen.max(axis=0)
@@ -247,11 +247,11 @@ def framed(points: Floats, direction: ViewDirection, aspect: float) -> Camera:
 
 
 def close_up(points: Floats, direction: ViewDirection, place: tuple[float, float], half_height: float) -> Camera:
-    """The camera above all points (n, 3) that looks down on a place (x, y), and sees so much (mm) above and below it."""
+    """Return the camera above all points (n, 3) that looks down on a place (x, y), and sees so much (mm) above and below it."""
     low, high = float(points[:, 2].min()), float(points[:, 2].max())
     return Camera(direction.axes, np.array([*place, high]), half_height, high - low)
 
 
 def points_of(parts: Iterable[ScenePart]) -> Floats:
-    """All points (n, 3) of parts in their places."""
+    """Return all points (n, 3) of parts in their places."""
     return np.concatenate([part.facets.vertices @ part.pose[:3, :3].T + part.pose[:3, 3] for part in parts])

@@ -59,7 +59,7 @@ class SolidFormat:
 
 
 def formats_minding(option: str) -> list[Format]:
-    """The formats to which a field of FileOptions matters."""
+    """Return the formats to which a field of FileOptions matters."""
     return [kind for kind in Format if option in kind.entry.options]
 
 
@@ -149,7 +149,7 @@ def write_stl(facets: Facets, path: Path | str) -> None:
 
 
 def _normals(corners: Floats) -> Floats:
-    """Unit normals (n, 3) of triangles (n, 3, 3), outwards; 0 where there is no area."""
+    """Return the unit normals (n, 3) of triangles (n, 3, 3), outwards; 0 where there is no area."""
     sides = corners[:, 1:] - corners[:, :2]
     normals = np.cross(sides[:, 0], sides[:, 1])
     sizes = np.sqrt((normals * normals) @ np.ones(3))

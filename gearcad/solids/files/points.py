@@ -29,7 +29,7 @@ _NO_FLAT = 1e-9
 
 
 def tool_points(gear: Gear, chord_error: float) -> Iterator[tuple[str, Floats, Floats]]:
-    """Outline of the tool's tooth, and the paths of the middle of its tip's rounding and of where that begins.
+    """Yield the outline of the tool's tooth, and the paths of the middle of its tip's rounding and of where that begins.
 
     Name, parameter in degrees (n,) and points (n, 2) in mm of each; nothing where no tool rolls. The parameter is theta on
     the outline, the roll angle of the gear on the paths.
@@ -63,16 +63,16 @@ class _Rolling(Protocol):
         """Point where the tip's rounding begins: across and along (mm)."""
 
     def outline(self, gear: Gear, chord_error: float) -> tuple[Floats, Floats, Floats]:
-        """Half of the tool's tooth in the transverse section, towards tooth 0: theta, across and along (mm), each (n,).
+        """Return half of the tool's tooth in the transverse section, towards tooth 0: theta, across and along (mm), each (n,).
 
         From the middle of its tip over the rounding (an ellipse there) and along the flank to the gear's tip circle.
         """
 
     def roll(self, theta: float) -> float:
-        """Roll angle of the gear where theta cuts."""
+        """Return the roll angle of the gear where theta cuts."""
 
     def seen(self, across: ArrayLike, along: ArrayLike, roll: ArrayLike) -> Floats:
-        """Points (..., 2) in mm of the tool, seen from the gear turned by `roll` from where the tool is centred."""
+        """Return the points (..., 2) in mm of the tool, seen from the gear turned by `roll` from where the tool is centred."""
 
 
 def _rolling(gear: Gear) -> _Rolling | None:
@@ -111,7 +111,7 @@ class _Hob:
         return float(self.tool.roll(theta))
 
     def seen(self, across: ArrayLike, along: ArrayLike, roll: ArrayLike) -> Floats:
-        """The tool rolls along its line without slip."""
+        """Return the tool rolls along its line without slip."""
         roll, reference = np.asarray(roll, float), self.tool.reference_radius
         xi, radial = np.asarray(across) + reference * roll, reference + np.asarray(along)
         return _cartesian(np.hypot(xi, radial), math.pi / self.teeth + roll - np.arctan2(xi, radial))
@@ -208,7 +208,8 @@ def write_points(gear: Gear, path: Path | str, *, chord_error: float = 0.0005) -
 
 
 def gear_points(gear: Gear, chord_error: float = 0.0005) -> list[PointBlock]:
-    """The left flank of tooth 0 from root to tip, then the tool; dense enough that chords stay within `chord_error` (mm).
+    """Return the left flank of tooth 0 from root to tip, then the tool; dense enough that chords stay within `chord_error`
+    (mm).
 
     The flank is as modified at mid face width, where modifications along the face are nothing; the tool is the unmodified one.
     A ring with a form root has none.

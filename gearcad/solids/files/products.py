@@ -58,11 +58,11 @@ class GearProduct:
         return tessellate(self.gear, self.options.chord_error)
 
     def solid(self) -> SolidProduct:
-        """The gear as an exact solid: see `gear_boundary`."""
+        """Return the gear as an exact solid: see `gear_boundary`."""
         return SolidProduct(self.name, gear_boundary(self.gear), BRIGHT_STEEL)
 
     def scene(self, rotation: float = 0.0) -> list[ScenePart]:
-        """The gear alone at the origin, turned by so much (degrees)."""
+        """Return the gear alone at the origin, turned by so much (degrees)."""
         return [ScenePart(name=self.name, facets=self.facets, colour=self.colour, rotation=rotation)]
 
     def write_dxf(self, path: Path) -> None:
@@ -130,11 +130,11 @@ class RackProduct:
         return tessellate_rack(self.rack, self.options.chord_error)
 
     def solid(self) -> SolidProduct:
-        """The rack as an exact solid: see `rack_boundary`."""
+        """Return the rack as an exact solid: see `rack_boundary`."""
         return SolidProduct(self.name, rack_boundary(self.rack), BRIGHT_STEEL)
 
     def scene(self) -> list[ScenePart]:
-        """The rack alone, as it lies."""
+        """Return the rack alone, as it lies."""
         return [ScenePart(name=self.name, facets=self.facets, colour=self.colour)]
 
     def write_dxf(self, path: Path) -> None:

@@ -34,7 +34,7 @@ class Arrays:
         self._accessors: list[dict[str, Any]] = []
 
     def add(self, values: Floats | Wholes) -> int:
-        """The number of an accessor of values (n,) or (n, k), in single precision or as whole numbers from 0 on."""
+        """Return the number of an accessor of values (n,) or (n, k), in single precision or as whole numbers from 0 on."""
         kind = "<f4" if values.dtype.kind == "f" else "<u4"
         rows: NDArray[Any] = values.astype(kind).reshape(len(values), -1)
         self._accessors.append(
@@ -59,12 +59,12 @@ class Arrays:
         return {"accessors": self._accessors, "bufferViews": views, "buffers": [{"byteLength": starts[-1]}]}
 
     def joined(self) -> bytes:
-        """The chunk: every component takes four bytes, so nothing has to be filled up."""
+        """Return the chunk: every component takes four bytes, so nothing has to be filled up."""
         return b"".join(self._arrays)
 
 
 def glb_bytes(tree: dict[str, Any], arrays: Arrays) -> bytes:
-    """The file of a tree: the chunk of its JSON, with the tables of its arrays, and that of the arrays."""
+    """Return the file of a tree: the chunk of its JSON, with the tables of its arrays, and that of the arrays."""
     text = json.dumps(tree | arrays.tables, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     binary = arrays.joined()
@@ -123,12 +123,14 @@ class Turning:
         return self.turns.get(name, 0.0)
 
     def keyframes(self) -> Floats:
-        """Shares of the duration (n,) from 0 to 1."""
+        """Return the shares of the duration (n,) from 0 to 1."""
         most = max((abs(turns) for turns in self.turns.values()), default=0.0)
         return np.linspace(0.0, 1.0, math.ceil(most / _STEP) + 2)
 
     def animation(self, begins: Mapping[int, tuple[str, float]], arrays: Arrays) -> dict[str, Any]:
-        """A sampler of quaternions and a channel for each node, by its number: what it is called and its angle (rad) at 0 s."""
+        """Return a sampler of quaternions and a channel for each node, by its number: what it is called and its angle (rad) at
+        0 s.
+        """
         shares = self.keyframes()
         times = arrays.add(shares * self.duration)
         samplers: list[dict[str, Any]] = []
@@ -342,7 +344,7 @@ def _three_mf_material(part: ScenePart) -> str:
 
 
 def _object(part: ScenePart, number: int, material: int) -> str:
-    """The mesh of a part, with an identifier and a material by their numbers."""
+    """Return the mesh of a part, with an identifier and a material by their numbers."""
     vertices, faces = part.facets.vertices, part.facets.faces
     points = '<vertex x="%.9g" y="%.9g" z="%.9g"/>' * len(vertices) % tuple(vertices.ravel().tolist())
     triangles = '<triangle v1="%d" v2="%d" v3="%d"/>' * len(faces) % tuple(faces.ravel().tolist())
@@ -353,7 +355,7 @@ def _object(part: ScenePart, number: int, material: int) -> str:
 
 
 def _component(part: ScenePart, number: int, mesh: int) -> str:
-    """A part whose mesh is an object by itself."""
+    """Return a part whose mesh is an object by itself."""
     name = quoteattr(part.name)
     return f'<object id="{number}" type="model" name={name}><components><component objectid="{mesh}"/></components></object>'
 

@@ -32,7 +32,7 @@ def looks_alike_after(gear: Gear) -> int:
 
 
 def plain_gear(gear: Gear) -> Gear:
-    """The gear without keyway and bolt holes."""
+    """Return the gear without keyway and bolt holes."""
     plain = replace(gear.body, keyway=False, keyway_width=0.0, keyway_depth=0.0)
     return replace(gear, body=replace(plain, bolt_circle=0.0, bolt_holes=0, bolt_diameter=0.0))
 
@@ -107,7 +107,7 @@ def frames_for(pitches: float) -> int | None:
 
 
 def gear_loop(product: GearProduct) -> Loop:
-    """A gear about its axis: by one pitch, or as many as bring a keyway or bolt holes round."""
+    """Return a gear about its axis: by one pitch, or as many as bring a keyway or bolt holes round."""
     gear = product.gear
     pitches = gear.tooth_count // looks_alike_after(gear)
     if (frames := frames_for(pitches)) is None:
@@ -116,7 +116,7 @@ def gear_loop(product: GearProduct) -> Loop:
 
 
 def pair_loop(product: PairProduct) -> Loop:
-    """A pair by one pitch, or by as many as bring keyways and bolt holes round."""
+    """Return a pair by one pitch, or by as many as bring keyways and bolt holes round."""
     gears = list(product.pair.gears)
     pitches = int(come_round(Fraction(looks_alike_after(gear), gear.tooth_count) for gear in gears))
     if (frames := frames_for(pitches)) is None:
@@ -133,7 +133,7 @@ def rack_loop(product: RackPairProduct) -> Loop:
 
 
 def simpler(loop: Loop) -> Loop:
-    """A loop of gears without keyways and bolt holes, which says so."""
+    """Return a loop of gears without keyways and bolt holes, which says so."""
     text = f"keyways and bolt holes are left out: with them it would come round in more than {MOST_FRAMES} frames only"
     return replace(loop, notices=(Notice("features-left-out", text, where="turning"), *loop.notices))
 
@@ -149,7 +149,8 @@ _SAME = 1e-6
 
 
 def train_loop(product: TrainProduct, *, carrier_held: bool = False) -> Loop:
-    """A train as its speeds say, until all of it looks as at first; where that is too long, or if asked for, its carrier held.
+    """Return a train as its speeds say, until all of it looks as at first; where that is too long, or if asked for, its carrier
+    held.
 
     Raises ParameterError for speeds that contradict each other.
     """
@@ -177,7 +178,7 @@ def _driven(product: TrainProduct) -> tuple[float, float]:
 
 
 def _closed(product: TrainProduct, carrier: float, central: float) -> Loop | None:
-    """The shortest loop with turns in this proportion; None where nothing turns, or it is too long."""
+    """Return the shortest loop with turns in this proportion; None where nothing turns, or it is too long."""
     turning = _Turning(product, carrier, central)
     rates = turning.rates
     if rates is None or not any(rates):
@@ -397,14 +398,14 @@ class Shot:
         write_animation(self.frames(), path, kind, 1000 // FRAMES_PER_SECOND)
 
     def frames(self) -> Iterator[Pixels]:
-        """One picture after the other; what leads on to the first is the last."""
+        """Yield one picture after the other; what leads on to the first is the last."""
         count = self.loop.frames if self.loop else 1
         with studio(self.size, transparent=self.transparent) as room:
             for number in range(count):
                 yield room.photograph(*self._set(number / count))
 
     def scene(self, share: float) -> list[ScenePart]:
-        """The parts in their places at a share of the loop."""
+        """Return the parts in their places at a share of the loop."""
         parts = list(self.loop.scene(share) if self.loop else self.product.scene())
         return [parts[0], *(_moved(part, self._apart) for part in parts[1:])] if any(self._apart) else parts
 

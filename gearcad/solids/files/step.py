@@ -56,7 +56,7 @@ _NO_DATE = datetime(2000, 1, 1)
 
 
 def string(text: str) -> str:
-    r"""A text as a string of the exchange structure, on one line, so that no character is ever broken.
+    r"""Return a text as a string of the exchange structure, on one line, so that no character is ever broken.
 
     ISO 10303-21:2016, 6.4.3: backslashes are doubled, \X2\...\X0\ holds characters of the basic plane and \X4\...\X0\ all
     others; the rest is ASCII. An apostrophe is \X\27, as Open CASCADE misreads one that is doubled before `)` or `,`.
@@ -72,7 +72,7 @@ def _run(run: str) -> str:
 
 
 def real(value: float) -> str:
-    """A number that reads back to the last bit: a REAL has a point, and a capital E before its power of ten (6.4.2)."""
+    """Return a number that reads back to the last bit: a REAL has a point, and a capital E before its power of ten (6.4.2)."""
     text = repr(float(value))
     if "e" not in text:
         return text
@@ -106,13 +106,13 @@ class DataSection:
         return number
 
     def text(self) -> str:
-        """The whole section."""
+        """Return the whole section."""
         lines = [f"#{number}={entity};\n" for number, entity in enumerate(self._lines, 1)]
         return "DATA;\n" + "".join(lines) + "ENDSEC;\n"
 
 
 def step_header(name: str) -> str:
-    """The header section of what is called `name`, in AP214: of nobody, at SOURCE_DATE_EPOCH or else in the year 2000."""
+    """Return the header section of what is called `name`, in AP214: of nobody, at SOURCE_DATE_EPOCH or else in the year 2000."""
     stamp = (source_date() or _NO_DATE).strftime("%Y-%m-%dT%H:%M:%S")
     of = [string(text) for text in (name, stamp, f"gearcad {__version__}", _SCHEMA)]
     return (
@@ -195,7 +195,7 @@ class _SolidWriter:
         return number
 
     def _placed(self, uses: Iterable[tuple[_Form, int]]) -> dict[tuple[_Form, int], int]:
-        """Every form at every place where it is used, form by form: its points are turned to all places at once."""
+        """Return every form at every place where it is used, form by form: its points are turned to all places at once."""
         places: dict[_Form, dict[int, None]] = {}
         for form, place in uses:
             places.setdefault(form, {})[place] = None
@@ -210,7 +210,7 @@ class _SolidWriter:
         return found
 
     def _turned(self, vectors: Floats, at: list[int], lift: int) -> list[list[list[float]]]:
-        """Vectors (n, 3) as they are at places, points lifted."""
+        """Return the vectors (n, 3) as they are at places, points lifted."""
         cosine, sine = self.cosines[at, None], self.sines[at, None]
         x, y, z = vectors.T
         turned = [cosine * x - sine * y, sine * x + cosine * y, z + lift * self.lifts[at, None]]
@@ -219,7 +219,7 @@ class _SolidWriter:
 
 
 def _parts(form: _Form) -> tuple[Floats, Floats, _Text]:
-    """Points (n, 3) and directions (m, 3) of a form, and its text of their numbers."""
+    """Return the points (n, 3) and directions (m, 3) of a form, and its text of their numbers."""
     match form:
         case BezierCurve():
             return form.poles, np.empty((0, 3)), _bezier_curve(form)
@@ -240,7 +240,7 @@ def _parts(form: _Form) -> tuple[Floats, Floats, _Text]:
 
 
 def _framed(frame: Frame, kind: str, *sizes: float) -> tuple[Floats, Floats, _Text]:
-    """A form that is its frame and some sizes."""
+    """Return a form that is its frame and some sizes."""
     last = "".join(f",{real(size)}" for size in sizes)
 
     def text(data: DataSection, points: list[int], directions: list[int]) -> str:
@@ -283,7 +283,7 @@ Naming = Callable[[str], str]
 
 
 def part_document(shape: cadquery.Shape, name: str) -> Any:
-    """A document that holds one named part, in the colour of steel."""
+    """Return a document that holds one named part, in the colour of steel."""
     import cadquery
     from OCP.Quantity import Quantity_Color, Quantity_TOC_RGB
     from OCP.XCAFDoc import XCAFDoc_ColorGen, XCAFDoc_DocumentTool
@@ -298,7 +298,7 @@ def part_document(shape: cadquery.Shape, name: str) -> Any:
 
 
 def assembly_document(assembly: cadquery.Assembly, naming: Naming) -> Any:
-    """A document of an assembly; parts of one solid, colour and product name are one product, however many there are.
+    """Return a document of an assembly; parts of one solid, colour and product name are one product, however many there are.
 
     The metadata of a part, or of a sub-assembly, may have its product name, which is else its own.
     """
@@ -424,7 +424,7 @@ class _Names:
         return f"gearcad-name-{len(self._names) - 1}"
 
     def put_into(self, content: bytes) -> bytes:
-        """The content with names for tokens."""
+        """Return the content with names for tokens."""
         return _TOKEN.sub(lambda match: string(self._names[int(match[1])]).encode("ascii"), content)
 
 
@@ -457,7 +457,7 @@ def _set(numbers: dict[str, int], texts: dict[str, str]) -> None:
 
 
 def _reproducible(content: bytes) -> bytes:
-    """The kernel numbers occurrences through the whole session, and breaks lines by it: count them by file, a line each."""
+    """Return the kernel numbers occurrences through the whole session, and breaks lines by it: count them by file, a line each."""
     number = count(1)
 
     def numbered(occurrence: re.Match[bytes]) -> bytes:

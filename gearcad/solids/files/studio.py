@@ -76,7 +76,7 @@ def poly_data(facets: Facets) -> vtkPolyData:
 
 
 def line_data(vertices: Floats, ends: Wholes) -> vtkPolyData:
-    """Lines between pairs (n, 2) of vertices."""
+    """Return the lines between pairs (n, 2) of vertices."""
     mesh = _points(vertices)
     mesh.SetLines(_cells(ends))
     return mesh
@@ -94,7 +94,7 @@ def _points(vertices: Floats) -> vtkPolyData:
 
 
 def _cells(numbers: Wholes) -> vtkCellArray:
-    """Cells of as many points as a row (n, k) has."""
+    """Return the cells of as many points as a row (n, k) has."""
     from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonDataModel import vtkCellArray
 
@@ -123,7 +123,7 @@ class Edges:
 
     @classmethod
     def of(cls, facets: Facets) -> Self:
-        """The edges between two facets that have a direction: where they are open there are none."""
+        """Return the edges between two facets that have a direction: where they are open there are none."""
         faces = facets.faces
         a, b, c = (facets.vertices[faces[:, corner]] for corner in range(3))
         across = np.cross(b - a, c - a)
@@ -174,7 +174,7 @@ def whole_shape(part: ScenePart) -> StudioShape:
 
 
 def cut_shape(part: ScenePart, cut: CutPlanes) -> StudioShape:
-    """A part in its place without what a cut takes off."""
+    """Return a part in its place without what a cut takes off."""
     vertices = part.facets.vertices @ part.pose[:3, :3].T + part.pose[:3, 3]
     left = cut_away(Facets(vertices, part.facets.faces), cut)
     red, green, blue = (float(each) for each in _CUT_SHARE * np.array(_CUT) + (1 - _CUT_SHARE) * np.array(part.colour))
@@ -408,7 +408,7 @@ def _image(pixels: Pixels) -> Image:
 
 
 def _of_few_colours(images: list[Image]) -> list[Image]:
-    """The images in the colours that some of them have most; what is more clear than not is transparent."""
+    """Return the images in the colours that some of them have most; what is more clear than not is transparent."""
     from PIL import Image
 
     step = max(1, len(images) // _SAMPLES)
@@ -418,7 +418,7 @@ def _of_few_colours(images: list[Image]) -> list[Image]:
 
 
 def _in_colours(image: Image, palette: Image) -> Image:
-    """An image in the colours of another one, with one more that is clear."""
+    """Return an image in the colours of another one, with one more that is clear."""
     from PIL import Image
 
     found = image.convert("RGB").quantize(palette=palette, dither=Image.Dither.NONE)

@@ -72,7 +72,7 @@ def carrier_solid(plan: CarrierPlan) -> cadquery.Solid:
 
 
 def _free_stretches(plan: CarrierPlan) -> Iterator[tuple[float, float]]:
-    """The heights (mm) between which pins are outside of plates."""
+    """Yield the heights (mm) between which pins are outside of plates."""
     at, end = plan.reach
     for bottom, top in sorted(plan.plates):
         if at < bottom:
@@ -85,7 +85,7 @@ def _free_stretches(plan: CarrierPlan) -> Iterator[tuple[float, float]]:
 def train_assembly(
     train: PlanetaryTrain, *, carrier_angle: float = 0.0, carrier: bool = False, exploded: bool = False
 ) -> cadquery.Assembly:
-    """The train with its axis on z, its carrier turned by `carrier_angle` (degrees), backlash split evenly.
+    """Return the train with its axis on z, its carrier turned by `carrier_angle` (degrees), backlash split evenly.
 
     Its parts are called as members and rims are, and `planet_1` and so on, which are assemblies where planets are stepped.
     `carrier` adds pins and plates; `exploded` moves members apart along the axis. Raises GeometryError for rings without a
@@ -95,7 +95,7 @@ def train_assembly(
 
 
 def train_product(plan: TrainPlan) -> AssembledProduct:
-    """The assembly of a plan; bodies that are alike are one product."""
+    """Return the assembly of a plan; bodies that are alike are one product."""
     layout = plan.layout
     train, parts = layout.train, _parts(layout)
     found = [_occurrence(standing, parts) for standing in layout.centrals]
@@ -116,12 +116,12 @@ def train_product(plan: TrainPlan) -> AssembledProduct:
 
 
 def _parts(layout: TrainLayout) -> dict[str, SolidProduct]:
-    """The bodies of a train by their keys."""
+    """Return the bodies of a train by their keys."""
     return {key: SolidProduct(body.name, gear_boundary(body.gear), body.colour) for key, body in layout.bodies.items()}
 
 
 def _occurrence(standing: Standing, parts: dict[str, SolidProduct], origin: Point = ORIGIN) -> Occurrence:
-    """A body in its place, seen from an axis through `origin` (x, y)."""
+    """Return a body in its place, seen from an axis through `origin` (x, y)."""
     x, y, z = standing.offset
     frame = placed((x - origin[0], y - origin[1], z), standing.rotation)
     return Occurrence(standing.name, parts[standing.body.key], frame)
@@ -132,7 +132,7 @@ _TURN = 0.1
 
 
 def carrier_facets(plan: CarrierPlan, chord_error: float) -> Facets:
-    """The solid in triangles of the kernel, nowhere more than `chord_error` (mm) from it."""
+    """Return the solid in triangles of the kernel, nowhere more than `chord_error` (mm) from it."""
     from OCP.BRepMesh import BRepMesh_IncrementalMesh
     from OCP.TopAbs import TopAbs_FACE
     from OCP.TopExp import TopExp_Explorer
@@ -152,7 +152,7 @@ def carrier_facets(plan: CarrierPlan, chord_error: float) -> Facets:
 
 
 def _of_face(shape: Any) -> tuple[Floats, Wholes]:
-    """Points (n, 3) and triangles (m, 3) of a face, counter-clockwise seen from outside."""
+    """Return the points (n, 3) and triangles (m, 3) of a face, counter-clockwise seen from outside."""
     from OCP.BRep import BRep_Tool
     from OCP.TopAbs import TopAbs_REVERSED
     from OCP.TopLoc import TopLoc_Location
@@ -309,7 +309,7 @@ class CarrierProduct:
         return SolidProduct(self.name, carrier_boundary(self.plan), BRIGHT_STEEL)
 
     def scene(self) -> list[ScenePart]:
-        """The carrier alone, in the middle."""
+        """Return the carrier alone, in the middle."""
         return [ScenePart(name=self.name, facets=self.facets, colour=TRAIN_COLOURS["carrier"][0])]
 
 
@@ -346,11 +346,11 @@ class TrainProduct:
         }
 
     def solid(self) -> AssembledProduct:
-        """All exact solids in their places: see `train_product`."""
+        """Return all exact solids in their places: see `train_product`."""
         return train_product(self.plan)
 
     def scene(self, carrier_angle: float = 0.0, central_turn: float = 0.0) -> list[ScenePart]:
-        """All bodies in their places, what is alike with the same facets; turned as by `PlanetaryTrain.pose` (degrees)."""
+        """Return all bodies in their places, what is alike with the same facets; turned as by `PlanetaryTrain.pose` (degrees)."""
         return list(self._scene(self.plan.turned(carrier_angle, central_turn)))
 
     def other_scene(self) -> list[ScenePart]:
