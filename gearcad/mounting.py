@@ -49,7 +49,9 @@ class Mounting:
         return bool(self.misalignment or self.misalignment_across)
 
     def mounted(self, pair: GearPair) -> GearPair:
-        """Return the pair at the centre distance of this mounting. Raises GeometryError where the gears no longer mesh there."""
+        """Return the pair at the centre distance of this mounting. Raises GeometryError where the gears no
+        longer mesh there.
+        """
         change = self.centre_distance_change
         if not change:
             return pair

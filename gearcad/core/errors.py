@@ -190,7 +190,7 @@ def require_number(
 
 
 def is_finite_number(value: Any) -> bool:
-    """Return whether a value is a number near to some float."""
+    """Return whether a value is a finite number that a float can hold; True and False are none."""
     try:
         return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
     except OverflowError:

@@ -88,9 +88,9 @@ _SETTLED = 0.1
 """Share of a job from which on its own pace tells the time left."""
 
 Progress = Callable[[str, float, float], None]
-"""Called with what is being done, how much of the job is done, and how much there is (0: nobody knows yet).
+"""Function that a job calls to report its progress: the present step, the amount done, and the whole amount (0: not yet known).
 
-Both are in files, rows, steps or seconds expected. What is being done is a step, or a step and more of it: "making, 2 failed".
+Both amounts are in files, rows, steps or expected seconds. The step may have more words: "making, 2 failed".
 """
 
 Share = Callable[[float], None]

@@ -210,7 +210,9 @@ def printed_contact(path: Path, mesh: ElementMesh, flanks: Iterable[str]) -> Pri
 
 
 def _blocks(path: Path) -> Iterator[tuple[str, list[list[float]]]]:
-    """Yield the headings of a .dat, and the lines of numbers below each; words between those of one statistic are passed over."""
+    """Yield the headings of a .dat, and the lines of numbers below each;
+    words between those of one statistic are passed over.
+    """
     heading, rows = "", list[list[float]]()
     with path.open(encoding="latin-1") as lines:
         for text in map(str.strip, lines):

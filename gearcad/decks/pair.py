@@ -188,7 +188,9 @@ class PairDecks(ABC):
         return None if self.solid else self.pair.common_width.width
 
     def tooth(self, role: Role, tooth: int) -> int:
-        """Return the tooth of a gear that has part in our solution's pair of teeth `tooth`, counted counter-clockwise from 0."""
+        """Return the tooth of a gear that has part in our solution's pair of teeth `tooth`,
+        counted counter-clockwise from 0.
+        """
         order = 1 if role is Role.PINION or self.pair.internal else -1
         return order * (1 if self.left else -1) * tooth % self.pair.gears.pick(role).tooth_count
 

@@ -51,7 +51,7 @@ _MINUS_SIGN = "\N{MINUS SIGN}"
 _SIGN_WORDS = {",": "a decimal comma", ".": "a decimal point"}
 
 _MOST_EXACT = 2**53
-"""Whole numbers up to here are all floats, so a spreadsheet's number can be the count that was typed."""
+"""Greatest whole number up to which a float holds every whole number: below it a spreadsheet keeps a count as it was typed."""
 
 _SPREADSHEET_ERROR = re.compile(r"#(?:N/A|NV|[^\W\d_]+(?:/0)?[!?])")
 """#N/A, #REF!, #DIV/0! ..., and what other languages make of them: #NV, #BEZUG!, #NOM?."""
@@ -365,7 +365,9 @@ def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
 
 
 def _key_of_train(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
-    """Return the full key of a heading in a table of trains, whose bare keys are those of [train]; and what is wrong with it."""
+    """Return the full key of a heading in a table of trains, whose bare keys are those of [train];
+    and what is wrong with it.
+    """
     for key in (heading, f"train.{heading}"):
         if TrainKey.of(key) is not None:
             return key, ""

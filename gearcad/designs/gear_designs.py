@@ -42,7 +42,7 @@ class ToothedDesign(Design):
     @classmethod
     @abstractmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
-        """The values of a spec, whose tables are those of this kind. Raises SpecError."""
+        """Return the values of a spec, whose tables are those of this kind. Raises SpecError."""
 
     @property
     def made_of(self) -> tuple[str, ...]:
@@ -55,7 +55,7 @@ class ToothedDesign(Design):
         return None
 
     def to_dict(self) -> JsonObject:
-        """The document of `data.json`: inputs and derived properties under their field names (mm, degrees).
+        """Return the document of `data.json`: inputs and derived properties under their field names (mm, degrees).
 
         "assumed" has the inputs that nobody gave, such as "load.application_factor = 1".
         """
@@ -73,7 +73,7 @@ class ToothedDesign(Design):
 
 
 def _plain(options: DataclassInstance) -> dict[str, Any]:
-    """The fields of a table, without parts that are not there."""
+    """Return the fields of a table, without parts that are not there."""
     absent = [part for part in parts_of(type(options)) if getattr(options, part) is None]
     return {key: value for key, value in asdict(options).items() if key not in absent}
 
@@ -131,7 +131,7 @@ class GearedDesign(ToothedDesign):
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
-        """The values of a spec, whose tables are those of this kind. Raises SpecError."""
+        """Return the values of a spec, whose tables are those of this kind. Raises SpecError."""
         require_tables(tables, where)
         return Spec.of(tables, where)
 
@@ -203,7 +203,7 @@ class RackDesign(ToothedDesign):
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
-        """The values of a spec of [rack], [material], [drawing] and [verify]. Raises SpecError."""
+        """Return the values of a spec of [rack], [material], [drawing] and [verify]. Raises SpecError."""
         require_tables_of_racks(tables, where, DesignKind.RACK, ("material", "drawing", "verify"))
         return Spec.of(tables, where)
 

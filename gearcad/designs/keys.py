@@ -145,7 +145,9 @@ def names_of_materials(*owners: str) -> dict[str, FieldSchema]:
 
 
 def flat_fields(kind: type[DataclassInstance]) -> Iterator[tuple[str, FieldSchema]]:
-    """Yield the keys and fields of a type, those of its parts behind the others, with a dot; `rack` alone is the name of one."""
+    """Yield the keys and fields of a type, those of its parts behind the others, with a dot;
+    `rack` alone is the name of one.
+    """
     parts = {}
     for name, field in schema_of(kind).items():
         if field.part is None:

@@ -55,7 +55,9 @@ class Tables(NamedTuple):
 
 
 def place_tables(tables: Mapping[str, Any], where: Where) -> Tables:
-    """Return the values of a planetary train's tables. Raises SpecError for what it does not have, and for a set that is none."""
+    """Return the values of a planetary train's tables. Raises SpecError for what it does not have,
+    and for a set that is none.
+    """
     _require_known(tables, where)
     main = tables.get(MAIN, {})
     listed = {key: _listed(main, key, where) for key in _LISTED}

@@ -98,7 +98,9 @@ def resolve_tip_alterations(gears: PerGear[GearInputs], shift_sum: float, centre
 
 
 def backlash_free_distance(gears: PerGear[GearInputs], shift_sum: float) -> float:
-    """Centre distance (mm) at which these gears would mesh without backlash; negative with a ring. Raises GeometryError."""
+    """Return the centre distance (mm) at which these gears would mesh without backlash; negative with a ring. Raises
+    GeometryError.
+    """
     return zero_backlash_centre_distance(**_sizes(gears), shift_sum=shift_sum)
 
 
@@ -176,7 +178,7 @@ def _sizes(gears: PerGear[GearInputs]) -> dict[str, Any]:
 
 
 def module_of(gear: GearInputs) -> float:
-    """The normal module, given itself or as a diametral pitch."""
+    """Return the normal module, given itself or as a diametral pitch."""
     module: float | None = gear.get("normal_module")
     return module_of_pitch(gear["normal_diametral_pitch"]) if module is None else module
 
@@ -291,7 +293,9 @@ class Spec:
 
     @classmethod
     def of(cls, tables: Mapping[str, Any], where: Where) -> Self:
-        """Every value under its dotted key, whole numbers turned into floats where floats are meant. Raises SpecError."""
+        """Return every value under its dotted key,
+        whole numbers turned into floats where floats are meant. Raises SpecError.
+        """
         values = {}
         for table, content in tables.items():
             for field, value in _entries(content, PARTS_BESIDE.get(table, _TABLES_OF_GEAR)):
@@ -323,11 +327,11 @@ class Spec:
         return owner, parameter
 
     def _written(self, owner: str, field: str) -> str:
-        """The key under which the user writes, or would write, a field of an owner."""
+        """Return the key under which the user writes, or would write, a field of an owner."""
         return f"{self.names.get(owner, owner)}.{field}"
 
     def _words(self, owner: str) -> tuple[str, ...]:
-        """The owner's words that stand for a profile shift, and for a tip alteration, besides."""
+        """Return the owner's words that stand for a profile shift, and for a tip alteration, besides."""
         if owner not in _ROLES:
             return ()
         return (AUTO, CLEAR) if owner == "wheel" else (AUTO,)
@@ -356,11 +360,13 @@ class Spec:
         return SpecError(text, given.key)
 
     def _shares(self, owner: str) -> bool:
-        """Whether an owner's values may stand in the main table too."""
+        """Return whether an owner's values may stand in the main table too."""
         return owner in _ROLES or (owner == "rack" and any(f"{role}.teeth" in self.values for role in _ROLES))
 
     def _automatic_cause(self, owner: str, field: str) -> str:
-        """A reminder that the profile shift of the gear at fault was derived, and from what, where the fault depends on it."""
+        """Return a reminder that the profile shift of the gear at fault was derived, and from what, where the fault depends on
+        it.
+        """
         shift = self.values.get(f"{owner}.profile_shift")
         if field == "profile_shift" or field not in OF_SHIFT or shift is None or not shift.note:
             return ""
@@ -391,7 +397,7 @@ class Spec:
         return {field for each in given for field in each}
 
     def fields_of(self, owner: str) -> dict[str, Any]:
-        """Values of one table, still flat: `rack.root_radius` is one key."""
+        """Return the values of one table, still flat: `rack.root_radius` is one key."""
         return {key[len(owner) + 1 :]: given.value for key, given in self.values.items() if key.startswith(owner + ".")}
 
     def given_of(self, owner: str) -> dict[str, Given]:
@@ -462,7 +468,7 @@ def _within(part: str) -> Iterator[None]:
 
 
 def _with_parts(values: Mapping[str, Any], kinds: Mapping[str, type[Any]]) -> dict[str, Any]:
-    """The values of a table, those of its parts made into these; none of those of which nothing is given."""
+    """Return the values of a table, those of its parts made into these; none of those of which nothing is given."""
     found = {key: value for key, value in values.items() if "." not in key}
     for part, kind in kinds.items():
         given = {key.removeprefix(f"{part}."): value for key, value in values.items() if key.startswith(f"{part}.")}
@@ -478,7 +484,7 @@ def _missing(fields: Mapping[str, FieldSchema]) -> dict[str, Any]:
 
 
 def _entries(content: Mapping[str, Any], parts: Mapping[str, type[Any] | None]) -> Iterator[tuple[str, Any]]:
-    """Keys and values of one table, those of its parts, such as `rack` and `body`, joined to them with a dot."""
+    """Yield the keys and values of one table, those of its parts, such as `rack` and `body`, joined to them with a dot."""
     for field, value in content.items():
         if field in parts and isinstance(value, Mapping):
             kind = parts[field]
@@ -600,7 +606,7 @@ def _permitted() -> str:
 
 
 def _merged(common: Mapping[str, Given], layers: Sequence[Mapping[str, Given]]) -> dict[str, Given]:
-    """The values of all layers, each in place of those before it."""
+    """Return the values of all layers, each in place of those before it."""
     merged = dict(common)
     for layer in layers:
         if "name" in layer and _grade(layer["name"]) is not None:

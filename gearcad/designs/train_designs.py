@@ -263,7 +263,7 @@ class _Inside:
 
 
 def _of_tables(given: Mapping[str, Any], where: _Inside, mesh: str) -> PairDesign:
-    """Return the keys that stand in no table of their own are those of [pair]."""
+    """Return the pair of a mesh from its tables; keys outside of these tables are those of [pair]."""
     for gear in _GEARS:
         if gear not in given:
             raise SpecError(

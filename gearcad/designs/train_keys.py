@@ -178,7 +178,7 @@ def general_key(key: str) -> str:
 
 
 def explain_unknown_key_of_train(key: str, names: Mapping[str, tuple[str, ...]] | None = None) -> str:
-    """Return the end of the message about a key that no train has, or that this one with parts of these `names` has not."""
+    """Return the end of the message about an unknown key of a train; with `names`, also about a part that this train lacks."""
     table, dot, rest = key.partition(".")
     if rest.startswith(f"{TORQUES}.") and names is not None:
         return _unknown_part("inertia", rest[len(TORQUES) + 1 :], f"{MAIN}.{TORQUES}.{{}}", names)
@@ -259,7 +259,9 @@ def nearest_table(name: str) -> str | None:
 
 
 def explain_unknown_column(heading: str, main: str) -> str:
-    """Return the end of the message about a heading of a design table that is no key; bare keys are those of the table `main`."""
+    """Return the end of the message about a heading of a design table that is no key;
+    bare keys are those of the table `main`.
+    """
     if main == "train":
         return explain_unknown_key_of_train(heading)
     if main == "planetary":

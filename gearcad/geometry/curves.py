@@ -112,7 +112,7 @@ class Fillet(_Cartesian):
         return place
 
     def half_angle(self, radius: ArrayLike) -> Floats:
-        """Half tooth angle (rad) at radii (mm) on the curve."""
+        """Return half tooth angle (rad) at radii (mm) on the curve."""
         angle: Floats = self.half_pitch - self.tool.cut(self.tool.theta_at(radius, self.last))[1]
         return angle
 
@@ -148,7 +148,7 @@ class Involute(_Cartesian):
         return self.base_radius * np.hypot(1.0, roll), angle
 
     def half_angle(self, radius: ArrayLike) -> Floats:
-        """Half tooth angle (rad) at radii (mm) that are not inside the base circle."""
+        """Return half tooth angle (rad) at radii (mm) that are not inside the base circle."""
         radius = np.asarray(radius, float)
         turned = involute_at_roll(np.sqrt((radius - self.base_radius) * (radius + self.base_radius)) / self.base_radius)
         return self.base_half_angle + turned if self.internal else self.base_half_angle - turned
@@ -185,7 +185,7 @@ class WheelArc(_Cartesian):
         return self._angle(s) + math.copysign(math.pi / 2, self.last - self.first)
 
     def half_angle(self, radius: ArrayLike) -> Floats:
-        """Half tooth angle (rad) at radii (mm) on the arc: where two circles meet."""
+        """Return half tooth angle (rad) at radii (mm) on the arc: where two circles meet."""
         radius = np.asarray(radius, float)
         apart = math.hypot(self.x, self.y)
         cosine = (radius**2 + apart**2 - self.radius**2) / (2 * radius * apart)
@@ -194,7 +194,7 @@ class WheelArc(_Cartesian):
         return math.atan2(self.y, self.x) + side * np.arccos(np.clip(cosine, -1.0, 1.0))
 
     def parameter_at(self, radius: ArrayLike) -> Floats:
-        """Parameters s at radii (mm) on the arc."""
+        """Return the parameters s at radii (mm) on the arc."""
         half = self.half_angle(radius)
         angle = np.arctan2(np.asarray(radius) * np.sin(half) - self.y, np.asarray(radius) * np.cos(half) - self.x)
         middle = (self.first + self.last) / 2
@@ -243,7 +243,7 @@ class FilletChain(_Cartesian):
         return heading
 
     def half_angle(self, radius: ArrayLike) -> Floats:
-        """Half tooth angle (rad) at radii (mm) on the curve, along which radii rise (fall on a ring)."""
+        """Return half tooth angle (rad) at radii (mm) on the curve, along which radii rise (fall on a ring)."""
         radius = np.asarray(radius, float)
         ends = [float(piece.polar(1.0)[0]) for piece in self.pieces[:-1]]
         side = 1.0 if float(self.polar(0.0)[0]) < float(self.polar(1.0)[0]) else -1.0
@@ -275,7 +275,7 @@ class Chamfer(_Cartesian):
         return np.hypot(along, run), self.angle - np.arctan2(run, along)
 
     def half_angle(self, radius: ArrayLike) -> Floats:
-        """Half tooth angle (rad) at radii (mm) on the chamfer."""
+        """Return half tooth angle (rad) at radii (mm) on the chamfer."""
         radius, side = np.asarray(radius, float), -1 if self.internal else 1
         run = side * (np.sqrt(2 * radius**2 - self.radius**2) - self.radius) / 2
         angle: Floats = self.angle - np.arctan2(run, self.radius + side * run)

@@ -181,7 +181,9 @@ class ToolTip:
         return half_pitch + np.asarray(self.roll(theta)) - np.pi / 2 + slope
 
     def undercuts(self, base_radius: float, sine: float) -> bool:
-        """Return whether the tip cuts away part of the involute: h > r sin^2 alpha_t; `sine` of the transverse pressure angle."""
+        """Return whether the tip cuts away part of the involute: h > r sin^2 alpha_t;
+        `sine` of the transverse pressure angle.
+        """
         return self.flank_depth > self.reference_radius * sine**2
 
     def form_radius(self, base_radius: float, sine: float) -> float:

@@ -273,7 +273,7 @@ class Gear(GearData):
         return max(float(_peak(depth)), 0.0)
 
     def _premachining_document(self) -> JsonObject:
-        """Inputs of the pre-cutting tool and what it leaves (mm)."""
+        """Return the inputs of the pre-cutting tool and what it leaves (mm)."""
         pre, before = self.premachining, self.precut
         size = "between_balls" if self.internal else "over_balls"
         document = asdict(pre) | {
@@ -320,7 +320,7 @@ class Gear(GearData):
         return True
 
     def to_dict(self) -> JsonObject:
-        """Inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
+        """Return the inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
         parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix", "body")}
         parts["body"]["hub_side"] = self.body.hub_side.value
         parts["modification"] = self.flank_form.to_dict()
@@ -375,7 +375,7 @@ class Half(NamedTuple):
 
 
 def halves(gear: Gear) -> tuple[Half, Half]:
-    """Lower and upper half of a double helical gear.
+    """Return the lower and upper half of a double helical gear.
 
     The upper one is the mirror image of the lower one, turned by the offset. Modifications along the face are those of each
     half.
@@ -420,11 +420,11 @@ class FlankCurve:
     fading: bool = False
 
     def lengths(self, s: Floats) -> Floats:
-        """Roll lengths (mm) whose depth turns the points at s."""
+        """Return the roll lengths (mm) whose depth turns the points at s."""
         return self.first + s * (self.last - self.first)
 
     def turn(self, form: FlankForm, s: ArrayLike, z: ArrayLike, *, left: bool) -> Floats:
-        """Angle (rad) by which the point at s is turned at height z (mm); s and z broadcast."""
+        """Return the angle (rad) by which the point at s is turned at height z (mm); s and z broadcast."""
         s = np.asarray(s, float)
         turn = form.turn(self.lengths(s), z, left=left)
         return turn * s**2 * (3 - 2 * s) if self.fading else turn
@@ -455,13 +455,13 @@ def flank_curves(gear: Gear) -> list[FlankCurve]:
 
 
 def _is_point(curve: Curve) -> bool:
-    """Whether there is nothing of a curve, as of the fillet of a form root with sharp corners."""
+    """Return whether there is nothing of a curve, as of the fillet of a form root with sharp corners."""
     start, end = curve.points(np.array([0.0, 1.0]))
     return math.dist(start, end) < _NOTHING
 
 
 def _root_land_stays(gear: Gear) -> bool:
-    """True if there is some root land at every height when both fillets have turned."""
+    """Return whether there is some root land at every height when both fillets have turned."""
     land = gear.profile.curves[0]
     if land.kind is not CurveKind.ROOT:
         return False
@@ -476,7 +476,8 @@ def _root_land_stays(gear: Gear) -> bool:
 
 
 def middle_section(gear: Gear) -> tuple[Curve, ...]:
-    """Curves of half a tooth in the section at mid face width, not turned by the helix: `profile.curves`, as modified.
+    """Return the curves of half a tooth in the section at mid face width, not turned by the helix: `profile.curves`, as
+    modified.
 
     There lead crowning, end relief, helix modification and twist are nothing, and so both flanks are alike.
     """
@@ -498,7 +499,7 @@ class TurnedCurve:
 
     @classmethod
     def of(cls, gear: Gear, piece: FlankCurve) -> TurnedCurve:
-        """A piece of the left flank at mid face width. Over a piece the depth is a parabola, so three places give it."""
+        """Return a piece of the left flank at mid face width. Over a piece the depth is a parabola, so three places give it."""
         s = np.array([0.0, 0.5, 1.0])
         at = gear.flank_form.turn(piece.lengths(s), gear.half_width / 2)
         slope = at[2] - at[0]

@@ -161,7 +161,7 @@ class GearData(GearSizes[float], ToothedPart):
 
 
 def twist(gear: GearData, height: float = 1.0) -> float:
-    """Angle (rad) by which the section at a height z (mm) is turned: z tan(beta)/r, positive for a right-hand helix.
+    """Return the angle (rad) by which the section at a height z (mm) is turned: z tan(beta)/r, positive for a right-hand helix.
 
     That of 1 mm is the twist rate (rad/mm).
     """
@@ -169,7 +169,9 @@ def twist(gear: GearData, height: float = 1.0) -> float:
 
 
 def height_in_half(gear: GearData, heights: Floats) -> Floats:
-    """Heights z (mm) above the outer end of the half that they are in: halves of double helical gears are mirror images."""
+    """Return the heights z (mm) above the outer end of the half that they are in: halves of double helical gears are mirror
+    images.
+    """
     if not gear.double_helix.present:
         return heights
     below: Floats = np.minimum(heights, gear.face_width - heights)
@@ -177,7 +179,9 @@ def height_in_half(gear: GearData, heights: Floats) -> Floats:
 
 
 def section_turn(gear: GearData, heights: Floats) -> Floats:
-    """Angles (rad) by which sections at heights z (mm) are turned, those of the upper half of a double helical gear too."""
+    """Return the angles (rad) by which sections at heights z (mm) are turned, those of the upper half of a double helical gear
+    too.
+    """
     turned = twist(gear) * height_in_half(gear, heights)
     if not gear.double_helix.offset:
         return turned
@@ -233,7 +237,7 @@ def outer_diameter(ring: GearData) -> float:
 
 
 def least_rim_diameter(gear: GearData) -> float:
-    """Least rim diameter (mm) of a ring, with some wall outside its root circle."""
+    """Return the least rim diameter (mm) of a ring, with some wall outside its root circle."""
     return abs(gear.root_diameter) + 2 * LEAST_RIM * gear.normal_module
 
 

@@ -64,7 +64,7 @@ _FLAT = 'style="width:auto;border-collapse:collapse"'
 
 
 def gear_html(gear: GearData, profile: ToothProfile) -> str:
-    """A picture of the gear from +z, and a table."""
+    """Return a picture of the gear from +z, and a table."""
     written = symbols_of(GearData) | symbols.GEAR
     rows = ((written[name], [getattr(gear, name)]) for name in _looked_up(gear))
     return sheet(gear.name, _svg([_Placed(gear, profile, Pose(0.0, 0.0, 0.0))]), [], rows)
@@ -77,7 +77,7 @@ def pair_html(
     wheel: Pose,
     figures: Iterable[tuple[symbols.Symbol, float]],
 ) -> str:
-    """A picture of the pair in mesh from +z, the wheel at its pose, and a table with figures of the pair."""
+    """Return a picture of the pair in mesh from +z, the wheel at its pose, and a table with figures of the pair."""
     written = symbols_of(GearData) | symbols.GEAR
     rows = [(written[key], [getattr(gear, key) for gear in gears]) for key in _looked_up(*gears)]
     rows += [(symbol, [value]) for symbol, value in figures]
@@ -87,7 +87,7 @@ def pair_html(
 
 
 def _looked_up(*gears: GearData) -> list[str]:
-    """The figures of gears; of a ring the profile shift in the other sign too, as many know it."""
+    """Return the figures of gears; of a ring the profile shift in the other sign too, as many know it."""
     ring = any(gear.internal for gear in gears)
     return [key for name in _OF_GEAR for key in ((name, "profile_shift_khk") if ring and name == "profile_shift" else (name,))]
 
@@ -101,7 +101,7 @@ class _Placed(NamedTuple):
 
 
 def sheet(name: str, picture: str, headings: list[str], rows: Iterable[tuple[symbols.Symbol, list[float | None]]]) -> str:
-    """A picture beside a table of figures, a column for each heading."""
+    """Return a picture beside a table of figures, a column for each heading."""
     columns = len(headings) or 1
     head = "".join(f"<th>{escape(heading)}</th>" for heading in headings)
     lines = [f"<tr><th>{escape(name)}</th><th></th>{head}</tr>"]
@@ -133,7 +133,9 @@ def _svg(placed: list[_Placed]) -> str:
 
 
 def drawing(view: tuple[float, float, float, float], shapes: Callable[[float], str]) -> str:
-    """An SVG of what is in a view (left, top, width, height in mm, y down), whose shapes are drawn for the size of a pixel."""
+    """Return an SVG of what is in a view (left, top, width, height in mm, y down), whose shapes are drawn for the size of a
+    pixel.
+    """
     left, top, width, height = view
     scale = _PIXELS / max(width, height)
     box = f"{left:.6g} {top:.6g} {width:.6g} {height:.6g}"
@@ -144,12 +146,14 @@ def drawing(view: tuple[float, float, float, float], shapes: Callable[[float], s
 
 
 def _outside(gear: GearData) -> float:
-    """Diameter (mm) of what surrounds a gear: its tip circle, or the rim of a ring, which is drawn somewhere if not given."""
+    """Return the diameter (mm) of what surrounds a gear: its tip circle, or the rim of a ring, which is drawn somewhere if not
+    given.
+    """
     return outer_diameter(gear) if gear.internal else gear.tip_diameter
 
 
 def gear_shapes(gear: GearData, profile: ToothProfile, pose: Pose, pixel: float) -> Iterator[str]:
-    """The outline with its bore or rim, and the reference circle; `pixel` is its size (mm)."""
+    """Yield the outline with its bore or rim, and the reference circle; `pixel` is its size (mm)."""
     # Seen at the pinion's z = 0, a helical wheel that begins at another height is turned by then.
     turn = math.radians(pose.rotation) - twist(gear, pose.z)
     cosine, sine = math.cos(turn), math.sin(turn)
@@ -170,7 +174,7 @@ def gear_shapes(gear: GearData, profile: ToothProfile, pose: Pose, pixel: float)
 
 
 def _bolt_holes(gear: GearData, x: float, turn: float) -> str:
-    """The bolt holes of a ring, the first in the middle of tooth 0, as paths; y is down."""
+    """Return the bolt holes of a ring, the first in the middle of tooth 0, as paths; y is down."""
     body = gear.body
     angles = turn + 2 * math.pi / max(body.bolt_holes, 1) * np.arange(body.bolt_holes)
     centres = zip(np.cos(angles).tolist(), np.sin(angles).tolist(), strict=True)
@@ -179,12 +183,12 @@ def _bolt_holes(gear: GearData, x: float, turn: float) -> str:
 
 
 def polygon(points: Floats, pixel: float) -> str:
-    """A closed path, to a tenth of a pixel; y is down in an SVG."""
+    """Return a closed path, to a tenth of a pixel; y is down in an SVG."""
     digits = max(0, 1 - math.floor(math.log10(pixel)))
     return "M" + " ".join(f"{x:.{digits}f},{-y:.{digits}f}" for x, y in points.tolist()) + "Z"
 
 
 def _circle(radius: float, x: float, y: float = 0.0) -> str:
-    """A path, empty for no radius; y is down."""
+    """Return a path, empty for no radius; y is down."""
     arc = f"a{radius:.6g},{radius:.6g} 0 1 0"
     return f"M{x - radius:.6g},{y:.6g}{arc} {2 * radius:.6g},0{arc} {-2 * radius:.6g},0Z" if radius else ""

@@ -21,12 +21,14 @@ _ROUNDING = 1e-14
 
 
 def shaped(gear: GearData) -> bool:
-    """Whether the fillets are those of a cutter's corner, not of a rack: on rings, and where a shaper cutter is named."""
+    """Return whether the fillets are those of a cutter's corner, not of a rack: on rings,
+    and where a shaper cutter is named.
+    """
     return gear.internal or gear.root_cutter.teeth is not None
 
 
 def fillet_tool(gear: GearData) -> FilletTool:
-    """The rounded tip of what cuts the fillets, once the tool is known to be feasible."""
+    """Return the rounded tip of what cuts the fillets, once the tool is known to be feasible."""
     if shaped(gear):
         return shaper_tip(gear, corner_radius(gear))
     if gear.premachining.present:
@@ -45,7 +47,7 @@ def fillet_tool(gear: GearData) -> FilletTool:
 
 
 def tool_pressure_angle(gear: GearData) -> float:
-    """Normal pressure angle (degrees) of the tool: the gear's, or a smaller one of a hob with a short lead.
+    """Return the normal pressure angle (degrees) of the tool: the gear's, or a smaller one of a hob with a short lead.
 
     m_0 cos alpha_n0 = m_n cos alpha_n. Raises GeometryError for a tool that does not cut this pitch.
     """
@@ -219,7 +221,7 @@ def line_of_generation(gear: GearData, teeth: int) -> float:
 
 
 def shaper_tip(gear: GearData, radius: float) -> ShaperTip:
-    """The cutter's corner of a radius in normal modules, as it is set to reach the root circle.
+    """Return the cutter's corner of a radius in normal modules, as it is set to reach the root circle.
 
     Without a cutter that of the ring's own counterpart, which has |z| teeth, the profile shift -x and the ring's axis.
     """
@@ -255,7 +257,7 @@ def _centre_distance(gear: GearData, teeth: int) -> float:
 
 @lru_cache(maxsize=4)
 def full_corner_radius(gear: GearData) -> float:
-    """Largest radius of the corner (in normal modules), where both corners of the cutter's tip meet: psi_M = 0.
+    """Return the largest radius of the corner (in normal modules), where both corners of the cutter's tip meet: psi_M = 0.
 
     Negative where even a sharp cutter's flanks meet before its tip circle, or that lies inside its base circle.
     """
@@ -274,7 +276,9 @@ def full_corner_radius(gear: GearData) -> float:
 
 
 def corner_radius(gear: GearData) -> float:
-    """Radius of the corner in normal modules: the cutter's own, else the rack's or the full one, whichever is smaller."""
+    """Return the radius of the corner in normal modules: the cutter's own, else the rack's or the full one, whichever is
+    smaller.
+    """
     if gear.root_cutter.tip_radius is not None:
         return gear.root_cutter.tip_radius
     full = full_corner_radius(gear)

@@ -73,7 +73,9 @@ class Inspection:
         return (teeth - 1) * self._normal_base_pitch + cosine * across
 
     def span_contact_diameter(self, teeth: int) -> float:
-        """Return the diameter on which the anvils touch: d_y^2 = d_b^2 + (W_k cos beta_b)^2, the anvils placed symmetrically."""
+        """Return the diameter on which the anvils touch: d_y^2 = d_b^2 + (W_k cos beta_b)^2,
+        the anvils placed symmetrically.
+        """
         reach = self.span_measurement(teeth) * math.cos(math.radians(self.base_helix_angle))
         return math.hypot(self.base_diameter, reach)
 
@@ -279,7 +281,9 @@ class InternalInspection(Inspection):
         return math.floor(steps)
 
     def _touching(self, wanted: float) -> float:
-        """Return the pressure angle (rad) where the ball touches: the one wanted, or more where the centre would be too far in."""
+        """Return the pressure angle (rad) where the ball touches: the one wanted,
+        or more where the centre would be too far in.
+        """
         nearest = min(_NEAREST_CENTRE, wanted / 2)
         return max(wanted, math.atan(nearest - self._space_at_base))
 

@@ -53,7 +53,9 @@ def fillet_cut(
 
 
 def tip_edges(profile: ToothProfile) -> tuple[tuple[float, float], ...]:
-    """Edges of a tip: radius (mm) and half tooth angle (rad), where the involute ends and, behind a chamfer, the tip land."""
+    """Return the edges of a tip: radius (mm) and half tooth angle (rad), where the involute ends and, behind a chamfer, the tip
+    land.
+    """
     return (_flank_end(profile), _land_edge(profile)) if profile.tip_chamfer else (_land_edge(profile),)
 
 
@@ -66,7 +68,9 @@ def _land_edge(profile: ToothProfile) -> tuple[float, float]:
 
 
 def deepest_cut(own: ToothProfile, path: EdgePath, farthest: float) -> FilletCut:
-    """The deepest cut of an edge into the fillet of a gear, where the edge is within an angle (rad) of the line of centres."""
+    """Return the deepest cut of an edge into the fillet of a gear, where the edge is within an angle (rad) of the line of
+    centres.
+    """
     low, high = sorted((own.root_diameter / 2, own.form_diameter / 2))
     t = np.linspace(-farthest, farthest, 513)
     for _ in range(2):
@@ -104,7 +108,8 @@ class RollingEdge:
     def of(
         cls, own: ToothProfile, mate: ToothProfile, radius: float, angle: float, distance: float, pressure_angle: float
     ) -> Self | None:
-        """The mate's edge at `radius` (mm) and half tooth `angle` (rad); None if it stays outside the form circle of the gear.
+        """Return the mate's edge at `radius` (mm) and half tooth `angle` (rad); None if it stays outside the form circle of the
+        gear.
 
         At a centre distance (mm) and its working transverse pressure angle (degrees). When the edge is t beyond the line of
         centres, the gear has turned by (t - psi_w,mate + angle) z_mate/z_gear - psi_w,gear, with the half tooth angles psi_w
@@ -119,12 +124,12 @@ class RollingEdge:
         return cls(radius, distance, ratio, (angle - psi_mate) * ratio - psi_own, math.acos(max(cosine, -1.0)))
 
     def path(self, t: Floats) -> tuple[Floats, Floats]:
-        """Radius (mm) about the gear's axis, and the angle beside the middle of its tooth (rad)."""
+        """Return the radius (mm) about the gear's axis, and the angle beside the middle of its tooth (rad)."""
         across, along = self.distance - self.radius * np.cos(t), self.radius * np.sin(t)
         return np.hypot(across, along), np.arctan2(along, across) - (self.start + self.ratio * t)
 
     def stays_off(self, fillet: RootCurve | FilletChain) -> bool:
-        """True if the edge is sure to be clear of the fillet of a gear without undercut.
+        """Return whether the edge is sure to be clear of the fillet of a gear without undercut.
 
         In every step it is at least as far beside the tooth, and the fillet at most as far, as its bounds: A(t) - ratio t is
         concave on the one side, so no less than at the ends; on the other side convex, so above its tangents. The fillet is
@@ -150,7 +155,7 @@ class RollingEdge:
 def _cut_by_edge(
     own: ToothProfile, mate: ToothProfile, radius: float, angle: float, distance: float, pressure_angle: float
 ) -> FilletCut | None:
-    """The cut by the mate's edge at `radius` (mm) and half tooth `angle` (rad); None if it stays off the fillet."""
+    """Return the cut by the mate's edge at `radius` (mm) and half tooth `angle` (rad); None if it stays off the fillet."""
     edge = RollingEdge.of(own, mate, radius, angle, distance, pressure_angle)
     if edge is None or (not own.undercut and edge.stays_off(own.fillet)):
         return None
@@ -305,7 +310,9 @@ class InternalTips:
     # ------------------------------------------------------------------ paths of edges
 
     def in_ring(self, radius: float, angle: float) -> EdgePath:
-        """Path of a point of the pinion, at `radius` and half tooth `angle`, before the ring's flank that it faces."""
+        """Return the path of a point of the pinion, at `radius` and half tooth `angle`,
+        before the ring's flank that it faces.
+        """
         own, mate = self._working_half_angles
 
         def path(t: Floats) -> tuple[Floats, Floats]:
@@ -316,7 +323,9 @@ class InternalTips:
         return path
 
     def in_pinion(self, radius: float, angle: float) -> EdgePath:
-        """Path of a point of the ring, at `radius` and half tooth `angle`, before the pinion's flank that it faces."""
+        """Return the path of a point of the ring, at `radius` and half tooth `angle`,
+        before the pinion's flank that it faces.
+        """
         own, mate = self._working_half_angles
 
         def path(t: Floats) -> tuple[Floats, Floats]:

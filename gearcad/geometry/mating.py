@@ -135,7 +135,9 @@ def _shorter_tip(pair: PairData, margin: Callable[[InternalTips], float]) -> str
 
 
 def _more_teeth(pair: PairData, margin: Callable[[InternalTips], float]) -> int | None:
-    """Return the nearest number of teeth of the ring, negative, whose margin is not; None where it could not be changed alone."""
+    """Return the nearest number of teeth of the ring, negative, whose margin is not;
+    None where it could not be changed alone.
+    """
     if is_given(pair.centre_distance) or is_given(pair.wheel.tip_diameter):
         return None
     clear = _is_clear(pair)
@@ -485,7 +487,9 @@ def _check_path(pair: PairData) -> None:
 
 
 def _nearest_to_ring(pair: PairData) -> float:
-    """Return the centre distance (mm, negative) in a ring at which the path of contact vanishes; infinite where it never does."""
+    """Return the centre distance (mm, negative) in a ring at which the path of contact vanishes;
+    infinite where it never does.
+    """
     reach = sum(tangent_length(gear.tip_form_diameter, gear.base_diameter) for gear in pair.gears)
     bases = sum(gear.base_diameter for gear in pair.gears) / 2
     return -math.hypot(bases, reach) if reach < 0 else math.inf

@@ -170,7 +170,9 @@ def split_profile_shift(
 
 
 def farthest_centre_distance(base_diameters: PerGear[float], tip_diameters: PerGear[float]) -> float:
-    """Return the centre distance (mm) at which the path of contact vanishes: both tip form circles meet on the line of action."""
+    """Return the centre distance (mm) at which the path of contact vanishes:
+    both tip form circles meet on the line of action.
+    """
     tangents = PerGear.each(lambda role: tangent_length(tip_diameters.pick(role), base_diameters.pick(role)))
     return math.hypot(sum(base_diameters) / 2, sum(tangents))
 

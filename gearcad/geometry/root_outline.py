@@ -33,14 +33,14 @@ class FlankInvolute(NamedTuple):
     internal: bool = False
 
     def half_angle(self, radius: Floats | float) -> Floats:
-        """Half tooth angle (rad) at radii (mm); inside the base circle that of the base circle."""
+        """Return half tooth angle (rad) at radii (mm); inside the base circle that of the base circle."""
         clipped = np.maximum(np.asarray(radius, float), self.base_radius)
         turned = involute_at_roll(np.sqrt((clipped - self.base_radius) * (clipped + self.base_radius)) / self.base_radius)
         angle: Floats = self.base_half_angle + turned if self.internal else self.base_half_angle - turned
         return angle
 
     def roll(self, radius: float) -> float:
-        """Roll angle (rad) at a radius (mm)."""
+        """Return the roll angle (rad) at a radius (mm)."""
         return math.sqrt(max((radius - self.base_radius) * (radius + self.base_radius), 0.0)) / self.base_radius
 
     def piece(self, first: float, last: float) -> Involute:

@@ -280,7 +280,9 @@ def _of_train(design: PlanetaryDesign) -> TrainStrength:
 
 
 def strength_in_study(design: PlanetaryDesign, study: PlanetaryStudy) -> TrainStrength:
-    """Return the rating of a train, of its study. Raises ParameterError without a load, SolverError where the study has none."""
+    """Return the rating of a train, of its study. Raises ParameterError without a load,
+    SolverError where the study has none.
+    """
     design.loaded(_NO_LOAD)
     if study.rating is None:
         raise SolverError(f"{design.name} is not rated: {study.why_not['rating']}")

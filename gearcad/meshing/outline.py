@@ -37,7 +37,9 @@ class Grading:
         return float(self.passed[-1])
 
     def ends(self, count: int) -> Floats:
-        """Parameters (count + 1,) of the ends of so many edges, all longer or shorter than wanted by the same factor."""
+        """Return the parameters (count + 1,) of the ends of so many edges, all longer or shorter than wanted by the same
+        factor.
+        """
         return np.interp(np.linspace(0.0, self.edges, count + 1), self.passed, self.s)
 
     def with_middles(self, count: int) -> Floats:
@@ -87,19 +89,19 @@ class HalfLengths:
     halved: bool = False
 
     def parts(self, curve: Curve) -> list[tuple[float, float]]:
-        """Parameters of the ends of the parts of a curve that have edges of their own."""
+        """Return the parameters of the ends of the parts of a curve that have edges of their own."""
         if isinstance(curve, FilletChain):
             return list(pairwise((0.0, *curve.breaks, 1.0)))
         return list(pairwise((0.0, *(self.breaks if curve.kind is CurveKind.INVOLUTE else ()), 1.0)))
 
     def graded(self, curve: Curve, first: float = 0.0, last: float = 1.0) -> Grading:
-        """A curve, or a part of it, with edges of these lengths."""
+        """Return a curve, or a part of it, with edges of these lengths."""
         length, before = self.curves[curve.kind], _measured(curve, first)
         return graded(curve.points, lambda run, whole: length(before + run, before + whole), first, last)
 
 
 def _measured(curve: Curve, last: float) -> float:
-    """Length (mm) of a curve up to a parameter."""
+    """Return the length (mm) of a curve up to a parameter."""
     if last == 0:
         return 0.0
     return float(np.hypot(*np.diff(curve.points(np.linspace(0.0, last, _FINE)), axis=0).T).sum())
@@ -178,7 +180,7 @@ class MeshSizes:
         return replace(self, flank=0.4, corner=0.4, fillet=0.3, outline=0.5)
 
     def refined(self, factor: float) -> MeshSizes:
-        """All sizes smaller by `factor`; away from them edges grow as fast as before."""
+        """Return all sizes smaller by `factor`; away from them edges grow as fast as before."""
         return replace(self.scaled(factor), growth=self.growth)
 
     def scaled(self, factor: float) -> MeshSizes:
@@ -207,11 +209,11 @@ class Stretch:
         return self.points[1::2]
 
     def backwards(self, side: OutlineSide | None = None) -> Stretch:
-        """The same stretch run through from its end."""
+        """Return the same stretch run through from its end."""
         return Stretch(side or self.side, self.points[::-1])
 
     def mirrored(self, side: OutlineSide) -> Stretch:
-        """The mirror image about the x axis."""
+        """Return the mirror image about the x axis."""
         return Stretch(side, self.points * np.array([1.0, -1.0]))
 
 
@@ -231,7 +233,7 @@ def require_fillet(gear: Gear) -> None:
 def sector_outline(
     gear: Gear, held_radius: float, sizes: MeshSizes, left: HalfLengths | None = None, right: HalfLengths | None = None
 ) -> list[Stretch]:
-    """The closed outline of tooth 0 and its share of the body up to `held_radius` (mm), in the order of `SectorSides`.
+    """Return the closed outline of tooth 0 and its share of the body up to `held_radius` (mm), in the order of `SectorSides`.
 
     Halves without edge lengths of their own have those of `sizes`: the left one those of the loaded flank. Both cuts have the
     same nodes, whatever the lengths on the teeth, so that sectors fit together. Raises GeometryError for a tooth without a
@@ -271,7 +273,7 @@ _SIDES = {
 
 
 def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> HalfLengths:
-    """The wanted edge lengths on the curves of half a tooth."""
+    """Return the wanted edge lengths on the curves of half a tooth."""
     module, grow = gear.normal_module, sizes.growth
     fillet, other = sizes.fillet * module, sizes.outline * module
     bent = min(fillet, max(_half_fillet(gear), _SHORTEST_HALF * module)) if gear.internal else fillet
@@ -291,17 +293,17 @@ def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> HalfLengths:
 
 
 def _half_fillet(gear: Gear) -> float:
-    """Half the length (mm) of a fillet."""
+    """Return half the length (mm) of a fillet."""
     return _measured(gear.profile.fillet, 1.0) / 2
 
 
 def _half_tooth(gear: Gear, lengths: HalfLengths) -> list[Stretch]:
-    """Stretches of the left half, from the middle of the space to the middle of the tooth."""
+    """Return the stretches of the left half, from the middle of the space to the middle of the tooth."""
     return [_stretch(curve, lengths, *part) for curve in gear.profile.joined_curves for part in lengths.parts(curve)]
 
 
 def _stretch(curve: Curve, lengths: HalfLengths, first: float, last: float) -> Stretch:
-    """A part of a curve with edges of the wanted lengths."""
+    """Return a part of a curve with edges of the wanted lengths."""
     grading = lengths.graded(curve, first, last)
     edges = max(1, math.ceil(grading.edges - 1e-9))
     s = grading.with_middles(edges) if lengths.halved else grading.ends(2 * edges)
@@ -309,7 +311,7 @@ def _stretch(curve: Curve, lengths: HalfLengths, first: float, last: float) -> S
 
 
 def _cut(root: float, held: float, angle: float, sizes: MeshSizes, module: float) -> Stretch:
-    """The radial cut from the root circle to the held one, edges growing up to the rim's."""
+    """Return the radial cut from the root circle to the held one, edges growing up to the rim's."""
     direction = np.array([math.cos(angle), math.sin(angle)])
     rim, cut = sizes.rim * module, sizes.cut * module
 
@@ -322,7 +324,7 @@ def _cut(root: float, held: float, angle: float, sizes: MeshSizes, module: float
 
 
 def _arc(radius: float, half_angle: float, size: float) -> Stretch:
-    """The held circle from plus to minus half a pitch."""
+    """Return the held circle from plus to minus half a pitch."""
     edges = max(1, math.ceil(2 * half_angle * radius / size))
     angles = np.linspace(half_angle, -half_angle, 2 * edges + 1)
     return Stretch(OutlineSide.HELD, radius * np.stack([np.cos(angles), np.sin(angles)], -1))
@@ -365,7 +367,7 @@ class _Sampled:
 
 
 def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None, *, whole: bool = False) -> HalfLengths:
-    """The lengths that `sizes` ask for, shorter where `fillet_turn` and `deviation` want it, and where `near` does.
+    """Return the wanted edge lengths on half a tooth: those of `sizes`, made shorter by `fillet_turn`, `deviation` and `near`.
 
     Over the whole half of the tooth they grow no faster than `growth`. Edges end where reliefs begin, and none of the flank is
     longer than a relief. With `whole` none is longer than its curve, however short a land is: triangles need neighbours of
@@ -397,7 +399,9 @@ def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None, 
 
 
 def _breaks(gear: Gear, s: Floats, run: Floats, wanted: Floats) -> list[float]:
-    """Parameters of the involute where reliefs begin, but for those so near to others or an end that an edge would be tiny."""
+    """Return the parameters of the involute where reliefs begin, but for those so near to others or an end that an edge would
+    be tiny.
+    """
     form, kept, before = gear.flank_form, list[float](), 0.0
     for roll in form.roll_breaks:
         place = (roll - form.first) / (form.last - form.first)
@@ -409,7 +413,7 @@ def _breaks(gear: Gear, s: Floats, run: Floats, wanted: Floats) -> list[float]:
 
 
 def _gentle(run: Floats, length: Floats, growth: float) -> Floats:
-    """Lengths (n,) along a line that nowhere grow faster than by `growth` times the distance."""
+    """Return the lengths (n,) along a line that nowhere grow faster than by `growth` times the distance."""
     ahead = run * growth + np.minimum.accumulate(length - run * growth)
     back = (length + run * growth)[::-1]
     result: Floats = np.minimum(ahead, np.minimum.accumulate(back)[::-1] - run * growth)
@@ -482,7 +486,7 @@ _HELD_LEAST = 0.3
 
 
 def held_radius(gear: Gear) -> float:
-    """Radius (mm) of the bore or, without one, 4 m_n below the root circle: what lies deeper hardly bends.
+    """Return the radius (mm) of the bore or, without one, 4 m_n below the root circle: what lies deeper hardly bends.
 
     Of a ring that of the rim or, without one, 3.5 m_n outside the root circle, where it is as good as a solid body.
     """
@@ -492,6 +496,6 @@ def held_radius(gear: Gear) -> float:
 
 
 def rim_radius(gear: Gear) -> float:
-    """Radius (mm) 4 m_n below the root circle of an external gear."""
+    """Return the radius (mm) 4 m_n below the root circle of an external gear."""
     root = gear.root_diameter / 2
     return max(root - _RIM * gear.normal_module, _HELD_LEAST * root)

@@ -189,7 +189,7 @@ class MeshResult(Pictured):
 
     @property
     def verdict(self) -> str:
-        """The gates in a word."""
+        """The verdict of all gates in one word."""
         return "passed" if self.passed else "failed"
 
 

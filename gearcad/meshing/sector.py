@@ -280,7 +280,9 @@ class SweptMesh:
         return self._stack.elements(quads, layer)
 
     def side_faces(self, edges: Wholes, layer: int) -> Wholes:
-        """Return the faces (n, 8) of a layer over edges (n, 3) of the section - end, end, middle - seen with the sweep upwards."""
+        """Return the faces (n, 8) of a layer over edges (n, 3) of the section - end, end,
+        middle - seen with the sweep upwards.
+        """
         first, second, middle = edges.T
         low, high, half = self._stack.plane(layer), self._stack.plane(layer + 1), self._stack.middle(layer)
         corners = [first + low, second + low, second + high, first + high]

@@ -56,7 +56,7 @@ class Fault(NamedTuple):
 
 
 class DesignStatus(Enum):
-    """What the last good design of a workbench is to the present inputs: theirs, that of earlier inputs, or of another spec."""
+    """Relation of the last good design to the present inputs: made from them, from earlier ones, or from another spec."""
 
     PRESENT = "present"
     LAST_GOOD = "last good"

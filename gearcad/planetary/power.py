@@ -122,7 +122,9 @@ def rolling_power(train: TrainData, torques: Mapping[str, float], speeds: Mappin
 
 
 def locking_efficiency(train: TrainData) -> float:
-    """Return the efficiency of a mesh up to which the set cannot be driven by a central to turn the carrier; 0: it always can."""
+    """Return the efficiency of a mesh up to which the set cannot be driven by a central to turn the carrier; 0:
+    it always can.
+    """
     of_a, of_b, _ = willis_row(train).values()
     ratio = -of_b / of_a
     return math.sqrt(min(ratio, 1 / ratio)) if ratio > 0 else 0.0

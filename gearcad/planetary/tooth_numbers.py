@@ -540,7 +540,9 @@ def _whole_involutes(sets: ManySets) -> Bools:
 
 
 def _meshing(sets: ManySets) -> Bools:
-    """Return a contact ratio of 1 or more between the tips, all of it on involutes, and no tips that foul each other in a ring."""
+    """Return a contact ratio of 1 or more between the tips, all of it on involutes,
+    and no tips that foul each other in a ring.
+    """
     sizes, good = sets.sizes, np.ones(len(sets.planets), bool)
     parts = zip(sizes.meshes, sizes.rim_tips, sizes.central_tips, sizes.rim_shifts, sizes.central_shifts, strict=True)
     for mesh, rim_tip, central_tip, rim_shift, central_shift in parts:

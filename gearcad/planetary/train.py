@@ -259,7 +259,9 @@ def check_teeth(train: TrainData) -> None:
 
 
 def first_misfit(train: TrainData) -> tuple[float, str] | None:
-    """Return the angle (degrees) of the first planet whose teeth miss their spaces, and in words by how much; None if all fit."""
+    """Return the angle (degrees) of the first planet whose teeth miss their spaces, and in words by how much;
+    None if all fit.
+    """
     for number, (angle, misfit) in enumerate(zip(train.angles, assembled(train).misfits, strict=True), start=1):
         if abs(misfit) > MISFIT:
             return angle, f"planet {number} at {angle:.7g} deg is {abs(misfit):.4g} pitches off in {train.meshes[0].name}"

@@ -296,7 +296,9 @@ def plot_contact_zone(result: PlaneCheck, ax: Axes | None = None) -> Axes:
 
 
 def _plot_field(result: PlaneCheck, ax: Axes | None, reach: float, most: float, names: PerGear[tuple[float, float]]) -> Axes:
-    """Return the fields within `reach` (mm) of the contact, colours up to `most` (MPa), the gears' names at parts of the axes."""
+    """Return the fields within `reach` (mm) of the contact, colours up to `most` (MPa),
+    the gears' names at parts of the axes.
+    """
     axes, stress = new_figure().subplots() if ax is None else ax, result.stress_field
     for field in stress.fields:
         drawn = axes.tripcolor(
@@ -405,7 +407,9 @@ _MARKERS = ("o", "s", "^")
 
 
 def plot_sweep_pressure(result: CheckResult, ax: Axes | None = None) -> Axes:
-    """Draw the greatest contact pressure over torque, beside the square root that Hertz has for a load shared in the same way."""
+    """Draw the greatest contact pressure over torque,
+    beside the square root that Hertz has for a load shared in the same way.
+    """
     axes = prepared(ax, _TORQUE, "peak pressure in MPa")
     torques, pressures = _swept(result, "contact_pressure")
     fine = np.linspace(0, torques[-1], 100)

@@ -129,7 +129,9 @@ class _Window(NamedTuple):
 
 
 def _close(history: TimeHistory) -> _Window:
-    """Return the last tooth meshes; where the mesh does not vary the first vibrations, for nothing is left of them in the end."""
+    """Return the last tooth meshes; where the mesh does not vary the first vibrations,
+    for nothing is left of them in the end.
+    """
     constant = history.model.zone is EngagedPairs.ONE_PAIR
     frequency = history.model.natural_frequency() if constant else history.model.tooth_frequency(history.speed)
     if not frequency:

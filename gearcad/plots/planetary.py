@@ -264,7 +264,9 @@ def lever_places(train: PlanetaryTrain) -> dict[str, float]:
 
 
 def plot_ladder(train: PlanetaryTrain, speeds: Mapping[str, float], planet: float, unit: str, ax: Axes | None = None) -> Axes:
-    """Draw the speeds of members by name and of a planet, in a unit: rungs from standstill to the line that all of them are on."""
+    """Draw the speeds of members by name and of a planet, in a unit:
+    rungs from standstill to the line that all of them are on.
+    """
     axes = prepared(new_figure().subplots() if ax is None else ax, f"speed in {unit}", "")
     places = lever_places(train)
     found = {name: speeds[name] for name in train.members} | {"planets": planet}
@@ -333,7 +335,9 @@ def plot_phases(
     stiffness: Mapping[str, PlanetMeshStiffness] | None = None,
     figure: Figure | None = None,
 ) -> Figure:
-    """Draw a column for each mesh over one base pitch: dots where planets meet the pitch point, below the sum of stiffnesses."""
+    """Draw a column for each mesh over one base pitch: dots where planets meet the pitch point,
+    below the sum of stiffnesses.
+    """
     of = new_figure(phases_inches(train, stiffness)) if figure is None else figure
     rows = 0.6 + 0.17 * min(train.planets, _NAMED)
     heights = [rows, 2.0] if stiffness else [rows]

@@ -233,7 +233,9 @@ def plot_course(study: TrainStudy, figure: Figure | None = None) -> Figure:
 
 
 def _repeated(turn: Floats, values: Floats) -> tuple[Floats, Floats]:
-    """Return some tooth periods of the course that repeats after `turn`, closed."""
+    """Return turns and values over several tooth periods of a curve with the period `turn`, with its first point again at the
+    end.
+    """
     step = float(turn[1] - turn[0])
     times = math.ceil(_LEAST_TEETH / (step * len(turn)))
     count = min(times * len(turn), round(_MOST_TEETH / step)) + 1

@@ -150,7 +150,9 @@ def _hint(asked: str, headings: Sequence[str]) -> str:
 
 
 def _near(asked: str, headings: Sequence[str]) -> list[str]:
-    """Return the headings with the symbol that was asked for, or that contain it, are spelt alike, or have most of its words."""
+    """Return the headings with the symbol that was asked for, or that contain it, are spelt alike,
+    or have most of its words.
+    """
     last = asked.rpartition(".")[2]
     written = {heading: found[1].symbol for heading in headings if (found := column_symbol(heading)) is not None}
     if near := [heading for heading, symbol in written.items() if symbol and _spelt(symbol) == _spelt(asked)]:

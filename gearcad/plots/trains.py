@@ -232,7 +232,9 @@ def energies_inches(modes: NaturalModes) -> tuple[float, float]:
 
 
 def plot_energies(modes: NaturalModes, figure: Figure | None = None) -> Figure:
-    """Draw the shares of the parts in the kinetic energy of every mode, on the left, and in the potential energy, on the right."""
+    """Draw the shares of the parts in the kinetic energy of every mode, on the left,
+    and in the potential energy, on the right.
+    """
     of = new_figure(energies_inches(modes)) if figure is None else figure
     left, right = of.subplots(1, 2, sharey=True)
     kinetic = [("inertia", modes.inertias, modes.kinetic_inertias), ("shaft", modes.shafts, modes.kinetic_shafts)]

@@ -268,7 +268,7 @@ _MEAN_STRESS_CAST_STEEL = (0.4, 0.6)
 
 
 def mean_stress_factor(stress_ratio: Values, sensitivity: Values) -> Values:
-    """Y_M = 1/(1 - R (1 - M)/(1 + M)) (B.2): R is least over greatest stress at the root, and counts up to 0, one way."""
+    """Y_M = 1/(1 - R (1 - M)/(1 + M)) (B.2); R is the least over the greatest root stress, taken as 0 where it is positive."""
     return 1 / (1 - bounded(stress_ratio, -1e9, 0) * (1 - sensitivity) / (1 + sensitivity))
 
 

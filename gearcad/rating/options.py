@@ -299,7 +299,8 @@ class RatingOptions(LubricantOptions, LoadFactorOptions, DutyOptions, _Standards
     """The `standard`, the `accuracy_grade` of both gears in an edition of ISO 1328-1 (`accuracy`), and all else of a rating.
 
     The grade decides on K_v and, from grade 4 on, on the root stress of deep teeth; a gear may have its own. What stands for
-    both gears as a number may be a list [pinion, wheel]. Raises ParameterError, and GeometryError for an oil that no oil is.
+    both gears as a number may be a list [pinion, wheel]. Raises ParameterError, and GeometryError for an oil with impossible
+    properties.
     """
 
     __repr__ = concise
@@ -320,7 +321,7 @@ class RatingOptions(LubricantOptions, LoadFactorOptions, DutyOptions, _Standards
 
     @property
     def given_compensation(self) -> float | None:
-        """Compensation of the deflection (µm) by a proven contact pattern: a given f_ma by DIN 3990-1:1987; else None.
+        """Deflection (µm) that a proven contact pattern compensates: by DIN 3990-1:1987 the given f_ma; else None.
 
         ISO 6336-1 takes the helix slope deviation of grade 5 (53), and so does DIN 3990-1 here where no f_ma is given.
         """

@@ -55,7 +55,7 @@ class FormulaRoot:
         )
 
     def to_dict(self) -> dict[str, float]:
-        """Values under their symbols."""
+        """Return the values under their symbols."""
         return {
             "rho_fPv": self.tool_radius,
             "s_Fn": self.section.chord,
@@ -132,7 +132,7 @@ class RootRating(Generic[Values]):
         }
 
     def to_dict(self) -> dict[str, Any]:
-        """Values under their symbols."""
+        """Return the values under their symbols."""
         beside: dict[str, Any] = {} if self.formula is None else {"formula": self.formula.to_dict()}
         if self.notch is not None:
             beside["grinding_notch"] = {

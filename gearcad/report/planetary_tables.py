@@ -138,7 +138,10 @@ _NONE = "–"  # an en dash where there is no value
 
 
 def speed_table(train: PlanetaryTrain, speeds: Speeds, flow: PowerFlow | None, unit: str) -> WordTable:
-    """Members, shafts of stages and planets: what each is, its speed, and what acts on it from outside; no speeds at rest."""
+    """Return the table of members, shafts of stages and planets: kind, speed and outer torque of each.
+
+    At rest it has no speeds.
+    """
     rests = not any(speeds.members.values())
 
     def turned(value: float) -> str:

@@ -324,7 +324,7 @@ class _Keeper:
 
 
 def _search_first(rated: list[Rated], key: Callable[[Rated], Floats]) -> list[Rated]:
-    """The one whose key is least, of all; none of none."""
+    """Return the variant with the least key as a list of one; an empty list if there is no variant."""
     some = [each.picked([int(np.lexsort((each.order, key(each)))[0])]) for each in rated if len(each.order)]
     if not some:
         return []

@@ -134,7 +134,9 @@ def stage_keys(train: PlanetaryTrain) -> list[PerGear[str]]:
 
 
 def train_bodies(train: PlanetaryTrain) -> dict[str, TrainBody]:
-    """Return the gears of a train by their keys: centrals, rims, pinion and wheel of each stage, no two of one name or colour."""
+    """Return the gears of a train by their keys: centrals, rims, pinion and wheel of each stage,
+    no two of one name or colour.
+    """
     gears = {central.name: central.gear for central in train.centrals} | {rim.name: rim.gear for rim in train.rims}
     for stage, keys in zip(train.stages, stage_keys(train), strict=True):
         gears |= {keys.pick(role): gear for role, gear in stage.pair.gears.items()}

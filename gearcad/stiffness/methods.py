@@ -87,7 +87,7 @@ def compare_methods(
     positions: int = 0,
     progress: Progress | None = None,
 ) -> StiffnessComparison:
-    """Mesh stiffness of a pair by several methods: their names, or methods that are made already.
+    """Return the mesh stiffness of a pair by several methods, given by their names or as StiffnessMethod objects.
 
     A method that cannot treat the pair is left out with its reason; if none can, the first reason is raised. Raises
     GeometryError at once for a double helical pair.

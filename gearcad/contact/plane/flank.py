@@ -92,7 +92,9 @@ class PlaneFlank(LoadedFlank):
     lengths: Floats
 
     def arc(self, lengths: Floats) -> Floats:
-        """Return the arc length along the involute (mm) from the base circle, which rises towards the tip: rho |rho|/(2 r_b)."""
+        """Return the arc length along the involute (mm) from the base circle, which rises towards the tip:
+        rho |rho|/(2 r_b).
+        """
         result: Floats = np.copysign(lengths**2, lengths) / (2 * self.base_radius)
         return result
 
@@ -317,7 +319,9 @@ def _boundary_edges(triangles: Wholes) -> Wholes:
 
 
 def _traction_forces(mesh: SectorMesh, edges: Wholes, loads_at: Floats, inward: Floats) -> Floats:
-    """Return the nodal forces (2 n, m) of the tractions of Flamant's fields on the edges, each by the load at a point (m, 2)."""
+    """Return the nodal forces (2 n, m) of the tractions of Flamant's fields on the edges,
+    each by the load at a point (m, 2).
+    """
     places, weight = quadrature("line3", _ALONG)
     shape, slope = (
         np.ascontiguousarray(each.T) for each in (shape_values("line3", places), shape_slopes("line3", places)[:, 0])
@@ -440,7 +444,9 @@ class Fillets:
         return self._stresses(moved, body.hub_forces)
 
     def _by_key(self, side: OutlineSide) -> Floats:
-        """Return the stresses (teeth, points) of a side by a torque of 1 (N mm per mm) from the key, less that from all round."""
+        """Return the stresses (teeth, points) of a side by a torque of 1 (N mm per mm) from the key,
+        less that from all round.
+        """
         ring = self.body.ring
         if ring.support.hold is not Hold.KEY:
             return np.zeros((1, 1))

@@ -113,7 +113,9 @@ def solve_contact(
 
 
 def _middles(pairs: tuple[ContactPair, ...]) -> Bools:
-    """Return the cells (n,) in the middle third of what is around the least gap of each pair: half widths of windows of three."""
+    """Return the cells (n,) in the middle third of what is around the least gap of each pair:
+    half widths of windows of three.
+    """
     places = [pair.cells.place for pair in pairs]
     away = [np.abs(place - place[pair.cells.gap.argmin()]) for place, pair in zip(places, pairs, strict=True)]
     return np.concatenate([each <= each.max() / 3 for each in away])

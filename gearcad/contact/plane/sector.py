@@ -324,7 +324,9 @@ def rigid_motions(points: Floats) -> Floats:
 
 
 def _on_bore(mesh: SectorMesh, half: float) -> Floats:
-    """Return the nodal forces (2 n, 3) by rigid motions' parts along the bore, as tractions up to `half` (rad) from its middle."""
+    """Return the nodal forces (2 n, 3) by rigid motions' parts along the bore,
+    as tractions up to `half` (rad) from its middle.
+    """
     edges = edges_of_chain(mesh.sides[OutlineSide.HELD])
     part, weight = quadrature("line3", _ALONG)
     s = (np.arange(_PARTS)[:, None] + part[:, 0]).reshape(-1, 1) / _PARTS

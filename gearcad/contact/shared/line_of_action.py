@@ -27,8 +27,8 @@ def gears_loaded_left(pair: GearPair) -> PerGear[Gear]:
     """Return both gears of a pair whose pinion's left flanks carry. The pinion presses on flanks of a ring with y < 0, so a
     ring is mirrored.
 
-    Then its teeth, too, follow each other the other way round than the pinion's, and its hand is the opposite one. Known for
-    the last pairs: every position asks for it again.
+    Then its teeth, too, follow each other the other way round than the pinion's, and its hand is the opposite one. The
+    result is cached, because every position asks for it.
     """
     return PerGear(pair.pinion, mirrored(pair.wheel) if pair.internal else pair.wheel)
 

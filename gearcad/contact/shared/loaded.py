@@ -29,7 +29,9 @@ TOOTH_ORDER = PerGear(1, -1)
 
 
 def roll_lengths(radii: Floats, base_radius: float) -> Floats:
-    """Return the roll lengths (mm) of an involute at radii (n,) in mm: from the base tangent point, 0 inside the base circle."""
+    """Return the roll lengths (mm) of an involute at radii (n,) in mm: from the base tangent point,
+    0 inside the base circle.
+    """
     result: Floats = np.sqrt(np.maximum((radii - base_radius) * (radii + base_radius), 0))
     return result
 

@@ -160,7 +160,9 @@ class Forward(NamedTuple):
     top: tuple[Floats, Floats]
 
     def dot(self, other: Forward) -> tuple[Floats, Floats]:
-        """Return the sums over all fronts of products, even and odd (n, m): of loads (n) with displacements by the others (m)."""
+        """Return the sums over all fronts of products, even and odd (n, m):
+        of loads (n) with displacements by the others (m).
+        """
         result = []
         for parity in (0, 1):
             total = self.top[parity].T @ other.top[parity]
@@ -221,7 +223,7 @@ class _Orbits:
         return places
 
     def gathered(self, left: Floats, parity: int) -> Floats:
-        """Return the loads (3 k, m) at the nodes that stand, from loads (n, 3, m) at those on top."""
+        """Return the loads (3 k, m) at the nodes of `every` from loads (n, 3, m) at those on top."""
         right = left[np.searchsorted(self.top, self.every)]
         right[self.places[self.moved]] += PARITIES[parity] * TURNED[:, None] * left[np.searchsorted(self.top, self.moved)]
         result: Floats = np.ascontiguousarray(right).reshape(-1, left.shape[-1])
@@ -229,7 +231,7 @@ class _Orbits:
         return result
 
     def scattered(self, moved: Floats, parity: int) -> Floats:
-        """Return the displacements (n, 3, ...) of the nodes on top, from those (k, 3, ...) of the nodes that stand."""
+        """Return the displacements (n, 3, ...) of the nodes on top from those (k, 3, ...) of `every`."""
         spread = np.zeros((len(self.top), *moved.shape[1:]))
         spread[np.searchsorted(self.top, self.every)] = moved
         turned = (PARITIES[parity] * TURNED).reshape(-1, *[1] * (moved.ndim - 2))

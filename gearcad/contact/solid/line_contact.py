@@ -127,8 +127,8 @@ def contact_lines(
 
 
 class _Overlap(NamedTuple):
-    """Roll lengths (n,) of both flanks that touch, between which places (n,) along the tangent they face each other (mm), and
-    whether they do.
+    """Roll lengths (n,) of both flanks that touch (mm); they face each other from `low` to `high` (n,) along the tangent (mm)
+    if `usable`.
     """
 
     touching: PerGear[Floats]

@@ -138,7 +138,7 @@ class SolidSizes:
     fewest_layers: int = 6
 
     def layers(self, gear: Gear) -> int:
-        """Layers of elements over the face width."""
+        """Return the layers of elements over the face width."""
         return max(self.fewest_layers, round(gear.face_width / (self.layer * gear.normal_module)))
 
     def section_of(self, gear: Gear) -> MeshSizes:
@@ -149,7 +149,7 @@ class SolidSizes:
         return replace(self.section, fillet=self.section.fillet * min(longest / _SECTION.fillet, 1.0))
 
     def refined(self, factor: float) -> SolidSizes:
-        """All edges shorter by `factor`."""
+        """Return all edges shorter by `factor`."""
         return SolidSizes(
             section=self.section.scaled(factor),
             layer=self.layer / factor,
@@ -158,7 +158,7 @@ class SolidSizes:
 
 
 def _least_fillet_radius(gear: Gear) -> float:
-    """Least radius of curvature (mm) of a fillet in the transverse section."""
+    """Return the least radius of curvature (mm) of a fillet in the transverse section."""
     s, least = np.linspace(0.0, 1.0, 257), math.inf
     for piece in gear.profile.curves:
         if piece.kind is CurveKind.FILLET:
@@ -254,7 +254,7 @@ class SolidPair(FlexiblePair[SolidCompliance]):
         return found
 
     def solve(self, roll_angle: float, torque: float, *, single: bool = False) -> LineSolution:
-        """The contact at a roll angle (deg) and torque (N·m); `single` lets no other pair of teeth touch.
+        """Return the contact at a roll angle (deg) and torque (N·m); `single` lets no other pair of teeth touch.
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
@@ -290,11 +290,15 @@ class SolidPair(FlexiblePair[SolidCompliance]):
                 )
 
     def farthest(self, torque: float) -> float:
-        """Gap of the exact flanks (mm) beyond which nothing is taken to touch at a torque (N·m) but for very soft bodies."""
+        """Return the gap of the exact flanks (mm) beyond which nothing is taken to touch at a torque (N·m) but for very soft
+        bodies.
+        """
         return math.ceil((self.force(torque) / _SOFT + self._deviation) / _STEP) * _STEP
 
     def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
-        """Greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places while its line crosses the flanks."""
+        """Return the greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places while its line crosses the
+        flanks.
+        """
         (first, last), reach = self.pair.usable_path, self.width * abs(math.tan(self.helix)) / 2
         lengths = np.linspace(first - reach, last + reach, count + 2)[1:-1]
         solved = (self.solve(angle, torque, single=True) for angle in self.roll_angle(lengths).tolist())
@@ -356,7 +360,7 @@ def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes, *, field
 
 
 def teeth_moved(pair: GearPair) -> int:
-    """Teeth on each side of the loaded one that others' loads can move."""
+    """Return the teeth on each side of the loaded one that others' loads can move."""
     moved = max(1, math.floor(pair.total_contact_ratio + 0.2))
     if not pair.internal:
         return moved

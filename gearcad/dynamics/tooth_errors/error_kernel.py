@@ -161,7 +161,9 @@ def _shifted(samples: Samples, j: int, turns: float, shift: Floats) -> None:
 
 @inlined
 def _coast(steps: Steps, i: int, z: Floats, v: Floats, push: Floats, y: Floats, w: Floats) -> None:
-    """Advance mode i by a step without the forces at its end; add its part to the approaches y and their rates w (m, s)."""
+    """Advance mode i by one step without the mesh forces at its end; add its share to the approaches y and their rates w (m,
+    s).
+    """
     a, b, c, d, e, f, g, h = steps.modes[i]
     load = steps.load[i]
     for s in range(z.size):

@@ -101,7 +101,9 @@ def _gradings(gear: Gear, thickness: float) -> list[Grading]:
 
 
 def _shared(wanted: list[float], layers: int) -> list[int]:
-    """Return the layers of each piece, at least one, of so many in all, in proportion to what is wanted (Webster's divisors)."""
+    """Return the layers of each piece, at least one, of so many in all,
+    in proportion to what is wanted (Webster's divisors).
+    """
     if layers < len(wanted):
         permitted = f"must be at least {len(wanted)}: one on each side of where an end relief begins"
         raise ParameterError("layers", layers, permitted)
@@ -265,7 +267,9 @@ def posed(
 
 
 def poses(pair: GearPair, roll_angle: float, approach: float = 0.0, *, solid: bool, left: bool = True) -> PerGear[Pose]:
-    """Return the poses of both gears of `posed`: of solids, or of sections, which are not turned by the helix and lie at z = 0."""
+    """Return the poses of both gears of `posed`: of solids, or of sections,
+    which are not turned by the helix and lie at z = 0.
+    """
     angle = math.radians(pair.working_transverse_pressure_angle)
     lengths = _lengths(pair, roll_angle)
     rolled = PerGear(lengths.pinion + approach, lengths.wheel)
@@ -304,7 +308,9 @@ def contacts(pair: GearPair, roll_angle: float, beyond: float = 0.0, *, left: bo
 
 
 def _middle(pair: GearPair, wheel_z: float) -> float:
-    """Return the height (mm) on the pinion of the middle of the common face width, or of the common width of the lower halves."""
+    """Return the height (mm) on the pinion of the middle of the common face width,
+    or of the common width of the lower halves.
+    """
     if not pair.double_helical:
         return pair.pinion.face_width / 2 + pair.common_width.offset
     return (max(0.0, wheel_z) + min(pair.pinion.half_width, wheel_z + pair.wheel.half_width)) / 2

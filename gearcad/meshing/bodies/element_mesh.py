@@ -44,7 +44,7 @@ def named_left(gear: Gear, *, positive: bool) -> bool:
 
 
 Cells = NDArray[np.int32]
-"""Nodes of elements: half of what a mesh takes, were they longer."""
+"""Numbers of the nodes of elements, of 4 bytes: with 8 they would take half of the memory of a mesh."""
 
 
 @dataclass(frozen=True)

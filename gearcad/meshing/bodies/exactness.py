@@ -171,7 +171,7 @@ class _Surfaces(NamedTuple):
     pieces: list[_Surface]
 
     def distances(self, points: Floats) -> Floats:
-        """Distances (n,) in mm of points (n, 3) from the nearest piece."""
+        """Return the distances (n,) in mm of points (n, 3) from the nearest piece."""
         nearest: Floats = np.min([piece.distances(points) for piece in self.pieces], axis=0)
         return nearest
 

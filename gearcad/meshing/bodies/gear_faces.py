@@ -514,7 +514,7 @@ def _tetrahedron_sizes_by_radius(curve: Curve, length: EdgeLength, least: float)
 def expected_tetrahedra(lengths: EdgeLengths, faces: Sequence[BrepFace]) -> float:
     """Return the approximate number of tetrahedra.
 
-    Most stand on the triangles of the surface, the more the slower edges grow inwards.
+    Most of them lie next to the triangles of the surface. The slower the edges grow inwards, the more there are.
     """
     usual = [
         limit if radial is None else min(limit, radial.mean)

@@ -74,7 +74,7 @@ _TURNED = re.compile(r"(?:(left|right)_(flank|fillet|root)|(tip))_(\d+)")
 
 
 def _parts(section: ElementMesh) -> Iterator[tuple[_Part, str, Wholes, Wholes]]:
-    """Each part of the outline, with nodes of all teeth and the tooth of each; "left", "right" or None, of both."""
+    """Yield each part of the outline, with nodes of all teeth and the tooth of each; "left", "right" or None, of both."""
     found: dict[tuple[str, str], list[tuple[Wholes, int]]] = {}
     for name in section.sides:
         if match := _TURNED.fullmatch(name):
@@ -86,7 +86,7 @@ def _parts(section: ElementMesh) -> Iterator[tuple[_Part, str, Wholes, Wholes]]:
 
 
 def _on_outline(section: ElementMesh, gear: Gear, heights: Floats) -> tuple[Wholes, Floats]:
-    """Nodes (m,) whose turns are known, and these (heights, m)."""
+    """Return the nodes (m,) whose turns are known, and these (heights, m)."""
     outline = _Outline(gear, heights)
     pitch = 2 * np.pi / gear.tooth_count
     end = body_side(gear)
@@ -119,7 +119,7 @@ class _Outline:
         return self._of_root_land(np.abs(angle), left=left)
 
     def _rolls(self, radius: Floats) -> Floats:
-        """Roll lengths (mm), as the flank's form has them."""
+        """Return the roll lengths (mm), as the flank's form has them."""
         base = self.gear.profile.base_diameter / 2
         lengths = np.sqrt(np.maximum((radius - base) * (radius + base), 0.0))
         return -lengths if self.gear.internal else lengths
@@ -169,7 +169,9 @@ class _Outline:
 
 
 def _extended(section: ElementMesh, nodes: Wholes, given: Floats) -> Floats:
-    """Fields (k, n) that are `given` (k, m) at some nodes (m,), harmonic at the other vertices and the same on both cuts."""
+    """Return the fields (k, n) that are `given` (k, m) at some nodes (m,), harmonic at the other vertices and the same on both
+    cuts.
+    """
     shape = section.element.shape
     fields = np.zeros((len(given), len(section.points)))
     fields[:, nodes] = given
@@ -203,7 +205,7 @@ def _fill_inside(section: ElementMesh, known: Bools, fields: Floats) -> None:
 
 
 def _laplacian(section: ElementMesh) -> tuple[Cells, Any]:
-    """The vertices (n,) of a section, and the matrix (n, n) of Laplace's equation on them."""
+    """Return the vertices (n,) of a section, and the matrix (n, n) of Laplace's equation on them."""
     corners = section.cells[:, : section.element.shape.vertices]
     vertices, numbers = np.unique(corners, return_inverse=True)
     return vertices, laplacian(section.points[vertices, :2], numbers.reshape(corners.shape))
@@ -260,7 +262,7 @@ def mesh_section(
 
 
 def _turned_flanks(mesh: ElementMesh, gear: Gear) -> ElementMesh:
-    """The section at mid face width, not turned by the helix."""
+    """Return the section at mid face width, not turned by the helix."""
     turns = modification_turns(mesh, gear, np.array([gear.half_width / 2])).at(0)
     cosine, sine = np.cos(turns), np.sin(turns)
     x, y, z = mesh.points.T
@@ -268,7 +270,7 @@ def _turned_flanks(mesh: ElementMesh, gear: Gear) -> ElementMesh:
 
 
 def teeth_of(gear: Gear, teeth: int | None) -> range:
-    """Teeth that are meshed, in order, counted from tooth 0 both ways. Raises ParameterError."""
+    """Return the teeth that are meshed, in order, counted from tooth 0 both ways. Raises ParameterError."""
     if teeth is None:
         return range(gear.tooth_count)
     require_whole("teeth", teeth, at_least=1, at_most=gear.tooth_count - 1)
@@ -298,7 +300,9 @@ def _merged(gear: Gear, element: Element, teeth: range, sectors: Sequence[Sector
 
 
 def _numbers(sectors: Sequence[SectorSides], vertices: int, *, closed: bool) -> list[Wholes]:
-    """Numbers (n,) that the nodes of each sector get in the whole: those on the cut behind it are its neighbour's ahead."""
+    """Return the numbers (n,) that the nodes of each sector get in the whole: those on the cut behind it are its neighbour's
+    ahead.
+    """
     owns = [np.ones(len(sector.points), bool) for sector in sectors]
     starts = [1 + int(sector.cells[:, :vertices].max()) for sector in sectors]
     for own, sector in zip(owns if closed else owns[1:], sectors if closed else sectors[1:], strict=True):
@@ -325,7 +329,7 @@ def _named(gear: Gear, sector: SectorSides, element: Element, tooth: int) -> dic
 
 
 def _cuts(sector: SectorSides, element: Element, place: int, count: int) -> dict[str, Faces]:
-    """The cuts that the sector in one of `count` places has beside no other."""
+    """Return the cuts that the sector in one of `count` places has beside no other."""
     found = {}
     if place == 0:
         found["cut_behind"] = _faces(sector, OutlineSide.BEHIND, element)
@@ -335,7 +339,7 @@ def _cuts(sector: SectorSides, element: Element, place: int, count: int) -> dict
 
 
 def _faces(sector: SectorSides, side: OutlineSide, element: Element) -> Faces:
-    """Edges of a side of the outline. Each has its middle to itself, and that belongs to one element."""
+    """Return the edges of a side of the outline. Each has its middle to itself, and that belongs to one element."""
     middles = sector.cells[:, element.shape.vertices :].ravel()
     order = np.argsort(middles, kind="stable")
     at = order[np.searchsorted(middles, sector.sides[side][1::2], sorter=order)]
@@ -350,7 +354,7 @@ def _together(parts: Sequence[Faces]) -> Faces:
 
 
 def _turned(points: Floats, turn: float) -> Floats:
-    """Points (n, 2) turned by an angle (rad)."""
+    """Return the points (n, 2) turned by an angle (rad)."""
     cosine, sine = math.cos(turn), math.sin(turn)
     result: Floats = points @ np.array([[cosine, sine], [-sine, cosine]])
     return result

@@ -434,7 +434,9 @@ class _Surface:
     # ------------------------------------------------------------------ where they go
 
     def vertices(self) -> tuple[Floats, list[Floats]]:
-        """Return the vertices (n, 3), and the parameters along the profile of those on each piece of the flanks, NaN elsewhere."""
+        """Return the vertices (n, 3), and the parameters along the profile of those on each piece of the flanks,
+        NaN elsewhere.
+        """
         points, found = self.filled.points.copy(), []
         for swept in self._swept:
             at = points[swept.nodes]
@@ -626,7 +628,9 @@ def _in_order(name: str) -> tuple[float, str]:
 
 
 def _halved(gear: Gear, tooth: int, triangles: Cells, points: Floats) -> dict[str, Cells]:
-    """Return a root land parted at the middle of the space: what is of this tooth, and of the next. No edges run along there."""
+    """Return a root land parted at the middle of the space: what is of this tooth,
+    and of the next. No edges run along there.
+    """
     x, y, z = points[triangles].mean(1).T
     middle = (tooth + 0.5) * 2 * math.pi / gear.tooth_count
     ahead = np.mod(np.arctan2(y, x) - section_turn(gear, z) - middle, 2 * math.pi) < math.pi
@@ -655,6 +659,8 @@ def _side_places(cells: Cells, triangles: Cells) -> Wholes:
 
 
 def _tetrahedra_keys(triples: Wholes, count: int) -> Wholes:
-    """Return a number for each triple of nodes, which are as many as `count`: some million, or it would not be one of its own."""
+    """Return a number for each triple of nodes, which are as many as `count`: some million,
+    or it would not be one of its own.
+    """
     found: Wholes = (triples[:, 0] * count + triples[:, 1]) * count + triples[:, 2]
     return found

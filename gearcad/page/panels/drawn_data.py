@@ -81,7 +81,7 @@ def drift(rack: Rack, travel: float, z: float) -> list[list[float]]:
 
 
 def mesh_of(pinion: Gear, path: PathOfContact[float], angle: float, length: float | None) -> dict[str, Any]:
-    """The mesh of the first two bodies, the pinion's tooth pointing at the mate at no turn; `length` is T1T2 (mm).
+    """Return the mesh of the first two bodies for the scene: at turn 0 a pinion tooth points to the mate; `length`: T1T2 (mm).
 
     `side` is 1 where the pinion's left flanks touch when those of the first body do, -1 where its right flanks do.
     """

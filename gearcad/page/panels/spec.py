@@ -157,7 +157,7 @@ class TextPanel:
 
 
 class BesidePanel:
-    """Calls `changed` when another design is kept, or none."""
+    """Menu that keeps a second design beside the first one; it calls `changed` when the kept design changes."""
 
     def __init__(self, beside: BesideDesign, words: PageWords, changed: Callable[[], None]) -> None:
         self._beside, self._words, self._changed = beside, words, changed

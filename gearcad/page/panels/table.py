@@ -228,7 +228,7 @@ class TablePanel:
         self._list(points)
 
     def _brush(self, told: Any) -> None:
-        """List the rows under the brush; without one all."""
+        """List the rows that the user selected in the chart; all rows if none is selected."""
         found = _brushed(told, len(self._points))
         self._list([self._points[at] for at in found] if found else self._points)
 

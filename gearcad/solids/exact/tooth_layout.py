@@ -481,7 +481,9 @@ class ToothLayout:
     # -------------------------------------------------------------- stations of the outline
 
     def _flank_at(self, k: int) -> tuple[FlankSpan, int]:
-        """Return a flank's piece at a junction, and its u there. One of both neighbours is a flank's, and the first piece is."""
+        """Return a flank's piece at a junction, and its u there. One of both neighbours is a flank's,
+        and the first piece is.
+        """
         piece, before = self.pieces[k % len(self.pieces)], self.pieces[k - 1]
         if isinstance(piece, FlankSpan):
             return piece, 0

@@ -54,7 +54,9 @@ def zip_levels(lower: Chain, upper: Chain) -> list[tuple[int, int, int]]:
 
 
 def upright(corners: Floats, least: float) -> bool:
-    """Return whether all triangles with corners (n, 3, 2) in mm run counter-clockwise and are nowhere lower than `least` (mm)."""
+    """Return whether all triangles with corners (n, 3,
+    2) in mm run counter-clockwise and are nowhere lower than `least` (mm).
+    """
     one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     area = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
     longest = np.hypot(*np.moveaxis(corners - np.roll(corners, 1, axis=1), -1, 0)).max(axis=1)
@@ -321,7 +323,9 @@ class _RingCapper(ToothEnd):
             yield np.linspace(right, left, chords + 1)[1:-1].tolist()
 
     def _generators(self) -> Floats | None:
-        """Return the angles of the points on the cone: those of the tip land, parted if need be, and further ones by the step."""
+        """Return the angles of the points on the cone: those of the tip land, parted if need be,
+        and further ones by the step.
+        """
         grid, tip, step = self.grid, self.grid.flank_steps, self.end.step
         if not grid.cone.present or grid.face_level == tip:
             return None
@@ -497,7 +501,9 @@ class Builder:
         return np.arange(self.count - len(points), self.count)
 
     def side(self) -> Wholes:
-        """Return the faces of all teeth, away from the axis: layers x teeth x period, every cell cut along its better diagonal."""
+        """Return the faces of all teeth, away from the axis: layers x teeth x period,
+        every cell cut along its better diagonal.
+        """
         grid, layers = self.grid, self.grid.layers
         radius, setback, angle = grid.outline
         z = layers.heights(setback)[:, None, :]

@@ -57,7 +57,9 @@ def arc_step(radius: float, chord_error: float) -> float:
 
 
 def least_distance(gear: Gear, chord_error: float) -> float:
-    """Return the distance (mm) below which two points are made one: nothing against the chord error, or two steps of a float32."""
+    """Return the distance (mm) below which two points are made one: nothing against the chord error,
+    or two steps of a float32.
+    """
     return max(1e-3 * chord_error, 3e-7 * outermost_radius(gear))
 
 

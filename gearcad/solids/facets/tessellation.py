@@ -435,7 +435,9 @@ class _Builder:
         return found if side in (RackSide.TOP, RackSide.START) else [(a, c, b) for a, b, c in found]
 
     def _mountain(self, chain: Wholes | list[int], axis: int) -> Triangles:
-        """Return the triangles between a chain that never runs back along an axis and the straight line that closes it below."""
+        """Return the triangles between a chain that never runs back along an axis and the straight line
+        that closes it below.
+        """
         found, stack = list[tuple[int, int, int]](), list[tuple[int, Point]]()
         for number, point in zip(chain, self.vertices[chain][:, (axis, 1)].tolist(), strict=True):
             while len(stack) > 1 and _turn(stack[-2][1], stack[-1][1], point) < 0:

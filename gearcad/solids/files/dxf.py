@@ -42,7 +42,9 @@ class Arcs:
 
 
 def arcs_of(curve: PlaneCurve, accuracy: float) -> Arcs:
-    """A curve as pairs of arcs, as few as stay within `accuracy`; the pairs are shorter where its curvature changes fast."""
+    """Return a curve as pairs of arcs, as few as stay within `accuracy`; the pairs are shorter where its curvature changes
+    fast.
+    """
     if isinstance(getattr(curve, "curve", curve), Chamfer):
         return Arcs(curve.points(np.array([0.0, 1.0])), np.zeros(1))
     fine = np.linspace(0.0, 1.0, 257)
@@ -82,14 +84,14 @@ def _pairs_of_arcs(curve: PlaneCurve, s: Floats) -> Arcs:
 
 
 def _half_tangent(one: Floats, other: Floats) -> Floats:
-    """Tangent of half the angle from one vector to another, (n, 2) each."""
+    """Return the tangent of half the angle from one vector to another, (n, 2) each."""
     cross = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
     result: Floats = np.tan(0.5 * np.arctan2(cross, np.sum(one * other, -1)))
     return result
 
 
 def _deviation(curve: PlaneCurve, s: Floats, arcs: Arcs) -> float:
-    """Largest distance (mm) of points of the curve from the pair of arcs between s[i] and s[i + 1]."""
+    """Return the largest distance (mm) of points of the curve from the pair of arcs between s[i] and s[i + 1]."""
     points = curve.points(s[:-1, None] + np.diff(s)[:, None] * _CHECKED)
     starts, ends = arcs.vertices[:-1].reshape(-1, 2, 1, 2), arcs.vertices[1:].reshape(-1, 2, 1, 2)
     bulge = arcs.bulges.reshape(-1, 2, 1)
@@ -145,7 +147,9 @@ def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
 
 
 def extent_of(contour: Floats) -> tuple[Floats, Floats]:
-    """Least and greatest x and y (mm) of a closed contour (n, 3) of arcs: at vertices, or where an arc is level or upright."""
+    """Return the least and greatest x and y (mm) of a closed contour (n, 3) of arcs: at vertices, or where an arc is level or
+    upright.
+    """
     start, bulge = contour[:, :2], contour[:, 2]
     chord = np.roll(start, -1, axis=0) - start
     with np.errstate(divide="ignore", invalid="ignore"):  # straight ones have no centre, and no point inside
@@ -194,7 +198,7 @@ def draw_section(space: Modelspace, gear: Gear, contour: Floats) -> None:
 
 
 def draw_circles(document: Drawing, gear: Gear) -> tuple[Floats, Floats]:
-    """The circles of reference about the origin; how far they reach."""
+    """Return the circles of reference about the origin; how far they reach."""
     add_layers(document, _CIRCLES)
     profile = gear.profile
     for diameter in (profile.tip_diameter, profile.reference_diameter, profile.base_diameter, profile.root_diameter):

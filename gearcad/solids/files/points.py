@@ -111,7 +111,7 @@ class _Hob:
         return float(self.tool.roll(theta))
 
     def seen(self, across: ArrayLike, along: ArrayLike, roll: ArrayLike) -> Floats:
-        """Return the tool rolls along its line without slip."""
+        """Return points (n, 2) of the tool in the frame of the gear; the tool rolls on its line without slip."""
         roll, reference = np.asarray(roll, float), self.tool.reference_radius
         xi, radial = np.asarray(across) + reference * roll, reference + np.asarray(along)
         return _cartesian(np.hypot(xi, radial), math.pi / self.teeth + roll - np.arctan2(xi, radial))

@@ -200,7 +200,9 @@ class _Node(NamedTuple):
 
 
 def _nodes(parts: Sequence[ScenePart]) -> Iterator[_Node]:
-    """Axles before what turns about them, parts in their order. An axle and the part of its name are one node."""
+    """Yield the nodes of a scene: each axle before the parts that turn about it. An axle and a part of
+    one name are one node.
+    """
     same = {part.axle.name: part for part in parts if part.axle is not None and part.axle.name == part.name}
     made: set[str] = set()
 

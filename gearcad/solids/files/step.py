@@ -112,7 +112,9 @@ class DataSection:
 
 
 def step_header(name: str) -> str:
-    """Return the header section of what is called `name`, in AP214: of nobody, at SOURCE_DATE_EPOCH or else in the year 2000."""
+    """Return the header section of what is called `name`, in AP214: of nobody,
+    at SOURCE_DATE_EPOCH or else in the year 2000.
+    """
     stamp = (source_date() or _NO_DATE).strftime("%Y-%m-%dT%H:%M:%S")
     of = [string(text) for text in (name, stamp, f"gearcad {__version__}", _SCHEMA)]
     return (
@@ -457,7 +459,7 @@ def _set(numbers: dict[str, int], texts: dict[str, str]) -> None:
 
 
 def _reproducible(content: bytes) -> bytes:
-    """Return the kernel numbers occurrences through the whole session, and breaks lines by it: count them by file, a line each."""
+    """Return the content with occurrences numbered by file, a line each: the kernel numbers them through the whole session."""
     number = count(1)
 
     def numbered(occurrence: re.Match[bytes]) -> bytes:

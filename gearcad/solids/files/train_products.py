@@ -350,7 +350,9 @@ class TrainProduct:
         return train_product(self.plan)
 
     def scene(self, carrier_angle: float = 0.0, central_turn: float = 0.0) -> list[ScenePart]:
-        """Return all bodies in their places, what is alike with the same facets; turned as by `PlanetaryTrain.pose` (degrees)."""
+        """Return all bodies in their places, what is alike with the same facets;
+        turned as by `PlanetaryTrain.pose` (degrees).
+        """
         return list(self._scene(self.plan.turned(carrier_angle, central_turn)))
 
     def other_scene(self) -> list[ScenePart]:
