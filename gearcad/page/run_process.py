@@ -22,8 +22,12 @@ from typing import Any, TypeVar
 from gearcad.batch.pool import close_workers, isolated, own_worker
 from gearcad.core.child_process import become_child, end_with_input
 from gearcad.core.errors import GearcadError, out_of_memory, printable, shown
+from gearcad.core.records import JsonObject
+from gearcad.core.runtime import Expected
 from gearcad.designs.design import Design, files_only_in, tables_of_text
+from gearcad.designs.keys import DesignKind
 from gearcad.designs.pair_designs import PairDesign
+from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.designs.reader import design_from_tables
 from gearcad.jobs.job import Job
 from gearcad.solids import Format
@@ -33,7 +37,9 @@ from gearcad.solids import Format
 class RunKind:
     """A job with its options; `report` is the file to read, `taken` the pattern of the files to download.
 
-    `takes` says which designs it accepts, of the kinds that the job accepts.
+    `takes` says which designs it accepts, of the kinds that the job accepts, or of `kinds` where the run makes another design
+    of what is given. `mesh` is the number of the mesh of a planetary train that the run is about. `shown` gives what the page
+    shows of a result and its document.
     """
 
     job: Callable[[], Job[Any, Any]]
@@ -41,10 +47,18 @@ class RunKind:
     taken: str = "*"
     made: Callable[[Design], Design] = lambda design: design
     takes: Callable[[Design], bool] = lambda design: True
+    kinds: tuple[DesignKind, ...] = ()
+    mesh: int | None = None
+    shown: Callable[[Any, JsonObject], JsonObject | None] | None = None
 
     def accepts(self, design: Design) -> bool:
         """Return whether this job takes designs of a kind."""
-        return design.kind in self.job().accepts and self.takes(design)
+        return design.kind in (self.kinds or self.job().accepts) and self.takes(design)
+
+    def expected(self, design: Design) -> Expected | None:
+        """Return what a run takes; of a mesh of a train with roughly its load, which sharing among planets may raise."""
+        of = self.made(design) if self.mesh is None else mesh_pair(design, self.mesh, shared=False)
+        return self.job().expected(of)
 
 
 def _check(model: str) -> Callable[[], Job[Any, Any]]:
@@ -129,13 +143,59 @@ def _is_pair(design: Design) -> bool:
     return isinstance(design, PairDesign)
 
 
+def mesh_pair(design: Design, mesh: int, *, shared: bool = True) -> Design:
+    """The pair of a mesh of a planetary train, with the load that one planet carries, as the files of `planetary` have it.
+
+    Without `shared` the load sharing is not computed, which takes seconds.
+    """
+    if not isinstance(design, PlanetaryDesign):
+        return design
+    from gearcad.designs.spec_writers import MeshPairs
+    from gearcad.jobs.planetary import Planetary
+
+    sharing = Planetary(report=False).run(design).study.sharing if shared else None
+    pairs = MeshPairs(design=design, computed_factor=None if sharing is None else sharing.mesh_load_factor)
+    return pairs.designs[design.train.meshes[mesh].name]
+
+
+def _loaded(design: Design) -> bool:
+    return isinstance(design, PlanetaryDesign) and design.load is not None
+
+
+def _shown_check(result: Any, document: JsonObject) -> JsonObject | None:
+    from gearcad.page.shown_results import shown_check
+
+    return shown_check(result, document)
+
+
+def _shown_dynamics(result: Any, document: JsonObject) -> JsonObject | None:
+    from gearcad.page.shown_results import shown_dynamics
+
+    return shown_dynamics(result, document)
+
+
+def _check_run(model: str) -> RunKind:
+    return RunKind(job=_check(model), report="report.html", shown=_shown_check)
+
+
+def _mesh_run(model: str, mesh: int) -> RunKind:
+    """A check of one mesh of a planetary train."""
+    return replace(
+        _check_run(model), made=lambda design: mesh_pair(design, mesh), takes=_loaded, kinds=(DesignKind.PLANETARY,), mesh=mesh
+    )
+
+
 ANALYSES = {
-    "check-2d": RunKind(job=_check("2d"), report="report.html"),
-    "check-3d": RunKind(job=_check("3d"), report="report.html"),
+    "check-2d": _check_run("2d"),
+    "check-3d": _check_run("3d"),
+    "check-2d-first": _mesh_run("2d", 0),
+    "check-2d-second": _mesh_run("2d", 1),
+    "check-3d-first": _mesh_run("3d", 0),
+    "check-3d-second": _mesh_run("3d", 1),
     "rate": RunKind(job=_rate, report="rate.html"),
     "rate-fe": RunKind(job=_rate, report="rate.html", made=_with_bodies, takes=_is_pair),
     "stiffness": RunKind(job=_stiffness, report="stiffness.html"),
-    "dynamics": RunKind(job=_dynamics, report="dynamics.html"),
+    "dynamics": RunKind(job=_dynamics, report="dynamics.html", shown=_shown_dynamics),
     "planetary": RunKind(job=_planetary, report="planetary.html"),
     "mesh": RunKind(job=_mesh),
     "verify": RunKind(job=_verify, report="verify.html"),
@@ -275,6 +335,10 @@ def _run(asked: RunRequest, tell: Teller) -> dict[str, Any]:
         tell(expected={"seconds": expected.seconds, "memory": expected.memory})
     result = job.run(design, tell.progress)
     files = job.headed(design).write(result, Path(asked.into), tell.progress)
+    from gearcad.page.shown_results import write_shown
+
+    if kind.shown is not None and (content := kind.shown(result, job.document(result))) is not None:
+        write_shown(content | {"mesh": kind.mesh, "name": design.name}, Path(asked.into))
     return {
         "name": design.name,
         "conclusion": job.conclusion(design.name, result),

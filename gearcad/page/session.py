@@ -20,6 +20,7 @@ from gearcad.page.folder import DESIGN, TAB
 from gearcad.page.panels import Panel
 from gearcad.page.panels.compare import ComparePanel
 from gearcad.page.panels.limits import LimitsPanel
+from gearcad.page.panels.results import ResultsPanel
 from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.search import TaskPlace
 from gearcad.page.panels.sheet_content import StrengthPanel
@@ -328,11 +329,15 @@ class Session:
                 with ui.element("div").classes("view"):
                     bodies = following.with_line(BodiesPanel(words))
                     following.band()
+                    self._results = ResultsPanel(bench, words, bodies.colour)
+                    self._results.legend("bodies")
                 with ui.element("div").classes("rolling"):
                     roll = following.with_line(RollPanel(words))
                 with ui.element("div").classes("view"):
                     section = following.with_line(SectionPanel(words))
                     following.band()
+                    self._results.legend("section")
+                self._results.place()
             with _region("right", words["Results"]):
                 right = self._right = Tabs(_right_titles(words))
                 with right.under("data"):
@@ -341,7 +346,8 @@ class Session:
                     sheet = following.with_line(SheetPanel(words))
                     following.band()
                 with right.under("runs"):
-                    self._runs = RunsPanel(bench, words, runs, lambda: right.chosen == "runs")
+                    self._runs = RunsPanel(bench, words, runs, lambda: right.chosen == "runs", self._results.follow)
+                    self._results.use(self._runs.runs, self._runs.run_name)
                     right.on("runs", self._show_runs)
                 with right.under("compare"):
                     compare = following.with_line(
@@ -493,6 +499,7 @@ class Session:
         self._name.set_text(self.bench.name if design is None else design.name)
         self._files.follow()
         self._runs.follow()
+        self._results.follow()
         self._show_begin()
         self._following.follow()
 

@@ -41,7 +41,7 @@ THREE = ui.scene
 """Element whose package of three.js the script of this element imports."""
 
 
-class BodiesView(Element, component="gear_bodies.js", esm={"gear-surfaces": "surfaces"}):
+class BodiesView(Element, component="gear_bodies.js", esm={"gear-surfaces": "surfaces", "gear-colours": "colours"}):
     """Bodies, whose surfaces are sent once as long as they are seen; `label` says to those who cannot see it what it is."""
 
     def __init__(self, label: str, words: dict[str, str]) -> None:
@@ -57,6 +57,35 @@ class BodiesView(Element, component="gear_bodies.js", esm={"gear-surfaces": "sur
         """
         sent = {"number": number, "bodies": bodies, "surfaces": surfaces, "error": error, "whyNot": why_not}
         self.client.outbox.enqueue_message("gear_bodies", sent, self.client.id)
+
+    def colour(self, kinds: Sequence[Mapping[str, Any]]) -> None:
+        """Colour teeth by kinds of stress, of which the browser chooses one; by none of them bodies have no colours."""
+        self.client.outbox.enqueue_message("gear_colours", {"kinds": list(kinds)}, self.client.id)
+
+
+CHARTS = ui.echart
+"""Element whose package of ECharts the script of the results imports, once there is a chart to draw."""
+
+
+class ResultsView(Element, component="gear_results.js", esm={"gear-colours": "colours"}):
+    """Curves and patterns of a run: calls `choose(number)` with the run to show; `words` are the page's own."""
+
+    def __init__(self, choose: Callable[[int], None], words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["words"] = words
+        self.on("choose", lambda event: choose(int(event.args.get("number", -1))))
+
+    def show(self, **state: Any) -> None:
+        """Show `choices` of runs, the number of the `chosen` one and whether it is `stale`; its `views` and its `result`."""
+        self.run_method("show", state)
+
+
+class LegendView(Element, component="gear_legend.js", esm={"gear-colours": "colours"}):
+    """Colour bars over a `place`, "section" or "bodies": the browser tells it which."""
+
+    def __init__(self, place: str, words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["place"], self._props["words"] = place, words
 
 
 class FilesView(Element, component="gear_files.js"):

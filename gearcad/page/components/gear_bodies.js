@@ -1,10 +1,12 @@
 // The gears as solid bodies, in mesh. Surfaces come by their keys: what stays the same is not sent again. Lengths in mm, z up.
+import { colouredTeeth } from "gear-colours";
 import { cutOf, surfaceOf } from "gear-surfaces";
 import { OrbitControls, THREE } from "nicegui-scene";
 
 const AXES = { x: [-1, 0, 0], y: [0, 1, 0], z: [0, 0, -1] }; // where a cut looks: what is beyond it is taken away
 const VIEWS = { front: [0, 0, 1, 0, 1, 0], top: [0, 1, 0.001, 0, 0, -1], iso: [0.5, -0.75, 0.6, 0, 0, 1] };
 const SENT = "gear_bodies"; // the message that has bodies
+const COLOURED = "gear_colours"; // the message that has stresses of their teeth
 const CLICK = 4; // pixels that a pointer may move, and still click
 const REST = 400; // ms after which what is drawn without a graphics card is drawn once more, smoothly
 
@@ -58,7 +60,8 @@ export default {
   },
   mounted() {
     [this.turn, this.gears, this.surfaces, this.looks] = [0, [], new Map(), []];
-    this.$nextTick(() => window.socket.on(SENT, this.show)); // which there is once the page is mounted
+    [this.coloured, this.colours, this.kind] = [[], null, "pressure"];
+    this.$nextTick(() => (window.socket.on(SENT, this.show), window.socket.on(COLOURED, this.take))); // once the page is mounted
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(30, 1, 0.1, 1e5);
     this.camera.up.set(0, 0, 1);
@@ -93,11 +96,14 @@ export default {
     this.observers[0].observe(this.$el);
     this.observers[1].observe(document.body, { attributeFilter: ["class"] });
     window.addEventListener("gear-turn", this.roll);
+    window.addEventListener("gear-coloured", this.choose);
     this.resize();
     this.restyle();
   },
   beforeUnmount() {
     window.socket?.off(SENT, this.show);
+    window.socket?.off(COLOURED, this.take);
+    window.removeEventListener("gear-coloured", this.choose);
     for (const observer of this.observers ?? []) observer.disconnect();
     window.removeEventListener("gear-turn", this.roll);
     cancelAnimationFrame(this.drawing);
@@ -117,6 +123,7 @@ export default {
       this.gears = bodies.map(this.made);
       this.error = error;
       this.mark([]);
+      this.colour();
       this.pose();
       const size = this.box().getSize(new THREE.Vector3()).length();
       if (size && Math.abs(Math.log(size / (this.size ?? 1e-9))) > 0.25) this.look("iso");
@@ -141,6 +148,7 @@ export default {
     // Let go of the bodies, and of all surfaces but those of these keys.
     drop(keys = new Set()) {
       this.uncut();
+      this.uncolour();
       for (const { group } of this.gears) this.scene.remove(group);
       this.gears = [];
       for (const [key, { surface, edges }] of this.surfaces)
@@ -149,6 +157,43 @@ export default {
           edges.dispose();
           this.surfaces.delete(key);
         }
+    },
+    // ---------------------------------------------------------------- stresses
+    // Coloured teeth of some bodies, by kinds of stress; null if there are none of these gears.
+    take(colours) {
+      this.colours = colours.kinds?.length ? colours : null;
+      this.colour();
+      this.cut();
+    },
+    choose({ detail: { kind } }) {
+      this.kind = kind;
+      this.colour();
+      this.cut();
+    },
+    colour() {
+      this.uncolour();
+      const kinds = this.colours?.kinds ?? [];
+      const chosen = kinds.find(({ key }) => key === this.kind);
+      for (const { body, role, teeth } of chosen?.on ?? []) {
+        if (!this.gears[body]) continue;
+        const mesh = colouredTeeth(THREE, chosen.surfaces[role], chosen.most, teeth);
+        mesh.renderOrder = this.gears.length + 3;
+        this.gears[body].group.add(mesh);
+        this.coloured.push(mesh);
+      }
+      const bars = kinds.length ? [{ words: chosen?.words ?? "", most: chosen?.told ?? "" }] : null;
+      const told = kinds.map(({ key, words }) => ({ key, words }));
+      window.dispatchEvent(new CustomEvent("gear-legend", { detail: { place: "bodies", bars, kinds: told, kind: chosen ? this.kind : "" } }));
+      this.$el.dataset.coloured = this.coloured.length;
+    },
+    uncolour() {
+      for (const mesh of this.coloured ?? []) {
+        mesh.removeFromParent();
+        mesh.geometry.dispose();
+        mesh.material.dispose();
+        mesh.dispose();
+      }
+      this.coloured = [];
     },
     // ---------------------------------------------------------------- turning
     roll(event) {
@@ -183,6 +228,7 @@ export default {
           material.needsUpdate = !material.clippingPlanes !== !planes;
           material.clippingPlanes = planes;
         }
+      for (const { material } of this.coloured) [material.clippingPlanes, material.needsUpdate] = [planes, true];
       this.moveCut();
     },
     uncut() {

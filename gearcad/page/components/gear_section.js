@@ -55,11 +55,13 @@ export default {
     this.observers[0].observe(this.$el);
     this.observers[1].observe(document.body, { attributeFilter: ["class"] });
     window.addEventListener("gear-turn", this.roll);
+    window.addEventListener("gear-redraw", this.draw);
     this.restyle();
   },
   beforeUnmount() {
     for (const observer of this.observers) observer.disconnect();
     window.removeEventListener("gear-turn", this.roll);
+    window.removeEventListener("gear-redraw", this.draw);
     cancelAnimationFrame(this.drawing);
   },
   methods: {
@@ -160,6 +162,7 @@ export default {
       this.kept?.bodies.forEach((_, number) => this.body(pen, this.kept, number, null));
       this.content.bodies.forEach((body) => this.circles(pen, body));
       for (const mesh of this.content.meshes) this.mesh(pen, mesh);
+      window.dispatchEvent(new CustomEvent("gear-section", { detail: { section: this, pen } })); // others draw over it
       canvas.dataset.turn = this.turn;
     },
     body(pen, content, number, colour) {

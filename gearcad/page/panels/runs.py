@@ -13,9 +13,11 @@ from gearcad.core.errors import GearcadError, format_number
 from gearcad.core.records import Verdict
 from gearcad.core.runtime import Expected, about, about_memory
 from gearcad.designs.design import Design
+from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.designs.variations import column_of_train, column_symbol
 from gearcad.page.components.elements import RunsView
 from gearcad.page.fields import given_texts
+from gearcad.page.panels.sheet_content import called
 from gearcad.page.run_process import ANALYSES, RUNS
 from gearcad.page.runs import KINDS, Run, Runs, RunState
 from gearcad.page.words import PageWords
@@ -98,10 +100,18 @@ class Outlook(NamedTuple):
 
 
 class RunsPanel:
-    """Follows the workbench; runs belong to the text with which they were started. While `seen` it tells what they take."""
+    """Follows the workbench; runs belong to the text with which they were started. While `seen` it tells what they take.
+
+    It calls `ended` each time that runs begin or end.
+    """
 
     def __init__(
-        self, bench: Workbench, words: PageWords, runs: Runs | None = None, seen: Callable[[], bool] = lambda: True
+        self,
+        bench: Workbench,
+        words: PageWords,
+        runs: Runs | None = None,
+        seen: Callable[[], bool] = lambda: True,
+        ended: Callable[[], None] = lambda: None,
     ) -> None:
         self._bench, self._words, self._runs, self._seen = bench, words, runs or Runs(), seen
         limits = Expected(self._runs.limits.seconds, self._runs.limits.memory)
@@ -115,6 +125,7 @@ class RunsPanel:
         self._names = _names(words)
         self._kinds: list[dict[str, Any]] = []
         self._stale: list[int] = []
+        self._ended = ended
         self._timer = ui.timer(_LOOK, self._look, active=False)
         self._states: dict[int, RunState] = {}
         self._handed = False
@@ -147,6 +158,10 @@ class RunsPanel:
     def runs(self) -> Runs:
         """The runs of the session."""
         return self._runs
+
+    def run_name(self, of: Run) -> str:
+        """Return the name of a run: its kind, and of a planetary train its mesh."""
+        return self._called(of.asked.kind, self._design)
 
     def hand_over(self) -> Runs:
         """Return the runs of the panel, which go on in the panel that gets them."""
@@ -194,6 +209,7 @@ class RunsPanel:
         if states != self._states:
             self._states = states
             self._show_runs()
+            self._ended()
         for each in self._runs.all:
             if each.state is RunState.RUNNING:
                 self._view.tell(each.number, {"step": each.step, "share": each.share, "left": _time_left(each)})
@@ -203,13 +219,20 @@ class RunsPanel:
     def _show_kinds(self) -> None:
         design = self._bench.shown_design
         kinds = [
-            {"key": key, "words": self._names[key], **self._expected.get(key, Outlook())._asdict()}
+            {"key": key, "words": self._called(key, design), **self._expected.get(key, Outlook())._asdict()}
             for key, kind in ANALYSES.items()
             if design is not None and kind.accepts(design)
         ]
         if kinds != self._kinds:
             self._kinds = kinds
             self._view.show(kinds=kinds)
+
+    def _called(self, key: str, design: Design | None) -> str:
+        """Return the name of a kind of run, with the mesh of a planetary train that it is about."""
+        mesh = ANALYSES[key].mesh if key in ANALYSES else None
+        if mesh is None or not isinstance(design, PlanetaryDesign):
+            return self._names[key]
+        return f"{self._names[key]}: {called(self._words, design.train.meshes[mesh].name)}"
 
     def _show_runs(self) -> None:
         self._view.show(runs=[self._told(each) for each in self._runs.all], tables=self._tables())
@@ -225,7 +248,7 @@ class RunsPanel:
         report, address = KINDS[of.asked.kind].report, f"/made/{self._runs.key}/{of.number}"
         return {
             "number": of.number,
-            "words": self._names[of.asked.kind],
+            "words": self.run_name(of),
             "state": of.state.value,
             "step": of.step,
             "share": of.share,
@@ -259,7 +282,7 @@ def expected_of(design: Design, words: PageWords) -> dict[str, Outlook]:
     for key, kind in ANALYSES.items():
         if kind.accepts(design):
             try:
-                expected = kind.job().expected(kind.made(design))
+                expected = kind.expected(design)
             except GearcadError as error:
                 found[key] = Outlook(why=str(error))
             else:
@@ -286,6 +309,10 @@ def _names(words: PageWords) -> dict[str, str]:
         "check": words["check"],
         "check-2d": words["check in the plane"],
         "check-3d": words["check of solid bodies"],
+        "check-2d-first": words["check in the plane"],
+        "check-2d-second": words["check in the plane"],
+        "check-3d-first": words["check of solid bodies"],
+        "check-3d-second": words["check of solid bodies"],
         "rate": words["rating"],
         "rate-fe": words["rating by the load distribution"],
         "stiffness": words["mesh stiffness"],

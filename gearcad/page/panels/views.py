@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from gearcad.core.errors import GearcadError
@@ -88,6 +88,10 @@ class BodiesPanel(Panel[Bodies]):
 
     def clear(self) -> None:
         self.show(Bodies())
+
+    def colour(self, kinds: Sequence[Mapping[str, Any]]) -> None:
+        """Colour the teeth of the bodies that are shown by kinds of stress, or by none."""
+        self._view.colour(kinds)
 
 
 def _bodies_own(words: PageWords) -> dict[str, str]:
