@@ -72,6 +72,7 @@ export default {
         this.$nextTick(this.chart);
       }
       this.$el.dataset.chosen = this.chosen;
+      this.mark();
       window.dispatchEvent(new Event("gear-redraw"));
     },
     resize() {
