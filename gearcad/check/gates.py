@@ -123,8 +123,8 @@ def rim_notices(task: CheckTask, summary: Summary) -> Iterator[Notice]:
         if hold is Hold.KEY:
             yield Notice(
                 "key",
-                f"the {owner}'s stresses are those with the key under the worst of all teeth; its stiffness is that of a "
-                "bore without key, and the notch of the keyway is not in the section",
+                f"stresses of the {owner}: the key is placed under the tooth where they become greatest; its stiffness is that "
+                "of a bore without a key, and the notch of the keyway is not part of the section",
             )
 
 

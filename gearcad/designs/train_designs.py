@@ -245,7 +245,9 @@ def read_pair(given: Any, where: Where, owner: str, mesh: str) -> DesignedPair:
 def _of_file(path: Path) -> PairDesign:
     tables, where = read_tables(path)
     if (other := next((table for table in tables if table in _OTHER_KINDS), None)) is not None:
-        raise SpecError(f"{where(other)}: is the spec of a {_OTHER_KINDS[other]}; a mesh needs that of a pair of gears", other)
+        raise SpecError(
+            f"{where(other)}: is the spec of a {_OTHER_KINDS[other]}; a mesh needs the spec of a pair of gears", other
+        )
     return PairDesign.read(tables, where, path.stem)
 
 

@@ -221,7 +221,10 @@ def interference_notices(pair: PairData) -> Iterator[Notice]:
             yield Notice("fillet-interference", f"fillet interference: {_fillet_text(pair, role, cut)}")
         elif _fillet_margin(pair, role) < -ROUNDING * pair.pinion.normal_module:
             form = f"{role.value}'s root form circle {pair.gears.pick(role).form_diameter:.4f} mm"
-            yield Notice("undercut-contact", f"undercut: contact ends on the {form}, before the {role.mate.value}'s tip does")
+            yield Notice(
+                "undercut-contact",
+                f"undercut: contact ends at the {form}; the {role.mate.value}'s tip reaches beyond it without contact",
+            )
     if (margin := internal_tips(pair).radial_margin) < 0:
         yield Notice("radial-assembly", f"radial assembly: {_radial_text(pair, -margin)}")
 

@@ -176,7 +176,7 @@ DOUBLE = PAIR.replace("[pinion]", "helix_angle = 20.0\ndouble_helix.gap_width = 
         (train('pair = "\\u0000"'), "line 31: stage 1.pair = '\\x00': must be the file of a pair's spec"),
         (
             train('pair = "drive.toml"'),
-            "stage 1.pair: specs/drive.toml line 1: is the spec of a train; a mesh needs that of a pair",
+            "stage 1.pair: specs/drive.toml line 1: is the spec of a train; a mesh needs the spec of a pair",
         ),
         (train("pair = 5"), "line 31: stage 1.pair = 5: must be the file of a pair's spec"),
         (train('pair = ["parts/steep.toml"]'), "stage 1.pair = ['parts/steep.toml']: must be the file"),

@@ -262,7 +262,7 @@ def _shaft(**changes: Any) -> list[dict[str, Any]]:
         ({"model": "rigid"}, "model = 'rigid': must be one of 'isolated', 'massless', 'modes', 'elements', 'exact'"),
         (
             {"model": "isolated", "meshes": [], "shafts": _shaft(start="b")},
-            "model = 'isolated': needs meshes: a train without meshes is nothing but its shafts",
+            "model = 'isolated': must be a model with shafts: this one leaves shafts out, and the train has no meshes",
         ),
         ({"meshes": []}, "inertias = 'a': has neither a shaft nor a mesh: give it one, or leave it out"),
         (

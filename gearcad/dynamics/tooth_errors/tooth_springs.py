@@ -147,7 +147,7 @@ class ToothSpring:
         if self.stiffness.shape != self.gap.shape or len(self.gap) < 2 or self.last <= self.first:
             raise ParameterError("stiffness", f"{self.stiffness.shape}", f"must be as many as gaps, {self.gap.shape}")
         if not np.isfinite(self.gap).all() or not np.isfinite(self.stiffness).all() or self.stiffness.min() < 0:
-            raise ParameterError("stiffness", "not finite", "must be finite, as gaps are, and not below 0")
+            raise ParameterError("stiffness", "not finite", "must be finite numbers of at least 0")
 
     @property
     def places(self) -> Floats:

@@ -63,7 +63,9 @@ class Train:
             TORQUE.require(f"torques.{inertia}", torque)
         self._graph.require_one_train(self.torques)
         if self.model is TrainModel.ISOLATED and not self.meshes:
-            raise GeometryError("model", self.model, "needs meshes: a train without meshes is nothing but its shafts")
+            raise GeometryError(
+                "model", self.model, "must be a model with shafts: this one leaves shafts out, and the train has no meshes"
+            )
         if not self.held:
             self._graph.require_balance(self.torques)
         self._check_modes()
