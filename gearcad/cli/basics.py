@@ -61,21 +61,30 @@ def new(kind: str | None, output: str | None, force: bool) -> None:
 
     KIND is the name of a starter or its beginning; without it the starters are listed.
     """
-    from gearcad.designs.reader import starter_text, starters
+    from gearcad.designs.reader import starter_texts, starters
 
     if kind is None:
         found = starters()
         width = max(map(len, found)) + 2
         click.echo("".join(f"{name:<{width}}{what}\n" for name, what in found.items()), nl=False)
         return
-    name, text = starter_text(kind)
+    from gearcad.core.errors import ParameterError
+
+    texts = starter_texts(kind)
+    if len(texts) > 1 and output not in (None, "-"):
+        one = " or ".join(f"gearcad new {Path(name).stem}" for name in texts)
+        raise ParameterError("output", output, f"must be left out: {kind} is {len(texts)} files; one of them: {one}")
+    paths = {name: Path(output or name) for name in texts}
     if output == "-":
-        click.echo(text, nl=False)
+        click.echo("".join(texts.values()), nl=False)
         return
-    path = Path(output or name)
-    _write_new(path, text, force)
-    click.echo(path)
-    click.echo(f"Next: {_next(name, text, path)}", err=True)
+    for path in paths.values():
+        require_new_file(path, force)
+    for name, path in paths.items():
+        _write_new(path, texts[name], force)
+        click.echo(path)
+    name, path = next(iter(paths.items()))
+    click.echo(f"Next: {_next(name, texts[name], path)}", err=True)
 
 
 def _next(name: str, text: str, path: Path) -> str:
@@ -83,7 +92,7 @@ def _next(name: str, text: str, path: Path) -> str:
     if name.startswith("drawing_"):
         return f'keep what you change, and name it in a spec: [drawing] template = "{path}"'
     if name.startswith("ci-"):
-        return "put it where its first lines say, beside a design table (gearcad new pairs) for gearcad verify"
+        return "put that of your server where its first lines say, beside a design table (gearcad new pairs) for gearcad verify"
     if name.endswith(".csv"):
         return f"gearcad batch {path}"
     commands = {"train": "dynamics", "planetary": "planetary", "measured": "identify"}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,8 +18,8 @@ if TYPE_CHECKING:
 
 _TABLES = (".csv", ".xlsx")
 
-_MOST_MOVED = 20
-"""Figures that moved which the screen shows; verify-baseline.json has all."""
+_MOST_TOLD = 20
+"""Claims that failed and figures that moved which the screen shows; pages and index.html have all."""
 
 
 @click.command(short_help="Prove files and figures of DESIGN, a spec or a table: every claim judged by another program.")
@@ -173,15 +172,17 @@ def _verify_table(
     from gearcad.core.output import staged_files
     from gearcad.jobs.verification import Verify
     from gearcad.report.verification import junit_xml, verification_index
-    from gearcad.verification.baseline import DOCUMENT, RESULTS, read_figures
+    from gearcad.verification.baseline import RESULTS, VerifiedRows, read_figures
 
     folder, began = output if output is not None else Path("output") / table.stem, time.perf_counter()
     with row_progress(shown=not quiet) as progress:
         summary = run_table(
             table, folder, [Verify(level=level)], jobs=jobs, cluster=cluster, keep_going=True, progress=progress
         )
-    documents = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob(f"*/{DOCUMENT}"))]
-    now = read_figures(folder / RESULTS) if baseline_of_table else _figures(documents)
+    documents = VerifiedRows.of(folder)
+    now: Mapping[str, Any] = {}
+    if before is not None:
+        now = read_figures(folder / RESULTS) if baseline_of_table else _figures(documents)
     moved = _moved(before, now, documents, tolerance)
     with staged_files(folder) as staging:
         (staging / "junit.xml").write_text(junit_xml(documents, summary.errors), encoding="utf-8")
@@ -192,9 +193,24 @@ def _verify_table(
     if not as_json:
         click.echo(f"{folder / 'index.html'}\n{folder / 'junit.xml'}")
     _tell_moved(moved)
-    bad = any(document["passed"] is False or document["strength"] is False for document in documents)
-    if bad or moved or summary.failed or summary.not_run or summary.stopped:
+    if _tell_failed(documents) or moved or summary.failed or summary.not_run or summary.stopped:
         click.get_current_context().exit(1)
+
+
+def _tell_failed(documents: Iterable[dict[str, Any]]) -> bool:
+    """Print the claims that failed, each with its design, and return whether there are any."""
+    failed = [
+        f"{document['name']}: {claim['claim']}, {claim['where']}: {claim['quantity']}{f': {reason}' if reason else ''}"
+        for document in documents
+        for claim in document["claims"]
+        if claim["passed"] is False
+        for reason in [claim["reason"]]
+    ]
+    for line in failed[:_MOST_TOLD]:
+        click.secho(f"FAILED {line}", fg="red", err=True)
+    if len(failed) > _MOST_TOLD:
+        click.echo(f"FAILED {len(failed) - _MOST_TOLD} more claims", err=True)
+    return bool(failed)
 
 
 def _write_junit(path: Path, documents: Iterable[dict[str, Any]], errors: Iterable[str] = ()) -> None:
@@ -204,7 +220,7 @@ def _write_junit(path: Path, documents: Iterable[dict[str, Any]], errors: Iterab
 
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(junit_xml(list(documents), list(errors)), encoding="utf-8")
+        path.write_text(junit_xml(documents, errors), encoding="utf-8")
     except OSError as error:
         raise OutputError("junit", str(path), f"cannot be written ({error.strerror})") from error
 
@@ -235,7 +251,7 @@ def _moved(
 
 def _tell_moved(moved: list[MovedFigure]) -> None:
     """Print the figures that moved most."""
-    for each in moved[:_MOST_MOVED]:
+    for each in moved[:_MOST_TOLD]:
         click.echo(f"Moved: {each}", err=True)
-    if len(moved) > _MOST_MOVED:
-        click.echo(f"Moved: {len(moved) - _MOST_MOVED} more figures", err=True)
+    if len(moved) > _MOST_TOLD:
+        click.echo(f"Moved: {len(moved) - _MOST_TOLD} more figures", err=True)

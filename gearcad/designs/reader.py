@@ -89,9 +89,11 @@ _ALIASES = {
     "ring": "ring-22-70",
     "planetary": "planetary-24-21-66",
     "uhlir": "uhlir-19-23",
-    "ci": "ci-github",
 }
 """Names for starters that a newcomer would try."""
+
+_TOGETHER = {"ci": ("ci-github", "ci-gitlab")}
+"""Names for several starters at once."""
 
 NO_DESIGNS = ("drawing_title", "measured")
 """Starters that are no spec and no table of designs."""
@@ -128,6 +130,14 @@ def starter_text(kind: str) -> tuple[str, str]:
         raise ParameterError("kind", kind, f"must be one of {', '.join(named)} (or {', '.join(short)})")
     path = files[matches[0]]
     return path.name, path.read_text(encoding="utf-8")
+
+
+def starter_texts(kind: str) -> dict[str, str]:
+    """Return the texts of the starters called `kind` by the names of their files: of one, or of all of "ci".
+
+    Raises ParameterError.
+    """
+    return dict(map(starter_text, _TOGETHER.get(kind, (kind,))))
 
 
 def edit_spec(text: str, values: Mapping[str, Cell | None], notes: Mapping[str, str] | None = None) -> str:

@@ -173,7 +173,7 @@ def figure_text(value: float | str | None, digits: int = _MANY) -> str:
 # -------------------------------------------------------------------------------------------------- tables of designs
 
 
-def verification_index(name: str, documents: Sequence[Document], errors: Sequence[str], moved: Sequence[MovedFigure]) -> str:
+def verification_index(name: str, documents: Iterable[Document], errors: Sequence[str], moved: Sequence[MovedFigure]) -> str:
     """Return the page of a table: a row for each design with its verdicts, which sorts and filters, and links to its page."""
     rows = []
     for document in documents:
@@ -203,45 +203,51 @@ def junit_xml(documents: Iterable[Document], errors: Iterable[str] = ()) -> str:
     The schema is that of the JUnit plug-in of Jenkins (junit-10.xsd). A claim that failed is a failure, one that was not
     judged is skipped; a row of a table that could not be made is an error.
     """
-    root = ElementTree.Element("testsuites", name="gearcad verify")
-    total = [0, 0, 0]
+    suites, total = list[str](), [0, 0, 0]
     for document in documents:
-        claims, spent = document["claims"], sum(claim["seconds"] for claim in document["claims"])
-        failures = sum(claim["passed"] is False for claim in claims)
-        skipped = sum(claim["passed"] is None for claim in claims)
-        suite = ElementTree.SubElement(root, "testsuite", name=_legal(document["name"]), time=f"{spent:.3f}", errors="0")
-        for key, count in (("tests", len(claims)), ("failures", failures), ("skipped", skipped)):
-            suite.set(key, str(count))
-        for claim in claims:
-            case = ElementTree.SubElement(
-                suite,
-                "testcase",
-                classname=_legal(f"{document['name']}.{claim['claim']}"),
-                name=_legal(f"{claim['where']}: {claim['quantity']}"),
-                time=f"{claim['seconds']:.3f}",
-            )
-            if claim["passed"] is False:
-                said = ", ".join(
-                    f"{key} {figure_text(claim[key])}" for key in ("computed", "reference", "deviation", "permitted")
-                )
-                failure = ElementTree.SubElement(case, "failure", message=_legal(claim["reason"] or claim["quantity"]))
-                failure.text = _legal(f"{said} {claim['unit']}; judged by {claim['judge']}")
-            elif claim["passed"] is None:
-                ElementTree.SubElement(case, "skipped", message=_legal(claim["reason"]))
-        total = [one + two for one, two in zip(total, (len(claims), failures, skipped), strict=True)]
-    lines = list(errors)
-    if lines:
-        suite = ElementTree.SubElement(
-            root, "testsuite", name="rows", tests=str(len(lines)), failures="0", errors=str(len(lines))
-        )
+        suite, counts = _suite(document)
+        suites.append(_xml(suite))
+        total = [one + two for one, two in zip(total, counts, strict=True)]
+    if lines := list(errors):
+        suite = ElementTree.Element("testsuite", name="rows", tests=str(len(lines)), failures="0", errors=str(len(lines)))
         for line in lines:
             case = ElementTree.SubElement(suite, "testcase", classname="rows", name=_legal(line.partition(":")[0]))
             ElementTree.SubElement(case, "error", message=_legal(line))
-    root.set("tests", str(total[0] + len(lines)))
-    root.set("failures", str(total[1]))
-    root.set("errors", str(len(lines)))
-    ElementTree.indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+        suites.append(_xml(suite))
+    head = f'name="gearcad verify" tests="{total[0] + len(lines)}" failures="{total[1]}" errors="{len(lines)}"'
+    begun = f'<?xml version="1.0" encoding="UTF-8"?>\n<testsuites {head}'
+    return f"{begun}>\n{''.join(suites)}</testsuites>\n" if suites else f"{begun} />\n"
+
+
+def _xml(suite: ElementTree.Element) -> str:
+    """Return a suite as lines that are indented by two."""
+    ElementTree.indent(suite, level=1)
+    return f"  {ElementTree.tostring(suite, encoding='unicode').rstrip()}\n"
+
+
+def _suite(document: Document) -> tuple[ElementTree.Element, tuple[int, int, int]]:
+    """Return the test cases of one design, and how many there are, failed, and were not judged."""
+    claims, spent = document["claims"], sum(claim["seconds"] for claim in document["claims"])
+    failures = sum(claim["passed"] is False for claim in claims)
+    skipped = sum(claim["passed"] is None for claim in claims)
+    suite = ElementTree.Element("testsuite", name=_legal(document["name"]), time=f"{spent:.3f}", errors="0")
+    for key, count in (("tests", len(claims)), ("failures", failures), ("skipped", skipped)):
+        suite.set(key, str(count))
+    for claim in claims:
+        case = ElementTree.SubElement(
+            suite,
+            "testcase",
+            classname=_legal(f"{document['name']}.{claim['claim']}"),
+            name=_legal(f"{claim['where']}: {claim['quantity']}"),
+            time=f"{claim['seconds']:.3f}",
+        )
+        if claim["passed"] is False:
+            said = ", ".join(f"{key} {figure_text(claim[key])}" for key in ("computed", "reference", "deviation", "permitted"))
+            failure = ElementTree.SubElement(case, "failure", message=_legal(claim["reason"] or claim["quantity"]))
+            failure.text = _legal(f"{said} {claim['unit']}; judged by {claim['judge']}")
+        elif claim["passed"] is None:
+            ElementTree.SubElement(case, "skipped", message=_legal(claim["reason"]))
+    return suite, (len(claims), failures, skipped)
 
 
 def _legal(text: str) -> str:

@@ -6,7 +6,7 @@ import csv
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -106,6 +106,25 @@ def read_figures(source: Path) -> Mapping[str, Figures]:
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise ParameterError("baseline", str(path), "must be written by gearcad verify: it cannot be read") from error
     return found
+
+
+@dataclass(frozen=True)
+class VerifiedRows:
+    """Documents (verify.json) of the rows of a table that were verified; each is read when its turn comes: they are long."""
+
+    folder: Path
+    names: Sequence[str]
+
+    @classmethod
+    def of(cls, folder: Path) -> VerifiedRows:
+        """Return those of the rows that the table of results in a folder calls "ok", by their names."""
+        with (folder / RESULTS).open(encoding="utf-8-sig", newline="") as file:
+            return cls(folder, sorted(row["name"] for row in csv.DictReader(file) if row["status"] == "ok"))
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        for name in self.names:
+            document: dict[str, Any] = json.loads((self.folder / name / DOCUMENT).read_text(encoding="utf-8"))
+            yield document
 
 
 def _of_table(path: Path) -> Iterator[tuple[str, Figures]]:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.drawing_figures import TableFigure
 from gearcad.verification.drawings import read_dxf
+from gearcad.verification.limits_of_fit import fit_limits, is_class
 
 _OUTLINE, _TABLE = "OUTLINE", "TABLE"
 """Layers of the outlines and of the lines of tables."""
@@ -28,6 +29,12 @@ _DIMENSION, _SIZE = 2, 3
 """Fewest decimals of dimensions, unless these end with zeros, and of sizes that parts have as inputs."""
 
 _DASH = "—"
+
+_BESIDE, _LINE = 30.0, 3.0
+"""Distances (mm of paper) along and across the line at which size, tolerance class and limits stand together."""
+
+_LIMIT = re.compile(r"[±+−-]\d|0$")
+"""Beginning of a limit deviation."""
 
 
 class Letters(NamedTuple):
@@ -119,6 +126,33 @@ class _Sheet:
         one = "".join(_squeezed(each.words) for each in downwards)
         return whole in one or any(_begins(each, whole) for each in words)
 
+    def fits_of_dimensions(self) -> Iterator[tuple[str, str, list[str]]]:
+        """Yield each tolerance class of a dimension with the text before it and the limits behind it."""
+        for texts in self.measured:
+            for place, text in enumerate(texts):
+                if place and is_class(text):
+                    alike = texts[place + 1 : place + 2]
+                    limits = alike if alike and alike[0].startswith("±") else texts[place + 1 : place + 3]
+                    yield texts[place - 1], text, limits
+
+    def fits_of_texts(self) -> Iterator[tuple[str, str, list[str]]]:
+        """Yield each tolerance class of a leader with the size at its left and the limits at its right, the upper first."""
+        for each in self.letters:
+            if not is_class(each.words):
+                continue
+            level = [other for other in self.letters if abs(other.y - each.y) < _SAME]
+            before = [other for other in level if each.x - _BESIDE < other.x < each.x and self.digits(other.words)]
+            behind = [
+                other
+                for other in self.letters
+                if each.x < other.x < each.x + _BESIDE and abs(other.y - each.y) < _LINE and _LIMIT.match(other.words)
+            ]
+            nearest = sorted(behind, key=lambda other: other.x)
+            if before and behind:
+                alike = nearest[0].words.startswith("±")
+                found = nearest[:1] if alike else sorted(nearest[:2], key=lambda other: -other.y)
+                yield max(before, key=lambda other: other.x).words, each.words, [other.words for other in found]
+
     def digits(self, text: str) -> list[str]:
         """Return the numbers in a text as they are written, with a decimal point."""
         return _NUMBER.findall(text.replace("−", "-").replace(self.mark, "."))
@@ -138,6 +172,7 @@ def judge_sheet(path: Path, expected: ExpectedSheet) -> Iterator[Claim]:
     if table is not None:
         yield from _judge_rows(judge, sheet, sheet.rows(table), expected.rows)
     yield from _judge_dimensions(judge, sheet)
+    yield from _judge_fits(judge, sheet)
     for name, text in expected.texts.items():
         yield judge.holds(name, sheet.has(text), place=f"{text} is nowhere")
     outside = [each.words for each in sheet.letters if table is None or not _holds(table, each.x, each.y)]
@@ -207,6 +242,26 @@ def _judge_dimensions(judge: Judge, sheet: _Sheet) -> Iterator[Claim]:
             faults.append(f"{dimension.dxf.text} is drawn as {' '.join(texts)}")
     count = len(sheet.dimensions)
     yield judge.equal("dimensions that tell what they measure", count, count - len(faults), place="; ".join(faults))
+
+
+def _judge_fits(judge: Judge, sheet: _Sheet) -> Iterator[Claim]:
+    """Judge the limits beside each tolerance class, of dimensions and of texts, by ISO 286-1."""
+    fits = Judge(judge.subject, judge.level, judge.where, "ISO 286-1")
+    for nominal, name, limits in (*sheet.fits_of_dimensions(), *sheet.fits_of_texts()):
+        quantity, sizes = f"limits of {nominal} {name}", sheet.digits(nominal)
+        deviations = [1e3 * float(each) for text in limits for each in sheet.digits(text)]
+        expected = fit_limits(name, float(sizes[-1])) if sizes else None
+        if sizes and expected is None:
+            yield fits.not_judged(quantity, f"the formulas of the judge have no limits of {name} at this size")
+            continue
+        if len(limits) == 1 and limits[0].startswith("±"):
+            deviations = [deviations[0], -deviations[0]]
+        if expected is None or len(deviations) != 2:
+            yield fits.holds(quantity, False, place=f"no size or no two limits: {' '.join((nominal, name, *limits))}")
+            continue
+        upper, lower = deviations
+        place = f"{upper:+g} and {lower:+g} µm are drawn, {expected.upper:+.3g} and {expected.lower:+.3g} µm are the limits"
+        yield fits.holds(quantity, expected.has(upper, lower), place=place)
 
 
 def _judge_sizes(judge: Judge, sheet: _Sheet, texts: Sequence[str], sizes: Mapping[str, float]) -> Iterator[Claim]:

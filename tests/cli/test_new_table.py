@@ -70,6 +70,27 @@ def test_new_lists_tables_beside_specs() -> None:
     assert list(starters()) == [line.split()[0] for line in lines]
 
 
+def test_new_ci_writes_the_files_of_both_servers_or_of_one() -> None:
+    result = run("new", "ci")
+    assert result.stdout == "ci-github.yml\nci-gitlab.yml\n"
+    assert result.stderr.startswith("Next: put that of your server where its first lines say")
+    both = [Path(name).read_text() for name in ("ci-github.yml", "ci-gitlab.yml")]
+    assert [text.splitlines()[0].split(":")[0] for text in both] == ["# GitHub", "# GitLab"]
+    assert run("new", "ci", "-o", "-").stdout == "".join(both)
+    for name, text in zip(("ci-github", "ci-gitlab"), both, strict=True):
+        assert run("new", name, "-o", "-").stdout == text
+
+
+def test_new_ci_has_no_one_file_to_name_and_replaces_none() -> None:
+    named = run("new", "ci", "-o", "ci.yml", status=2)
+    message = "output = 'ci.yml': must be left out: ci is 2 files; one of them: gearcad new ci-github or gearcad new ci-gitlab"
+    assert (named.exit_code, named.stderr) == (2, f"Error: {message}\n")
+    Path("ci-gitlab.yml").write_text("mine")
+    run("new", "ci", status=2)
+    assert not Path("ci-github.yml").exists()
+    assert Path("ci-gitlab.yml").read_text() == "mine"
+
+
 def test_new_writes_the_template_of_drawings_for_a_company_to_change() -> None:
     result = run("new", "drawing", "-o", "company.toml")
     assert result.stderr == 'Next: keep what you change, and name it in a spec: [drawing] template = "company.toml"\n'

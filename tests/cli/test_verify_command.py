@@ -2,6 +2,7 @@
 
 import csv
 import json
+import shutil
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -175,6 +176,23 @@ def test_a_table_has_an_index_and_a_page_for_each_row(table: Path) -> None:
     rows = list(csv.DictReader((table / "out" / "results.csv").read_text(encoding="utf-8-sig").splitlines()))
     assert [row["verify.passed"] for row in rows] == ["true", "true"]
     assert any(key.startswith("verify.STEP: gear.step: volume") for key in rows[0])
+
+
+def test_the_index_has_the_rows_of_the_table_alone(table: Path, tmp_path: Path) -> None:
+    """A row that is gone, and one that is wrong now, have pages of a former run."""
+    out = tmp_path / "out"
+    shutil.copytree(table / "out", out)
+    (tmp_path / "gears.csv").write_text(TABLE.replace("two,13,2,8,0", "two,13,2,-8,0\nthree,14,2,8,0").replace("one,", "uno,"))
+    told = run(tmp_path / "gears.csv", "-o", out, "-j", 1, "--quiet")
+    assert told.exit_code == 1
+    index, root = (out / "index.html").read_text(), ElementTree.fromstring((out / "junit.xml").read_text())
+    assert [name in index for name in ("uno/verify.html", "three/verify.html", "one/verify.html", "two/verify.html")] == [
+        True,
+        True,
+        False,
+        False,
+    ]
+    assert [suite.get("name") for suite in root] == ["three", "uno", "rows"]
 
 
 def test_results_of_a_table_are_a_baseline(table: Path) -> None:

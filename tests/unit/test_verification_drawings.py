@@ -10,12 +10,14 @@ from support.specs import TEMPLATES
 
 from gearcad.designs import read_spec
 from gearcad.designs.gear_designs import ToothedDesign
+from gearcad.geometry.fits import limit_deviations
 from gearcad.jobs.build import products_of
 from gearcad.jobs.job import Data
 from gearcad.jobs.verification_sheets import judge_sheets, make_sheets
 from gearcad.solids import FileOptions
 from gearcad.verification.claims import Claim
 from gearcad.verification.exact_parts import ExactPart
+from gearcad.verification.limits_of_fit import fit_limits
 
 STARTERS = ("spur", "volvo-13-44", "reducer-21-43", "ring-22-70", "rack", "double-23-81", "planetary-24-21-66", "planetary-alm")
 
@@ -107,6 +109,10 @@ EDITS = [
     (PINION, "0.125 kg", "0.152 kg", "mass"),
     (PINION, "Pinion", "Piston", "title"),
     (PINION, "⌀42.307", "⌀42.370", "dimensions that tell what they measure"),
+    (PINION, "H7", "H8", "limits of ⌀16 H8"),
+    (PINION, "+0.018", "+0.019", "limits of ⌀16 H7"),
+    (PINION, "h11", "h10", "limits of 18.3 h10"),
+    (ASSEMBLY, "±0.015", "±0.016", "limits of 80 js7"),
     (ASSEMBLY, "3.3846", "3.3864", "Gear ratio"),
     (ASSEMBLY, "0.183", "0.138", "Normal backlash"),
     (ASSEMBLY, "13 / 44", "44 / 13", "Numbers of teeth, items 1 / 2"),
@@ -119,6 +125,32 @@ def test_an_edited_text_is_noticed(volvo: Judged, name: str, old: str, new: str,
     wrong = edited(volvo, name, replaced(old, new))
     assert quantity in [claim.quantity for claim in wrong]
     assert all(claim.where == name for claim in wrong)
+
+
+CLASSES = [f"{letter}{grade}" for letter in ("d", "e", "f", "g", "h", "js", "k", "m", "n", "p") for grade in range(5, 13)]
+SIZES = (2.0, 5.0, 8.0, 14.0, 24.0, 45.0, 60.0, 100.0, 150.0, 200.0, 280.0, 350.0, 450.0)
+
+
+@pytest.mark.parametrize("name", [*CLASSES, *(name.upper() for name in CLASSES)])
+def test_limits_of_the_judge_and_of_the_drawings_agree(name: str) -> None:
+    """Tables and formulas; limits that are 2 µm apart more, or 10 % and 6 µm to the side, are not those of the class."""
+    judged = 0
+    for size in SIZES:
+        limits, told = fit_limits(name, size), limit_deviations(name, size)
+        if limits is None:
+            continue
+        judged += 1
+        assert limits.has(told.upper, told.lower), (size, told, limits)
+        assert not limits.has(told.upper + 2.0, told.lower), (size, told, limits)
+        aside = 6.0 + 0.1 * abs(limits.upper)
+        assert not limits.has(told.upper + aside, told.lower + aside), (size, told, limits)
+    known = not name.startswith("K") or 6 <= int(name[1:]) <= 8
+    assert judged >= 10 or not known or name in ("M5", "N5", "P5", "K5")
+
+
+@pytest.mark.parametrize("name", ["r6", "s6", "u6", "Z7", "H4", "h17", "J7", "nothing"])
+def test_what_the_judge_of_limits_does_not_know_is_not_judged(name: str) -> None:
+    assert fit_limits(name, 30.0) is None
 
 
 def test_a_row_that_was_deleted_or_renamed_is_noticed(volvo: Judged) -> None:
