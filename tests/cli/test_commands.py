@@ -15,7 +15,17 @@ from gearcad.designs.reader import starters
 
 VOLVO = "volvo-13-44"
 PLANETARY = ["planetary-24-21-66", "planetary-alm", "planetary-alm-in-phase", "planetary-differential"]
-PAIRS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "ring-22-70", "uhlir-19-23", "uhlir-19-23-simple", VOLVO]
+PAIRS = [
+    "ground-25-41",
+    "alm-18-161",
+    "double-23-81",
+    "fzg-c",
+    "reducer-21-43",
+    "ring-22-70",
+    "uhlir-19-23",
+    "uhlir-19-23-simple",
+    VOLVO,
+]
 STARTERS = [*PAIRS, *PLANETARY, "rack", "spur"]
 TRAINS = ["train-1-stage", "train-2-stage", "train-pairs"]
 TABLES = ["gears", "pairs", "planetary-sets", "rings"]

@@ -192,7 +192,16 @@ def test_shared_keys_of_pairs_are_those_that_the_page_does_not_name() -> None:
     )
     gears = [
         key
-        for name in ("gear", "gear.rack", "gear.cutter", "gear.double_helix", "gear.body", "gear.modification")
+        for name in (
+            "gear",
+            "gear.rack",
+            "gear.cutter",
+            "gear.premachining",
+            "gear.finishing",
+            "gear.double_helix",
+            "gear.body",
+            "gear.modification",
+        )
         for key in key_tables()[name]
     ]
     own = {key for key in gears if key not in SHARED}
