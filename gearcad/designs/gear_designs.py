@@ -69,7 +69,10 @@ class ToothedDesign(Design):
             elif value is not None:
                 document[table] = _plain(value)
         document |= drawing_documents(self.drawing, self.drawings)
-        return with_assumed(document)
+        document = with_assumed(document)
+        if self.gears and all(gear.accuracy_grade is not None for gear in self.gears.values()):  # that of [rating] is not used
+            document["assumed"] = [line for line in document["assumed"] if not line.startswith("rating.accuracy_grade ")]
+        return document
 
 
 def _plain(options: DataclassInstance) -> dict[str, Any]:

@@ -50,6 +50,8 @@ def _sections(design: Design, document: Mapping[str, Any]) -> Iterator[Section]:
     yield _material_section(document)
     for table in ("load", "mounting", "rating"):
         given = _shown_of(table, document.get(table, {}))
+        if table == "rating" and design.gears and all(gear.accuracy_grade is not None for gear in design.gears.values()):
+            given.pop("accuracy_grade", None)  # the gears have their own
         rows = [_row(f"{table}.{key}", fields[table][key].symbol, [value]) for key, value in given.items()]
         yield Section((), block(table.capitalize(), rows))
 

@@ -13,12 +13,13 @@ from support.cases import read_cases
 from gearcad import BasicRack, Gear, GearPair
 from gearcad.core.errors import GeometryError, InputError, SpecError
 from gearcad.core.records import Role
-from gearcad.designs.reader import read_spec
+from gearcad.designs.reader import read_spec, starter_text
 from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.premachining import Finishing, Premachining, SemiTopping
 from gearcad.rating import Edition
 from gearcad.rating.root_section import VirtualGear, generated_section, hob_section, load_point
 from gearcad.rating.root_stress import GrindingNotch, RootMesh, loaded_width, root_rating
+from gearcad.sheet import sheet_of
 
 CASES = read_cases("premachining")
 
@@ -284,3 +285,13 @@ def test_the_weaker_root_of_a_tolerance_is_rated() -> None:
         stresses[name] = root_rating(gear, mesh, loaded_width(pair, Role.PINION)).nominal_stress
     assert stresses["both"] == pytest.approx(max(stresses["most"], stresses["least"]), rel=1e-12)
     assert stresses["both"] > stresses["nominal"]
+
+
+@pytest.mark.parametrize(("grade", "told"), [("accuracy_grade = 6", False), ("", True)])
+def test_a_grade_that_the_gears_have_is_not_told_as_assumed(tmp_path: Path, grade: str, told: bool) -> None:
+    text = starter_text("ground-25-41")[1].replace("accuracy_grade = 6", grade)
+    (tmp_path / "graded.toml").write_text(text, encoding="utf-8")
+    design = read_spec(tmp_path / "graded.toml")
+    assert any(line.startswith("rating.accuracy_grade") for line in design.to_dict()["assumed"]) is told
+    rows = [row.key for section in sheet_of(design).sections for block in section.blocks for row in block.rows]
+    assert ("rating.accuracy_grade" in rows) is told
