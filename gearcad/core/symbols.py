@@ -13,7 +13,6 @@ from enum import Enum
 from typing import NamedTuple
 
 __all__ = [
-    "BODY",
     "CHECK",
     "CHECK_COLUMNS",
     "COURSES",
@@ -24,6 +23,7 @@ __all__ = [
     "GEAR_RATING",
     "INDEX",
     "LOAD_FACTOR_DETAILS",
+    "MASS",
     "MESH",
     "MODIFY",
     "MODIFY_FIGURES",
@@ -202,10 +202,8 @@ COURSES: dict[str, Symbol] = {
 }
 """Lists along the path of contact in the document of a pair."""
 
-BODY = {
-    "mass": Symbol("m", "kg", "", "mass of the solid", Better.LOWER),
-}
-"""Symbols of what follows from the solid of a gear and its material."""
+MASS = Symbol("m", "kg", "", "mass of the solid", Better.LOWER)
+"""Symbol of the mass of a gear, which follows from its solid and its material."""
 
 RACK = {
     "transverse_module": GEAR["transverse_module"],

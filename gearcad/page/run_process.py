@@ -204,7 +204,7 @@ ANALYSES = {
 
 DOWNLOADS: dict[str, RunKind] = {
     **{each.value: RunKind(job=_build(each.value), taken=f"*.{each.value}") for each in Format if each is not Format.PNG},
-    "drawing-pdf": RunKind(job=_draw("pdf"), taken="*.pdf"),
+    "drawing-pdf": RunKind(job=_draw("pdf"), taken="drawing.pdf"),  # which has all sheets
     "drawing-dxf": RunKind(job=_draw("dxf"), taken="*.dxf"),
     "drawing-svg": RunKind(job=_draw("svg"), taken="*.svg"),
     "data": RunKind(job=_data, taken="data.json"),

@@ -19,6 +19,7 @@ from gearcad.page.components.elements import BarView
 from gearcad.page.folder import DESIGN, TAB
 from gearcad.page.panels import Panel
 from gearcad.page.panels.compare import ComparePanel
+from gearcad.page.panels.drawing import DrawingPanel
 from gearcad.page.panels.limits import LimitsPanel
 from gearcad.page.panels.results import ResultsPanel
 from gearcad.page.panels.runs import RunsPanel
@@ -360,9 +361,15 @@ class Session:
                     taken = (self.taken, self.rewritten, self.change)
                     self._tasks = TasksPanel(TaskPlace(bench, words, self._runs.runs, *taken))
                     right.on("tasks", self._tasks.follow)
+                with right.under("drawing"):
+                    drawing = following.with_line(
+                        DrawingPanel(words, lambda: self._files.make("drawing-pdf")), lambda: right.chosen == "drawing"
+                    )
+                    following.band()
+                    right.on("drawing", lambda: following.look(drawing))
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
-        following.begin((section, roll, bodies, sheet, strength, limits, shares, compare))
+        following.begin((section, roll, bodies, sheet, strength, limits, shares, compare, drawing))
         self.open.add(self)
         ui.context.client.on_delete(self.leave)
         self.follow()
@@ -534,6 +541,7 @@ def _right_titles(words: PageWords) -> dict[str, str]:
         "tasks": words["Tasks"],
         "runs": words["Runs"],
         "compare": words["Compare"],
+        "drawing": words["Drawing"],
         "table": words["Table"],
     }
 

@@ -121,7 +121,7 @@ def test_inches_are_compared_like_millimetres() -> None:
 def test_directions_are_known_of_safeties_and_not_of_geometry() -> None:
     assert {symbols.STRENGTH[key].better for key in ("S_H", "S_F", "S_int", "S_B")} == {Better.HIGHER}
     assert symbols.PLANETARY["efficiency"].better is Better.HIGHER
-    assert symbols.BODY["mass"].better is Better.LOWER
+    assert symbols.MASS.better is Better.LOWER
     assert {symbol.better for symbol in symbols.GEAR.values()} == {None}
 
 

@@ -74,7 +74,7 @@ def _words_of_symbols() -> set[str]:
     of_trains = (symbols.TRAIN, *symbols.TRAIN_PARTS.values())
     found = [symbol for table in (*tables, *of_trains) for symbol in table.values() if isinstance(symbol, symbols.Symbol)]
     found += [field.symbol for table in (MAIN, *TRAIN_PARTS) for field in TRAIN[table].values()]
-    return {symbol.words for symbol in found}
+    return {symbol.words for symbol in (*found, symbols.MASS)}
 
 
 def _words_of_forms() -> set[str]:

@@ -19,7 +19,8 @@ class BarView(Element, component="gear_bar.js"):
     def __init__(self, words: PageWords) -> None:
         super().__init__()
         self._props["keys"] = list(_keys(words).items())
-        self._props["words"] = {"dark": words["light or dark"], "keys": words["keys"], "close": words["close"]}
+        own = {"dark": words["light or dark"], "keys": words["keys"], "close": words["close"]}
+        self._props["words"] = own | {"print": words["print what is on the right as a report"]}
 
 
 def _keys(words: PageWords) -> dict[str, str]:
@@ -239,6 +240,23 @@ class RunsView(Element, component="gear_runs.js", esm={"gear-symbols": "symbols"
     def tell(self, number: int, told: dict[str, Any]) -> None:
         """Report the progress of a run to the browser."""
         self.run_method("tell", number, told)
+
+
+class DrawingView(Element, component="gear_drawing.js"):
+    """Sheets of a drawing as pictures; calls `make` for a file with all of them. `words` are its own."""
+
+    def __init__(self, make: Callable[[], None], words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["words"] = words
+        self.on("pdf", make)
+
+    def show(self, sheets: Sequence[Mapping[str, Any]], why_not: str) -> None:
+        """Show sheets, each with its `name`, `title`, `paper` and `svg`, or say why there are none."""
+        self.run_method("show", list(sheets), why_not)
+
+    def wait(self) -> None:
+        """Tell that what is shown is of an older design."""
+        self.run_method("wait")
 
 
 class CompareView(Element, component="gear_compare.js", esm={"gear-symbols": "symbols"}):

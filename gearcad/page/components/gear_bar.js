@@ -4,6 +4,8 @@ const STORE = "gearcad-dark";
 export default {
   template: `
     <span class="bar-own">
+      <span class="print-only">gearcad · {{ date }}</span>
+      <button type="button" class="print" :aria-label="words.print" :title="words.print" @click="print"><q-icon name="print" size="16px" /></button>
       <button type="button" :aria-label="words.dark" :title="words.dark" @click="change">◐</button>
       <button type="button" :aria-label="words.keys" :title="words.keys + '  ?'" @click="open">?</button>
       <dialog ref="keys" class="keys" :aria-label="words.keys">
@@ -13,6 +15,9 @@ export default {
       </dialog>
     </span>`,
   props: { words: Object, keys: Array },
+  data() {
+    return { date: "" };
+  },
   mounted() {
     try {
       const chosen = localStorage.getItem(STORE);
@@ -21,9 +26,11 @@ export default {
       // A browser that keeps nothing follows the system.
     }
     window.addEventListener("keydown", this.pressed);
+    window.addEventListener("beforeprint", this.dated);
   },
   unmounted() {
     window.removeEventListener("keydown", this.pressed);
+    window.removeEventListener("beforeprint", this.dated);
   },
   methods: {
     change() {
@@ -34,6 +41,13 @@ export default {
       } catch {
         // It is chosen for this tab only.
       }
+    },
+    print() {
+      window.print();
+    },
+    // A report says of which day it is.
+    dated() {
+      this.date = new Date().toLocaleDateString(document.documentElement.lang, { dateStyle: "medium" });
     },
     open() {
       if (!this.$refs.keys.open) this.$refs.keys.showModal();

@@ -63,7 +63,7 @@ export default {
         <ul><li v-for="notice in content.notices" :key="notice.text"><b v-if="notice.about">{{ notice.about }} – </b><span lang="en">{{ notice.text + " " }}</span>
           <button v-for="key in notice.keys" :key="key" type="button" class="key" @click="focus(key)">{{ key }}</button></li></ul>
       </details>
-      <details v-for="block in blocks" :key="block.id" :open="block.open" @toggle="fold(block, $event.target.open)">
+      <details v-for="block in blocks" :key="block.id" :open="block.open || printing" @toggle="fold(block, $event.target.open)">
         <summary>{{ block.title }}</summary>
         <table v-for="table in block.tables" :key="table.columns.join()" :class="{ stacked: isStacked(table) }">
           <thead v-if="table.columns.length"><tr><th colspan="3"></th><th v-for="name in table.columns" :key="name" scope="col">{{ name }}</th></tr></thead>
@@ -83,6 +83,7 @@ export default {
       wanted: "",
       at: "",
       width: 0,
+      printing: false,
     };
   },
   created() {
@@ -91,9 +92,13 @@ export default {
   mounted() {
     this.observer = new ResizeObserver(() => (this.width = this.$el.clientWidth));
     this.observer.observe(this.$el);
+    window.addEventListener("beforeprint", this.unfold);
+    window.addEventListener("afterprint", this.unfold);
   },
   unmounted() {
     this.observer.disconnect();
+    window.removeEventListener("beforeprint", this.unfold);
+    window.removeEventListener("afterprint", this.unfold);
   },
   computed: {
     // Few are read, many are opened by who wants them.
@@ -169,7 +174,7 @@ export default {
     },
     // Whether there is no room for the columns beside the words of a quantity.
     isStacked({ columns, rest }) {
-      return (columns.length > 2 || rest > DECIMALS) && this.width < WORDS + COLUMN * columns.length;
+      return !this.printing && (columns.length > 2 || rest > DECIMALS) && this.width < WORDS + COLUMN * columns.length;
     },
     pinned(key) {
       return this.pins[key] ?? this.content.pins.includes(key);
@@ -194,8 +199,14 @@ export default {
       this.pins = { ...this.pins, [key]: !this.pinned(key) };
       this.remember();
     },
+    // A report on paper has all blocks open.
+    unfold(event) {
+      this.printing = event.type === "beforeprint";
+      if (this.printing) this.shut = [...this.$el.querySelectorAll("details.told:not([open]), .notices:not([open])")];
+      for (const each of this.shut ?? []) each.open = this.printing;
+    },
     fold(block, open) {
-      if (this.wanted || open === block.open) return;
+      if (this.wanted || this.printing || open === block.open) return;
       this.folds = { ...this.folds, [block.id]: open };
       this.remember();
     },

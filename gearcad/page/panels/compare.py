@@ -59,7 +59,7 @@ def _masses(design: Design) -> Iterator[Section]:
     for name, gear in design.gears.items():
         with suppress(GearcadError):
             found[name] = float(mass_properties(gear, _material(design, name).density).mass)
-    symbol = symbols.BODY["mass"]
+    symbol = symbols.MASS
     texts = tuple(ABSENT if mass is None else f"{mass:.4g}" for mass in found.values())
     yield Section(tuple(found), (Block("Body", (Row("mass", symbol, tuple(found.values()), texts),)),))
 

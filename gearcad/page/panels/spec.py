@@ -259,6 +259,12 @@ class FilesPanel:
         """Open the page that takes the design over, without a question."""
         self._view.leave_for(address)
 
+    def make(self, kind: str) -> None:
+        """Make a file of a kind, which the browser takes when it is ready, and say so."""
+        with self._client:
+            ui.notify(f"{self._names[kind]}: {self._words['being computed']}")
+            self._make(kind)
+
     def close(self) -> None:
         """Stop because the tab was closed."""
         await_files(self._key, None)

@@ -1,5 +1,6 @@
 """Data sheet, bodies and section in a browser: what changed, notices, turning, cutting and measuring."""
 
+from pathlib import Path
 from typing import Any
 
 from gearcad.designs.reader import starter_text
@@ -232,3 +233,54 @@ def test_designs_are_compared_swapped_and_let_go(tab: Any) -> None:
     assert row.locator("td").all_inner_texts() == ["25.0000", "30.0000", "28.0000"]
     tab.page.locator(".compare thead th").nth(2).get_by_role("button").last.click()
     tab.page.wait_for_function("document.querySelectorAll('.compare thead th[scope=col]').length === 2")
+
+
+def test_the_drawing_is_seen_magnified_and_taken_as_pdf(tab: Any) -> None:
+    tab.page.get_by_role("tab", name="Drawing").click()
+    picture = tab.page.locator(".gear-drawing .paper img")
+    picture.wait_for(state="visible")
+    tab.page.wait_for_function("document.querySelector('.gear-drawing .paper img').naturalWidth > 0")
+    assert tab.page.locator(".sheet-tools button[aria-pressed]").all_inner_texts() == ["Assembly", "pinion", "wheel"]
+    first, width = picture.get_attribute("src"), picture.bounding_box()["width"]
+    tab.page.locator(".sheet-tools button").nth(1).click()
+    tab.page.wait_for_function("former => document.querySelector('.gear-drawing .paper img').src !== former", arg=first)
+    tab.page.locator(".gear-drawing .paper").focus()
+    tab.page.keyboard.press("+")
+    tab.page.wait_for_function(
+        "former => document.querySelector('.gear-drawing .paper img').clientWidth > 1.2 * former", arg=width
+    )
+    second = picture.get_attribute("src")
+    tab.field("pinion.teeth").fill("22")
+    tab.page.wait_for_function("former => document.querySelector('.gear-drawing .paper img').src !== former", arg=second)
+    tab.page.wait_for_selector('.gear-drawing[aria-busy="false"]')
+    tab.field("pinion.teeth").fill("2")
+    tab.page.wait_for_selector('.gear-drawing[data-stale="of the last good design"]')
+    tab.field("pinion.teeth").fill("22")
+    tab.page.wait_for_selector(".gear-drawing:not([data-stale])")
+    with tab.page.expect_download() as taken:
+        tab.page.get_by_role("button", name="PDF").click()
+    assert taken.value.suggested_filename.endswith(".pdf")
+    assert Path(taken.value.path()).read_bytes()[:5] == b"%PDF-"
+
+
+def test_a_print_is_a_report_of_all_values(tab: Any) -> None:
+    tab.page.wait_for_selector(".gear-sheet tr[data-row]", state="attached")
+    folded = tab.page.locator(".gear-sheet details:not([open])").count()
+    assert folded > 5
+    tab.page.emulate_media(media="print")
+    tab.page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    tab.page.wait_for_function("!document.querySelector('.gear-sheet details:not([open])')")
+    for gone in (".left", ".middle", ".right .tabs", ".gear-sheet .search", ".files"):
+        assert not tab.page.locator(gone).first.is_visible(), gone
+    assert tab.page.locator(".bar .name").is_visible()
+    assert "gearcad ·" in tab.page.inner_text(".bar .print-only")
+    assert tab.page.locator('tr[data-row="pair.path_of_contact.A"]').is_visible()
+    colours = "element => [getComputedStyle(element).color, getComputedStyle(document.body).backgroundColor]"
+    tab.page.evaluate("Quasar.Dark.set(true)")
+    assert tab.page.locator('.gear-sheet th[scope="row"]').first.evaluate(colours) == ["rgb(0, 0, 0)", "rgb(255, 255, 255)"]
+    tab.page.evaluate("Quasar.Dark.set(false)")
+    tab.page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+    tab.page.emulate_media(media="screen")
+    tab.page.wait_for_function(
+        "folded => document.querySelectorAll('.gear-sheet details:not([open])').length === folded", arg=folded
+    )
