@@ -226,7 +226,7 @@ class RootTools:
         """Return the root with the step that a wheel leaves which ends at a radius (mm)."""
         off = self._above(cut, before, trace)
         inside = [gap < 0 for gap in off]
-        if inside[0] or inside.count(True) != len(inside) - inside.index(True):
+        if not any(inside) or inside[0] or inside.count(True) != len(inside) - inside.index(True):
             raise OutlineFault("reaches")
 
         def excess(s: float) -> float:
@@ -236,6 +236,8 @@ class RootTools:
         low = (inside.index(True) - 1) / (_SAMPLES - 1)
         s = root_between(excess, low, low + 1 / (_SAMPLES - 1), xtol=1e-15, rtol=8.9e-16)
         meets = float(trace.polar(s)[0])
+        if abs(meets - self._half_angle(0.0)[0]) < ROUNDING * meets:  # the wheel is as deep as the root
+            raise OutlineFault("reaches")
         return RootOutline((*self._below(cut, before, meets), _from(trace, s)), end, corner=False, wheel=True)
 
     def _below(self, cut: RootOutline, before: FlankInvolute, radius: float) -> tuple[RootCurve, ...]:

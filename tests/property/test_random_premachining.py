@@ -1,6 +1,7 @@
 """Random tools that cut before finishing: outlines against brute-force sweeps of the tools' own outlines."""
 
 import random
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -121,3 +122,43 @@ def test_a_tool_that_is_off_by_a_micrometre_is_noticed() -> None:
     moved = geometry._finished(gear, points * np.exp(1e-3j / np.abs(points)), 0.0, 0.0)
     assert np.abs(moved[flank]).max() > 5e-4
     assert np.abs(off[flank]).max() < PERMITTED
+
+
+def _hostile(rng: random.Random) -> Gear:
+    """A gear of tools that mostly do not go together."""
+    m, teeth = 10 ** rng.uniform(-1.0, 1.5), rng.choice([3, 8, 17, 60, 2000, -20, -120])
+    pre = {"tool_addendum": rng.uniform(0.5, 2.0), "tool_tip_radius": rng.choice([0.0, 0.25, rng.uniform(0.0, 0.6)])}
+    pre |= {"stock": rng.choice([0.0, "din3972-III", rng.uniform(0.0, 0.06) * m])}
+    if rng.random() < 0.6:
+        pre |= {"protuberance": rng.uniform(0.0, 0.06) * m, "protuberance_angle": rng.uniform(0.0, 15.0)}
+    if rng.random() < 0.2:
+        pre |= {"cutter_teeth": rng.choice([3, 10, 25, 60]), "cutter_profile_shift": rng.uniform(-1.0, 1.0)}
+    finishing: dict[str, Any] = {"wheel_tip_radius": rng.choice([None, rng.uniform(0.001, 0.6) * m])}
+    if rng.random() < 0.4:
+        finishing |= {"kind": rng.choice(["generating", "form"]), "end_diameter": teeth * m * rng.uniform(0.85, 1.1)}
+    return Gear(
+        teeth=teeth,
+        normal_module=m,
+        face_width=5 * m,
+        helix_angle=rng.choice([0.0, -30.0, 50.0]),
+        profile_shift=rng.choice([0.0, 0.2, rng.uniform(-1.0, 1.2)]),
+        rack=BasicRack(pressure_angle=rng.choice([20.0, 14.5, 8.0, 40.0])),
+        premachining=Premachining(**pre),
+        finishing=Finishing(**finishing),
+    )
+
+
+def test_tools_that_do_not_go_together_are_refused_in_one_line() -> None:
+    """And what is not refused is one unbroken outline."""
+    rng, made = random.Random(5), 0
+    for _ in range(400):
+        try:
+            gear = _hostile(rng)
+        except InputError as error:
+            assert "\n" not in str(error)
+            continue
+        made += 1
+        ends = [curve.points(np.array([0.0, 1.0])) for curve in gear.profile.curves]
+        gaps = [float(np.hypot(*(after[0] - before[1]))) for before, after in pairwise(ends)]
+        assert max(gaps) < 1e-6 * gear.normal_module, gear
+    assert made > 20
