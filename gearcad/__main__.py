@@ -6,6 +6,7 @@ import gc
 import os
 import signal
 import sys
+from itertools import pairwise
 
 from gearcad.core.guard import CAN_GUARD, guarded
 
@@ -22,7 +23,8 @@ _MINDS_ITSELF = ("batch", "open")
 def run() -> None:
     """Run the command line, and end this process."""
     _open_standard_streams()
-    command = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
+    words = [word for before, word in pairwise(sys.argv) if before != "--language" and not word.startswith("-")]
+    command = words[0] if words else ""
     if CAN_GUARD and command not in _MINDS_ITSELF:
         guarded(_work)
         return

@@ -9,6 +9,7 @@ import sys
 import click
 
 from gearcad.cli.group import Commands, debug_option
+from gearcad.cli.language import language_option
 from gearcad.version import __version__
 
 __all__ = ["main"]
@@ -26,6 +27,7 @@ _CHATTY = ("matplotlib", "ezdxf")
 
 @click.group(cls=Commands, epilog=_EXAMPLE, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, prog_name="gearcad")
+@language_option
 @debug_option
 def main() -> None:
     """Exact cylindrical gears from a handful of numbers: data sheet, STEP, STL and more.

@@ -11,6 +11,7 @@ import click
 
 from gearcad.cli.group import debug_option, require_new_file, spec_argument
 from gearcad.cli.job import json_option, shows_styles, window_width
+from gearcad.cli.language import say, translated
 from gearcad.core.records import Notice, texts
 from gearcad.core.symbols import Symbol
 from gearcad.designs.design import Design
@@ -66,7 +67,7 @@ def new(kind: str | None, output: str | None, force: bool) -> None:
     if kind is None:
         found = starters()
         width = max(map(len, found)) + 2
-        click.echo("".join(f"{name:<{width}}{what}\n" for name, what in found.items()), nl=False)
+        say("".join(f"{name:<{width}}{what}\n" for name, what in found.items()), nl=False)
         return
     from gearcad.core.errors import ParameterError
 
@@ -84,7 +85,7 @@ def new(kind: str | None, output: str | None, force: bool) -> None:
         _write_new(path, texts[name], force)
         click.echo(path)
     name, path = next(iter(paths.items()))
-    click.echo(f"Next: {_next(name, texts[name], path)}", err=True)
+    say(f"Next: {_next(name, texts[name], path)}", err=True)
 
 
 def _next(name: str, text: str, path: Path) -> str:
@@ -181,7 +182,7 @@ def print_datasheet(design: Design, console: Console) -> None:
 
     for line in _lines(design, wide=console.width >= _WIDE):
         # Soft wrap: a narrow window may break a line, but never cut a number.
-        console.print(Text(line.text, style=line.style), soft_wrap=True)
+        console.print(Text(translated(line.text), style=line.style), soft_wrap=True)
 
 
 def _lines(design: Design, *, wide: bool) -> Iterator[_Line]:
@@ -262,7 +263,7 @@ def data(spec: Path, as_json: bool) -> None:
         return
 
     if not shows_styles(sys.stdout):
-        click.echo(plain_datasheet(design, window_width()), nl=False)
+        say(plain_datasheet(design, window_width()), nl=False)
         return
     from rich.console import Console
 

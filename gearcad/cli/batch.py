@@ -11,6 +11,7 @@ import click
 from gearcad.cli.build import files_options, format_option
 from gearcad.cli.group import debug_option, job_commands, parse_choices, require_new_file, spec_argument
 from gearcad.cli.job import row_progress
+from gearcad.cli.language import say
 from gearcad.core.errors import ParameterError, as_choice
 from gearcad.jobs import job_of
 from gearcad.solids import FileOptions, Format
@@ -87,7 +88,7 @@ def batch(
             )
     except InterruptedRunError as error:
         if not quiet:
-            click.echo(f"{_counts(error.summary)}; the same command makes the rest", err=True)
+            say(f"{_counts(error.summary)}; the same command makes the rest", err=True)
         raise
     report_summary(summary, time.perf_counter() - began, as_json=as_json, quiet=quiet)
     if not summary.passed:
@@ -130,10 +131,10 @@ def report_summary(summary: BatchSummary, seconds: float, *, as_json: bool, quie
     else:
         click.echo("".join(f"{path}\n" for path in results), nl=False)
     for line in (*summary.errors, *filter(None, [summary.stopped])):
-        click.echo(f"Error: {line}", err=True)
+        say(f"Error: {line}", err=True)
     if not quiet:
         rate = (summary.ok + summary.failed) / seconds
-        click.echo(f"{_counts(summary)} in {seconds:.1f} s ({rate:.3g} rows/s)", err=True)
+        say(f"{_counts(summary)} in {seconds:.1f} s ({rate:.3g} rows/s)", err=True)
 
 
 def _counts(summary: BatchSummary) -> str:
@@ -202,7 +203,7 @@ def _sample(method: str | None, rows: int | None, seed: int | None) -> Sample | 
     if rows is None:
         raise ParameterError("sample", method, "needs --n, how many rows to draw")
     if chosen is Method.SOBOL and rows > 0 and rows & (rows - 1):
-        click.echo("Note: Sobol points are spread most evenly if --n is a power of 2, such as 128 or 256", err=True)
+        say("Note: Sobol points are spread most evenly if --n is a power of 2, such as 128 or 256", err=True)
     return Sample(method=chosen, rows=rows, seed=seed or 0)
 
 
@@ -214,7 +215,7 @@ def _echo_prospects(planned: Study, path: Path) -> None:
     rows, of_train = planned.rows, planned.kind is DesignKind.TRAIN
     faulty, first = check_table(path) if rows <= MOST_CHECKED else (0, "")
     if faulty:
-        click.echo(f"{faulty} of {rows} rows make no {'train' if of_train else 'gear'}. The first: {first}", err=True)
+        say(f"{faulty} of {rows} rows make no {'train' if of_train else 'gear'}. The first: {first}", err=True)
     keep_going = f" --keep-going    # {'does' if of_train else 'builds'} the others" if 0 < faulty < rows else ""
     if faulty < rows:
         click.echo(f"Next: {planned.next_command(path)}{keep_going}", err=True)
@@ -256,7 +257,7 @@ def plot(results: Path, x: str, y: str, colour: str | None, contour: str | None,
     save_plot(plot_scatter if contour is None else plot_contours, points, path)
     click.echo(path)
     if points.omitted:
-        click.echo(f"{points.omitted} rows are left out: not ok, or without one of these values", err=True)
+        say(f"{points.omitted} rows are left out: not ok, or without one of these values", err=True)
 
 
 def _plain(key: str) -> str:

@@ -12,6 +12,7 @@ import click
 
 from gearcad.cli.group import debug_option, parse_choices, spec_argument
 from gearcad.cli.job import Command, echo_warnings, file_progress, folder_of, json_option, output_option, perform, quiet_option
+from gearcad.cli.language import say
 from gearcad.solids import FileOptions, Format
 
 if TYPE_CHECKING:
@@ -136,7 +137,7 @@ def _show(_name: str, drawing: Drawing, *, quiet: bool) -> None:
 
     width = max(len(sheet.name) for sheet in drawing.sheets)
     for sheet in drawing.sheets:
-        click.echo(f"{sheet.name:<{width}}  {paper_of(sheet):<3} {scale_of(sheet):>6}  {sheet.title}")
+        say(f"{sheet.name:<{width}}  {paper_of(sheet):<3} {scale_of(sheet):>6}  {sheet.title}")
     if not quiet:
         echo_warnings(drawing.notices)
 

@@ -10,6 +10,7 @@ import click
 
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import echo_warnings, folder_of, json_option, output_option, perform_on, quiet_option
+from gearcad.cli.language import say
 
 if TYPE_CHECKING:
     from gearcad.designs import Design
@@ -147,11 +148,11 @@ def _echo_next(study: Study, output: Path | None) -> None:
 
     folder = folder_of(output, study.name)
     if files := [shlex.quote(str(folder / name)) for name in specs_of(study)]:
-        click.echo(f"Next: gearcad check {files[0]}", err=True)
+        say(f"Next: gearcad check {files[0]}", err=True)
 
 
 def _show(_name: str, study: Study) -> None:
-    click.echo("\n".join(_lines(study)))
+    say("\n".join(_lines(study)))
     echo_warnings(study.notices)
 
 

@@ -12,6 +12,7 @@ from typing import Any, NoReturn, TypeVar
 
 import click
 
+from gearcad.cli.language import require_language, say
 from gearcad.core.errors import GearcadError, ParameterError, SolverError, as_choice, out_of_memory, printable, shortened, shown
 from gearcad.core.output import source_date
 from gearcad.jobs import VERBS
@@ -57,10 +58,11 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; raises SystemExit by way of `ctx.exit`."""
         try:
+            require_language(ctx)
             source_date()  # a date that is none is told before any work
             return super().invoke(ctx)
         except click.UsageError as error:
-            click.echo(f"Error: {shortened(error.format_message(), _LONGEST_USAGE)}", err=True)
+            say(f"Error: {shortened(error.format_message(), _LONGEST_USAGE)}", err=True)
             ctx.exit(2)
         except (click.ClickException, click.Abort, click.exceptions.Exit):
             raise
@@ -75,19 +77,19 @@ class Commands(click.Group):
                 raise
             if isinstance(error, GearcadError):
                 lines = (shortened(line, _LONGEST_LINE) for line in str(error).split("\n"))
-                click.echo("".join(f"Error: {line}\n" for line in lines), err=True, nl=False)
+                say("".join(f"Error: {line}\n" for line in lines), err=True, nl=False)
                 ctx.exit(1 if isinstance(error, SolverError) else 2)
             if isinstance(error, ModuleNotFoundError) and (error.name or "gearcad").partition(".")[0] != "gearcad":
-                click.echo(f"Error: {_missing(str(error.name))}", err=True)
+                say(f"Error: {_missing(str(error.name))}", err=True)
                 ctx.exit(1)
             if isinstance(error, OSError):  # the system's fault, such as a full disk behind stdout
-                click.echo(f"Error: {printable(error.strerror or str(error))}", err=True)
+                say(f"Error: {printable(error.strerror or str(error))}", err=True)
                 ctx.exit(1)
             if isinstance(error, MemoryError):
-                click.echo(f"Error: {out_of_memory(error)}", err=True)
+                say(f"Error: {out_of_memory(error)}", err=True)
                 ctx.exit(1)
             what = shown(" ".join(f"{type(error).__name__}: {error}".split()), _LONGEST_FAULT)
-            click.echo(f"Error: unexpected {what} (a fault of gearcad: please report it, with what --debug shows)", err=True)
+            say(f"Error: unexpected {what} (a fault of gearcad: please report it, with what --debug shows)", err=True)
             ctx.exit(1)
 
 
@@ -109,7 +111,7 @@ def _missing(module: str) -> str:
 
 
 def _leave_interrupted(ctx: click.Context) -> NoReturn:
-    click.echo("Aborted!", err=True)
+    say("Aborted!", err=True)
     ctx.exit(INTERRUPTED)
 
 

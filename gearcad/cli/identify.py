@@ -10,6 +10,7 @@ import click
 
 from gearcad.cli.group import debug_option, require_new_file
 from gearcad.cli.job import echo_warnings, quiet_option
+from gearcad.cli.language import say
 from gearcad.core.errors import ParameterError
 from gearcad.core.quantities import FieldSchema, schema_of
 from gearcad.identify.measurements import Gauge, Measurements
@@ -157,13 +158,13 @@ def identify(
     if as_json:
         click.echo(json_text(with_summary(found.to_dict())), nl=False)
     else:
-        click.echo("\n".join(identification_lines(found)))
+        say("\n".join(identification_lines(found)))
         if write is not None:
             click.echo(write)
     if not quiet:
         echo_warnings(found.notices, err=True)
         if write is not None:
-            click.echo(f"Next: gearcad data {write}", err=True)
+            say(f"Next: gearcad data {write}", err=True)
     if not found.fits:
         click.get_current_context().exit(1)
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 
 import click
 
+from gearcad.cli.language import say, translated
 from gearcad.core.output import require_folder
 from gearcad.core.records import Notice, texts
 from gearcad.core.runtime import Clock, about, about_memory
@@ -58,7 +59,7 @@ def file_progress(*, shown: bool) -> Iterator[Progress | None]:
         yield None
         return
     if not shows_styles(sys.stderr):
-        yield lambda file, done, total: click.echo(f"[{done + 1:.0f}/{total:.0f}] {file}", err=True)
+        yield lambda file, done, total: say(f"[{done + 1:.0f}/{total:.0f}] {file}", err=True)
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
@@ -82,7 +83,7 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
         yield None
         return
     if expected is not None and (told := _effort_note(expected)):
-        click.echo(told, err=True)
+        say(told, err=True)
     clock = Clock(expected)
     if not shows_styles(sys.stderr):
         yield _JobLines(clock)
@@ -96,7 +97,7 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
     with Bar(*columns, console=console, transient=True) as bar:
         task = bar.add_task("", total=None, left="")
         yield lambda what, done, whole: bar.update(
-            task, description=what, completed=done, total=whole, left=clock.left(done / whole)
+            task, description=translated(what), completed=done, total=whole, left=translated(clock.left(done / whole))
         )
 
 
@@ -119,7 +120,7 @@ class _JobLines:
             return
         self.last, self.step = now, step
         left = self.clock.left(done / whole)
-        click.echo(f"[{math.floor(100 * done / whole):3d} %] {what}{left and f', {left}'}", err=True)
+        say(f"[{math.floor(100 * done / whole):3d} %] {what}{left and f', {left}'}", err=True)
 
 
 @contextmanager
@@ -156,7 +157,14 @@ def row_progress(*, shown: bool) -> Iterator[Progress | None]:
                 phase = step
             speed = bar.tasks[0].speed
             rate = f"{speed:.3g} rows/s" if speed else ""
-            bar.update(task, description=step, completed=done, total=whole or None, detail=detail, rate=rate)
+            bar.update(
+                task,
+                description=translated(step),
+                completed=done,
+                total=whole or None,
+                detail=translated(detail),
+                rate=translated(rate),
+            )
 
         yield show
 
@@ -177,7 +185,7 @@ class _RowLines:
         self.last = now
         rate = done / max(now - self.began, 1e-3)
         left = f", {(whole - done) / rate:.0f} s left" if rate and done < whole else ""
-        click.echo(f"{phase}: {done}{f' of {whole}' if whole else ''} rows, {detail}, {rate:.3g} rows/s{left}", err=True)
+        say(f"{phase}: {done}{f' of {whole}' if whole else ''} rows, {detail}, {rate:.3g} rows/s{left}", err=True)
 
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -246,4 +254,4 @@ def echo_warnings(notices: Iterable[Notice], *, err: bool = False) -> None:
     """Print the notices as warnings, a line each: among results those about results, on stderr those about the design."""
     colour = False if os.environ.get("NO_COLOR") else None  # None: where it is a terminal
     for text in texts(notices):
-        click.secho(f"Warning: {text}", fg="yellow", err=err, color=colour)
+        say(f"Warning: {text}", fg="yellow", err=err, color=colour)

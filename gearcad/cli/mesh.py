@@ -9,6 +9,7 @@ import click
 
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
+from gearcad.cli.language import say
 from gearcad.core.records import grouped
 from gearcad.meshing.fem import Element
 from gearcad.meshing.options import MeshFormat
@@ -65,17 +66,17 @@ def mesh(spec: Path, output: Path | None, as_json: bool, quiet: bool, **options:
 def _show(name: str, result: MeshResult) -> None:
     """Each gear's mesh, what to know, and the verdict."""
     for role, judged in result.judged.items():
-        click.echo("\n".join(_lines(role, judged, result)))
+        say("\n".join(_lines(role, judged, result)))
     if result.plan.pair is not None:
-        click.echo(_of_pair(result))
+        say(_of_pair(result))
     for file, deck in result.decks.items():
-        click.echo(_of_deck(file, deck))
+        say(_of_deck(file, deck))
     echo_warnings(result.notices)
     for role, judged in result.judged.items():
         for gate in judged.gates:
             if not gate.passed:
-                click.secho(f"FAILED: {role}: {gate}", fg="red")
-    click.secho(f"{name}: mesh {result.verdict}", fg="green" if result.passed else "red", bold=True)
+                say(f"FAILED: {role}: {gate}", fg="red")
+    say(f"{name}: mesh {result.verdict}", fg="green" if result.passed else "red", bold=True)
 
 
 def _lines(role: str, judged: JudgedMesh, result: MeshResult) -> list[str]:

@@ -10,6 +10,7 @@ import click
 
 from gearcad.cli.group import debug_option, require_new_file
 from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
+from gearcad.cli.language import say
 from gearcad.cli.strength import train_strength_lines
 from gearcad.core.errors import ParameterError, as_choice
 from gearcad.core.records import grouped, is_assumed, joined
@@ -92,12 +93,12 @@ def search_sets(given: Mapping[str, Any], output: Path | None, *, force: bool, a
     if as_json:
         click.echo(json_text(with_summary(result.to_dict())), nl=False)
     elif result.found:
-        click.echo("\n".join(_table(result)))
+        say("\n".join(_table(result)))
     if not result.found:
-        click.echo(_nothing(result), err=True)
+        say(_nothing(result), err=True)
         click.get_current_context().exit(1)
     if not quiet:
-        click.echo("\n".join(_remarks(result, output)), err=True)
+        say("\n".join(_remarks(result, output)), err=True)
     if output is not None and not as_json:
         click.echo(output)
 
@@ -245,7 +246,7 @@ def planetary(
 
 
 def _show(_name: str, found: Studied) -> None:
-    click.echo("\n".join(_lines(found.study)))
+    say("\n".join(_lines(found.study)))
     echo_warnings(joined(found.study.notices))
 
 

@@ -11,6 +11,7 @@ import click
 
 from gearcad.cli.group import debug_option
 from gearcad.cli.job import echo_warnings, job_progress, quiet_option
+from gearcad.cli.language import say, translated
 from gearcad.cli.size_options import require_no_sets, set_options, set_task_of, size_options
 from gearcad.core.errors import ParameterError, SolverError
 from gearcad.core.records import grouped, is_assumed
@@ -76,6 +77,7 @@ def basis_lines(options: RatingOptions, application_factor: float, assumed: Iter
 
 
 def _wrapped(words: str, text: str) -> list[str]:
+    words, text = translated(words), translated(text)
     return textwrap.wrap(text, _WIDTH, initial_indent=words, subsequent_indent=" " * len(words)) if text else []
 
 
@@ -111,16 +113,16 @@ def size_planetary(given: Mapping[str, Any], count: int, output: Path | None, *,
         with job_progress(shown=not quiet, expected=None if quiet else expected(task, count)) as progress:
             result = size_sets(task, count, progress)
     except SolverError as error:
-        click.echo(str(error), err=True)
+        say(str(error), err=True)
         click.get_current_context().exit(1)
     files = write_set_sizes(result, Path("output/size") if output is None else output)
     if as_json:
         click.echo(json_text(size_document(result)), nl=False)
         return
-    click.echo("\n".join(_table(result)))
+    say("\n".join(_table(result)))
     if not quiet:
         echo_warnings(task.notices, err=True)
-        click.echo("\n".join(_remarks(result)), err=True)
+        say("\n".join(_remarks(result)), err=True)
     click.echo("".join(f"{file}\n" for file in files), nl=False)
 
 
@@ -230,12 +232,12 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
     if as_json:
         click.echo(json_text(size_document(result)), nl=False)
     elif result.found:
-        click.echo("\n".join(table_lines(result)))
+        say("\n".join(table_lines(result)))
     if not result.found:
-        click.echo("\n".join(nothing_lines(result)), err=True)
+        say("\n".join(nothing_lines(result)), err=True)
         click.get_current_context().exit(1)
     if not quiet:
-        click.echo("\n".join(_size_remarks(result, files[1])), err=True)
+        say("\n".join(_size_remarks(result, files[1])), err=True)
     if not as_json:
         click.echo("".join(f"{file}\n" for file in files), nl=False)
 

@@ -15,6 +15,7 @@ import click
 from gearcad.check.comparison import Comparison, ComparisonRole
 from gearcad.cli.group import debug_option, require_new_file, spec_argument
 from gearcad.cli.job import echo_warnings, job_progress, json_option, output_option, perform, quiet_option
+from gearcad.cli.language import say, translated
 from gearcad.core.errors import InputError, OutputError, SpecError
 from gearcad.version import __version__
 
@@ -87,9 +88,10 @@ def print_verdict(name: str, result: CheckResult) -> None:
     lines += [(f"Not evaluated: {', '.join(quantities)}: {reason}", "yellow") for reason, quantities in _reasons(result)]
     for text, style in lines:
         # Soft wrap: a narrow window may break a line, but never cut a number.
-        console.print(Text(text, style=style), soft_wrap=True)
+        console.print(Text(translated(text), style=style), soft_wrap=True)
     echo_warnings(result.all_notices)
-    console.print(Text(verdict_line(name, result), style="bold green" if result.passed else "bold red"), soft_wrap=True)
+    line, style = translated(verdict_line(name, result)), "bold green" if result.passed else "bold red"
+    console.print(Text(line, style=style), soft_wrap=True)
 
 
 def verdict_line(name: str, result: CheckResult) -> str:
@@ -160,7 +162,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
 
     result = perform(Check(model=model), spec, output, print_verdict, as_json=as_json, quiet=quiet)
     if as_json and not quiet:
-        click.echo(verdict_line(result.pair.name, result), err=True)
+        say(verdict_line(result.pair.name, result), err=True)
     if not result.passed:
         click.get_current_context().exit(1)
 
@@ -174,14 +176,14 @@ def print_strength(name: str, result: StrengthRating | TrainStrength) -> None:
     from gearcad.rating.strength import StrengthRating
 
     if isinstance(result, StrengthRating):
-        click.echo("\n".join(strength_lines(result)))
+        say("\n".join(strength_lines(result)))
     else:
         for mesh, rating in result.meshes.items():
-            click.echo("\n".join([f"{mesh}: {load_words(rating)}", *strength_lines(rating)]))
-        click.echo("\n".join(train_strength_lines(result, verdict=False)))
+            say("\n".join([f"{mesh}: {load_words(rating)}", *strength_lines(rating)]))
+        say("\n".join(train_strength_lines(result, verdict=False)))
     echo_warnings(result.notices)
     colour = {True: "green", False: "red", None: "yellow"}[result.passed]
-    click.secho(strength_line(name, result), fg=None if os.environ.get("NO_COLOR") else colour, bold=True)
+    say(strength_line(name, result), fg=None if os.environ.get("NO_COLOR") else colour, bold=True)
 
 
 def strength_line(name: str, result: StrengthRating | TrainStrength) -> str:
@@ -247,7 +249,8 @@ def _row(words: str, cells: Iterable[str]) -> str:
 
 
 def _wrapped(words: str, items: Iterable[str], between: str = "  ") -> Iterator[str]:
-    text = between.join(item.replace(" ", "\0") if between == "  " else item for item in items if item)
+    told = map(translated, filter(None, items))
+    text = between.join(item.replace(" ", "\0") if between == "  " else item for item in told)
     if text:
         lines = textwrap.wrap(text, _WIDTH - 16, break_long_words=False, break_on_hyphens=False)
         yield from (f"{words if not at else '':<16}{line}".replace("\0", " ") for at, line in enumerate(lines))
@@ -287,7 +290,7 @@ def rate(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
     with _blaming(spec):
         result = perform(Rate(), spec, output, print_strength, as_json=as_json, quiet=quiet)
     if as_json and not quiet:
-        click.echo(strength_line(result.name, result), err=True)
+        say(strength_line(result.name, result), err=True)
     if result.strength.falls_short:
         click.get_current_context().exit(1)
 
@@ -360,10 +363,10 @@ def _show(_name: str, comparison: StiffnessComparison) -> None:
     """The methods, a line each, then what to know of them."""
     from gearcad.stiffness import METHODS
 
-    click.echo("\n".join(_table(comparison)))
+    say("\n".join(_table(comparison)))
     echo_warnings(comparison.notices)
     for name, reason in comparison.left_out.items():
-        click.echo(f"{METHODS[name].title}: left out: {reason}")
+        say(f"{METHODS[name].title}: left out: {reason}")
 
 
 def _table(comparison: StiffnessComparison) -> list[str]:

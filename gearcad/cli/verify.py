@@ -10,6 +10,7 @@ import click
 
 from gearcad.cli.group import debug_option
 from gearcad.cli.job import json_option, output_option, perform, quiet_option
+from gearcad.cli.language import say
 from gearcad.core.errors import ParameterError, as_choice
 
 if TYPE_CHECKING:
@@ -131,12 +132,12 @@ def show_claims(name: str, result: Verification) -> None:
         claims = [claim for claim in result.claims if claim.subject is subject]
         judges = ", ".join(dict.fromkeys(claim.judge for claim in claims))
         counts = ", ".join(f"{count} {words}" for words, count in counted(claims).items() if count)
-        click.echo(f"{subject.value:<13}{counts}  ({judges})")
+        say(f"{subject.value:<13}{counts}  ({judges})")
     for claim in result.failed:
-        click.secho(f"FAILED {claim.text}", fg="red")
+        say(f"FAILED {claim.text}", fg="red")
     for reason, whats in _not_judged(result).items():
-        click.secho(f"Not judged: {', '.join(whats)}: {reason}", fg="yellow")
-    click.secho(Verify().conclusion(name, result), fg="red" if result.failed else "green", bold=True)
+        say(f"Not judged: {', '.join(whats)}: {reason}", fg="yellow")
+    say(Verify().conclusion(name, result), fg="red" if result.failed else "green", bold=True)
 
 
 def _not_judged(result: Verification) -> dict[str, list[str]]:
@@ -252,6 +253,6 @@ def _moved(
 def _tell_moved(moved: list[MovedFigure]) -> None:
     """Print the figures that moved most."""
     for each in moved[:_MOST_TOLD]:
-        click.echo(f"Moved: {each}", err=True)
+        say(f"Moved: {each}", err=True)
     if len(moved) > _MOST_TOLD:
-        click.echo(f"Moved: {len(moved) - _MOST_TOLD} more figures", err=True)
+        say(f"Moved: {len(moved) - _MOST_TOLD} more figures", err=True)

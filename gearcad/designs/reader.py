@@ -99,7 +99,7 @@ NO_DESIGNS = ("drawing_title", "measured")
 """Starters that are no spec and no table of designs."""
 
 
-_NONE = ("drawing_words", "page_words")
+_NONE = ("drawing_words", "page_words", "messages_de")
 """Templates without a starter."""
 
 

@@ -280,7 +280,7 @@ class Following:
                 return None
         except Exception as error:  # whatever it is: the other panels are as good as before
             if line is not None and not app.is_stopping:
-                line.set_text(f"{self._failed} ({type(error).__name__}: {error})"[:300])
+                line.set_text(f"{self._failed} ({type(error).__name__}: {self._words.message(str(error))})"[:300])
                 self._failing.add(panel)
                 self._mark(self._status())
             return None

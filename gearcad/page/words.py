@@ -10,6 +10,7 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
+from gearcad.core.messages import catalogue
 from gearcad.core.runtime import templates
 from gearcad.core.units import UnitSystem
 
@@ -17,8 +18,8 @@ __all__ = ["PageLanguage", "PageWords", "language_of"]
 
 _FILE = "page_words.toml"
 
-_PARTS, _NOTICES, _PERMITTED = "parts", "notices", "permitted"
-"""Tables of the template that have, by languages, parts of words, what notices are about, and ends of the lines of faults."""
+_PARTS = "parts"
+"""Table of the template that has, by languages, parts of words."""
 
 _LONG = 15
 """Letters of a word that may have to go on in the next line."""
@@ -46,15 +47,13 @@ class PageWords:
     """`words["find a key"]` is what stands for these words in the language of the page.
 
     Fields and derived quantities are found by the words that the schema and `symbols` have for them. What has no other words
-    stays English, as messages do: of these it has what `notices` are about, by their codes, and what is `permitted`, by
-    patterns of the ends of lines. `units` are those in which numbers are shown and typed.
+    stays English. `words.message(...)` translates what is made of a template and values: notices, reasons, errors. `units` are
+    those in which numbers are shown and typed.
     """
 
     language: PageLanguage
     table: Mapping[str, str] = field(repr=False)
     parts: tuple[str, ...] = field(default=(), repr=False)
-    notices: Mapping[str, str] = field(default_factory=dict, repr=False)
-    permitted: Mapping[str, str] = field(default_factory=dict, repr=False)
     units: UnitSystem = UnitSystem.METRIC
 
     @classmethod
@@ -66,8 +65,6 @@ class PageWords:
             language,
             tables.get(code, {}),
             tuple(tables[_PARTS].get(code, "").split()),
-            tables[_NOTICES].get(code, {}),
-            tables[_PERMITTED].get(code, {}),
             units,
         )
 
@@ -85,14 +82,10 @@ class PageWords:
         joint = re.compile(rf"(?<=\w\w\w)(?={'|'.join(self.parts)})")
         return _LONG_WORD.sub(lambda long: joint.sub(_SOFT_HYPHEN, long[0]), text)
 
-    def said(self, line: str) -> str:
-        """Return the translated words for the permitted values in a fault's line; "" if this language has none."""
-        end = line[line.rfind(": must be ") + len(": ") :]
-        for pattern, words in self.permitted.items():
-            if found := re.fullmatch(pattern, end):
-                values = (self.number(value) if value else value for value in found.groups())
-                return words.format(*values).replace(" deg", "°")
-        return ""
+    def message(self, english: str) -> str:
+        """Return a notice, reason, verdict or error in the language of the page."""
+        known = catalogue(self.language.value)
+        return english if known is None else known.text(english)
 
 
 @cache

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -116,26 +117,25 @@ def test_long_words_may_go_on_in_the_next_line() -> None:
     assert PageWords.of(PageLanguage.ENGLISH).divided("Profilverschiebungsfaktor") == "Profilverschiebungsfaktor"
 
 
-@pytest.mark.parametrize(
-    ("end", "said"),
-    [
-        ("must be a whole number from 3 to 2000", "muss eine ganze Zahl von 3 bis 2000 sein"),
-        ('must be a number at least -5 and at most 5, or "auto"', 'muss eine Zahl von -5 bis 5 sein, oder "auto"'),
-        ("must be a number at least 0.01 mm and at most 200 mm", "muss eine Zahl von 0,01 mm bis 200 mm sein"),
-        ("must be a number at least -75 deg and at most 75 deg", "muss eine Zahl von -75° bis 75° sein"),
-        ("must be a number above 0 mm", "muss eine Zahl über 0 mm sein"),
-        ('must be "strain" or "stress"', 'muss "strain" oder "stress" sein'),
-        ("must be at least 66.4 mm for these profile shifts and thinning", ""),
-    ],
+def test_messages_of_the_page_are_german() -> None:
+    line = "reducer.toml line 22: pinion.teeth = 2: must be a whole number from 3 to 2000"
+    said = "reducer.toml Zeile 22: pinion.teeth = 2: muss eine ganze Zahl von 3 bis 2000 sein"
+    assert PageWords.of(PageLanguage.GERMAN).message(line) == said
+    assert PageWords.of(PageLanguage.ENGLISH).message(line) == line
+
+
+def test_no_error_comes_to_the_page_as_it_was_made() -> None:
+    """Panels show errors, steps and notices by way of `message`."""
+    shown = [(module.name, line) for module in _PANELS for line in module.read_text(encoding="utf-8").splitlines()]
+    raw = [(name, line) for name, line in shown if _RAW.search(line) and "message(" not in line]
+    assert not raw
+
+
+_PANELS = sorted((PACKAGE / "page" / "panels").glob("*.py"))
+_RAW = re.compile(
+    r"""(line|taken|why)=(self\.)?(str\(error|\w+\.fault\.line)|set_text\(.*(error|fault\.line)|"""
+    r""""(line|step)": (each|of|run)\.(line|step)"""
 )
-def test_what_is_permitted_is_said_where_there_are_words_for_it(end: str, said: str) -> None:
-    line = f"reducer.toml line 22: pinion.teeth = 2: {end}"
-    assert PageWords.of(PageLanguage.GERMAN).said(line) == said
-    assert PageWords.of(PageLanguage.ENGLISH).said(line) == ""
-
-
-def test_notices_about_fields_have_german_names() -> None:
-    assert PageWords.of(PageLanguage.GERMAN).notices.keys() == sheet_content._ABOUT.keys()
 
 
 @pytest.mark.parametrize(

@@ -221,7 +221,10 @@ def test_why_nothing_is_judged_stands_apart_from_the_verdict() -> None:
     found = strength_figures(starter("double-23-81"))
     shown = shown_figures(found, PageWords.of(PageLanguage.GERMAN))
     assert shown["title"] == "Tragfähigkeit nicht verlangt"
-    assert found.title == f"strength not asked for: {shown['reason']}"
+    reason = "keine Dauerfestigkeit, örtliche Grenze, Werkstoffqualität oder Mindestsicherheit ist angegeben"
+    assert shown["reason"] == reason
+    english = shown_figures(found, PageWords.of(PageLanguage.ENGLISH))
+    assert found.title == f"strength not asked for: {english['reason']}"
 
 
 def test_what_only_the_document_of_a_rating_finds_to_be_wrong_is_a_line_too(tmp_path: Path) -> None:

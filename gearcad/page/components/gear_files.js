@@ -25,7 +25,7 @@ export default {
           <form @submit.prevent="save(false)">
             <input v-model="name" :aria-label="words.name" spellcheck="false" autocomplete="off" /><button>{{ words.store }}</button>
           </form>
-          <p v-if="taken" class="fault" role="alert"><span lang="en">{{ taken }}</span> <button type="button" @click="save(true)">{{ words.replace }}</button></p>
+          <p v-if="taken" class="fault" role="alert"><span>{{ taken }}</span> <button type="button" @click="save(true)">{{ words.replace }}</button></p>
           <p v-if="saved" role="status">{{ saved }}</p>
           <h3>{{ words.along }}</h3>
           <div class="makes">
@@ -35,7 +35,7 @@ export default {
           <h3>{{ words.link }}</h3>
           <button type="button" :disabled="!link" @click="copy">{{ copied ? words.copied : words.copy }}</button>
         </section>
-        <p v-if="line" class="fault" role="alert" lang="en">{{ line }}</p>
+        <p v-if="line" class="fault" role="alert">{{ line }}</p>
       </div>
     </details>`,
   props: { tab: String, words: Object, address: String },

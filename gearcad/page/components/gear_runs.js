@@ -7,28 +7,28 @@ export default {
     <section class="runs" :aria-label="words.title">
       <div class="run-kinds">
         <button v-for="kind in kinds" :key="kind.key" type="button" :title="kind.why || kind.told" :disabled="!!kind.why" @click="$emit('start', { kind: kind.key })">
-          {{ kind.words }}<small v-if="kind.told">{{ kind.told }}</small><small v-if="kind.why" lang="en">{{ kind.why }}</small>
+          {{ kind.words }}<small v-if="kind.told">{{ kind.told }}</small><small v-if="kind.why">{{ kind.why }}</small>
         </button>
         <small class="run-limits">{{ limits }}</small>
       </div>
-      <p v-if="line" class="fault" role="alert" lang="en">{{ line }}</p>
+      <p v-if="line" class="fault" role="alert">{{ line }}</p>
       <ol class="run-list">
         <li v-for="run in shown" :key="run.number" :class="[run.state, { stale: stale.includes(run.number) }]">
           <span class="number">{{ run.number + 1 }}</span>
           <span class="what">{{ run.words }}<em v-if="stale.includes(run.number)">{{ words.stale }}</em></span>
           <template v-if="run.state === 'running' || run.state === 'waiting'">
             <progress :value="run.share > 0 ? run.share : null" max="1"></progress>
-            <span class="step" role="status" :lang="run.state === 'waiting' ? null : 'en'">{{ run.state === "waiting" ? words.waiting : [run.step, run.left].filter(Boolean).join(", ") }}</span>
+            <span class="step" role="status">{{ run.state === "waiting" ? words.waiting : [run.step, run.left].filter(Boolean).join(", ") }}</span>
             <button type="button" @click="$emit('cancel', { number: run.number })">{{ words.cancel }}</button>
           </template>
           <template v-else>
-            <span class="line" :lang="run.line ? 'en' : null">{{ run.line || said(run.state) }}</span>
+            <span class="line">{{ run.line || said(run.state) }}</span>
             <span v-if="run.files" class="links">
               <a v-if="run.report" :href="run.report" target="_blank" rel="noopener noreferrer">{{ words.report }}</a>
               <a :href="run.files" download>{{ words.files }}</a>
             </span>
           </template>
-          <small v-for="notice in run.notices" :key="notice" class="notice" lang="en">{{ notice }}</small>
+          <small v-for="notice in run.notices" :key="notice" class="notice">{{ notice }}</small>
         </li>
       </ol>
       <div v-for="table in tables" :key="table.verb" class="run-table">

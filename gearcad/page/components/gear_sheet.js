@@ -51,16 +51,16 @@ export default {
     <section class="gear-sheet" :aria-label="label" :aria-busy="waiting" :data-stale="dataStale" @keydown="walk">
       <header>
         <h2 v-if="content.title" :class="dataStale || waiting ? '' : content.verdict">{{ content.title }}<template v-if="dataStale"> ({{ dataStale }})</template></h2>
-        <p v-if="content.reason" class="told" lang="en">{{ content.reason }}</p>
+        <p v-if="content.reason" class="told">{{ content.reason }}</p>
         <p v-if="content.beside" class="kept">{{ words.kept }}: {{ content.beside }}</p>
         <component :is="line.label ? 'details' : 'p'" v-for="line in content.lines" :key="line.label" class="told">
-          <summary v-if="line.label">{{ words[line.label] }}</summary><span :lang="line.label ? 'en' : null">{{ line.text }}</span></component>
+          <summary v-if="line.label">{{ words[line.label] }}</summary><span>{{ line.text }}</span></component>
         <input v-if="content.sections.length" class="search" type="search" v-model="wanted" :placeholder="words.search" :aria-label="words.search" />
         <p class="aside" role="status">{{ waiting ? label + ": " + words.waiting : content.changes ? words.changed + ": " + content.changes : "" }}</p>
       </header>
       <details v-if="content.notices.length" class="notices" :open="noticesOpen" @toggle="fold({ id: 'notices', open: noticesOpen }, $event.target.open)">
         <summary>{{ words.notices }} ({{ content.notices.length }})</summary>
-        <ul><li v-for="notice in content.notices" :key="notice.text"><b v-if="notice.about">{{ notice.about }} – </b><span lang="en">{{ notice.text + " " }}</span>
+        <ul><li v-for="notice in content.notices" :key="notice.text"><span>{{ notice.text + " " }}</span>
           <button v-for="key in notice.keys" :key="key" type="button" class="key" @click="focus(key)">{{ key }}</button></li></ul>
       </details>
       <details v-for="block in blocks" :key="block.id" :open="block.open || printing" @toggle="fold(block, $event.target.open)">

@@ -36,11 +36,11 @@ const SpecField = {
       </span>
       <span v-if="!cell" class="unit">{{ field.unit }}</span>
       <datalist v-if="field.offered.length" :id="'of-' + field.key"><option v-for="word in field.offered" :key="word" :value="word" /></datalist>
-      <span v-if="fault" class="fault" role="alert"><b v-if="said">{{ said }} – </b><span lang="en">{{ fault }}</span></span>
+      <span v-if="fault" class="fault" role="alert">{{ fault }}</span>
     </div>`,
   components: { GearSymbol },
   // A cell stands in a row of its own quantity, over so many columns; why it follows from other inputs, if it does.
-  props: { form: Object, field: Object, given: null, used: null, draft: null, changed: Boolean, fault: String, said: String, readonly: Boolean, cell: Number, gear: String, why: String, beside: Array },
+  props: { form: Object, field: Object, given: null, used: null, draft: null, changed: Boolean, fault: String, readonly: Boolean, cell: Number, gear: String, why: String, beside: Array },
   computed: {
     isNumber() {
       return this.given !== undefined && !Number.isNaN(Number(this.given));
@@ -66,7 +66,7 @@ export default {
                @keydown.esc="wanted = ''; $event.target.blur()" @keydown.enter.prevent="next($event)" />
         <p v-if="faults.length" class="faults" role="status">{{ faults.length }} {{ faults.length === 1 ? words.fault : words.faults }}</p>
         <small v-if="dataStale && faults.length" class="of"> · {{ dataStale }}</small>
-        <button v-if="faultAbove" type="button" class="fault" role="alert" @click="go(fault.key)"><b v-if="fault.said">{{ fault.said }} – </b><span lang="en">{{ fault.line }}</span></button>
+        <button v-if="faultAbove" type="button" class="fault" role="alert" @click="go(fault.key)">{{ fault.line }}</button>
       </div>
       <section v-if="firstRows.length" class="ranked" :class="{ many: ranked.columns.length > 2, captioned: ranked.columns.length > MOST }" :style="{ '--gears': columns }" :aria-label="words.first">
         <div v-if="ranked.columns.length > 1 && ranked.columns.length <= MOST" class="row head"><span class="name" /><span v-for="title in ranked.columns" :key="title" class="gear">{{ title }}</span><span class="unit" /></div>
@@ -75,7 +75,7 @@ export default {
           <template v-for="(field, at) in row.fields" :key="at">
             <spec-field v-if="field" :form="me" :field="field" :given="given[field.key]" :used="used[field.key]" :cell="row.shared ? columns : 1"
                         :gear="row.shared ? '' : ranked.columns[at]" :draft="drafts[field.key]" :changed="isChanged(field)" :fault="faultAt(field.key)?.line ?? ''"
-                        :said="faultAt(field.key)?.said ?? ''" :readonly="readonly" :why="why[field.key] ?? ''" :beside="beside[field.key]" />
+                        :readonly="readonly" :why="why[field.key] ?? ''" :beside="beside[field.key]" />
             <span v-else class="box" />
           </template>
           <span class="unit">{{ row.first.unit }}</span>
@@ -93,7 +93,7 @@ export default {
         <component v-for="group in family.groups" :key="group.part" :is="group.title && !wanted ? 'details' : 'div'" class="group">
           <summary v-if="group.title && !wanted" :class="{ changed: group.fields.some(isChanged) }">{{ group.title }}<b v-if="countIn(group)">{{ countIn(group) }}</b></summary>
           <spec-field v-for="field in group.fields" :key="field.key" :form="me" :field="field" :given="given[field.key]" :used="used[field.key]"
-                      :draft="drafts[field.key]" :changed="isChanged(field)" :fault="faultAt(field.key)?.line ?? ''" :said="faultAt(field.key)?.said ?? ''" :readonly="readonly" />
+                      :draft="drafts[field.key]" :changed="isChanged(field)" :fault="faultAt(field.key)?.line ?? ''" :readonly="readonly" />
         </component>
         </component>
       </details>

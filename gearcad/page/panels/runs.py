@@ -49,7 +49,7 @@ def figures_beside(runs: Sequence[Run], words: PageWords) -> list[dict[str, Any]
         if not any(cells):
             continue
         owner, symbol = symbol_of(f"{verb}.{key}") or ("", None)
-        said = words[symbol.words] if symbol and symbol.words else key.replace("_", " ")
+        said = words[symbol.words] if symbol and symbol.words else words.message(key.replace("_", " "))
         found.append(
             {
                 "key": key,
@@ -73,7 +73,7 @@ def _text(value: Any, words: PageWords) -> str:
         return verdict
     if isinstance(value, float):
         return words.number(f"{value:.{_DIGITS}g}") if math.isfinite(value) else ""
-    return format_number(value) if isinstance(value, int) else str(value)
+    return format_number(value) if isinstance(value, int) else words.message(str(value))
 
 
 def _verdicts(words: PageWords) -> dict[str, str]:
@@ -188,12 +188,12 @@ class RunsPanel:
         if kind not in ANALYSES or not ANALYSES[kind].accepts(bench.design):
             return
         if bench.fault is not None:
-            line = bench.fault.line
+            line = self._words.message(bench.fault.line)
         else:
             try:
                 self._runs.start(kind, bench.text, bench.name, bench.folder, given_texts(bench.tables))
             except GearcadError as error:
-                line = str(error)
+                line = self._words.message(str(error))
         self._view.show(line=line)
         self._timer.activate()
         self._look()
@@ -212,7 +212,14 @@ class RunsPanel:
             self._ended()
         for each in self._runs.all:
             if each.state is RunState.RUNNING:
-                self._view.tell(each.number, {"step": each.step, "share": each.share, "left": _time_left(each)})
+                self._view.tell(
+                    each.number,
+                    {
+                        "step": self._words.message(each.step),
+                        "share": each.share,
+                        "left": self._words.message(_time_left(each)),
+                    },
+                )
         if not busy:
             self._timer.deactivate()
 
@@ -250,11 +257,11 @@ class RunsPanel:
             "number": of.number,
             "words": self.run_name(of),
             "state": of.state.value,
-            "step": of.step,
+            "step": self._words.message(of.step),
             "share": of.share,
-            "left": _time_left(of),
-            "line": of.line,
-            "notices": list(of.notices),
+            "left": self._words.message(_time_left(of)),
+            "line": self._words.message(of.line),
+            "notices": list(map(self._words.message, of.notices)),
             "report": f"{address}/{report}" if report in of.files else "",
             "files": address if of.files else "",
         }
@@ -284,15 +291,15 @@ def expected_of(design: Design, words: PageWords) -> dict[str, Outlook]:
             try:
                 expected = kind.expected(design)
             except GearcadError as error:
-                found[key] = Outlook(why=str(error))
+                found[key] = Outlook(why=words.message(str(error)))
             else:
                 found[key] = Outlook(f"≈ {_size(expected, words)}" if expected else "")
     return found
 
 
 def _size(expected: Expected, words: PageWords) -> str:
-    memory = f", {words.number(about_memory(expected.memory))}" if math.isfinite(expected.memory) else ""
-    return f"{_figure(about(expected.seconds))}{memory}"
+    memory = f", {about_memory(expected.memory)}" if math.isfinite(expected.memory) else ""
+    return words.message(f"{_figure(about(expected.seconds))}{memory}")
 
 
 def _time_left(of: Run) -> str:

@@ -157,7 +157,7 @@ def _row(row: Row, section: Section, words: PageWords, changed: Mapping[tuple[st
         "symbol": row.symbol.symbol,
         "parts": [parts_of(name), row.symbol.parts],
         "unit": "°" if row.symbol.unit == "deg" else row.symbol.unit,
-        "source": clause_in(words, row.symbol.source),
+        "source": words.message(clause_in(words, row.symbol.source)),
         "cells": [
             {
                 "text": value_in(words, cell.text),
@@ -371,12 +371,13 @@ def shown_figures(
     told = [{"label": "", "text": f"{found.name}: {title_in(words, found.what)}"}] if found.what else []
     return {
         "title": title,
-        "reason": reason,
+        "reason": words.message(reason),
         "verdict": found.verdict,
-        "lines": told + [{"label": label, "text": text if label else words[text]} for label, text in found.lines],
+        "lines": told
+        + [{"label": label, "text": words.message(text) if label else words[text]} for label, text in found.lines],
         "beside": "" if kept is None else _headline(kept.title, words)[0],
         "changes": len(changed or {}),
-        "notices": [each | {"about": words.notices.get(each.get("code", ""), "")} for each in found.notices],
+        "notices": [each | {"text": words.message(each["text"])} for each in found.notices],
         "pins": list(found.pins),
         "sections": shown_sections(found.sections, words, folded=found.folded, changed=changed, kept=beside),
     }

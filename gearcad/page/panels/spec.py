@@ -74,7 +74,7 @@ class InputsPanel:
             self._have(fields_of(design, bench.tables))
         is_stale = bench.status is DesignStatus.LAST_GOOD
         mark_stale(self._view, f"{self._words['grey']}: {self._words['of the last good design']}" if is_stale else "")
-        faults = [each._asdict() | {"said": self._words.said(each.line)} for each in bench.faults()]
+        faults = [each._asdict() | {"line": self._words.message(each.line)} for each in bench.faults()]
         given, former = given_texts(bench.tables), given_texts(bench.former)
         all_used = {} if design is None else used_texts(design, bench.tables)
         used = {key: text for key, text in all_used.items() if key in self._keys}
@@ -141,9 +141,9 @@ class TextPanel:
     """Follows the workbench itself; calls `written(text, step)` after typing, and `step(forth)` for keys that undo or redo."""
 
     def __init__(self, written: Callable[[str, int], None], step: Callable[[bool], None], words: PageWords) -> None:
-        self._written, self._newline = written, "\n"
+        self._written, self._words, self._newline = written, words, "\n"
         self._view = TextView(self._typed, step, words["text of the spec"])
-        self._fault = ui.label().classes("spec-fault").props("role=alert lang=en")
+        self._fault = ui.label().classes("spec-fault").props("role=alert")
 
     def _typed(self, text: str, step: int) -> None:
         self._written(text.replace("\n", self._newline), step)
@@ -153,7 +153,7 @@ class TextPanel:
         self._newline = "\r\n" if "\r\n" in bench.text else "\n"
         fault = bench.fault
         self._view.show({"text": bench.text.replace("\r\n", "\n"), "line": fault.at if fault else None})
-        self._fault.set_text(fault.line if fault else "")
+        self._fault.set_text(self._words.message(fault.line) if fault else "")
 
 
 class BesidePanel:
@@ -191,7 +191,7 @@ class BesidePanel:
         try:
             what()
         except GearcadError as error:
-            self._show(str(error))
+            self._show(self._words.message(str(error)))
             return
         self._show("")
         self._changed()
@@ -279,7 +279,7 @@ class FilesPanel:
             self._view.follow(pack(self._bench.name, text))
         except GearcadError as error:
             self._view.follow("")
-            self._view.show(line=str(error))
+            self._view.show(line=self._words.message(str(error)))
 
     def _asked(self, what: str, told: Mapping[str, Any]) -> None:
         """Do the action chosen in the menu. A fault is shown as a line there."""
@@ -300,11 +300,11 @@ class FilesPanel:
         try:
             ways.get(what, lambda: None)()
         except TakenError as error:
-            self._view.show(taken=str(error))
+            self._view.show(taken=self._words.message(str(error)))
         except GearcadError as error:
-            self._view.show(line=str(error))
+            self._view.show(line=self._words.message(str(error)))
         except OSError as error:
-            self._view.show(line=error.strerror or str(error))
+            self._view.show(line=self._words.message(error.strerror or str(error)))
 
     def _show(self) -> None:
         design = self._bench.shown_design
@@ -312,7 +312,9 @@ class FilesPanel:
         self._view.show(
             specs=self._folder.specs(),
             tables=self._folder.names(TABLES),
-            starters=[{"name": name, "words": words} for name, words in starters().items() if _is_spec(name)],
+            starters=[
+                {"name": name, "words": self._words.message(words)} for name, words in starters().items() if _is_spec(name)
+            ],
             makes=[{"key": key, "words": self._names[key]} for key in kinds],
             name=self._bench.name,
         )
@@ -327,7 +329,7 @@ class FilesPanel:
             try:
                 self._take(text_of(content, printable(name)), _stem(printable(name)))
             except GearcadError as error:
-                self._view.show(line=str(error))
+                self._view.show(line=self._words.message(str(error)))
 
     def _given_table(self, name: str, content: bytes) -> None:
         with self._client:
@@ -335,9 +337,11 @@ class FilesPanel:
                 self._tabled(content.decode("utf-8-sig"), printable(name))
                 self._view.close()
             except UnicodeDecodeError:
-                self._view.show(line=f"{printable(name)}: is no table of results, for it is not CSV in UTF-8")
+                self._view.show(
+                    line=self._words.message(f"{printable(name)}: is no table of results, for it is not CSV in UTF-8")
+                )
             except GearcadError as error:
-                self._view.show(line=str(error))
+                self._view.show(line=self._words.message(str(error)))
 
     def _save_as(self, name: str, *, replace: bool) -> None:
         self._view.show(saved=self._save(name, replace=replace))
@@ -372,7 +376,7 @@ class FilesPanel:
         bench = self._bench
         if kind in DOWNLOADS and bench.shown_design is not None and DOWNLOADS[kind].accepts(bench.design):
             if bench.fault is not None and bench.fault.written:
-                self._view.show(line=bench.fault.line)
+                self._view.show(line=self._words.message(bench.fault.line))
                 return
             self._run = self._runs.start(kind, bench.text, bench.name, bench.folder, {})
             self._timer.activate()
@@ -388,7 +392,7 @@ class FilesPanel:
             return
         self._timer.deactivate()
         self._run = None
-        self._view.show(making="", line=run.line if run.state is RunState.FAILED else "")
+        self._view.show(making="", line=self._words.message(run.line) if run.state is RunState.FAILED else "")
         if run.state is RunState.DONE:
             ui.download.from_url(f"/made/{self._runs.key}/{run.number}")
 

@@ -197,7 +197,7 @@ class TablePanel:
             try:
                 table = await run.io_bound(_read, text, name)
             except GearcadError as error:
-                self._view.show(line=str(error))
+                self._view.show(line=self._words.message(str(error)))
                 return
             if table is None:  # the server ends
                 return
@@ -257,7 +257,7 @@ class TablePanel:
             try:
                 text = await run.io_bound(table.spec, number, self._folder)
             except GearcadError as error:
-                self._view.show(line=str(error))
+                self._view.show(line=self._words.message(str(error)))
                 return
             if text is not None:  # or the server ends
                 self._view.show(line="", opened=number)

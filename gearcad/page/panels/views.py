@@ -84,7 +84,7 @@ class BodiesPanel(Panel[Bodies]):
         self._shown = found
         bodies: list[dict[str, Any]] = [plain(body._asdict()) for body in found.bodies]
         surfaces = {key: content for key, content in found.surfaces.items() if key not in former}
-        self._view.show(self._number, bodies, surfaces, float(found.error), self._words[found.why_not])
+        self._view.show(self._number, bodies, surfaces, float(found.error), self._words.message(found.why_not))
 
     def clear(self) -> None:
         self.show(Bodies())
@@ -149,7 +149,7 @@ class SharesPanel(Panel[dict[str, Any] | None]):
     def __init__(self, words: PageWords) -> None:
         from gearcad.page.components.elements import SharesView  # only here: who finds shares elsewhere needs no NiceGUI
 
-        self._shown = False
+        self._words, self._shown = words, False
         self._view = SharesView(
             {
                 "title": words["load shares of the planets"],
@@ -169,7 +169,8 @@ class SharesPanel(Panel[dict[str, Any] | None]):
 
     def show(self, found: dict[str, Any] | None) -> None:
         if found is not None or self._shown:
-            self._view.show(found)
+            why_not = self._words.message((found or {}).get("why_not", ""))
+            self._view.show(found and found | ({"why_not": why_not} if why_not else {}))
         self._shown = found is not None
 
     def clear(self) -> None:
