@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -45,21 +46,13 @@ _NOT_SAID = {
 """Functions whose texts no person reads as messages."""
 
 _TEXT_METHODS = (
-    "split",
-    "splitlines",
-    "startswith",
-    "endswith",
-    "removeprefix",
-    "removesuffix",
-    "find",
-    "rfind",
-    "partition",
-    "props",
+    *("split", "splitlines", "startswith", "endswith", "removeprefix", "removesuffix", "find", "rfind", "partition"),
+    *("props", "classes"),
 )
-"""Methods of texts that look for their argument, or take it apart."""
+"""Methods of texts that look for their argument or take it apart, and of elements of the page that name properties."""
 
 _NOT_MESSAGES = re.compile(
-    r"""^<|="\{\}"|&[a-z]+;|\Asandbox |default-src|charset=|HttpOnly|\Arole=|\Abold |\A(flat )?dense|"""
+    r"""^\s*<| => |\A\.replace\(|="\{\}"|&[a-z]+;|\Asandbox |default-src|charset=|HttpOnly|\Arole=|\Abold |\A(flat )?dense|"""
     r"""\A(SELECT|INSERT|UPDATE) |\A# |\A( {2})?gearcad |\A\x08|\A\$ |\A\w+( \| \w+)+\Z|"""
     r"""\A[\w{}]+ \([^)]*\)\Z|\A[a-zN] (mm|mod N)\Z|\A[a-zA-Z_]+ = [a-z ]+\Z"""
 )
@@ -85,8 +78,13 @@ _HELP = {"Print the document of {}.json and nothing else.", "Planetary sets in p
 """Variables with texts of --help, and such texts."""
 
 
-def message_texts() -> Iterator[MessageText]:
-    """Yield the texts of all modules, in the order of the code."""
+@cache
+def message_texts() -> tuple[MessageText, ...]:
+    """Return the texts of all modules, in the order of the code."""
+    return tuple(_all_texts())
+
+
+def _all_texts() -> Iterator[MessageText]:
     for path in sorted(PACKAGE.rglob("*.py")):
         if path.stem != "messages":
             yield from texts_of(path)
@@ -147,7 +145,7 @@ def _is_said(node: ast.AST, parents: dict[ast.AST, ast.AST], only_errors: bool) 
     while node in parents:
         node = parents[node]
         if isinstance(node, ast.Call):
-            called = ast.unparse(node.func)
+            called = _name(node.func)
             inside = inside or bool(_ERRORS.search(called))
             if called in _NOT_SAID:
                 return False
@@ -158,6 +156,15 @@ def _is_said(node: ast.AST, parents: dict[ast.AST, ast.AST], only_errors: bool) 
         elif isinstance(node, ast.Raise):
             inside = True
     return inside or not only_errors
+
+
+def _name(function: ast.AST) -> str:
+    """Return the name of what is called, with dots; that of its end if its begin is no name."""
+    names: list[str] = []
+    while isinstance(function, ast.Attribute):
+        names.append(function.attr)
+        function = function.value
+    return ".".join(reversed([*names, function.id] if isinstance(function, ast.Name) else names))
 
 
 def _is_help(key: ast.AST | None) -> bool:

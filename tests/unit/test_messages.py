@@ -77,8 +77,9 @@ def test_starters_are_described_in_german() -> None:
             "pair.normal_module fehlt: muss angegeben sein (hier oder in [pair])",
         ),
         (
-            "a5-r3p: undercut: contact ends on r3p's root form circle 51.5448 mm, before a5's tip does",
-            "a5-r3p: Unterschnitt: der Eingriff endet am Fußformkreis am r3p: 51,5448 mm, bevor der Zahnkopf am a5 endet",
+            "a5-r3p: undercut: contact ends at r3p's root form circle 51.5448 mm; a5's tip reaches beyond it without contact",
+            "a5-r3p: Unterschnitt: der Eingriff endet am Fußformkreis am r3p: 51,5448 mm; "
+            "der Zahnkopf am a5 reicht ohne Berührung darüber hinaus",
         ),
         (
             "sun-planet: undercut: the involute begins at diameter 8 mm",
@@ -86,7 +87,7 @@ def test_starters_are_described_in_german() -> None:
         ),
         ("strength passed; not judged: root of the wheel", "Tragfähigkeit nachgewiesen; nicht beurteilt: Zahnfuß am Rad"),
         ("planetary.output = 'x': must be sun, ring, carrier", "planetary.output = 'x': muss sun, ring, carrier sein"),
-        ("mesh cycle, position 3 of 24", "Eingriffszyklus, Stellung 3 von 24"),
+        ("mesh cycle, position 3 of 24", "Eingriffsperiode, Stellung 3 von 24"),
         ("about 1.5 h left", "noch etwa 1,5 h"),
         ("6.5.2", "6.5.2"),
         ("S_H = 1.25, S_F = 2.5", "S_H = 1,25, S_F = 2,5"),

@@ -196,7 +196,7 @@ class ModifyPanel(SearchPanel):
                 for key, value in found["changes"].items():
                     if key != "pair.name":
                         shown = value if isinstance(value, str) else self._number(value, 2)
-                        _line("td", self._key_words(key), "", shown, found["notes"].get(key, ""))
+                        _line("td", self._key_words(key), "", shown, self._words.message(found["notes"].get(key, "")))
 
     def _key_words(self, key: str) -> str:
         """Return the words of a key of a gear's modification."""
@@ -215,7 +215,7 @@ class ModifyPanel(SearchPanel):
             same = run.asked.text == bench.text
             text = run.found["text"] if same else edit_spec(bench.text, run.found["changes"], run.found["notes"])
         except GearcadError as error:
-            self._line.set_text(str(error))
+            self._line.set_text(self._words.message(str(error)))
             return
         self._place.written(text)
 

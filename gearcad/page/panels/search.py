@@ -103,7 +103,7 @@ class FormView:
     def blame(self, error: ParameterError) -> None:
         """Say what is wrong at its field, and go there."""
         field = self._fields.get(error.parameter) or next(iter(self._fields.values()))
-        field.error = self._words.said(f": {error.permitted}") or str(error)
+        field.error = self._words.message(str(error))
         if all(each is not field for each in self._firsts()):
             self._more.open()
         field.run_method("focus")
@@ -266,7 +266,7 @@ class SearchPanel:
             given = given_texts(bench.tables)
             self._run = self._place.runs.start(self.kind, bench.text, bench.name, bench.folder, given, options)
         except GearcadError as error:
-            self._line.set_text(str(error))
+            self._line.set_text(self._words.message(str(error)))
             return
         self._line.set_text("")
         self._task.set_text(self._summary(options))
@@ -290,14 +290,14 @@ class SearchPanel:
             step, _, detail = run.step.partition(", ")
             told = ", ".join(filter(None, (self._steps.get(step, step), detail, run.left and f"≈ {_figure(run.left)}")))
             self._bar.set_value(run.share)
-            self._step.set_text(told if run.state is RunState.RUNNING else self._words["waiting"])
+            self._step.set_text(self._words.message(told) if run.state is RunState.RUNNING else self._words["waiting"])
         if run.found is not self._shown and run.found:
             self._shown = run.found
             self._show(run.found)
         if not busy:
             self._timer.deactivate()
             cancelled = self._words["cancelled"] if run.state is RunState.CANCELLED else ""
-            self._line.set_text("\n".join(filter(None, (run.line or cancelled, *run.notices))))
+            self._line.set_text(self._words.message("\n".join(filter(None, (run.line or cancelled, *run.notices)))))
             self._line.classes(remove="fault", add="fault" if run.state is RunState.FAILED else "")
 
 

@@ -145,11 +145,11 @@ class StudyPanel(SearchPanel):
             vary = [self._vary(axis) for axis in self._axes]
             study_axes(bench.design, bench.tables, vary)
         except ParameterError as error:
-            self._line.set_text(str(error))
+            self._line.set_text(self._words.message(str(error)))
             self._line.classes(add="fault")
             return None
         if bench.fault is not None or self._result.value is None:
-            self._line.set_text("" if bench.fault is None else bench.fault.line)
+            self._line.set_text("" if bench.fault is None else self._words.message(bench.fault.line))
             return None
         return {"vary": vary, "result": self._result.value}
 
@@ -181,7 +181,7 @@ class StudyPanel(SearchPanel):
         self._chart.update()
         faults = [line for *_, line in found["cells"] if line]
         told = f"{self._words['designs without gears']}: {len(faults)} / {len(found['cells'])}. "
-        self._told.set_text(told + faults[0] if faults else "")
+        self._told.set_text(told + self._words.message(faults[0]) if faults else "")
 
     def _value(self, key: str) -> float:
         """Return the value that the present design has under a key; nan if it has no number there."""
@@ -229,7 +229,7 @@ class StudyPanel(SearchPanel):
         try:
             self._place.changed({key: _typed(value) for key, value in values.items()})
         except GearcadError as error:
-            self._line.set_text(str(error))
+            self._line.set_text(self._words.message(str(error)))
 
 
 def _typed(value: Any) -> str:
