@@ -218,7 +218,7 @@ def _echo_prospects(planned: Study, path: Path) -> None:
         say(f"{faulty} of {rows} rows make no {'train' if of_train else 'gear'}. The first: {first}", err=True)
     keep_going = f" --keep-going    # {'does' if of_train else 'builds'} the others" if 0 < faulty < rows else ""
     if faulty < rows:
-        click.echo(f"Next: {planned.next_command(path)}{keep_going}", err=True)
+        say(f"Next: {planned.next_command(path)}{keep_going}", err=True)
 
 
 _LONGEST = 60

@@ -208,9 +208,9 @@ def _tell_failed(documents: Iterable[dict[str, Any]]) -> bool:
         for reason in [claim["reason"]]
     ]
     for line in failed[:_MOST_TOLD]:
-        click.secho(f"FAILED {line}", fg="red", err=True)
+        say(f"FAILED {line}", fg="red", err=True)
     if len(failed) > _MOST_TOLD:
-        click.echo(f"FAILED {len(failed) - _MOST_TOLD} more claims", err=True)
+        say(f"FAILED {len(failed) - _MOST_TOLD} more claims", err=True)
     return bool(failed)
 
 

@@ -175,10 +175,11 @@ class Catalogue:
         if len(parts) <= _FEW:
             found = self._best(english)
             return found.text if found.left == 0 or 2 * found.left < english_words(english) else english
+        group = _FEW if len(parts) <= _MANY else 1
         ways = [Translation("", 0)]
         for end in range(1, len(parts) + 1):
             way = self._onwards(ways[end - 1], parts[end - 1 : end], end > 1)
-            for at in range(end - 2, max(end - _FEW, 0) - 1, -1):
+            for at in range(end - 2, max(end - group, 0) - 1, -1):
                 if way.left > ways[at].left:
                     way = min(way, self._onwards(ways[at], parts[at:end], at > 0), key=lambda each: each.left)
             ways.append(way)
@@ -193,8 +194,8 @@ class Catalogue:
         return _Search(self._exact, self._of_word).best(english)
 
 
-_SENTENCES, _FEW = "; ", 3
-"""What stands between sentences, and as many as one template may have."""
+_SENTENCES, _FEW, _MANY = "; ", 3, 40
+"""What stands between sentences, as many as one template may have, and as many as are looked at together."""
 
 
 _ROLE = re.compile(r"(?<![\w.])(?:the )?(?:(?P<role>pinion|wheel)\b(?![.\w])|(?<=the )\{\})|\{\}")
