@@ -54,6 +54,9 @@ _OWN_WORDS = {
 _USUAL = {"life": "∞"}
 """What stands for an empty field that has no number for it: the endurance limit."""
 
+_OF_DESIGN = {"torque": "that of the load", "pressure": "that of the material"}
+"""What stands for empty fields of a search for modifications."""
+
 _WHEEL = "wheel_"
 """Beginning of the names of options that are about the wheel."""
 
@@ -145,7 +148,7 @@ def _modify_fields() -> Iterator[FormField]:
     for name, schema in schema_of(Modify).items():
         if name in _FIRST["modify"]:
             choices = () if schema.choices is None else tuple(str(each.value) for each in schema.choices)
-            yield _words(name, schema)._replace(choices=choices, first=True)
+            yield _words(name, schema)._replace(choices=choices, first=True, usual=_OF_DESIGN.get(name, ""))
 
 
 def usual_text(field: FormField, *, comma: bool) -> str:

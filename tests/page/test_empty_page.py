@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
+
+import pytest
+from support.commands import invoke
 
 from gearcad.designs.reader import starter_text
 from gearcad.page.workbench import DesignStatus, Workbench
@@ -40,3 +44,11 @@ def test_a_new_design_begins_empty_and_can_be_undone() -> None:
     assert bench.is_empty and bench.shown_design is None and bench.name == "new"
     bench.undo()
     assert bench.status is DesignStatus.PRESENT and bench.name == "reducer"
+
+
+def test_open_without_a_spec_begins_empty(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[Any] = []
+    monkeypatch.setattr("gearcad.page.server.serve", lambda *given, **options: asked.append(given))
+    told = invoke("open", "--no-browser")
+    assert told.exit_code == 0, told.output
+    assert asked == [("", "new", Path())]

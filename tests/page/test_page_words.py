@@ -79,9 +79,10 @@ def _words_of_symbols() -> set[str]:
 
 
 def _words_of_forms() -> set[str]:
-    """Fields of the forms of searches, and what is said more of them."""
+    """Fields of the forms of searches, what is said more of them, and words for what stands for empty ones."""
     fields = [field for kind in ("size", "identify", "modify") for field in form_fields(kind)]
-    return {words for field in fields for words in (field.words, field.hint) if words}
+    said = {words for field in fields for words in (field.hint, field.usual) if words.replace(" ", "").isalpha()}
+    return said | {field.words for field in fields} | {field.hint for field in fields if field.hint}
 
 
 def _titles_of_sheets() -> set[str]:

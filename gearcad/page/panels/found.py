@@ -10,6 +10,7 @@ from nicegui import ui
 from gearcad.core.errors import GearcadError
 from gearcad.designs.reader import edit_spec
 from gearcad.designs.variations import column_symbol
+from gearcad.identify.standards import FREE
 from gearcad.page.charts import FOUND, FRONT, pairs_chart
 from gearcad.page.components.elements import CHART
 from gearcad.page.panels.search import SearchPanel, TaskPlace
@@ -142,7 +143,6 @@ class IdentifyPanel(SearchPanel):
 
     def __init__(self, place: TaskPlace) -> None:
         self._table: FoundTable | None = None
-        self._taken: int | None = None
         super().__init__(place, place.words["identify the gear"])
 
     def _show(self, found: Mapping[str, Any]) -> None:
@@ -150,15 +150,19 @@ class IdentifyPanel(SearchPanel):
             with self._results:
                 ui.label(self._words["click a row: it stands there as the design"]).classes("task-hint")
                 self._table = FoundTable(_gear_columns(self._words), self._take, comma=self._place.comma)
-        self._taken = None
-        self._table.show(found["rows"], self._taken)
+        self._table.show(self._rows(), None)
 
     def _take(self, place: int) -> None:
         """Make the gear of a row the design."""
         rows = self._shown.get("rows", [])
         if 0 <= place < len(rows) and self._table is not None:
             self._place.opened(rows[place]["text"], IDENTIFIED)
-            self._table.show(rows, place)
+            self._table.show(self._rows(), place)
+
+    def _rows(self) -> list[dict[str, Any]]:
+        """Return the candidates with the name of their series in the language of the page."""
+        free = self._words["no series"]
+        return [{**row, "name": free if row["name"] == FREE else row["name"]} for row in self._shown.get("rows", [])]
 
 
 def _gear_columns(words: PageWords) -> list[Column]:
@@ -185,7 +189,7 @@ class ModifyPanel(SearchPanel):
     def _show(self, found: Mapping[str, Any]) -> None:
         self._results.clear()
         with self._results:
-            take = ui.button(self._words["put them into the design"], on_click=self._take)
+            take = ui.button(self._words["put them into the design"], on_click=self._take, color=None)
             take.props("unelevated no-caps dense").classes("task-go")
             with ui.element("table").classes("task-table"):
                 _line("th", "", self._words["before"], self._words["after"], "")

@@ -122,7 +122,7 @@ class FormView:
                 is_long = len(field.choices) > _LONG_LIST
                 made: Any = choice_field(_choices(field, self._words), with_input=is_long, clearable=not field.required)
             else:
-                made = ui.input(placeholder=usual_text(field, comma=self._place.comma))
+                made = ui.input(placeholder=self._words[usual_text(field, comma=self._place.comma)])
                 made.on("keydown.enter", self._enter)
             made.props(f'dense outlined for={name} hide-bottom-space no-error-icon input-class="task-input"')
             made.props("options-dense" if field.choices else "autocomplete=off")
@@ -227,11 +227,11 @@ class SearchPanel:
         with self._task:
             self._build_form()
         with ui.element("div").classes("task-begin"):
-            self._begin = ui.button(begin, on_click=self.start).props("unelevated no-caps dense").classes("task-go")
+            self._begin = ui.button(begin, on_click=self.start, color=None).props("unelevated no-caps dense").classes("task-go")
             self._bar = ui.linear_progress(0, show_value=False).classes("task-progress")
             self._step = ui.label().classes("task-step").props("role=status")
-            self._cancel = ui.button(self._words["cancel"], on_click=self._stop).props("flat no-caps dense")
-        self._line = ui.label().classes("task-line").props("role=status")
+            self._cancel = ui.button(self._words["cancel"], on_click=self._stop, color=None).props("flat no-caps dense")
+        self._line = ui.label().classes("task-line").props("role=status lang=en")
         self._results = ui.element("div").classes("task-results")
         self._timer = ui.timer(_LOOK, self.look, active=self._run is not None)
         self.look()

@@ -112,6 +112,6 @@ def ask_to_replace(words: PageWords, replace: Callable[[], None]) -> None:
     with ui.dialog(value=True) as question, ui.card().classes("question"):
         ui.label(words["The present design is not saved. Undo brings it back."])
         with ui.row():
-            ui.button(words["replace it"], on_click=answer).props("unelevated no-caps")
-            ui.button(words["keep it"], on_click=question.close).props("flat no-caps autofocus")
+            ui.button(words["replace it"], on_click=answer, color=None).props("unelevated no-caps")
+            ui.button(words["keep it"], on_click=question.close, color=None).props("flat no-caps autofocus")
     question.on("hide", question.delete)
