@@ -21,6 +21,7 @@ from gearcad.page.panels import Panel
 from gearcad.page.panels.compare import ComparePanel
 from gearcad.page.panels.drawing import DrawingPanel
 from gearcad.page.panels.limits import LimitsPanel
+from gearcad.page.panels.modifications import ModificationsPanel
 from gearcad.page.panels.results import ResultsPanel
 from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.search import TaskPlace
@@ -314,7 +315,9 @@ class Session:
             self._bar()
         with ui.element("main").classes("panels") as self._panels:
             with _region("left", words["Inputs"]):
-                left = self._left = Tabs({"inputs": words["Inputs"], "text": words["Text"], "limits": words["Limits"]})
+                left = self._left = Tabs(
+                    {"inputs": words["Inputs"], "text": words["Text"], "limits": words["Limits"], "flanks": words["Flanks"]}
+                )
                 with left.under("inputs"):
                     self._inputs = InputsPanel(bench, self.typed, self.hold, self.step, words)
                 with left.under("text"):
@@ -326,6 +329,11 @@ class Session:
                     limits = following.with_line(LimitsPanel(bench, self.change, words), lambda: left.chosen == "limits")
                     following.band()
                     left.on("limits", lambda: following.look(limits))
+                with left.under("flanks"):
+                    flanks = following.with_line(ModificationsPanel(bench, self.change, words), lambda: left.chosen == "flanks")
+                    flanks.look = lambda: following.look(flanks)
+                    following.band()
+                    left.on("flanks", flanks.look)
             with _region("middle", words["Gears"]):
                 with ui.element("div").classes("view"):
                     bodies = following.with_line(BodiesPanel(words))
@@ -369,7 +377,7 @@ class Session:
                     right.on("drawing", lambda: following.look(drawing))
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
-        following.begin((section, roll, bodies, sheet, strength, limits, shares, compare, drawing))
+        following.begin((section, roll, bodies, sheet, strength, flanks, limits, shares, compare, drawing))
         self.open.add(self)
         ui.context.client.on_delete(self.leave)
         self.follow()
@@ -533,6 +541,10 @@ class Session:
         """Close all sessions because the server ends."""
         for each in tuple(cls.open):
             each.leave()
+
+
+def _left_titles(words: PageWords) -> dict[str, str]:
+    return {"inputs": words["Inputs"], "text": words["Text"], "limits": words["Limits"], "flanks": words["Flanks"]}
 
 
 def _right_titles(words: PageWords) -> dict[str, str]:

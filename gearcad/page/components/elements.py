@@ -89,6 +89,26 @@ class LegendView(Element, component="gear_legend.js", esm={"gear-colours": "colo
         self._props["place"], self._props["words"] = place, words
 
 
+class ModificationsView(Element, component="gear_modifications.js"):
+    """Diagrams of flanks with handles: calls `drawn` with role, values, step and whether a handle moves, and `released`."""
+
+    def __init__(self, drawn: Callable[[Mapping[str, Any]], None], released: Callable[[], None], words: dict[str, str]) -> None:
+        super().__init__()
+        self._props["words"] = words
+        self.on("drawn", lambda event: self._take(event, drawn))
+        self.on("released", lambda _: released())
+
+    def _take(self, event: GenericEventArguments, drawn: Callable[[Mapping[str, Any]], None]) -> None:
+        """Take what was drawn, and tell the browser that the next may come."""
+        if isinstance(event.args, dict):
+            drawn(event.args)
+        self.run_method("heard")
+
+    def show(self, content: dict[str, Any] | None, before: dict[str, Any] | None) -> None:
+        """Show the flanks of both gears and the transmission error, with that `before` the last step."""
+        self.run_method("show", content, before)
+
+
 class FilesView(Element, component="gear_files.js"):
     """Calls `asked(what, told)`; files that are opened go to `address`. `words` are the page's own.
 
