@@ -33,8 +33,8 @@ def test_a_handle_is_dragged_and_moved_by_keys(tab: Any) -> None:
     page.mouse.up()
     page.wait_for_selector(".gear-modifications svg .beside", state="detached")
     page.wait_for_selector(".gear-modifications .former")
-    drawn = page.input_value("[data-field=tip_relief]")
-    assert float(drawn) > float(amount) + 5
+    farther = "amount => document.querySelector('[data-field=tip_relief]').value > amount + 5"
+    page.wait_for_function(farther, arg=float(amount), timeout=ENOUGH)
     page.click(".bar button[title=undo]")
     page.wait_for_function(
         "amount => document.querySelector('[data-field=tip_relief]').value === amount", arg=amount, timeout=ENOUGH
