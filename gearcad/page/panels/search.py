@@ -9,6 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 from nicegui import ui
 
 from gearcad.core.errors import GearcadError, ParameterError
+from gearcad.core.symbols import parts_of
 from gearcad.page.fields import given_texts
 from gearcad.page.forms import FormField, form_fields, missing_keys, options_of, usual_text
 from gearcad.page.runs import Run, Runs, RunState
@@ -137,7 +138,11 @@ def field_row(words: str, symbol: str, unit: str, name: str, hint: str = "") -> 
         label.props["title"] = hint
         with label:
             ui.label(words)
-            ui.label(symbol).classes("symbol")
+            with ui.element("span").classes("symbol"):
+                for text, index in parts_of(symbol):
+                    ui.label(text)
+                    if index:
+                        ui.label(index).classes("index")
         yield row
         ui.label(unit).classes("unit")
 
@@ -231,7 +236,7 @@ class SearchPanel:
             self._bar = ui.linear_progress(0, show_value=False).classes("task-progress")
             self._step = ui.label().classes("task-step").props("role=status")
             self._cancel = ui.button(self._words["cancel"], on_click=self._stop, color=None).props("flat no-caps dense")
-        self._line = ui.label().classes("task-line").props("role=status lang=en")
+        self._line = ui.label().classes("task-line").props("role=status")
         self._results = ui.element("div").classes("task-results")
         self._timer = ui.timer(_LOOK, self.look, active=self._run is not None)
         self.look()
@@ -297,7 +302,8 @@ class SearchPanel:
         if not busy:
             self._timer.deactivate()
             cancelled = self._words["cancelled"] if run.state is RunState.CANCELLED else ""
-            self._line.set_text(self._words.message("\n".join(filter(None, (run.line or cancelled, *run.notices)))))
+            lines = (run.line or cancelled, *run.notices)
+            self._line.set_text("\n".join(self._words.message(line) for line in lines if line))
             self._line.classes(remove="fault", add="fault" if run.state is RunState.FAILED else "")
 
 

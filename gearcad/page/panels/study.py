@@ -11,7 +11,7 @@ from nicegui import background_tasks, run, ui
 from gearcad.core.errors import GearcadError, ParameterError
 from gearcad.designs.design import Design
 from gearcad.designs.variations import column_of_train, column_symbol
-from gearcad.page.charts import CELLS, map_chart
+from gearcad.page.charts import CELLS, map_chart, nearest
 from gearcad.page.components.elements import CHART
 from gearcad.page.fields import fields_of, given_texts, used_texts
 from gearcad.page.forms import number_of
@@ -62,7 +62,7 @@ class StudyPanel(SearchPanel):
         self._chart: Any = None
         self._design: Design | None = None
         self._axes: list[_Axis] = []
-        self._known: dict[str, str] = {}
+        self._place_marked: tuple[int | None, int | None] = (None, None)
         super().__init__(place, place.words["draw the map"])
 
     def _build_form(self) -> None:
@@ -99,7 +99,7 @@ class StudyPanel(SearchPanel):
         self._design = design
         if first:
             background_tasks.create(self._offer(design))
-        elif self._shown:
+        elif self._shown and self._marked(self._shown) != self._place_marked:
             self._show(self._shown)
 
     async def _offer(self, design: Design) -> None:
@@ -114,7 +114,6 @@ class StudyPanel(SearchPanel):
             axis.key.set_options(keys, value=chosen)
         results = {key: _column_words(key, design, self._words) for key in figures}
         first = next((key for key in _FIRST_RESULTS if key in results), next(iter(results), None))
-        self._known = results
         self._result.set_options(results, value=self._result.value if self._result.value in results else first)
 
     def _propose(self, at: int) -> None:
@@ -175,6 +174,7 @@ class StudyPanel(SearchPanel):
                 self._chart = CHART({"series": []}, on_point_click=self._click).classes("task-chart")
                 self._told = ui.label().classes("task-hint")
         words = {"across": self._key_words(found["across"]), "up": self._key_words(found["up"])}
+        self._place_marked = self._marked(found)
         chart = map_chart(found, (self._value(found["across"]), self._value(found["up"])), words, comma=self._place.comma)
         self._chart.options.clear()
         self._chart.options.update(chart)
@@ -182,6 +182,10 @@ class StudyPanel(SearchPanel):
         faults = [line for *_, line in found["cells"] if line]
         told = f"{self._words['designs without gears']}: {len(faults)} / {len(found['cells'])}. "
         self._told.set_text(told + self._words.message(faults[0]) if faults else "")
+
+    def _marked(self, found: Mapping[str, Any]) -> tuple[int | None, int | None]:
+        """Return the place across and up of the cell that is nearest to the present design."""
+        return nearest(found["xs"], self._value(found["across"])), nearest(found["ys"], self._value(found["up"]))
 
     def _value(self, key: str) -> float:
         """Return the value that the present design has under a key; nan if it has no number there."""

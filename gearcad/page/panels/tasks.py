@@ -55,8 +55,9 @@ class TasksPanel:
         self._is_empty = bench.is_empty
         self._title.set_visibility(self._is_empty)
         for key, title in self._titles(self._is_empty).items():
-            self._tabs[key].props["label"] = title
-            self._tabs[key].update()
+            if self._tabs[key].props["label"] != title:
+                self._tabs[key].props["label"] = title
+                self._tabs[key].update()
         shown = {_SIZE: True, _IDENTIFY: True, _STARTER: self._is_empty, **self._of(bench.shown_design)}
         for key, is_shown in shown.items():
             self._tabs[key].set_visibility(is_shown)
@@ -95,7 +96,7 @@ class TasksPanel:
                 if starter_text(name)[0].endswith(SPECS) and name not in NO_DESIGNS:
                     with ui.element("button").props("type=button").on("click", partial(self._begin, name)):
                         ui.label(name).classes("name")
-                        ui.label(said).props("lang=en")
+                        ui.label(self._place.words.message(said))
 
     def _begin(self, name: str) -> None:
         file, text = starter_text(name)
