@@ -25,6 +25,7 @@ from gearcad.page.panels.modifications import ModificationsPanel
 from gearcad.page.panels.results import ResultsPanel
 from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.search import TaskPlace
+from gearcad.page.panels.section_tools import SectionToolsPanel
 from gearcad.page.panels.sheet_content import StrengthPanel
 from gearcad.page.panels.spec import BesidePanel, FilesPanel, InputsPanel, TextPanel
 from gearcad.page.panels.table import TablePanel
@@ -346,6 +347,8 @@ class Session:
                     section = following.with_line(SectionPanel(words))
                     following.band()
                     self._results.legend("section")
+                    tools = following.with_line(SectionToolsPanel(bench, self.change, words))
+                    tools.look = lambda: following.look(tools)
                 self._results.place()
             with _region("right", words["Results"]):
                 right = self._right = Tabs(_right_titles(words))
@@ -377,7 +380,7 @@ class Session:
                     right.on("drawing", lambda: following.look(drawing))
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
-        following.begin((section, roll, bodies, sheet, strength, flanks, limits, shares, compare, drawing))
+        following.begin((section, tools, roll, bodies, sheet, strength, flanks, limits, shares, compare, drawing))
         self.open.add(self)
         ui.context.client.on_delete(self.leave)
         self.follow()

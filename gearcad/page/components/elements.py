@@ -297,6 +297,25 @@ class CompareView(Element, component="gear_compare.js", esm={"gear-symbols": "sy
         self.run_method("wait")
 
 
+class SectionToolsView(Element, component="gear_handles.js"):
+    """What the hand does in the section: calls `choose` with mode, body and size, `drawn` with key, value and step."""
+
+    def __init__(
+        self,
+        choose: Callable[[Mapping[str, Any]], None],
+        drawn: Callable[[Mapping[str, Any]], None],
+        words: dict[str, str],
+    ) -> None:
+        super().__init__()
+        self._props["words"] = words
+        for name, take in (("choose", choose), ("drawn", drawn)):
+            self.on(name, lambda event, take=take: take(event.args) if isinstance(event.args, dict) else None)
+
+    def show(self, content: dict[str, Any]) -> None:
+        """Show what the mode asks for."""
+        self.run_method("show", content)
+
+
 class SectionView(Element, component="gear_section.js"):
     """Draws what `gearcad.page.panels.drawn_data` finds; `label` says to those who cannot see it what it is."""
 

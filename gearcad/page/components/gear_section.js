@@ -348,12 +348,20 @@ export default {
     press(event) {
       event.target.setPointerCapture(event.pointerId);
       this.fingers.set(event.pointerId, [event.offsetX, event.offsetY]);
+      this.lent = this.fingers.size === 1 && !this.offer("gear-press", event);
     },
     release(event) {
       this.fingers.delete(event.pointerId);
+      if (this.lent) this.offer("gear-drop", event);
+      this.lent = false;
+    },
+    // Whether nobody else takes what the pointer does.
+    offer(name, { offsetX: x, offsetY: y }) {
+      return window.dispatchEvent(new CustomEvent(name, { cancelable: true, detail: { section: this, x, y } }));
     },
     move(event) {
       const point = [event.offsetX, event.offsetY];
+      if (this.lent) return void this.offer("gear-drag", event);
       const former = this.fingers.get(event.pointerId);
       if (!former) return this.tell(point);
       this.told = "";
