@@ -1,0 +1,95 @@
+"""The German page in a browser: no English sentence on it, whatever design or fault it shows, and decimal commas."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+from support.specs import starter_specs
+
+from gearcad.core.messages import messages_of
+from gearcad.page.folder import pack
+
+STARTERS = {path.stem: path.read_text(encoding="utf-8") for path in starter_specs()}
+
+ENGLISH = frozenset(
+    "the of and is are must be with at least most its for from not no that which this than below above where by to has have on"
+    " it or were been does then only here there given nothing between without".split()
+)
+"""Common English words that are no German ones."""
+
+FAULTS = {
+    "one tooth too few": ("teeth = 21", "teeth = 2"),
+    "no number": ("teeth = 21", 'teeth = "many"'),
+    "half a tooth": ("teeth = 21", "teeth = 21.5"),
+    "unknown key": ("teeth = 21", "teeth = 21\nteeths = 3"),
+    "unknown table": ("[pinion]", "[pinon]"),
+    "broken text": ("teeth = 21", "teeth 21"),
+    "comma in the text": ("teeth = 21", "teeth = 2,1"),
+    "axes too near": ("centre_distance = 97", "centre_distance = 90"),
+    "twice": ("teeth = 21", "teeth = 21\nteeth = 22"),
+    "other material": ("[material]", '[material]\nyoungs_modulus = "steel"'),
+}
+"""Changes of the reducer that make a fault."""
+
+_SHOWN = """() => {
+  const found = [];
+  const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walk.nextNode(); node; node = walk.nextNode()) {
+    const owner = node.parentElement;
+    if (owner.closest("script, style, .cm-editor, textarea, code, .key, option, datalist, [id$=popup], [lang=en]")) continue;
+    if (node.textContent.trim()) found.push(node.textContent.trim().replaceAll("\\u00ad", ""));
+  }
+  for (const each of document.querySelectorAll("[title], [aria-label], [placeholder]"))
+    for (const name of ["title", "aria-label", "placeholder"])
+      if (each.getAttribute(name) && !each.closest(".cm-editor")) found.push(each.getAttribute(name).replaceAll("\\u00ad", ""));
+  return [...new Set(found)];
+}"""
+
+_TEMPLATES = [
+    re.compile("(.+)".join(re.escape(piece) for piece in english.split("{}")))
+    for english in messages_of("de")["messages"]
+    if len(english.replace("{}", "")) > 20
+]
+
+
+def english_texts(texts: list[str]) -> list[str]:
+    """Return the texts with English words, or of an English template of a message."""
+    return [text for text in texts if _has_english_words(text) or any(each.fullmatch(text) for each in _TEMPLATES)]
+
+
+def _has_english_words(text: str) -> bool:
+    plain = re.sub(r"'[^']*'|\"[^\"]*\"|`[^`]*`", "", text)
+    return bool(ENGLISH.intersection(re.findall(r"(?<![\w.\[-])[a-z]+(?![\w.\]-])", plain)))
+
+
+def _open(tab: Any, name: str, text: str) -> None:
+    tab.page.goto("about:blank")
+    tab.page.goto(f"{tab.address}?lang=de&design={pack(name, text)}")
+    tab.page.wait_for_selector("html[lang=de]", state="attached")
+    tab.page.wait_for_selector(".gear-sheet tr, .inputs .fault, .spec-fault", state="attached")
+    tab.page.wait_for_timeout(1500)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(each, marks=[] if each in ("reducer-21-43", "planetary-alm") else pytest.mark.long) for each in STARTERS],
+)
+def test_the_page_of_a_starter_is_german(tab: Any, name: str) -> None:
+    _open(tab, name, STARTERS[name])
+    texts = tab.page.evaluate(_SHOWN)
+    assert len(texts) > 50
+    assert english_texts(texts) == []
+    cells = tab.page.locator(".gear-sheet td").all_inner_texts()
+    assert not [cell for cell in cells if re.fullmatch(r"[-+−]?\d+\.\d+", cell.strip())]
+
+
+def test_faults_are_german(tab: Any) -> None:
+    text = STARTERS["reducer-21-43"]
+    for what, (good, bad) in FAULTS.items():
+        assert good in text, what
+        _open(tab, "faulty", text.replace(good, bad, 1))
+        said = tab.page.locator(".fault, .spec-fault").all_inner_texts()
+        assert any(line.strip() for line in said), what
+        assert english_texts(tab.page.evaluate(_SHOWN)) == [], what
