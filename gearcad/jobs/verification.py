@@ -299,7 +299,8 @@ def _of_part(
         yield from judge_section(path, exact[product.name])
     else:
         own, named = {product.name: exact[product.name]}, kind is not Format.STL
-        yield from judge_facets(path, own, options.chord_error, names=named, judged=judged.facets)
+        looks: dict[str, Any] = {"product": product.solid(), "colour": product.colour} if named else {}
+        yield from judge_facets(path, own, options.chord_error, names=named, judged=judged.facets, **looks)
 
 
 def _of_assembly(
@@ -318,7 +319,7 @@ def _of_assembly(
     elif kind is Format.DXF:
         yield from judge_sections(path, _counts(design, parts))
     else:
-        yield from judge_facets(path, exact, options.chord_error, meshes, judged=judged.facets)
+        yield from judge_facets(path, exact, options.chord_error, meshes, judged=judged.facets, product=assembly.solid())
 
 
 def _counts(design: ToothedDesign, parts: Mapping[str, PartProduct]) -> dict[str, int]:

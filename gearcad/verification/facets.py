@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import hashlib
+import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
 
 import numpy as np
 
 from gearcad.core.records import Floats, Wholes
+from gearcad.solids.body_plan import Colour
+from gearcad.solids.exact.solid import Product
 from gearcad.verification.assemblies import OUTLINES, PlacedMesh, PlacedPart, judge_places
 from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.exact_parts import ExactPart
+from gearcad.verification.step import of_light, solid_products, told_places
 
 if TYPE_CHECKING:
     from trimesh import Trimesh
@@ -43,11 +48,16 @@ JudgedFacets = dict[tuple[tuple[float, float], str, str], list[Claim]]
 
 @dataclass(frozen=True)
 class FacetPart:
-    """One body of a file: its name, its facets in mm where the part stands by itself, and its place (4, 4) in the file."""
+    """One body of a file: its name, its facets in mm where the part stands by itself, and its place (4, 4) in the file.
+
+    `colour` is as the file has it, and `unit` is that of the file; "" where it has none.
+    """
 
     name: str
     mesh: Trimesh
     place: Floats
+    colour: str = ""
+    unit: str = ""
 
 
 def read_facets(path: Path) -> list[FacetPart]:
@@ -59,11 +69,44 @@ def read_facets(path: Path) -> list[FacetPart]:
         return [FacetPart("", trimesh.load_mesh(path), np.eye(4))]
     # A GLB has its vertices in mm below a node that turns y up and scales to metres.
     to_world = np.linalg.inv(_GLB) if path.suffix == ".glb" else np.eye(4)
-    found = []
+    found, colours = [], _colours_of_3mf(path) if path.suffix == ".3mf" else {}
     for node in scene.graph.nodes_geometry:
         place, geometry = scene.graph[node]
-        found.append(FacetPart(str(geometry), scene.geometry[geometry], to_world @ place))
+        mesh = scene.geometry[geometry]
+        colour = colours.get(str(geometry), "") if colours else _colour_of_glb(mesh)
+        found.append(FacetPart(str(geometry), mesh, to_world @ place, colour, str(scene.units or "")))
     return found
+
+
+def _colours_of_3mf(path: Path) -> dict[str, str]:
+    """Return the colours of a 3MF by the names of its objects: trimesh does not read them."""
+    with zipfile.ZipFile(path) as archive:
+        model = next(name for name in archive.namelist() if name.endswith(".model"))
+        root = ElementTree.fromstring(archive.read(model))
+    space = root.tag.partition("}")[0].removeprefix("{")
+    of_groups = {
+        group.get("id"): [base.get("displaycolor", "")[:7] for base in group]
+        for group in root.iter(f"{{{space}}}basematerials")
+    }
+    objects = [each for each in root.iter(f"{{{space}}}object") if each.get("pid") in of_groups]
+    return {each.get("name", ""): of_groups[each.get("pid")][int(each.get("pindex", "0"))] for each in objects}
+
+
+def _colour_of_glb(mesh: Trimesh) -> str:
+    """Return the colour of a body of a GLB in eight bits of each share of light."""
+    material = getattr(mesh.visual, "material", None)
+    factor = getattr(material, "baseColorFactor", None)
+    return "" if factor is None else _hex([int(share) for share in factor[:3]])
+
+
+def _told_colour(colour: Colour, ending: str) -> str:
+    """Return a colour as a file of this ending has it: as seen on a screen, or as shares of light."""
+    shares = [of_light(value) for value in colour] if ending == "glb" else colour
+    return _hex([round(255 * share) for share in shares])
+
+
+def _hex(shares: Sequence[int]) -> str:
+    return "#" + "".join(f"{share:02X}" for share in shares)
 
 
 _GLB = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1]])
@@ -78,11 +121,15 @@ def judge_facets(
     *,
     names: bool = True,
     judged: JudgedFacets | None = None,
+    product: Product | None = None,
+    colour: Colour | None = None,
 ) -> Iterator[Claim]:
     """Judge every body of a file against the parts that it should have, by their names; of an assembly also the `meshes`.
 
     `chord_error` (mm) bounds how far facets may be off. `names`: whether the file has the names of its parts (STL has not).
-    The same facets as those of a body that was `judged` in a file of the same rounding have the same claims; others are added.
+    The colours and places of the bodies are held against those of a `product`, if one is given; a `colour` is that of a
+    part by itself. The
+    same facets as those of a body that was `judged` in a file of the same rounding have the same claims; others are added.
     """
     ending = path.suffix[1:]
     judge = Judge(SUBJECTS[ending], VerificationLevel.FILES, path.name, "trimesh")
@@ -97,6 +144,8 @@ def judge_facets(
     else:
         yield judge.equal("number of bodies", len(parts), len(found))
         bodies = dict(zip(parts, found, strict=False))
+    if names and product is not None:
+        yield from _judge_looks(judge, found, product, ending, colour)
     for name, part in parts.items():
         if name in bodies:
             of_part = Judge(judge.subject, judge.level, path.name if len(parts) == 1 else f"{path.name}: {name}", judge.name)
@@ -111,6 +160,34 @@ def judge_facets(
     placed = [PlacedPart(part.name, part.place[:3]) for part in found]
     places = Judge(judge.subject, judge.level, path.name, OUTLINES)
     yield from judge_places(places, meshes, placed, rounding=_PLACE[ending])
+
+
+def _judge_looks(
+    judge: Judge, found: Sequence[FacetPart], product: Product, ending: str, colour: Colour | None
+) -> Iterator[Claim]:
+    """Judge unit, colours and places of the bodies of a file against those of a product; a `colour` is that of all."""
+    if ending == "3mf":
+        yield judge.equal("unit", "millimeter", next((part.unit for part in found), ""))
+    told = {each.name: each.colour for each in solid_products(product) if each.colour is not None}
+    told |= {} if colour is None else dict.fromkeys(told, colour)
+    for name, own in told.items():
+        shown = next((part.colour for part in found if part.name == name), "")
+        yield judge.equal(f"colour of {name}", _told_colour(own, ending), shown)
+    places = list(told_places(product))
+    yield judge.equal("bodies", len(places), len(found))
+    off, place = 0.0, ""
+    for part in found:
+        size = float(np.abs(part.mesh.vertices).max(initial=0.0))
+        away = [
+            float(
+                np.abs(each.place[:, 3] - part.place[:3, 3]).max() + size * np.abs(each.place[:, :3] - part.place[:3, :3]).max()
+            )
+            for each in places
+            if each.product == part.name
+        ]
+        if min(away, default=np.inf) > off:
+            off, place = min(away, default=np.inf), f"{part.name} is not where it should be"
+    yield judge.below("distance of bodies from their places", 1e3 * off, 1e3 * _PLACE[ending], "µm", place=place)
 
 
 def _written(ending: str) -> tuple[float, float]:

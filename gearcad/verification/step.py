@@ -112,14 +112,19 @@ def _colour(label: Any) -> Colour | None:
     colour = Quantity_Color()
     for kind in (XCAFDoc_ColorSurf, XCAFDoc_ColorGen):
         if XCAFDoc_ColorTool.GetColor_s(label, kind, colour):
-            red, green, blue = (_on_screen(share) for share in (colour.Red(), colour.Green(), colour.Blue()))
+            red, green, blue = (on_screen(share) for share in (colour.Red(), colour.Green(), colour.Blue()))
             return red, green, blue
     return None
 
 
-def _on_screen(light: float) -> float:
+def on_screen(light: float) -> float:
     """Return the value of a share of light on a screen (IEC 61966-2-1)."""
     return 12.92 * light if light <= 0.0031308 else 1.055 * float(light ** (1 / 2.4)) - 0.055
+
+
+def of_light(shown: float) -> float:
+    """Return the share of light of a value on a screen (IEC 61966-2-1)."""
+    return shown / 12.92 if shown <= 0.04045 else float(((shown + 0.055) / 1.055) ** 2.4)
 
 
 def judge_step(
@@ -136,7 +141,7 @@ def judge_step(
     """
     judge = Judge(ClaimSubject.STEP, VerificationLevel.FILES, path.name, "Open CASCADE")
     judged = JudgedSolids() if judged is None else judged
-    products = _solid_products(product)
+    products = solid_products(product)
     try:
         entities = judged.read(path.read_bytes())
         known = judged.known(entities, [made.name for made in products])
@@ -179,12 +184,21 @@ def _placed(node: StepNode, place: Floats | None = None) -> Iterator[PlacedPart]
         yield from _placed(child, here)
 
 
-def _solid_products(product: Product) -> list[SolidProduct]:
+def solid_products(product: Product) -> list[SolidProduct]:
     """The different parts of a product."""
     if isinstance(product, SolidProduct):
         return [product]
-    every = [part for occurrence in product.occurrences for part in _solid_products(occurrence.product)]
+    every = [part for occurrence in product.occurrences for part in solid_products(occurrence.product)]
     return list(dict.fromkeys(every))
+
+
+def told_places(product: Product, place: Floats | None = None) -> Iterator[PlacedPart]:
+    """Yield the parts of a product in the places where it has them."""
+    here = np.eye(4) if place is None else place
+    if isinstance(product, SolidProduct):
+        yield PlacedPart(product.name, here[:3])
+    for each in _occurrences(product):
+        yield from told_places(each.product, here @ np.vstack([_matrix(each.frame), [0.0, 0.0, 0.0, 1.0]]))
 
 
 def _told_tree(product: Product, name: str = "", frame: Frame | None = None) -> str:

@@ -1,17 +1,20 @@
 """Meshes in other readers and CalculiX: figures of our own pass, and files or figures that were changed do not."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from support.calculix import needs_ccx
 from support.specs import TEMPLATES
 
 import gearcad
-from gearcad import Body, Gear
+from gearcad import Body, Gear, GearPair
 from gearcad.designs import GearDesign, PairDesign, read_spec
-from gearcad.jobs.verification_solvers import MESH_FORMATS, judge_by_calculix, judge_meshes
+from gearcad.jobs.verification_solvers import MESH_FORMATS, _decks, _middles, _positions, judge_by_calculix, judge_meshes
 from gearcad.meshing.bodies.quality import LEAST_SCALED_JACOBIAN
 from gearcad.meshing.options import MeshOptions
 from gearcad.verification import calculix
@@ -149,6 +152,43 @@ def test_calculix_that_takes_too_long_does_not_judge(tmp_path: Path) -> None:
     assert "did not come to an end" in calculix._run(tmp_path / "pair", 1e-6)
 
 
+@dataclass(frozen=True)
+class Shared:
+    """Decks of a pair whose load share between two pairs of teeth changes at once at two places, elsewhere slowly."""
+
+    pair: GearPair
+    left: bool = True
+    solid: bool = False
+
+    @property
+    def cycle(self) -> "Shared":
+        return self
+
+    def solve(self, roll_angle: float) -> SimpleNamespace:
+        pitch = 360 / self.pair.pinion.tooth_count
+        place = roll_angle / pitch % 1.0
+        share = 0.02 * place + 0.5 * (0.2 < place < 0.7)
+        return SimpleNamespace(contacts=[SimpleNamespace(tooth=0, share=share), SimpleNamespace(tooth=1, share=1 - share)])
+
+
+def test_calculix_is_asked_all_over_the_mesh_cycle_and_where_the_load_passes_quickly() -> None:
+    decks = Shared(template("fzg-c").pair)
+    pitch = 360 / decks.pair.pinion.tooth_count
+    positions = _positions(decks)  # type: ignore[arg-type]
+    shares = sorted(position / pitch % 1.0 for position in positions)
+    assert len(positions) >= 5
+    for quick in (0.2, 0.7):
+        assert min(abs(share - quick) for share in shares) <= 0.5 / 48 + 1e-9
+    gaps = [after - before for before, after in pairwise([*shares, shares[0] + 1])]
+    assert max(gaps) <= 0.34 and min(gaps) > 1e-3
+    assert len(among(positions, _middles(decks), pitch)) == 2  # type: ignore[arg-type]
+
+
+def among(positions: Sequence[float], wanted: Sequence[float], pitch: float) -> list[float]:
+    """Return the positions that are wanted, whole pitches aside."""
+    return [each for each in positions if any(abs((each - other + pitch / 2) % pitch - pitch / 2) < 1e-9 for other in wanted)]
+
+
 @needs_ccx
 @pytest.mark.long
 @pytest.mark.parametrize("name", ["fzg-c", "ring-22-70"])
@@ -157,5 +197,11 @@ def test_meshes_and_calculix_judge_a_spur_and_a_ring_pair(name: str, tmp_path: P
     exact = {gear.name: ExactPart(gear) for gear in design.pair.gears}
     assert wrong(list(judge_meshes(design, tmp_path, exact, made=True))) == []
     claims = list(judge_by_calculix(design))
-    assert wrong([claim for claim in claims if "pressure" not in claim.quantity or claim.passed is not None]) == []
-    assert len(claims) == 10
+    decks = _decks(design)
+    pitch = 360 / decks.pair.pinion.tooth_count
+    middles = [f"at {angle:.4g}°" for angle in among(_positions(decks), _middles(decks), pitch)]
+    of_middles = [claim for claim in claims if any(claim.quantity.endswith(place) for place in middles)]
+    assert wrong([claim for claim in of_middles if "pressure" not in claim.quantity or claim.passed is not None]) == []
+    assert len(of_middles) == 10
+    # Where a loaded tip touches before it should, a difference is told with its position.
+    assert len({claim.quantity.rpartition(", ")[2] for claim in claims}) >= 5
