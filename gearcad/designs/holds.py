@@ -17,10 +17,10 @@ from gearcad.designs.ranking import is_given_key
 from gearcad.designs.spec import AUTO
 from gearcad.geometry import Gear
 
-__all__ = ["HeldRatio", "Hold", "Mates", "held_ratio", "hold_of", "mates_of", "to_hold", "unwritten_followers"]
+__all__ = ["HeldQuantity", "HeldRatio", "Mates", "held_ratio", "hold_of", "mates_of", "to_hold", "unwritten_followers"]
 
 
-class Hold(Enum):
+class HeldQuantity(Enum):
     """What stays while other inputs change: the centre distance, the profile shifts, or the ratio of the numbers of teeth."""
 
     CENTRE_DISTANCE = "a"
@@ -61,11 +61,11 @@ def mates_of(kind: DesignKind, tables: Mapping[str, Any]) -> Mates | None:
     return None
 
 
-def hold_of(mates: Mates, tables: Mapping[str, Any]) -> Hold | None:
+def hold_of(mates: Mates, tables: Mapping[str, Any]) -> HeldQuantity | None:
     """Return what a spec holds, the centre distance or the profile shifts; None where it gives both, or neither."""
     automatic = bool(_automatic(mates, tables))
     given = is_given_key(tables, mates.distance)
-    return None if given is not automatic else Hold.CENTRE_DISTANCE if given else Hold.PROFILE_SHIFTS
+    return None if given is not automatic else HeldQuantity.CENTRE_DISTANCE if given else HeldQuantity.PROFILE_SHIFTS
 
 
 def _automatic(mates: Mates, tables: Mapping[str, Any]) -> tuple[str, ...]:
@@ -82,13 +82,13 @@ _DECIMALS = 9
 """Decimals with which a value that followed is written, in mm or modules: 1 pm, which nobody measures."""
 
 
-def to_hold(hold: Hold, mates: Mates, design: Design, tables: Mapping[str, Any]) -> dict[str, Cell | None]:
+def to_hold(hold: HeldQuantity, mates: Mates, design: Design, tables: Mapping[str, Any]) -> dict[str, Cell | None]:
     """Return the keys to write so that the spec of a design holds its centre distance, or its profile shifts.
 
     What is held has the value of the design, what follows is "auto", or left out (None). Without an entry nothing changes.
     """
     automatic, given = _automatic(mates, tables), is_given_key(tables, mates.distance)
-    if hold is Hold.CENTRE_DISTANCE:
+    if hold is HeldQuantity.CENTRE_DISTANCE:
         distance: dict[str, Cell | None] = {} if given else {mates.distance: _distance(design)}
         return distance | ({} if automatic else {mates.shifts[-1]: AUTO})
     gears = {key: _gear(design, tables, key.partition(".")[0]) for key in automatic}
@@ -113,9 +113,9 @@ def unwritten_followers(mates: Mates, tables: Mapping[str, Any]) -> tuple[str, .
     hold = hold_of(mates, tables)
     closing = f"{mates.closing}.profile_shift"
     closes = (closing,) if mates.closing and _value(tables, closing) == AUTO else ()
-    if hold is Hold.CENTRE_DISTANCE:
+    if hold is HeldQuantity.CENTRE_DISTANCE:
         return (*_automatic(mates, tables), *closes)
-    return (mates.distance, *closes) if hold is Hold.PROFILE_SHIFTS else closes
+    return (mates.distance, *closes) if hold is HeldQuantity.PROFILE_SHIFTS else closes
 
 
 class HeldRatio(NamedTuple):

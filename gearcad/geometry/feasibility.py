@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -32,8 +33,10 @@ from gearcad.geometry.gear_tools import (
 from gearcad.geometry.interference import InternalTips, ToothTips
 from gearcad.geometry.involute import inverse_involute, involute, tangent_length
 from gearcad.geometry.modification import FlankModification
-from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.toothed import check_fields, check_root_radius, check_thickness, check_width, most_dedendum
+
+if TYPE_CHECKING:
+    from gearcad.geometry.profile import ToothProfile
 
 _MOST_CUTTER_TEETH = 2000
 """Largest number of teeth of the cutters that are tried, to suggest one that works."""

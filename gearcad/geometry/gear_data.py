@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
@@ -19,8 +19,10 @@ from gearcad.geometry.fits import ToothAllowance, tooth_thickness_allowance
 from gearcad.geometry.gear_parts import ISO53_A, BasicRack, Body, DoubleHelix, NormalDiametralPitch, NormalModule, ShaperCutter
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.premachining import Finishing, Premachining
-from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.toothed import FaceWidth, GearSizes, HelixAngle, TipAlteration, ToothedPart, ToothThinning
+
+if TYPE_CHECKING:
+    from gearcad.geometry.profile import ToothProfile
 
 _TEETH = Whole(3, 2000, negative=(-10, "internal gear"))
 

@@ -17,14 +17,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from typing import NamedTuple, Self
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 
 from gearcad.core.records import Floats
 from gearcad.geometry.curves import FilletChain, RootCurve
 from gearcad.geometry.involute import involute
-from gearcad.geometry.profile import ToothProfile
+
+if TYPE_CHECKING:
+    from gearcad.geometry.profile import ToothProfile
 
 EdgePath = Callable[[Floats], tuple[Floats, Floats]]
 """Path of an edge of a mate, by its angle from the line of centres about the mate's axis (rad). It gives the radius (mm) about

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import fields, replace
 from functools import partial
 from itertools import islice
+from typing import TYPE_CHECKING
 
 from gearcad.core.errors import GeometryError, InputError, ParameterError, at_least, at_most, format_number, require_name
 from gearcad.core.quantities import is_given, require_fields
@@ -20,8 +21,10 @@ from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.interference import FilletCut, InterferenceMargins, InternalTips, ToothTips, internal_fillet_cut
 from gearcad.geometry.involute import involute, tangent_length
 from gearcad.geometry.pair_data import PairData, farthest_centre_distance, shift_sum_limit, zero_backlash_centre_distance
-from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.toothed import ToothedPart
+
+if TYPE_CHECKING:
+    from gearcad.geometry.profile import ToothProfile
 
 ROUNDING = 1e-9
 """Overlap in normal modules, of flanks or of an edge and a fillet, that counts as rounding."""

@@ -15,7 +15,7 @@ from gearcad.identify.measurements import Gauge, Measurements
 from gearcad.jobs.modify import Modify
 from gearcad.jobs.size_options import SIZE_OPTIONS, option_fields, task_of
 from gearcad.material import MaterialGroup, MaterialQuality
-from gearcad.sizing import Criterion
+from gearcad.sizing.task import Criterion
 
 MOST_PAIRS, MOST_CANDIDATES = 100, 20
 """Largest numbers of results of a search for sizes, and of an identification."""

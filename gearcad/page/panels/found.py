@@ -29,7 +29,7 @@ _ROW = """
 _HEAD = '<q-th :props="props" :title="props.col.title">{{ props.col.label }}</q-th>'
 
 
-class Column(NamedTuple):
+class FoundColumn(NamedTuple):
     """A column of a table: the key of its values, its heading, words, and the number of decimals (None: text)."""
 
     key: str
@@ -41,7 +41,7 @@ class Column(NamedTuple):
 class FoundTable:
     """A table whose rows can be sorted, and taken: `take` hears the place of a row in its list."""
 
-    def __init__(self, columns: Sequence[Column], take: Callable[[int], None], *, comma: bool) -> None:
+    def __init__(self, columns: Sequence[FoundColumn], take: Callable[[int], None], *, comma: bool) -> None:
         self._columns, self._comma = columns, comma
         self._table = ui.table(columns=[], rows=[], row_key="id", pagination=0)
         self._table.props("dense flat hide-pagination binary-state-sort").classes("found-table")
@@ -60,7 +60,7 @@ class FoundTable:
         ]
 
 
-def _column(column: Column, comma: bool) -> dict[str, Any]:
+def _column(column: FoundColumn, comma: bool) -> dict[str, Any]:
     made = {"name": column.key, "field": column.key, "label": column.label, "title": column.title, "sortable": True}
     if column.decimals is None:
         return made | {"align": "left"}
@@ -118,21 +118,21 @@ class SizePanel(SearchPanel):
             self._draw(self._shown)
 
 
-def _pair_columns(words: PageWords) -> list[Column]:
+def _pair_columns(words: PageWords) -> list[FoundColumn]:
     return [
-        Column("name", words["pair"], words["teeth, normal module and helix angle"]),
-        Column("mass", "kg", words["mass in kg"], 2),
-        Column("S_H", "S_H", words["safety of the flank against pitting"], 2),
-        Column("S_F", "S_F", words["safety of the root against breakage"], 2),
-        Column("a", "a mm", words["centre distance"], 1),
-        Column("b", "b mm", words["face width"], 1),
-        Column("u", "u", words["gear ratio"], 3),
-        Column("eps_a", "ε_α", words["transverse contact ratio"], 2),
-        Column("eps_b", "ε_β", words["overlap ratio"], 2),
-        Column("sliding", "ζ", words["greatest specific sliding"], 2),
-        Column("temperature", "°C", words["integral temperature"], 0),
-        Column("ripple", "%", words["change of the length of the lines of contact"], 0),
-        Column("error", "TE µm", words["transmission error, peak to peak"], 2),
+        FoundColumn("name", words["pair"], words["teeth, normal module and helix angle"]),
+        FoundColumn("mass", "kg", words["mass in kg"], 2),
+        FoundColumn("S_H", "S_H", words["safety of the flank against pitting"], 2),
+        FoundColumn("S_F", "S_F", words["safety of the root against breakage"], 2),
+        FoundColumn("a", "a mm", words["centre distance"], 1),
+        FoundColumn("b", "b mm", words["face width"], 1),
+        FoundColumn("u", "u", words["gear ratio"], 3),
+        FoundColumn("eps_a", "ε_α", words["transverse contact ratio"], 2),
+        FoundColumn("eps_b", "ε_β", words["overlap ratio"], 2),
+        FoundColumn("sliding", "ζ", words["greatest specific sliding"], 2),
+        FoundColumn("temperature", "°C", words["integral temperature"], 0),
+        FoundColumn("ripple", "%", words["change of the length of the lines of contact"], 0),
+        FoundColumn("error", "TE µm", words["transmission error, peak to peak"], 2),
     ]
 
 
@@ -165,16 +165,16 @@ class IdentifyPanel(SearchPanel):
         return [{**row, "name": free if row["name"] == FREE else row["name"]} for row in self._shown.get("rows", [])]
 
 
-def _gear_columns(words: PageWords) -> list[Column]:
+def _gear_columns(words: PageWords) -> list[FoundColumn]:
     return [
-        Column("name", words["series"], words["series of the module or diametral pitch"]),
-        Column("probability", "%", words["probability"], 1),
-        Column("module", "m_n mm", words["normal module"], 4),
-        Column("pressure_angle", "α_n °", words["normal pressure angle"], 2),
-        Column("helix_angle", "β °", words["helix angle"], 2),
-        Column("shift", "x", words["profile shift"], 3),
-        Column("thinning", "A_sn mm", words["tooth thinning (normal)"], 3),
-        Column("chi_square", "χ²", words["sum of the squared deviations"], 1),
+        FoundColumn("name", words["series"], words["series of the module or diametral pitch"]),
+        FoundColumn("probability", "%", words["probability"], 1),
+        FoundColumn("module", "m_n mm", words["normal module"], 4),
+        FoundColumn("pressure_angle", "α_n °", words["normal pressure angle"], 2),
+        FoundColumn("helix_angle", "β °", words["helix angle"], 2),
+        FoundColumn("shift", "x", words["profile shift"], 3),
+        FoundColumn("thinning", "A_sn mm", words["tooth thinning (normal)"], 3),
+        FoundColumn("chi_square", "χ²", words["sum of the squared deviations"], 1),
     ]
 
 

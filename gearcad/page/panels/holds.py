@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from gearcad.designs.holds import HeldRatio, Hold, Mates, held_ratio, hold_of, mates_of, to_hold, unwritten_followers
+from gearcad.designs.holds import HeldQuantity, HeldRatio, Mates, held_ratio, hold_of, mates_of, to_hold, unwritten_followers
 from gearcad.designs.keys import Cell
 from gearcad.designs.reader import kind_of
 from gearcad.page.fields import table_title
@@ -33,10 +33,10 @@ class HoldSwitches:
     def press(self, what: str) -> dict[str, str]:
         """Hold something, or let go of a held ratio; return the values to write into the spec by their keys, as typed."""
         mates, design = self._mates(), self._bench.shown_design
-        hold = next((each for each in Hold if each.value == what), None)
+        hold = next((each for each in HeldQuantity if each.value == what), None)
         if mates is None or design is None or hold is None:
             return {}
-        if hold is Hold.RATIO:
+        if hold is HeldQuantity.RATIO:
             self._ratio = held_ratio(mates, design, self._bench.tables) if self._ratio is None else None
             self._ratio_of = self._bench.name
             return {}
@@ -52,14 +52,14 @@ class HoldSwitches:
             self._ratio = None  # another spec was opened
         held, why = hold_of(mates, tables), self._reasons(mates, tables)
         titles = {
-            Hold.CENTRE_DISTANCE: words["hold the centre distance: a profile shift follows"],
-            Hold.PROFILE_SHIFTS: words["hold the profile shifts: the centre distance follows"],
-            Hold.RATIO: words["hold the ratio: the number of teeth of the mate follows"],
+            HeldQuantity.CENTRE_DISTANCE: words["hold the centre distance: a profile shift follows"],
+            HeldQuantity.PROFILE_SHIFTS: words["hold the profile shifts: the centre distance follows"],
+            HeldQuantity.RATIO: words["hold the ratio: the number of teeth of the mate follows"],
         }
         holds = [
-            {"what": hold.value, "title": title, "on": self._ratio is not None if hold is Hold.RATIO else held is hold}
+            {"what": hold.value, "title": title, "on": self._ratio is not None if hold is HeldQuantity.RATIO else held is hold}
             for hold, title in titles.items()
-            if hold is not Hold.RATIO or mates.ratio
+            if hold is not HeldQuantity.RATIO or mates.ratio
         ]
         return {"holds": holds, "note": self._note(mates, held), "why": why}
 
@@ -76,13 +76,13 @@ class HoldSwitches:
             why |= dict.fromkeys(self._ratio.keys, f"{words['follows with the held ratio']} {self._ratio_text()}")
         return why
 
-    def _note(self, mates: Mates, held: Hold | None) -> list[str]:
+    def _note(self, mates: Mates, held: HeldQuantity | None) -> list[str]:
         """Return one sentence for each thing that follows."""
         words = self._words
-        if held is Hold.CENTRE_DISTANCE:
+        if held is HeldQuantity.CENTRE_DISTANCE:
             gears = [words[table_title(key.partition(".")[0])] for key in unwritten_followers(mates, self._bench.tables)]
             note = [f"{words['The profile shift follows']}: {', '.join(gears)}"]
-        elif held is Hold.PROFILE_SHIFTS:
+        elif held is HeldQuantity.PROFILE_SHIFTS:
             note = [words["The centre distance follows."]]
         else:
             note = [words["Centre distance and profile shifts are given: the backlash follows."]]
