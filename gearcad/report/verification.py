@@ -174,7 +174,10 @@ def figure_text(value: float | str | None, digits: int = _MANY) -> str:
 
 
 def verification_index(name: str, documents: Iterable[Document], errors: Sequence[str], moved: Sequence[MovedFigure]) -> str:
-    """Return the page of a table: a row for each design with its verdicts, which sorts and filters, and links to its page."""
+    """Return the page of a table: a row for each design with its verdicts, which sorts and filters, and links to its page.
+
+    Designs with claims that failed come first, each with the first of these.
+    """
     rows = []
     for document in documents:
         deviations = [
@@ -183,16 +186,18 @@ def verification_index(name: str, documents: Iterable[Document], errors: Sequenc
             if claim["deviation"] is not None and claim["permitted"]
         ]
         share, nearest = max(deviations, key=lambda each: abs(each[0]), default=(None, None))
+        nearest = next((claim for claim in document["claims"] if claim["passed"] is False), nearest)
         rows.append(
             {
                 "name": document["name"],
                 "verdict": VERDICTS[document["passed"]],
-                "strength": strength_words(document),
+                "strength": "–" if document["level"] == "files" else VERDICTS[document["strength"]],
                 "counts": [document["counts"].get(key, 0) for key in ("passed", "failed", "not judged")],
                 "share": "" if share is None else f"{100 * abs(share):.0f}",
                 "nearest": "" if nearest is None else f"{nearest['where']}: {nearest['quantity']}",
             }
         )
+    rows.sort(key=lambda row: VERDICTS[False] not in (row["verdict"], row["strength"]))
     changes = [str(each) for each in moved]
     return page_html("verify_index.html", name, rows=rows, errors=list(errors), moved=changes)
 
