@@ -26,7 +26,7 @@ export default {
         <input type="range" min="0" :max="content.tool.turns.length - 1" step="1" v-model.number="at" :aria-label="words.step" />
       </div>
       <p v-for="line in lines" :key="line">{{ line }}</p>
-      <p v-if="why" class="fault" lang="en">{{ why }}</p>
+      <p v-if="why" class="fault">{{ why }}</p>
     </div>`,
   props: { words: Object },
   emits: ["choose", "drawn"],

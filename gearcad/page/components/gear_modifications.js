@@ -26,7 +26,7 @@ export default {
         </div>
         <figure>
           <figcaption>{{ words.error }} (µm)</figcaption>
-          <p v-if="content.error.why_not" class="fault" lang="en">{{ content.error.why_not }}</p>
+          <p v-if="content.error.why_not" class="fault">{{ content.error.why_not }}</p>
           <template v-else>
             <p class="peak"><span>{{ words.peak }}:</span> <span v-if="former" class="former">{{ words.before }} {{ peak(former) }} µm</span> <b>{{ former ? words.after : "" }} {{ peak(content.error) }} µm</b></p>
             <svg :width="width" :height="high" role="img" :aria-label="words.error + ', ' + peak(content.error) + ' µm'">

@@ -89,7 +89,7 @@ class DrawingPanel(Panel[DrawnSheets]):
         names = {"assembly": words["Assembly"]}
         sheets = [each._asdict() | {"name": names.get(each.name) or called(words, each.name)} for each in found.sheets]
         reasons = {_NO_DRAWING: words["This kind of design has no drawing."]}
-        self._view.show(sheets, reasons.get(found.why_not, found.why_not))
+        self._view.show(sheets, reasons.get(found.why_not) or words.message(found.why_not))
 
     def clear(self) -> None:
         self._view.show([], "")

@@ -39,6 +39,8 @@ class ModificationsPanel(Panel[JsonObject | None]):
     def show(self, found: JsonObject | None) -> None:
         self._shown = found
         before = None if self._before is None else self._before["error"]
+        if found is not None:
+            found = found | {"error": found["error"] | {"why_not": self._words.message(found["error"]["why_not"])}}
         self._view.show(found, before)
 
     def clear(self) -> None:

@@ -53,14 +53,15 @@ class SectionToolsPanel(Panel[JsonObject]):
         elif mode is SectionMode.THICKNESS:
             found["thickness"] = thickness_at(gear, asked.size)
         elif mode is SectionMode.PINS:
-            found["pins"] = pins_at(gear, asked.size)
+            pins = pins_at(gear, asked.size)
+            found["pins"] = pins | {"why_not": self._words.message(pins["why_not"])}
         elif mode is SectionMode.GAP:
             found["gap"] = gaps_of(design)
         elif mode is SectionMode.TOOL:
             try:
                 found["tool"] = tool_at(gear)
             except (GearcadError, ArithmeticError, ValueError) as error:
-                found["why_not"] = str(error)
+                found["why_not"] = self._words.message(str(error))
         return found
 
     def show(self, found: JsonObject) -> None:
