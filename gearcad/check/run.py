@@ -35,7 +35,7 @@ COARSER, FINER = "coarser bodies, for the error", "finer bodies, for the error"
 
 _SINGLE_POSITIONS = 15
 
-_EXPECTED_SOUGHT = 2
+_EXPECTED_SOUGHT = 2.5
 """Factor on the number of positions for those between them, where extremes are sought."""
 _RATING_SECONDS = 0.2
 
@@ -107,7 +107,7 @@ _WORTH_A_WORD = 0.01
 _BODIES = (0.1, 0.13)
 """Seconds for two bodies: whatever their mesh, and times the square of its refinement."""
 
-_POSITION, _SOUGHT, _SINGLE, _RATING = 0.003, 20, 25, 0.5
+_POSITION, _SOUGHT, _SINGLE, _RATING = 0.003, 30, 25, 0.5
 """Seconds for a position; how many are sought between those of a cycle, and of one pair alone; seconds for the rest."""
 
 PLANE_MEMORY = 0.4e9

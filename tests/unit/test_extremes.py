@@ -283,3 +283,16 @@ def test_arrays_are_read_only_and_document_is_plain() -> None:
     assert document["c_gamma_beta"] == cycle.secant_per_width
     assert document["mesh_cycle"]["compliance_parts"]["all"] == [1.0] * 176
     assert "maximum" not in replace(cycle, mean_only=True).to_dict()
+
+
+_STATIONARY = 1e-4
+"""Relative: a fifth of the least error that is told of an extreme."""
+
+
+@pytest.mark.parametrize("steepness", [0.3, 1.0, 2.0])
+def test_a_kink_is_found_far_below_the_told_error(steepness: float) -> None:
+    """Wherever it is between even positions: so that no comparison of nearly equal numbers on the way shows in the figure."""
+    for place in np.linspace(-0.5, 0.5, 11).tolist():
+        found, _ = sought(kinked(place, 1.0, steepness), 24)
+        assert found is not None
+        assert found.value == pytest.approx(100.0, rel=_STATIONARY)

@@ -193,6 +193,17 @@ def test_a_contact_away_from_the_kink_is_that_of_a_cylinder() -> None:
     assert found.least == pytest.approx([0.0, 0.036 * 1.0 - 8 * 0.036**2 / 2], abs=1e-9)
 
 
+@pytest.mark.parametrize("load", [1e-3, 0.1, 10.0, 300.0])
+def test_small_loads_press_where_the_gap_is_least(load: float) -> None:
+    """A pair of teeth that comes in beside a relief: Hertz's width, R D away from where Newton's steps would begin."""
+    nominal, half = np.full((3, 1), 1.0), math.sqrt(4 * load * 8 / (math.pi * STEEL))
+    start = np.zeros(3), half * np.array([1 / 8, 1.0, 8.0])
+    found = press(lambda place: rounded(place, nominal, 8.0, 0.036, 0.1), np.full(3, load), STEEL, start, 0.1)
+    assert found.settled.all()
+    assert found.half_widths == pytest.approx(half, rel=1e-6)
+    assert found.least == pytest.approx(0.036 - 8 * 0.036**2 / 2, abs=1e-9)
+
+
 def test_a_transition_too_short_for_the_places_is_not_resolved() -> None:
     nominal = np.array([[0.1]])
     found = press(

@@ -202,9 +202,14 @@ P = TypeVar("P")
 PositionKind = TypeVar("PositionKind", contravariant=True)
 
 _TOLERANCE = 0.0005
-"""Part of a value by which it may be exceeded between the positions: well within 0.2 %, as the bound is an estimate."""
+"""Part of a value that is told as its error at the least: well within 0.2 %, as the bound is an estimate."""
 
-_LEAST_GAP = 1e-4
+_STATIONARY = 1e-5
+"""Part of a value to which a search goes on: so far below what is told as its error that no comparison of nearly equal numbers
+on the way shows in a figure.
+"""
+
+_LEAST_GAP = 1e-5
 """Distance of two positions, in base pitches, below which nothing is sought between them."""
 
 _UP, _BEND, _MOST_UP = 1.25, 4.0, 10.0
@@ -322,12 +327,12 @@ class _Sampled:
 
     @property
     def doubtful(self) -> float | None:
-        """The angle (deg) at which most can be missed; None where that is within the tolerance."""
+        """The angle (deg) at which most can be missed; None where the value is stationary."""
         roofs, places = self.roofs
         if self.nothing or not len(roofs):
             return None
         at = int(np.argmax(roofs))
-        return float(places[at]) if roofs[at] > np.nanmax(self.values) + _TOLERANCE * self.scale else None
+        return float(places[at]) if roofs[at] > np.nanmax(self.values) + _STATIONARY * self.scale else None
 
     @cached_property
     def roofs(self) -> tuple[Floats, Floats]:

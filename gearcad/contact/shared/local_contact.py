@@ -129,13 +129,18 @@ _OF_TRANSITION, _OF_WIDTH, _MOST_NODES = 8, 48, 4096
 """Places of a contact: so many over a transition, at least so many over the width, and no more than the most."""
 
 _ROUNDS, _SETTLED = 60, 1e-10
-"""Newton steps for middle and half width of a contact, and the last one over the half width."""
+"""Newton steps for middle and half width of a contact, and the last one: over the half width where that is above 1 mm, else in
+mm. Over half widths of some µm rounding leaves more.
+"""
 
 _STEPS, _LEAST_TRANSITION, _MOST_STEPS = 6, 0.01, 24
 """Steps over a transition (mm of roll, taken as no shorter) at which contacts are looked at, and the most of an onset."""
 
 _PLACES, _POSITIONS, _HALVINGS = 401, 201, 60
 """Places in a contact, positions of the kink in it, and halvings of its width in the closed form."""
+
+_WIDENINGS = 16
+"""Times that the range of places at most grows by its width, until the least gap lies in it."""
 
 
 # ---------------------------------------------------------------------- which places are beside a start
@@ -263,11 +268,13 @@ def press(
 ) -> Pressed:
     """Press half-planes together whose gaps at places (n, m) are those of `curve`, with line loads (n,) in N/mm.
 
-    `start` are middles and half widths (n,) to begin with, `shortest` is the length (mm) of the shortest transition.
+    `start` are middles and half widths (n,) near which the least gap is sought, where Newton's steps begin: from elsewhere
+    they miss the contacts of small loads. `shortest` is the length (mm) of the shortest transition.
     """
     from scipy.fft import dct, dst
 
     middle, half = (np.array(each, float) for each in start)
+    middle = _place_of_least(curve, *_around_least(curve, middle, half))
     wanted = max(_OF_WIDTH, math.ceil(_OF_TRANSITION * math.pi * float(half.max()) / shortest))
     count = 1 << math.ceil(math.log2(min(wanted, _MOST_NODES)))
     cosine = np.cos((np.arange(count) + 0.5) * math.pi / count)
@@ -285,23 +292,34 @@ def press(
         middle = middle + np.clip(to_middle, -half, half)
         step = np.clip(to_half, -half / 2, half)
         half = half + step
-        settled = np.maximum(np.abs(to_middle), np.abs(to_half)) < _SETTLED * half
+        settled = np.maximum(np.abs(to_middle), np.abs(to_half)) < _SETTLED * np.maximum(half, 1.0)
         if settled.all():
             break
     of = curve(middle[:, None] + half[:, None] * cosine)
     terms = dct(of.slope, type=2, axis=1) / count
     pressures = modulus / 4 * dst(np.c_[terms[:, 1:], np.zeros(len(terms))], type=3, axis=1)
     approach = of.gap.mean(axis=1) - 2 * loads / (math.pi * modulus) * np.log(half / 2)
-    least = _least_of(curve, middle, half)
+    least = curve(_place_of_least(curve, middle - half, middle + half)[:, None]).gap[:, 0]
     own = np.exp(-(approach - least) * math.pi * modulus / (2 * loads))
     resolved = settled & (_OF_TRANSITION * math.pi * half <= 2 * count * shortest)
     return Pressed(middle, half, _tops(pressures), own, least, settled, resolved)
 
 
-def _least_of(curve: Callable[[Floats], GapCurve], middle: Floats, half: Floats) -> Floats:
-    """Return the least gaps (n,) in mm: where a convex gap has no slope."""
+def _around_least(curve: Callable[[Floats], GapCurve], middle: Floats, half: Floats) -> tuple[Floats, Floats]:
+    """Return two places (n,), on both sides of the least of a convex gap, by widening middle and half widths (n,)."""
     low, high = middle - half, middle + half
-    place = middle
+    for _ in range(_WIDENINGS):
+        slopes = curve(np.stack([low, high], axis=1)).slope
+        if (slopes[:, 0] <= 0).all() and (slopes[:, 1] >= 0).all():
+            break
+        wide = high - low
+        low, high = np.where(slopes[:, 0] > 0, low - wide, low), np.where(slopes[:, 1] < 0, high + wide, high)
+    return low, high
+
+
+def _place_of_least(curve: Callable[[Floats], GapCurve], low: Floats, high: Floats) -> Floats:
+    """Return the places (n,) of the least gaps between two places: where a convex gap has no slope, or at an end."""
+    place = (low + high) / 2
     for _ in range(_HALVINGS):
         of = curve(place[:, None])
         slope, bend = of.slope[:, 0], of.curvature[:, 0]
@@ -310,7 +328,7 @@ def _least_of(curve: Callable[[Floats], GapCurve], middle: Floats, half: Floats)
         place, before = np.where((newton > low) & (newton < high), newton, (low + high) / 2), place
         if float(np.abs(place - before).max()) < _SETTLED:
             break
-    return curve(place[:, None]).gap[:, 0]
+    return place
 
 
 def _tops(values: Floats) -> Floats:
