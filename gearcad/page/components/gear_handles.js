@@ -158,7 +158,7 @@ export default {
     label(section, pen, words, x, y) {
       pen.font = "13px system-ui, sans-serif";
       const width = pen.measureText(words).width;
-      const left = Math.min(x, section.$refs.canvas.clientWidth - width - 6);
+      const left = x > section.$refs.canvas.clientWidth / 2 ? x - width - 24 : x; // fields are at the right
       [pen.fillStyle, pen.globalAlpha] = [section.colours.paper, 0.85];
       pen.fillRect(left - 3, y - 13, width + 6, 18);
       [pen.fillStyle, pen.globalAlpha] = [section.colours.ink, 1];

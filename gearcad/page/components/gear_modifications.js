@@ -132,7 +132,7 @@ export default {
       const y = (amount) => TOP + ((amount - lowest) / (scale - lowest)) * (HIGH - TOP - BOTTOM);
       const points = curve.map((amount, n) => `${x(from + ((to - from) * n) / (curve.length - 1)).toFixed(1)},${y(amount).toFixed(1)}`).join(" ");
       const up = (lowest === -scale ? [-1, -0.5, 0, 0.5, 1] : [0, 0.5, 1]).map((share) => ({ value: share, y: y(share * scale), words: fixed(-share * scale + 0, scale < 10 ? 1 : 0) }));
-      const across = [0.17, 0.5, 0.83].map((share) => {
+      const across = (key === "profile" ? [0.2, 0.8] : [0.1, 0.5, 0.9]).map((share) => {
         const place = from + share * (to - from);
         return { x: x(place), words: key === "profile" ? `${fixed(Math.abs(place), 1)} (⌀${fixed(2 * Math.hypot(gear.base, place), 1)})` : fixed(place, 1) };
       });

@@ -280,12 +280,18 @@ def _flank_view(content: JsonObject, words: PageWords) -> dict[str, Any]:
         "textStyle": _TEXT,
     }
     option["tooltip"] = {"position": "top", "textStyle": {"fontSize": 13}}
+    places = [26 + 225 * n for n, _ in enumerate(Role)]
+    stacked = {
+        "grid": [{"left": 64, "right": 92, "top": top, "height": 150} for top in places],
+        "title": [each | {"left": 64, "top": top - 24} for top, each in zip(places, option["title"], strict=True)],
+    }
     return {
         "key": "flank",
         "words": words["pattern of contact"],
         "told": _told(content, words),
         "option": option,
         "height": 240,
+        "narrow": {"height": 460, "option": stacked},
     }
 
 

@@ -217,14 +217,25 @@ def test_the_token_is_not_in_history(browser: Any, address: str) -> None:
     context.close()
 
 
+def _show_a_result(tab: Tab) -> None:
+    """Check the design, and show all that the page draws of it and of its flanks."""
+    tab.page.click(".right >> text=Runs")
+    tab.page.click(".run-kinds button:has-text('check in the plane')")
+    tab.page.wait_for_selector(".gear-results[data-drawn]", timeout=120_000)
+    tab.page.select_option(".section-tools select >> nth=0", "draw")
+
+
 @pytest.mark.long
-def test_memory_is_flat_over_a_thousand_changes(browser: Any, folder: Path) -> None:
+@pytest.mark.parametrize("shows_result", [False, True])
+def test_memory_is_flat_over_a_thousand_changes(browser: Any, folder: Path, shows_result: bool) -> None:
     server, address = serve(folder / "reducer-21-43.toml")
     context = browser.new_context(viewport=DESK)
     tab = Tab(context.new_page(), address)
     try:
         tab.page.goto(address)
         tab.page.wait_for_selector(".scene[data-shown]")
+        if shows_result:
+            _show_a_result(tab)
         measured = context.new_cdp_session(tab.page)
         memory = []
         for changes in (200, 1000):
