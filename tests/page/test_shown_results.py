@@ -16,6 +16,7 @@ from gearcad.designs.reader import starter_text
 from gearcad.page.run_process import ANALYSES, design_of, mesh_pair
 from gearcad.page.runs import Run, Runs, RunState
 from gearcad.page.shown_results import FILE, read_shown
+from gearcad.page.words import PageLanguage, PageWords
 
 ENOUGH = 300.0
 QUICK = '\n[check]\npositions = 12\nrefinement = 0.5\nconvergence = "off"\nbody_teeth = 5\ntorques = [20.0]\n'
@@ -133,6 +134,47 @@ def test_coloured_flanks_of_bodies_lie_on_the_gears(solid: Run) -> None:
         half = gear.transverse_tooth_thickness / 2 / r + math.tan(alpha) - alpha - (np.tan(at) - at)
         assert angle == pytest.approx(half, abs=2e-5)
         assert 0 <= points[:, 2].min() < points[:, 2].max() <= gear.face_width
+
+
+def test_what_is_drawn_is_what_the_file_has(plane: Run, solid: Run) -> None:
+    pytest.importorskip("nicegui")
+    from gearcad.page.panels.results import coloured_kinds, drawn_part, views_of
+
+    german = PageWords.of(PageLanguage.GERMAN)
+    document, shown = _document(plane, "check.json"), _shown(plane)
+    cycle = document["mesh_cycle"]
+    curves, flank = views_of(shown, german)
+    *shares, errors, stiffness = ([value for _, value in series["data"]] for series in curves["option"]["series"])
+    assert errors == cycle["transmission_error"] and stiffness == cycle["mesh_stiffness"]
+    assert np.transpose(shares) == pytest.approx(100 * np.array(cycle["load_share"]), rel=1e-12)
+    for series in curves["option"]["series"]:
+        assert [angle for angle, _ in series["data"]] == cycle["roll_angle"]
+    pressure = document["summary"]["contact_pressure"]
+    assert f"{pressure:.1f} MPa".replace(".", ",") in curves["told"]
+    assert flank["option"]["visualMap"]["max"] == pressure
+    drawn = drawn_part(shown)
+    assert drawn is not None and drawn["limits"]["pressure"] == pressure
+    design = design_of(PAIR, "mine", Path())
+    kinds = coloured_kinds(_shown(solid), design, german)
+    assert [kind["key"] for kind in kinds] == ["pressure", "stress"]
+    assert [(on["role"], on["teeth"]) for on in kinds[0]["on"]] == [("pinion", 21), ("wheel", 32)]
+
+
+def test_each_mesh_has_its_own_operating_point() -> None:
+    pytest.importorskip("nicegui")
+    from gearcad.page.panels.results import views_of
+
+    content = {
+        "kind": "dynamics",
+        "speed": [1.0, 2.0],
+        "kv": {"first": [1.1, 1.2], "second": [1.3, 1.4]},
+        "kv_down": {"first": [1.1, 1.25]},
+        "kv_iso6336": None,
+        "operating": {"speed": 2.0, "kv": {"first": 1.2, "second": 1.4}},
+    }
+    (view,) = views_of(content, PageWords.of(PageLanguage.ENGLISH))
+    marked = {each["name"]: each["markPoint"]["data"] for each in view["option"]["series"] if "markPoint" in each}
+    assert marked == {"K_v, first": [{"coord": [2.0, 1.2]}], "K_v, second": [{"coord": [2.0, 1.4]}]}
 
 
 def test_a_plane_check_colours_no_bodies(plane: Run, solid: Run) -> None:

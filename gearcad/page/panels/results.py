@@ -306,20 +306,19 @@ def _speed_view(content: JsonObject, words: PageWords) -> dict[str, Any]:
     for n, (mesh, factors) in enumerate(content["kv"].items()):
         name = "K_v" if len(content["kv"]) == 1 else f"K_v, {called(words, mesh)}"
         colour = _LINES[n % len(_LINES)]
-        series.append(_line(name, colour, _over(speeds, factors)))
+        running_up = _line(name, colour, _over(speeds, factors))
+        series.append(running_up)
         if (down := content["kv_down"].get(mesh)) and down != factors:
             dashed = {"color": colour, "type": "dashed", "width": 1.5}
             series.append(_line(f"{name}, {words['running down']}", colour, _over(speeds, down), lineStyle=dashed))
         speed, factor = content["operating"]["speed"], content["operating"]["kv"].get(mesh)
         if speed is not None and factor is not None:
-            series[n] |= {
-                "markPoint": {
-                    "data": [{"coord": [speed, factor]}],
-                    "symbol": "circle",
-                    "symbolSize": 11,
-                    "itemStyle": {"color": "var(--wrong)", "borderColor": "var(--paper)", "borderWidth": 2},
-                    "label": {"show": False},
-                },
+            running_up["markPoint"] = {
+                "data": [{"coord": [speed, factor]}],
+                "symbol": "circle",
+                "symbolSize": 11,
+                "itemStyle": {"color": "var(--wrong)", "borderColor": "var(--paper)", "borderWidth": 2},
+                "label": {"show": False},
             }
             told.append(f"{name} = {words.number(f'{factor:.4g}')}")
     if content["kv_iso6336"]:
