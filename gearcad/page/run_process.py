@@ -47,6 +47,9 @@ class RunKind:
     taken: str = "*"
     made: Callable[[Design], Design] = lambda design: design
     takes: Callable[[Design], bool] = lambda design: True
+    foreseen: bool = True
+    """Whether the page asks what the run would take. gmsh counts the elements of a mesh: never in a thread of the server."""
+
     kinds: tuple[DesignKind, ...] = ()
     mesh: int | None = None
     shown: Callable[[Any, JsonObject], JsonObject | None] | None = None
@@ -197,7 +200,7 @@ ANALYSES = {
     "stiffness": RunKind(job=_stiffness, report="stiffness.html"),
     "dynamics": RunKind(job=_dynamics, report="dynamics.html", shown=_shown_dynamics),
     "planetary": RunKind(job=_planetary, report="planetary.html"),
-    "mesh": RunKind(job=_mesh),
+    "mesh": RunKind(job=_mesh, foreseen=False),
     "verify": RunKind(job=_verify, report="verify.html"),
 }
 """Jobs that solve, in the order in which users need them."""

@@ -226,6 +226,13 @@ def test_what_would_not_begin_says_why() -> None:
     assert "about" not in found["check-3d"].told
 
 
+def test_what_a_mesh_takes_is_not_found_in_the_server(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Gmsh counts its elements, which must not happen in a thread: it ends the process."""
+    monkeypatch.setattr("gearcad.jobs.mesh.Mesh.expected", lambda _self, _design: pytest.fail("asked"))
+    found = expected_of(read_spec(TEMPLATES / "fzg-c.toml"), PageWords.of(PageLanguage.ENGLISH))
+    assert (found["mesh"].told, found["mesh"].why) == ("", "")
+
+
 def test_verdicts_are_told_in_the_words_of_the_page() -> None:
     asked = RunRequest(kind="rate", text="", name="trial", folder="", into="")
     runs = [

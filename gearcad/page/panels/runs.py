@@ -289,7 +289,7 @@ def expected_of(design: Design, words: PageWords) -> dict[str, Outlook]:
     for key, kind in ANALYSES.items():
         if kind.accepts(design):
             try:
-                expected = kind.expected(design)
+                expected = kind.expected(design) if kind.foreseen else None
             except GearcadError as error:
                 found[key] = Outlook(why=words.message(str(error)))
             else:
