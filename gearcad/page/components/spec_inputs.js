@@ -6,7 +6,7 @@ import { Changes, PAUSE, keepUnheard, takeUnheard } from "gear-changes";
 import { GearSymbol } from "gear-symbols";
 
 const decimal = (text) => (document.documentElement.lang === "de" ? text.replaceAll(".", ",") : text);
-const LIST = /^-?\d+([.]\d+)?( -?\d+([.]\d+)?)+$/; // of numbers
+const LIST = /^-?\d+([.]\d+)?([ :]-?\d+([.]\d+)?)+$/; // of numbers, or of lists of them
 
 const MOST = 3; // columns of gears beside each other
 

@@ -93,3 +93,9 @@ def test_faults_are_german(tab: Any) -> None:
         said = tab.page.locator(".fault, .spec-fault").all_inner_texts()
         assert any(line.strip() for line in said), what
         assert english_texts(tab.page.evaluate(_SHOWN)) == [], what
+
+
+def test_lists_of_lists_have_decimal_commas(tab: Any) -> None:
+    text = STARTERS["reducer-21-43"].replace("[rating]", "[rating]\nspectrum = [[0.1, 1.25], [0.9, 0.8]]", 1)
+    _open(tab, "spectrum", text)
+    assert tab.page.locator('[id="in-rating.spectrum"]').input_value() == "0,1:1,25 0,9:0,8"
