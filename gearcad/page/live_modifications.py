@@ -24,6 +24,7 @@ from gearcad.geometry import FlankModification, Gear, GearPair
 from gearcad.load import Load
 from gearcad.material import Materials
 from gearcad.mounting import Mounting
+from gearcad.page.run_process import value_in_process
 from gearcad.rating.options import RatingOptions
 
 AMOUNTS = {
@@ -51,14 +52,14 @@ QUICK = 20
 
 
 @dataclass(frozen=True)
-class Drawn:
+class DrawnModification:
     """Values by fields of a gear's modification, as they were drawn; `texts` has them under the keys of a spec."""
 
     role: Role
     values: Mapping[str, float]
 
     @classmethod
-    def of(cls, role: str, values: Mapping[str, Any], design: PairDesign) -> Drawn:
+    def of(cls, role: str, values: Mapping[str, Any], design: PairDesign) -> DrawnModification:
         """Check what the browser sent. Raises ParameterError for other names, for what is no number, or out of range."""
         if role not in {each.value for each in Role}:
             raise ParameterError("role", role, "must be pinion or wheel")
@@ -151,8 +152,11 @@ def _plain(pair: GearPair) -> GearPair:
 
 @lru_cache(maxsize=4)
 def _bodies(pair: GearPair, material: Materials, options: CheckOptions, mounting: Mounting) -> PlanePair:
-    """Return the bodies of the plane model of a pair as mounted, kept for the latest pairs of all sessions."""
+    """Return the bodies of the plane model of a pair as mounted, kept for the latest pairs of all sessions.
+
+    They are made in the process beside the server: gmsh, which meshes them, ends a process in whose threads it runs.
+    """
     unloaded = CheckTask(
         pair=pair, material=material, load=Load(torque=1.0), mounting=mounting, options=options, rating_options=RatingOptions()
     )
-    return plane_model(unloaded)
+    return value_in_process(plane_model, unloaded)

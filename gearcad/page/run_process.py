@@ -246,18 +246,27 @@ async def result_in_process(find: Callable[[Design], Found], design: Design) -> 
     return found
 
 
+def value_in_process(find: Callable[[Any], Found], asked: Any) -> Found:
+    """Return what a module's function finds, computed in the other process; for a thread of the server, which waits for it.
+
+    Raises the errors of the function, WorkerLostError if its process has ended, RuntimeError once the server ends.
+    """
+    found: Found = _EXECUTOR.submit(isolated, _low_priority_result, (find, asked), _LONGEST).result()
+    return found
+
+
 def stop_process() -> None:
     """Stop the computation in the other process when the server ends."""
     _EXECUTOR.shutdown(wait=False, cancel_futures=True)
     close_workers()
 
 
-def _low_priority_result(asked: tuple[Callable[[Design], Any], Design]) -> Any:
-    """Run a function on a design with low priority, in the process beside the server."""
+def _low_priority_result(asked: tuple[Callable[[Any], Any], Any]) -> Any:
+    """Run a function on a design, or what else it takes, with low priority, in the process beside the server."""
     with suppress(AttributeError, OSError):
         os.setpriority(os.PRIO_PROCESS, 0, _NICENESS)
-    find, design = asked
-    return find(design)
+    find, of = asked
+    return find(of)
 
 
 _BETWEEN = 0.1

@@ -13,7 +13,7 @@ from gearcad import check
 from gearcad.check import CheckOptions
 from gearcad.core.errors import ParameterError
 from gearcad.designs.pair_designs import PairDesign
-from gearcad.page.live_modifications import QUICK, Drawn, _bodies, drawn_gears, live_error
+from gearcad.page.live_modifications import QUICK, DrawnModification, _bodies, drawn_gears, live_error
 from gearcad.page.workbench import Workbench
 
 TEXT = """[pair]
@@ -48,8 +48,8 @@ def test_the_error_of_kept_bodies_is_that_of_a_check(tmp_path: Path) -> None:
     bench = _bench(tmp_path)
     live_error(_design(bench))
     made = _bodies.cache_info().misses
-    bench.change(Drawn.of("pinion", {"tip_relief": 30.0, "tip_relief_length": 1.5}, _design(bench)).texts, 1)
-    bench.change(Drawn.of("wheel", {"profile_crowning": 6.0}, _design(bench)).texts, 2)
+    bench.change(DrawnModification.of("pinion", {"tip_relief": 30.0, "tip_relief_length": 1.5}, _design(bench)).texts, 1)
+    bench.change(DrawnModification.of("wheel", {"profile_crowning": 6.0}, _design(bench)).texts, 2)
     found = live_error(_design(bench))
     assert _bodies.cache_info().misses == made, "the bodies are kept"
     options = CheckOptions(refinement=0.5, convergence="off", body_teeth=5, torques=[20.0])
@@ -69,7 +69,7 @@ def test_fewer_positions_are_among_those_of_a_check(tmp_path: Path) -> None:
 def test_curves_are_the_parabolas_and_lines_of_the_standard(tmp_path: Path) -> None:
     bench = _bench(tmp_path)
     values = {"lead_crowning": 8.0, "helix_angle_modification": 5.0, "end_relief": 4.0, "end_relief_length": 3.0}
-    bench.change(Drawn.of("pinion", values, _design(bench)).texts, 1)
+    bench.change(DrawnModification.of("pinion", values, _design(bench)).texts, 1)
     pinion, wheel = drawn_gears(_design(bench))
     across = np.linspace(-1, 1, len(pinion["lead"]))
     ends = np.maximum((np.abs(across) - 0.5) / 0.5, 0)  # 3 of the 6 mm of half the width
@@ -81,7 +81,7 @@ def test_curves_are_the_parabolas_and_lines_of_the_standard(tmp_path: Path) -> N
 def test_a_drag_is_one_step_and_keeps_comments(tmp_path: Path) -> None:
     bench = _bench(tmp_path)
     for amount in (19.04, 22.06, 25.08):
-        bench.change(Drawn.of("pinion", {"tip_relief": amount, "tip_relief_length": 2.0}, _design(bench)).texts, -2)
+        bench.change(DrawnModification.of("pinion", {"tip_relief": amount, "tip_relief_length": 2.0}, _design(bench)).texts, -2)
     assert _design(bench).pair.pinion.modification.tip_relief == 25.1
     assert _design(bench).pair.wheel.modification.tip_relief == 18.0
     assert "modification.tip_relief = 18.0  # both" in bench.text
@@ -104,13 +104,15 @@ def test_a_drag_is_one_step_and_keeps_comments(tmp_path: Path) -> None:
 )
 def test_what_the_browser_may_not_send_is_refused(tmp_path: Path, role: str, values: dict[str, Any]) -> None:
     with pytest.raises(ParameterError):
-        Drawn.of(role, values, _design(_bench(tmp_path)))
+        DrawnModification.of(role, values, _design(_bench(tmp_path)))
 
 
 def test_what_is_drawn_too_far_ends_where_it_may(tmp_path: Path) -> None:
     bench = _bench(tmp_path)
     form = _design(bench).pair.pinion.flank_form
-    drawn = Drawn.of("pinion", {"tip_relief": -5.0, "tip_relief_length": 99.0, "lead_crowning": -2e6}, _design(bench))
+    drawn = DrawnModification.of(
+        "pinion", {"tip_relief": -5.0, "tip_relief_length": 99.0, "lead_crowning": -2e6}, _design(bench)
+    )
     assert drawn.values["tip_relief"] == 0.0 and drawn.values["lead_crowning"] == -1000.0
     assert form.last - form.first - 0.01 < drawn.values["tip_relief_length"] <= form.last - form.first
 

@@ -10,7 +10,7 @@ from gearcad.core.records import JsonObject
 from gearcad.designs.design import Design
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.page.components.elements import ModificationsView
-from gearcad.page.live_modifications import QUICK, Drawn, drawn_gears, live_error
+from gearcad.page.live_modifications import QUICK, DrawnModification, drawn_gears, live_error
 from gearcad.page.panels import Panel
 from gearcad.page.words import PageWords
 from gearcad.page.workbench import Workbench
@@ -53,7 +53,7 @@ class ModificationsPanel(Panel[JsonObject | None]):
         if not isinstance(design, PairDesign) or not isinstance(values, Mapping) or not isinstance(step, int):
             return
         try:
-            drawn = Drawn.of(str(told.get("role")), values, design)
+            drawn = DrawnModification.of(str(told.get("role")), values, design)
         except ParameterError:
             return
         if step != self._step:
