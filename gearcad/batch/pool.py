@@ -333,7 +333,8 @@ def _client(address: str, jobs: int) -> Iterator[Any]:
             yield client
         return
     try:
-        asyncio.run(_greet(address))
+        with ThreadPoolExecutor(1) as own:  # a notebook has an event loop that runs in its thread already
+            own.submit(asyncio.run, _greet(address)).result()
         client = Client(address, timeout=_CONNECT_SECONDS)
     except (OSError, ValueError) as error:
         reason = " ".join(str(error).split()) or f"no answer in {_CONNECT_SECONDS:g} s"

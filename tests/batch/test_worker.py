@@ -7,6 +7,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 import psutil
@@ -20,15 +21,31 @@ from gearcad.batch.pool import WorkerLostError, close_workers, isolated, open_po
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 
 
+OTHERS: set[psutil.Process] = set()
+"""What tests of other modules have started and still use, such as a browser."""
+
+
+def started() -> list[psutil.Process]:
+    """The processes below this one, but for `OTHERS` and what is below them."""
+    found = [each for each in psutil.Process().children() if each not in OTHERS]
+    for each in tuple(found):
+        with suppress(psutil.NoSuchProcess):
+            found += each.children(recursive=True)
+    return found
+
+
 def no_worker_is_left() -> None:
     close_workers()
-    assert wait_for_end(psutil.Process().children(recursive=True), PATIENCE) == []
+    assert wait_for_end(started(), PATIENCE) == []
 
 
 @pytest.fixture(autouse=True, scope="module")
 def _they_end() -> Iterator[None]:
+    close_workers()
+    OTHERS.update(psutil.Process().children())
     yield
     no_worker_is_left()
+    OTHERS.clear()
 
 
 @pytest.fixture
@@ -177,7 +194,7 @@ def test_close_ends_a_call_in_progress() -> None:
 
     thread = threading.Thread(target=endless)
     thread.start()
-    wait_until(psutil.Process().children, "the worker")
+    wait_until(started, "the worker")
     close_workers()
     thread.join(PATIENCE)
     assert len(ended) == 1 and not thread.is_alive()
@@ -201,7 +218,7 @@ def test_ctrl_c_leaves_no_process_and_no_thread_whenever_it_comes(seconds: float
             list(pool.run(jobs.wait, [0.0] * 4 + [600.0] * 9, 600.0))
     finally:
         signal.signal(signal.SIGALRM, former)
-    assert wait_for_end(psutil.Process().children(recursive=True), PATIENCE) == []
+    assert wait_for_end(started(), PATIENCE) == []
     wait_until(lambda: threading.active_count() <= before, "the threads")
 
 

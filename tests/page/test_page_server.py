@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from support.processes import PATIENCE, hear_interrupts
 
 from gearcad.core.errors import ParameterError
 from gearcad.core.output import mark_folder
@@ -33,15 +34,16 @@ with ending():
 def test_only_who_is_killed_leaves_a_folder(name: str, tmp_path: Path) -> None:
     if not hasattr(signal, name):
         pytest.skip("needs the signals of Unix")
+    own = os.environ | {"TMPDIR": str(tmp_path)}
     server = subprocess.Popen(
-        [sys.executable, "-c", PROGRAM], stdout=subprocess.PIPE, text=True, env=os.environ | {"TMPDIR": str(tmp_path)}
+        [sys.executable, "-c", PROGRAM], stdout=subprocess.PIPE, text=True, env=own, preexec_fn=hear_interrupts
     )
     assert server.stdout is not None
     folder = Path(server.stdout.readline().strip())
     assert folder.parent == tmp_path and list(folder.iterdir())
     server.send_signal(signal.Signals[name])
     killed = name == "SIGKILL"
-    assert server.wait(20) == (-signal.SIGKILL if killed else 0)
+    assert server.wait(PATIENCE) == (-signal.SIGKILL if killed else 0)
     assert folder.exists() == killed
 
 

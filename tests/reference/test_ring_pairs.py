@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
-from support.cases import half_unit
+from support.cases import data_rows, half_unit
 from support.published import Published
 from support.rings import Cutter, half_space_angle
 
@@ -277,47 +277,17 @@ def test_what_was_looked_at() -> None:
         assert full_corner_radius(gear) * gear.normal_module == gear.profile.tool.radius
 
 
-VALUES: list[tuple[str, float, float, float, list[tuple[float, float, float]]]] = [
-    ("spur", -209.08350289122316, 0.21598349492567578, 77.89008412659561, [
-        (0.0, 104.867, 0.0009682870804292178),
-        (23.447036870118552, 104.82380687070216, 0.0028797319552670425),
-        (58.61759217529637, 104.54175144561155, 0.005585534990404942),
-    ]),
-    ("shifted cutter", -100.84611487868244, 0.3418520951175533, 55.41200287683204, [
-        (24.030184671352075, 50.83762607906678, 0.006517657958017297),
-        (60.07546167838019, 50.42305743934122, 0.014370868526191516),
-    ]),
-    ("thinned", -306.2136257488554, 0.442377055394422, 109.20168744553828, [
-        (25.02299144641811, 153.67676351424382, 0.004893944102589412),
-        (62.55747861604528, 153.1068128744277, 0.008018435033023574),
-    ]),
-    ("right hand", -215.85106055827123, 0.36960059292744857, 82.764321792813, [
-        (24.428706499093348, 108.5486711022862, 0.005111195143833855),
-        (61.07176624773337, 107.92553027913561, 0.010275632853436092),
-    ]),
-    ("left hand", -276.7906285272349, 0.39348088488848715, 109.77912590444794, [
-        (24.966709815475426, 139.56321685929043, 0.006814030458465192),
-        (62.416774538688564, 138.39531426361745, 0.01461139487190559),
-    ]),
-    ("25 degrees", -136.60504875545047, 0.18439778812572644, 49.29733408693167, [
-        (22.537136739347673, 68.6693314065565, 0.002958012562159872),
-        (56.34284184836918, 68.30252437772522, 0.007617087386296434),
-    ]),
-    ("form root", -209.29164688038563, 0.2437212070437437, 209.734, [
-        (24.738762225812536, 104.82860196086928, 0.0031876705306151895),
-        (61.84690556453134, 104.64582344019281, 0.00504971023611038),
-    ]),
-    ("helical form root", -218.09758117108402, 0.41472188228439927, 218.87742653304184, [
-        (0.0, 109.43871326652092, 0.002726081390214287),
-        (13.038086824714862, 109.42142554877644, 0.004166850485693207),
-    ]),
-]  # fmt: skip
+_FIGURES = {name: [*map(float, figures)] for name, *figures in data_rows("ring_fillets")}
+VALUES = [
+    (name, *figures[:3], [figures[first : first + 3] for first in range(3, len(figures), 3)])
+    for name, figures in _FIGURES.items()
+]
 """Root form diameter, full radius in modules, tip diameter of the cutter, and points of the fillet: theta (degrees), radius,
 half space angle (rad). Computed apart, with a brute-force envelope that agreed to 3.2e-13 mm."""
 
 
 @pytest.mark.parametrize(("name", "form", "full", "tip", "points"), VALUES, ids=[value[0] for value in VALUES])
-def test_values(name: str, form: float, full: float, tip: float, points: list[tuple[float, float, float]]) -> None:
+def test_values(name: str, form: float, full: float, tip: float, points: list[list[float]]) -> None:
     ring = RINGS[name]
     tool = ring.profile.tool
     assert isinstance(tool, ShaperTip)

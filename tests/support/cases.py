@@ -1,5 +1,6 @@
 """Reference cases of `tests/data`: geometry, ratings and stiffness, with the gears and pairs that they describe."""
 
+import csv
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -13,6 +14,12 @@ def read_cases(name: str) -> dict[str, dict[str, Any]]:
     """The cases of a file of `tests/data`, by their ids."""
     text = (Path(__file__).parents[1] / "data" / f"{name}.json").read_text(encoding="utf-8")
     return {entry["id"]: entry for entry in json.loads(text)}
+
+
+def data_rows(name: str) -> list[list[str]]:
+    """The rows of a CSV file of `tests/data` below its heading."""
+    text = (Path(__file__).parents[1] / "data" / f"{name}.csv").read_text(encoding="utf-8")
+    return list(csv.reader(text.splitlines()))[1:]
 
 
 _CASES, _RATINGS, _STIFFNESSES = (read_cases(name) for name in ("geometry", "rating", "stiffness"))

@@ -313,6 +313,7 @@ export default {
       const [x, y] = [event.offsetX, event.offsetY];
       if (!this.measuring || !this.pressed || Math.hypot(x - this.pressed[0], y - this.pressed[1]) > CLICK) return;
       const { clientWidth: width, clientHeight: height } = this.$refs.canvas;
+      this.scene.updateMatrixWorld(); // the last change of the view may not be drawn yet
       const ray = new THREE.Raycaster();
       ray.setFromCamera(new THREE.Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
       const hits = ray.intersectObjects(this.gears.map(({ mesh }) => mesh), false);

@@ -168,7 +168,7 @@ def test_two_points_are_measured(lent: Any) -> None:
     box = lent.page.locator(".scene canvas").bounding_box()
     for share in (0.45, 0.75):  # both on the end faces, which are 25 and 24 mm high
         lent.page.mouse.click(box["x"] + share * box["width"], box["y"] + 0.62 * box["height"])
-    assert "±" in lent.page.inner_text(".scene .measured")
+    lent.page.locator(".scene .measured", has_text="±").wait_for()
     lent.page.get_by_role("button", name="measure").click()
 
 
