@@ -32,8 +32,6 @@ technical_reference = "Gearbox 7"
 creator = "A. Person"
 revision = "C"
 """
-pytestmark = pytest.mark.usefixtures("kept_workers")
-
 TABLE = """name,gear.teeth,gear.normal_module,gear.face_width,gear.body.bore
 one,12,2,8,6
 two,13,2,8,0
@@ -160,7 +158,7 @@ def test_each_row_has_the_tolerance_of_its_column(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def table(kept_workers: None, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def table(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("table")
     (folder / "gears.csv").write_text(TABLE)
     told = run(folder / "gears.csv", "-o", folder / "out", "-j", 1, "--quiet")
