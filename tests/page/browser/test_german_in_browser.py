@@ -47,16 +47,35 @@ _SHOWN = """() => {
   return [...new Set(found)];
 }"""
 
-_TEMPLATES = [
-    re.compile("(.+)".join(re.escape(piece) for piece in english.split("{}")))
-    for english in messages_of("de")["messages"]
-    if len(english.replace("{}", "")) > 20
-]
+_TEMPLATES = [english.split("{}") for english in messages_of("de")["messages"] if len(english.replace("{}", "")) > 20]
+"""Pieces of English messages between what is put into them."""
 
 
 def english_texts(texts: list[str]) -> list[str]:
     """Return the texts with English words, or of an English template of a message."""
-    return [text for text in texts if _has_english_words(text) or any(each.fullmatch(text) for each in _TEMPLATES)]
+    return [text for text in texts if _has_english_words(text) or any(_is_made_of(text, pieces) for pieces in _TEMPLATES)]
+
+
+def _is_made_of(text: str, pieces: list[str]) -> bool:
+    """Return whether a text is these pieces with something between each two, in a time that grows with its length only."""
+    first, *others = pieces
+    if not others:
+        return text == first
+    end = len(text) - len(others[-1])
+    if not (text.startswith(first) and text.endswith(others[-1])):
+        return False
+    at = len(first)
+    for piece in others[:-1]:
+        found = text.find(piece, at + 1)
+        if found < 0:
+            return False
+        at = found + len(piece)
+    return at < end
+
+
+def test_a_text_is_known_by_its_template() -> None:
+    assert _is_made_of("must be 3 mm", ["must be ", " mm"]) and _is_made_of("a-b-c", ["a", "b", "c"])
+    assert not _is_made_of("must be  mm", ["must be ", "  mm"]) and not _is_made_of("ab", ["a", "b"])
 
 
 def _has_english_words(text: str) -> bool:
