@@ -247,8 +247,9 @@ def _judge_dimensions(judge: Judge, sheet: _Sheet) -> Iterator[Claim]:
 def _judge_fits(judge: Judge, sheet: _Sheet) -> Iterator[Claim]:
     """Judge the limits beside each tolerance class, of dimensions and of texts, by ISO 286-1."""
     fits = Judge(judge.subject, judge.level, judge.where, "ISO 286-1")
-    for nominal, name, limits in (*sheet.fits_of_dimensions(), *sheet.fits_of_texts()):
-        quantity, sizes = f"limits of {nominal} {name}", sheet.digits(nominal)
+    for number, (nominal, name, limits) in enumerate((*sheet.fits_of_dimensions(), *sheet.fits_of_texts()), 1):
+        # Without the size, so that a baseline of another size has the same claims.
+        quantity, sizes = f"limits of fit {number}, {name}", sheet.digits(nominal)
         deviations = [1e3 * float(each) for text in limits for each in sheet.digits(text)]
         expected = fit_limits(name, float(sizes[-1])) if sizes else None
         if sizes and expected is None:
@@ -260,7 +261,8 @@ def _judge_fits(judge: Judge, sheet: _Sheet) -> Iterator[Claim]:
             yield fits.holds(quantity, False, place=f"no size or no two limits: {' '.join((nominal, name, *limits))}")
             continue
         upper, lower = deviations
-        place = f"{upper:+g} and {lower:+g} µm are drawn, {expected.upper:+.3g} and {expected.lower:+.3g} µm are the limits"
+        drawn = f"{nominal} {name}: {upper:+g} and {lower:+g} µm are drawn"
+        place = f"{drawn}, {expected.upper:+.3g} and {expected.lower:+.3g} µm are the limits"
         yield fits.holds(quantity, expected.has(upper, lower), place=place)
 
 

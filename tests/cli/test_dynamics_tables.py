@@ -244,7 +244,7 @@ def test_a_list_of_one_is_the_plain_study(level_here: Path) -> None:
         (COUPLED, r"line 3: train.model = 'massless, exact': must be one model for a train without meshes"),
         (
             with_models('["exact", "isolated"]', COUPLED),
-            r"line 3: train.model = 'isolated': needs meshes: a train without meshes",
+            r"line 3: train.model = 'isolated': must be a model with shafts: .* the train has no meshes",
         ),
         (with_models('["exact", "modes"]').replace("modes = 2 ", "modes = 9 "), r"input.modes = 9: must be at most half"),
         (with_models('["exact", "modes"]') + "operating_to = 0.0\n", r"dynamics.operating_to = 0 rpm"),
