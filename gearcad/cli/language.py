@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 
 _KEY = "gearcad.language"
-"""Where a context of click and those of its commands keep the language."""
+"""Key under which a context of click and those of its commands keep the language."""
 
 _GAP = re.compile(r"( {2,})")
-"""What stands between columns on the screen."""
+"""Space between columns on the screen."""
 
 
 def language_option(command: Callable[..., Any]) -> Callable[..., Any]:

@@ -140,7 +140,7 @@ def is_english(token: str) -> bool:
 
 
 _QUOTED = re.compile(r"""(?<!\w)'[^']*'(?!\w)|"[^"]*"|`[^`]*`""")
-"""What a user typed, or may type: the same in every language."""
+"""Texts that a user typed, or may type: the same in every language."""
 
 
 def english_words(text: str) -> int:
@@ -195,7 +195,7 @@ class Catalogue:
 
 
 _SENTENCES, _FEW, _MANY = "; ", 3, 40
-"""What stands between sentences, as many as one template may have, and as many as are looked at together."""
+"""Text between sentences, as many as one template may have, and as many as are looked at together."""
 
 
 _ROLE = re.compile(r"(?<![\w.])(?:the )?(?:(?P<role>pinion|wheel)\b(?![.\w])|(?<=the )\{\})|\{\}")

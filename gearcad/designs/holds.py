@@ -21,7 +21,7 @@ __all__ = ["HeldQuantity", "HeldRatio", "Mates", "held_ratio", "hold_of", "mates
 
 
 class HeldQuantity(Enum):
-    """What stays while other inputs change: the centre distance, the profile shifts, or the ratio of the numbers of teeth."""
+    """Quantity that stays while other inputs change: centre distance, profile shifts, or ratio of the numbers of teeth."""
 
     CENTRE_DISTANCE = "a"
     PROFILE_SHIFTS = "x"

@@ -132,7 +132,7 @@ class Premachining:
 
 @dataclass(frozen=True, kw_only=True)
 class Finishing:
-    """How the flanks are finished that were cut before: by a wheel that rolls as a rack, or by a form wheel.
+    """Finishing of flanks that were cut before: by a wheel that rolls as a rack, or by a form wheel.
 
     `end_diameter` (mm, negative on a ring) is the circle at which the finished flank ends. None lets the wheel run free of the
     root, which takes a protuberance of at least the stock. `wheel_tip_radius` (mm) is the radius of the wheel's tip, None a
@@ -149,8 +149,3 @@ class Finishing:
 
     def __post_init__(self) -> None:
         require_fields(self)
-
-    @property
-    def present(self) -> bool:
-        """Whether anything of it was given."""
-        return any(getattr(self, each.name) != each.default for each in fields(self))

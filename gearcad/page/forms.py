@@ -52,10 +52,10 @@ _OWN_WORDS = {
 """Words, symbols and units of options that no schema has."""
 
 _USUAL = {"life": "∞"}
-"""What stands for an empty field that has no number for it: the endurance limit."""
+"""Text of an empty field that has no number for it: the endurance limit."""
 
 _OF_DESIGN = {"torque": "that of the load", "pressure": "that of the material"}
-"""What stands for empty fields of a search for modifications."""
+"""Texts of empty fields of a search for modifications."""
 
 _WHEEL = "wheel_"
 """Beginning of the names of options that are about the wheel."""

@@ -1,4 +1,4 @@
-"""What is drawn and measured by hand in the section: handles of inputs, thicknesses, gaps, pins, and the tool at its gear.
+"""Drawing and measuring by hand in the section: handles of inputs, thicknesses, gaps, pins, and the tool at its gear.
 
 Found without NiceGUI. Lengths in mm, angles in radians; a body is the number of a gear in the section.
 """
@@ -35,7 +35,7 @@ _ROUND = 0.06
 
 
 class SectionMode(Enum):
-    """What the hand does in the section."""
+    """Modes of drawing and measuring by hand in the section."""
 
     LOOK = "look"
     DRAW = "draw"
@@ -46,7 +46,7 @@ class SectionMode(Enum):
 
 
 class Asked(NamedTuple):
-    """What is asked for in a mode: the body, and a diameter (mm) on it or that of a pin; None for the usual one."""
+    """Request of a mode: the body, and a diameter (mm) on it or that of a pin; None for the usual one."""
 
     body: int = 0
     size: float | None = None

@@ -141,9 +141,12 @@ def _premachining_hob(gear: Gear) -> Hob:
     own = gear.teeth * m / cosine / 2
     reference, line = own, gear.profile_shift * m
     half = math.pi * m / 4 + gear.tooth_thinning / 2
-    if pre.tool_pressure_angle is not None:  # a short lead: the space is that on the circle on which the hob rolls
+    short = pre.tool_pressure_angle
+    if short is None and pre.tool_module is not None:
+        short = math.degrees(math.acos(min(m * math.cos(wide) / pre.tool_module, 1.0)))
+    if short is not None:  # a short lead: the space is that on the circle on which the hob rolls
         transverse = math.atan(math.tan(wide) / cosine)
-        angle = math.radians(pre.tool_pressure_angle)
+        angle = math.radians(short)
         tilt = math.sin(helix) * math.cos(wide) / math.cos(angle)
         helix, cosine = math.asin(tilt), math.sqrt(1 - tilt**2)
         reference = own * math.cos(transverse) / math.cos(math.atan(math.tan(angle) / cosine))

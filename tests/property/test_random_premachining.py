@@ -1,5 +1,6 @@
 """Random tools that cut before finishing: outlines against brute-force sweeps of the tools' own outlines."""
 
+import math
 import random
 from itertools import pairwise
 from typing import Any
@@ -32,8 +33,12 @@ def random_gear(rng: random.Random, kind: str) -> Gear:
     if kind == "equal":
         pre["stock"] = pre["protuberance"]
     elif kind == "short":
-        pre["tool_pressure_angle"] = angle - rng.uniform(0.5, 4.0)
-        pre["protuberance_angle"] = rng.uniform(4.0, pre["tool_pressure_angle"] - 1.0)
+        short = angle - rng.uniform(0.5, 4.0)
+        pre["protuberance_angle"] = rng.uniform(4.0, short - 1.0)
+        if rng.random() < 0.5:
+            pre["tool_pressure_angle"] = short
+        else:
+            pre["tool_module"] = m * math.cos(math.radians(angle)) / math.cos(math.radians(short))
     elif kind == "topping":
         pre["topping"] = m * rng.uniform(0.9, 1.05)
     elif kind == "semi":

@@ -298,7 +298,7 @@ class CompareView(Element, component="gear_compare.js", esm={"gear-symbols": "sy
 
 
 class SectionToolsView(Element, component="gear_handles.js"):
-    """What the hand does in the section: calls `choose` with mode, body and size, `drawn` with key, value and step."""
+    """Handles and measures in the section: calls `choose` with mode, body and size, `drawn` with key, value and step."""
 
     def __init__(
         self,
