@@ -2,7 +2,9 @@
 
 import asyncio
 import os
+import random
 import shutil
+import socket
 import subprocess
 import sys
 from collections.abc import Coroutine, Iterator
@@ -30,6 +32,19 @@ TOLD = "told.txt"
 
 _POLL = 50
 """Milliseconds between two looks: at each frame they would keep all frames coming."""
+
+
+_KEPT = range(20_000, 30_000)
+"""Ports that neither the program takes by itself nor the system gives to connections that leave the machine."""
+
+
+def kept_port() -> int:
+    """A free port that stays free while a server of it is away: no other test's server comes upon it by itself."""
+    while True:
+        port = random.SystemRandom().choice(_KEPT)
+        with socket.socket() as tried:
+            if tried.connect_ex(("127.0.0.1", port)):
+                return port
 
 
 def serve(

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.page_server import Tab, serve
+from support.page_server import Tab, kept_port, serve
 
 from gearcad.page.folder import pack
 
@@ -119,7 +119,7 @@ def test_a_comment_survives_its_value(tab: Tab) -> None:
 def own(browser: Any, tmp_path: Path, folder: Path) -> Iterator[Tab]:
     """A page of its own, of a copy of a file of another name than its design's."""
     shutil.copy(folder / "reducer-21-43.toml", tmp_path / "mine.toml")
-    server, address = serve(tmp_path / "mine.toml", "--token", TOKEN)
+    server, address = serve(tmp_path / "mine.toml", "--token", TOKEN, "--port", str(kept_port()))
     context = browser.new_context(viewport={"width": 1280, "height": 800})
     tab = Tab(context.new_page(), address)
     tab.page.remove_listener("dialog", tab._refuse)
