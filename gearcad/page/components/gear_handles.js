@@ -3,6 +3,7 @@
 const REACH = 12; // pixels from a handle within which it is held
 const APART = 70; // pixels between handles of one gear
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1]; // mm to which values snap: not finer than a pixel
+const LONG = 4000; // pixels: half the length of a line that fills every window
 const PATIENCE = 1500; // ms until a move that nobody answers is taken for lost
 const PAUSE = 1000; // ms after which typing begins another step
 
@@ -15,7 +16,7 @@ export default {
     <div class="section-tools" :hidden="!content?.gears.length">
       <div class="row">
         <select v-model="mode" :title="words.title" :aria-label="words.title" @change="ask(null)"><option v-for="each in modes" :key="each" :value="each">{{ words[each] }}</option></select>
-        <select v-if="asksGear" :value="body" :aria-label="words.gear" :title="words.gear" @change="body = Number($event.target.value); ask(null)"><option v-for="(name, n) in content.gears" :key="n" :value="n">{{ name }}</option></select>
+        <select v-if="asksGear" :value="content.gear" :aria-label="words.gear" :title="words.gear" @change="gear = Number($event.target.value); ask(null)"><option v-for="(name, n) in content.gears" :key="n" :value="n">{{ name }}</option></select>
       </div>
       <div v-if="mode === 'draw'" class="row"><label v-for="handle in handles" :key="handle.key" :title="handle.words">{{ symbol(handle) }}
         <input type="text" inputmode="decimal" :aria-label="handle.words" :data-handle="handle.key" :value="shown(handle)" @change="type($event, handle)" @keydown.up.prevent="nudge($event, handle, 1)" @keydown.down.prevent="nudge($event, handle, -1)" />{{ handle.unit }}</label></div>
@@ -31,14 +32,15 @@ export default {
   props: { words: Object },
   emits: ["choose", "drawn"],
   data() {
-    return { content: null, mode: "look", body: 0, at: 0, playing: false, modes: ["look", "draw", "thickness", "gap", "pins", "tool"] };
+    return { content: null, mode: "look", gear: 0, at: 0, playing: false, modes: ["look", "draw", "thickness", "gap", "pins", "tool"] };
   },
   computed: {
     handles() {
       return this.content?.handles ?? [];
     },
     asksGear() {
-      return ["thickness", "pins", "tool"].includes(this.mode) && this.content.gears.length > 1;
+      const length = this.content?.gears.length ?? 0;
+      return length > (this.mode === "draw" ? 2 : 1) && ["draw", "thickness", "pins", "tool"].includes(this.mode);
     },
     size() {
       const { thickness, pins } = this.content ?? {};
@@ -83,7 +85,7 @@ export default {
       window.dispatchEvent(new Event("gear-redraw"));
     },
     ask(size) {
-      this.$emit("choose", { mode: this.mode, body: this.body, size });
+      this.$emit("choose", { mode: this.mode, gear: this.gear, size });
     },
     askFor(event) {
       const size = number(event.target.value);
@@ -119,18 +121,18 @@ export default {
       const body = section.content.bodies[number];
       return { body, centre: section.place(body, section.turn), stand: section.stand(section.content, number, section.turn) };
     },
-    symbol({ kind, body }) {
-      if (kind === "centre_distance") return "a";
-      return `${kind === "tip_diameter" ? "d_a" : "x"}${this.content.gears.length > 1 ? "₁₂"[body] : ""}`;
-    },
-    // Where a handle stands: on its circle, beside the middle of what is seen; that of the centre distance on the line of centres.
+    symbol: ({ symbol }) => symbol.replace(/\d/g, (digit) => "₀₁₂₃₄₅₆₇₈₉"[digit]),
+    // The direction in which a handle of a distance or a line moves.
+    outward: (section, { direction, orbit }) => [Math.cos(direction + orbit * section.turn), Math.sin(direction + orbit * section.turn)],
+    // Where a handle stands: on its circle, beside the middle of what is seen; that of a distance on the line of centres.
     placeOf(section, handle) {
       const body = section.content.bodies[handle.body];
       const centre = section.place(body, section.turn);
-      if (handle.kind === "centre_distance") {
-        const mesh = section.content.meshes[0];
-        const reach = mesh ? mesh.base / Math.cos(mesh.angle) : 0;
-        return { centre, point: [reach, -2 * APART / section.view.scale] };
+      if (handle.shape !== "circle") {
+        const [cosine, sine] = this.outward(section, handle);
+        const [x, y] = section.place(handle, section.turn);
+        const beside = ((handle.kind === "tip_alteration" ? 2 : -2) * APART) / section.view.scale;
+        return { centre, point: [x - sine * beside, y + cosine * beside] };
       }
       const towards = Math.atan2(section.view.y - centre[1], section.view.x - centre[0]);
       const side = (handle.kind === "tip_diameter" ? 1 : -1) * (Math.cos(towards) >= 0 ? 1 : -1);
@@ -142,11 +144,10 @@ export default {
       const [x, y] = section.to(point);
       const held = this.held?.key === handle.key;
       [pen.strokeStyle, pen.lineWidth] = [section.colours.kept, held ? 2 : 1];
-      if (handle.kind !== "centre_distance") {
-        pen.beginPath();
-        pen.arc(...section.to(centre), handle.radius * section.view.scale, 0, 2 * Math.PI);
-        pen.stroke();
-      }
+      pen.beginPath();
+      if (handle.shape === "circle") pen.arc(...section.to(centre), handle.radius * section.view.scale, 0, 2 * Math.PI);
+      if (handle.shape === "line") for (const end of [-LONG, LONG]) pen.lineTo(x, y + end);
+      pen.stroke();
       [pen.fillStyle, pen.lineWidth] = [held ? section.colours.kept : section.colours.paper, 2];
       pen.beginPath();
       pen.rect(x - 6, y - 6, 12, 12);
@@ -235,7 +236,7 @@ export default {
       const { scale } = section.view;
       const [du, dv] = [(x - this.held.from[0]) / scale, -(y - this.held.from[1]) / scale];
       const { centre, point } = this.placeOf(section, this.held);
-      const out = this.held.kind === "centre_distance" ? [1, 0] : [point[0] - centre[0], point[1] - centre[1]].map((each) => each / this.held.radius);
+      const out = this.held.shape !== "circle" ? this.outward(section, this.held) : [point[0] - centre[0], point[1] - centre[1]].map((each) => each / this.held.radius);
       const moved = du * out[0] + dv * out[1];
       const finest = STEPS.find((each) => each >= Math.abs(this.held.factor) / scale) ?? 1;
       const value = this.held.value + moved * this.held.factor;
@@ -245,7 +246,7 @@ export default {
       this.held = null;
       this.redraw();
     },
-    shown: (handle) => fixed(handle.value, handle.kind === "profile_shift" ? 4 : 3),
+    shown: (handle) => fixed(handle.value, handle.unit ? 3 : 4),
     type(event, handle) {
       const value = number(event.target.value);
       if (!event.target.value.trim() || !Number.isFinite(value)) return (event.target.value = this.shown(handle));
@@ -256,7 +257,7 @@ export default {
       const now = performance.now();
       const goesOn = this.typed.key === handle.key && now - this.typed.at <= PAUSE;
       if (!goesOn) this.step += 1;
-      const value = (goesOn ? this.typed.value : handle.value) + sign * (handle.kind === "profile_shift" ? 0.01 : 0.1) * (event.shiftKey ? 10 : 1);
+      const value = (goesOn ? this.typed.value : handle.value) + sign * (handle.unit ? 0.1 : 0.01) * (event.shiftKey ? 10 : 1);
       this.typed = { key: handle.key, at: now, value };
       this.push(handle, value);
     },

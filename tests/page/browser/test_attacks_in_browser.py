@@ -98,7 +98,7 @@ def test_script_in_a_design_is_only_words(tab: Tab) -> None:
 def test_script_in_every_text_of_a_design_of_any_kind_is_only_words(tab: Tab, starter: str) -> None:
     page = tab.page
     page.goto(f"{tab.address}?design={pack('hostile', _hostile(starter))}")
-    page.wait_for_selector(".gear-sheet table")
+    page.wait_for_selector(".gear-sheet table:visible")
     for place in ("left", "right"):
         for title in (2, 3, 1):
             page.click(f".{place} .q-tab:nth-child({title})")

@@ -1,6 +1,6 @@
-"""Drawing and measuring by hand in the section: handles of inputs, thicknesses, gaps, pins, and the tool at its gear.
+"""Measuring by hand in the section: modes, thicknesses, gaps, pins, and the tool at its gear.
 
-Found without NiceGUI. Lengths in mm, angles in radians; a body is the number of a gear in the section.
+Found without NiceGUI. Lengths in mm, angles in radians.
 """
 
 from __future__ import annotations
@@ -16,17 +16,13 @@ import numpy as np
 from gearcad.core.errors import GearcadError
 from gearcad.core.records import Floats, JsonObject
 from gearcad.designs.design import Design
-from gearcad.designs.gear_designs import ToothedDesign
-from gearcad.designs.pair_designs import PairDesign
+from gearcad.designs.pair_designs import PairDesign, RackPairDesign
 from gearcad.geometry import Gear
 from gearcad.verification.tool_sweep import Hob, Shaper, tool_of
 from gearcad.verification.tool_teeth import Complexes, CutterTooth, JoinedTeeth, RackTooth
 
-_LARGEST = 1e5
+LARGEST = 1e5
 """Largest size of a value (mm) that can be drawn or asked for."""
-
-_DIGITS = {"tip_diameter": 3, "profile_shift": 4, "centre_distance": 3}
-"""Decimals of what is drawn, by the last part of its key."""
 
 _CORNER_POINTS = 12
 _FLANK_POINTS = 40
@@ -46,85 +42,22 @@ class SectionMode(Enum):
 
 
 class Asked(NamedTuple):
-    """Request of a mode: the body, and a diameter (mm) on it or that of a pin; None for the usual one."""
+    """Request of a mode: the number of the gear, and a diameter (mm) on it or that of a pin; None for the usual one."""
 
-    body: int = 0
+    gear: int = 0
     size: float | None = None
 
 
 def asked_of(told: Mapping[str, Any]) -> Asked:
-    """Return what the browser asks for; what is no body or no length (mm) is left out."""
-    body, size = told.get("body"), told.get("size")
+    """Return what the browser asks for; what is no gear or no length (mm) is left out."""
+    gear, size = told.get("gear"), told.get("size")
     length = float(size) if isinstance(size, int | float) and not isinstance(size, bool) else 0.0
-    return Asked(body if isinstance(body, int) and body in _BODIES else 0, length if 0 < length < _LARGEST else None)
+    is_gear = isinstance(gear, int) and not isinstance(gear, bool) and 0 <= gear < _MOST_GEARS
+    return Asked(int(gear or 0) if is_gear else 0, length if 0 < length < LARGEST else None)
 
 
-_BODIES = (0, 1)
-"""Numbers of bodies that can be asked for."""
-
-
-def gears_of(design: Design) -> dict[str, Gear]:
-    """Return the gears that can be drawn or measured by their tables in the spec: those of a pair, or a single one."""
-    if isinstance(design, PairDesign):
-        return design.gears
-    if isinstance(design, ToothedDesign) and (gear := design.gears.get("gear")) is not None and len(design.gears) == 1:
-        return {"gear": gear}
-    return {}
-
-
-def handles_of(design: Design) -> list[JsonObject]:
-    """Return handles: key of the spec, body, value, and the circle (mm) or centre that the hand moves."""
-    found: list[JsonObject] = []
-    for body, (table, gear) in enumerate(gears_of(design).items()):
-        sign, reference = (-1 if gear.internal else 1), abs(gear.reference_diameter) / 2
-        found.append(
-            {
-                "key": f"{table}.tip_diameter",
-                "kind": "tip_diameter",
-                "body": body,
-                "value": float(gear.tip_diameter),
-                "radius": abs(gear.tip_diameter) / 2,
-                "zero": 0.0,
-                "factor": 2.0 * sign,
-                "unit": "mm",
-            }
-        )
-        found.append(
-            {
-                "key": f"{table}.profile_shift",
-                "kind": "profile_shift",
-                "body": body,
-                "value": float(gear.profile_shift),
-                "radius": reference + sign * gear.profile_shift * gear.normal_module,
-                "zero": reference,
-                "factor": sign / gear.normal_module,
-                "unit": "",
-            }
-        )
-    if isinstance(design, PairDesign):
-        distance, place = design.pair.centre_distance, design.pair.wheel_pose().x
-        found.append(
-            {
-                "key": "pair.centre_distance",
-                "kind": "centre_distance",
-                "body": 1,
-                "value": float(distance),
-                "radius": place,
-                "zero": 0.0,
-                "factor": math.copysign(1.0, distance * place),
-                "unit": "mm",
-            }
-        )
-    return found
-
-
-def drawn_text(design: Design, key: str, value: Any) -> dict[str, str]:
-    """Return what was drawn as it would be typed under its key; nothing for other keys, and for what is no number."""
-    if key not in {handle["key"] for handle in handles_of(design)}:
-        return {}
-    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < _LARGEST:
-        return {}
-    return {key: f"{round(float(value), _DIGITS[key.rpartition('.')[2]]) + 0.0:.12g}"}
+_MOST_GEARS = 64
+"""Number above every number of a gear."""
 
 
 def thickness_at(gear: Gear, diameter: float | None) -> JsonObject:
@@ -158,7 +91,7 @@ def pins_at(gear: Gear, pin: float | None) -> JsonObject:
 
 def gaps_of(design: Design) -> JsonObject | None:
     """Return the gaps (mm) between the flanks that do not touch: along the pitch circles, the line of action, and normal."""
-    if not isinstance(design, PairDesign):
+    if not isinstance(design, PairDesign | RackPairDesign):
         return None
     pair = design.pair
     along = float(pair.circumferential_backlash)
