@@ -12,7 +12,7 @@ import click
 from gearcad.cli.group import debug_option
 from gearcad.cli.job import echo_warnings, job_progress, quiet_option
 from gearcad.cli.language import say, translated
-from gearcad.cli.size_options import require_no_sets, set_options, set_task_of, size_options
+from gearcad.cli.size_options import require_no_sets, set_options, size_options
 from gearcad.core.errors import ParameterError, SolverError
 from gearcad.core.records import grouped, is_assumed
 
@@ -106,6 +106,7 @@ def size_planetary(given: Mapping[str, Any], count: int, output: Path | None, *,
     """Size sets for what options ask for, write the files and show the table; ends with status 1 where none holds."""
     from gearcad.core.output import json_text
     from gearcad.jobs.searches import size_document, write_set_sizes
+    from gearcad.jobs.set_size_options import set_task_of
     from gearcad.sizing.planetary_sets import expected, size_sets
 
     task = set_task_of(given)

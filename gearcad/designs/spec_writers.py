@@ -491,9 +491,9 @@ def _sized_sets_cells(sized: SizedSet) -> Iterator[tuple[str, str]]:
             yield "name" if named else f"{table}.{key}", cell_text(getattr(value, "value", value))
 
 
-def write_sized_set(sized: SizedSet, comments: list[str], path: Path) -> None:
-    """Write the spec of one of the sets, beginning with `comments`, a line each."""
-    path.write_text(toml_text(sized_keys(sized), comments), encoding="utf-8")
+def sized_set_text(sized: SizedSet, comments: list[str]) -> str:
+    """Return the spec of one of the sets, beginning with `comments`, a line each."""
+    return toml_text(sized_keys(sized), comments)
 
 
 _TABLE = "measured"

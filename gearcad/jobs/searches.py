@@ -9,7 +9,7 @@ from pathlib import Path
 from gearcad.core.errors import require_whole
 from gearcad.core.output import json_text, staged_files
 from gearcad.core.records import JsonObject, grouped, texts
-from gearcad.designs.spec_writers import sized_pair_text, write_front, write_pairs, write_sized_set, write_sized_sets
+from gearcad.designs.spec_writers import sized_pair_text, sized_set_text, write_front, write_pairs, write_sized_sets
 from gearcad.identify.candidates import Deciding, Identification
 from gearcad.identify.measurements import ANGLES, Gauge, Measurements, Reading, Value
 from gearcad.identify.search import identify_gear
@@ -17,7 +17,7 @@ from gearcad.jobs.job import with_summary
 from gearcad.plots.ratings import save_front
 from gearcad.rating.strength import RatedPart
 from gearcad.sizing import SizedPair, Sizing
-from gearcad.sizing.planetary_sets import SizedSet, SizedSets
+from gearcad.sizing.planetary_sets import SetSizeTask, SizedSet, SizedSets
 from gearcad.sizing.proposals import unjudged_scuffing
 
 
@@ -121,16 +121,21 @@ def write_set_sizes(result: SizedSets, folder: Path) -> list[Path]:
     with staged_files(folder) as staging:
         best = result.found[0]
         write_sized_sets(result, staging / _SET_SIZES_TABLE)
-        write_sized_set(best, list(_set_sizes_comments(result, best)), staging / _SET_SIZES_BEST)
+        (staging / _SET_SIZES_BEST).write_text(set_spec(result.task, best), encoding="utf-8")
         (staging / _SET_SIZES_DOCUMENT).write_text(json_text(size_document(result)), encoding="utf-8")
     return [folder / name for name in (_SET_SIZES_TABLE, _SET_SIZES_BEST, _SET_SIZES_DOCUMENT)]
 
 
-def _set_sizes_comments(result: SizedSets, best: SizedSet) -> Iterator[str]:
-    """Yield comment lines with the task and the figures of the lightest set."""
-    task = result.task
+def set_spec(task: SetSizeTask, sized: SizedSet, place: int = 1) -> str:
+    """Return the spec of a set that was found, the lightest or the one at another place, with its figures in comments."""
+    return sized_set_text(sized, list(_set_sizes_comments(task, sized, place)))
+
+
+def _set_sizes_comments(task: SetSizeTask, best: SizedSet, place: int) -> Iterator[str]:
+    """Yield comment lines with the task and the figures of a set."""
+    rank = "the lightest found" if place == 1 else f"number {place} by mass"
     life = "the endurance limit" if task.rating.life is None else f"{task.rating.life:g} h"
-    yield f"{task.torque_words} at {task.speed:g} rpm, i = {task.sets.ratio:g}, {life}: the lightest found"
+    yield f"{task.torque_words} at {task.speed:g} rpm, i = {task.sets.ratio:g}, {life}: {rank}"
     flank, root = (best.least[part] for part in (RatedPart.FLANK, RatedPart.ROOT))
     safeties = f"S_H {flank:.3f}, S_F {root:.3f}"
     yield f"{best.mass:.3g} kg without bores, {safeties}; no backlash yet: planetary.tooth_thinning gives it"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -13,8 +13,10 @@ from gearcad.designs.spec_writers import reading_of, size_of
 from gearcad.geometry.gear_parts import NAMED_RACKS
 from gearcad.identify.measurements import Gauge, Measurements
 from gearcad.jobs.modify import Modify
-from gearcad.jobs.size_options import SIZE_OPTIONS, option_fields, task_of
+from gearcad.jobs.set_size_options import SET_OPTIONS, set_option_fields, set_task_of, shared_options
+from gearcad.jobs.size_options import SIZE_OPTIONS, SizeOption, option_fields, task_of
 from gearcad.material import MaterialGroup, MaterialQuality
+from gearcad.planetary.members import SetType
 from gearcad.sizing.task import Criterion
 
 MOST_PAIRS, MOST_CANDIDATES = 100, 20
@@ -33,12 +35,21 @@ _FIRST = {
         *("torque", "speed", "ratio", "life", "material", "hardness", "application_factor", "centre_distance"),
         *("max_diameter", "safety_flank", "safety_root"),
     ),
+    "size-sets": (
+        *("type", "input_torque", "output_torque", "speed", "ratio", "life", "material", "hardness", "application_factor"),
+        *("planets", "max_diameter", "safety_flank", "safety_root"),
+    ),
     "identify": ("teeth", "tip_diameter", "root_diameter", "span", "over_pins", "helix_angle"),
     "modify": ("torque", "pressure", "shape"),
 }
 """Fields that are seen at once; the others are folded."""
 
-REQUIRED = {"size": ("torque", "speed", "ratio", "material"), "identify": ("teeth",), "modify": ()}
+REQUIRED = {
+    "size": ("torque", "speed", "ratio", "material"),
+    "size-sets": ("input_torque", "speed", "ratio", "material"),
+    "identify": ("teeth",),
+    "modify": (),
+}
 """Fields that must be filled in."""
 
 _OWN_WORDS = {
@@ -50,6 +61,31 @@ _OWN_WORDS = {
     "candidates": ("number of candidates", "", ""),
 }
 """Words, symbols and units of options that no schema has."""
+
+_SET_WORDS = {
+    "type": ("kind of set", "", ""),
+    "planets": ("number of planets", "N", ""),
+    "teeth": ("teeth of suns and planets", "z", ""),
+    "ring_teeth": ("teeth of rings", "z", ""),
+    "fixed": ("fixed member", "", ""),
+    "in": ("driving member", "", ""),
+    "out": ("driven member", "", ""),
+    "wheel_material": ("material of rings", "", ""),
+    "wheel_hardness": ("hardness of rings", "", ""),
+    "count": ("number of sets", "", ""),
+}
+"""Words of options of sets that no schema has, or that mean another thing than for pairs."""
+
+_SET_USUAL = {"teeth": "17:100", "module": "0.5:50", "helix_angle": "0", "width_ratio": "1", "ratio_tolerance": "1"}
+"""Texts of empty fields of sets that are other ones than for pairs."""
+
+_MEMBERS = ("sun", "ring", "carrier", "sun_2", "ring_2")
+
+_INSTEAD: Mapping[str, Mapping[str, tuple[str, ...]]] = {
+    "size": {"torque": ("power",)},
+    "size-sets": {"input_torque": ("output_torque", "power")},
+}
+"""Fields that may be filled in place of a required one."""
 
 _USUAL = {"life": "∞"}
 """Text of an empty field that has no number for it: the endurance limit."""
@@ -86,14 +122,14 @@ class FormField(NamedTuple):
 @cache
 def form_fields(kind: str) -> tuple[FormField, ...]:
     """Return the fields of the form of a search, in the order of use."""
-    fields = {"size": _size_fields, "identify": _identify_fields, "modify": _modify_fields}[kind]()
+    fields = {"size": _size_fields, "size-sets": _set_fields, "identify": _identify_fields, "modify": _modify_fields}[kind]()
     return tuple(field._replace(required=field.key in REQUIRED[kind]) for field in fields)
 
 
 def missing_keys(kind: str, typed: Mapping[str, str]) -> list[str]:
     """Return the required fields of a form that are empty."""
-    instead = {"torque": "power"}
-    return [key for key in REQUIRED[kind] if not typed.get(key) and not typed.get(instead.get(key, ""))]
+    instead = _INSTEAD.get(kind, {})
+    return [key for key in REQUIRED[kind] if not any(typed.get(each) for each in (key, *instead.get(key, ())))]
 
 
 def _size_fields() -> Iterator[FormField]:
@@ -112,6 +148,25 @@ def _size_fields() -> Iterator[FormField]:
     yield _words(_RATING)._replace(usual="KEY=VALUE; KEY=VALUE")
     yield _words("count")._replace(usual=str(_COUNT))
     yield _words("errors")._replace(usual=str(_ERRORS))
+
+
+def _set_fields() -> Iterator[FormField]:
+    """Yield a field for each option of a search for planetary sets: first its own, then those that it shares with pairs."""
+    fields, own = set_option_fields(), _OWN_WORDS | _SET_WORDS
+    for option in (*SET_OPTIONS, *shared_options()):
+        name, default = option.name, _DEFAULT.search(option.help)
+        field = FormField(name, *own[name]) if name in own else _words(name, fields[name])
+        usual = _SET_USUAL.get(name, default[1] if default else _USUAL.get(name, ""))
+        yield field._replace(usual=usual, choices=_set_choices(name), first=name in _FIRST["size-sets"])
+    yield _words("second_series")._replace(choices=("true",))
+    yield _words(_RATING)._replace(usual="KEY=VALUE; KEY=VALUE")
+    yield FormField("count", *_SET_WORDS["count"], usual=str(_COUNT))
+
+
+def _set_choices(name: str) -> tuple[str, ...]:
+    if name in ("fixed", "in", "out"):
+        return _MEMBERS
+    return tuple(each.value for each in SetType) if name == "type" else _size_choices(name)
 
 
 def _size_choices(name: str) -> tuple[str, ...]:
@@ -175,6 +230,7 @@ def options_of(kind: str, typed: Mapping[str, str], *, comma: bool) -> dict[str,
             given[field.key] = text
     read: dict[str, Callable[[dict[str, str], bool], dict[str, Any]]] = {
         "size": _size_options,
+        "size-sets": _set_options,
         "identify": _identify_options,
         "modify": _modify_options,
     }
@@ -184,23 +240,47 @@ def options_of(kind: str, typed: Mapping[str, str], *, comma: bool) -> dict[str,
 def _size_options(given: dict[str, str], comma: bool) -> dict[str, Any]:
     count = _whole("count", given.pop("count", str(_COUNT)), 1, MOST_PAIRS)
     errors = _whole("errors", given.pop("errors", str(_ERRORS)), 0, MOST_PAIRS)
-    rating = [each.strip() for each in given.pop(_RATING, "").split(";") if each.strip()]
-    second = given.pop("second_series", "") == "true"
-    options: dict[str, Any] = {option.name: None for option in SIZE_OPTIONS}
-    for option in SIZE_OPTIONS:
-        if (text := given.get(option.name)) is None:
-            continue
-        if option.type is str:
-            plain = option.name in ("material", "wheel_material", "rack", "by")
-            options[option.name] = text if plain else _list(text, comma)
-        else:
-            options[option.name] = _whole(option.name, text) if option.type is int else number_of(option.name, text)
-    options |= {"second_series": second, _RATING: rating}
+    options = _plain_options(SIZE_OPTIONS, given, comma)
     try:
         task_of(options)
     except ParameterError as error:
         raise ParameterError(_size_key(error.parameter), error.value, error.permitted, error.unit) from error
     return options | {"count": count, "errors": errors}
+
+
+_TEXTS = ("material", "wheel_material", "rack", "by", "type", "fixed", "in", "out")
+"""Options whose texts are no numbers."""
+
+
+def _plain_options(options: Sequence[SizeOption], given: dict[str, str], comma: bool) -> dict[str, Any]:
+    """Return options of a search for sizes from what was typed, those of the rating included; None where nothing was."""
+    rating = [each.strip() for each in given.pop(_RATING, "").split(";") if each.strip()]
+    second = given.pop("second_series", "") == "true"
+    found: dict[str, Any] = {option.name: None for option in options}
+    for option in options:
+        if (text := given.get(option.name)) is None:
+            continue
+        if option.type is str:
+            found[option.name] = text if option.name in _TEXTS else _list(text, comma)
+        else:
+            found[option.name] = _whole(option.name, text) if option.type is int else number_of(option.name, text)
+    return found | {"second_series": second, _RATING: rating}
+
+
+_SET_KEYS = {"tolerance": "ratio_tolerance", "input": "in", "output": "out", "types": "type", "considered": "count"}
+"""Keys of fields by the parameters of the task of sets."""
+
+
+def _set_options(given: dict[str, str], comma: bool) -> dict[str, Any]:
+    count = _whole("count", given.pop("count", str(_COUNT)), 1, MOST_PAIRS)
+    options = _plain_options((*SIZE_OPTIONS, *SET_OPTIONS), given, comma)
+    try:
+        set_task_of(options)
+    except ParameterError as error:
+        key = _SET_KEYS.get(error.parameter, error.parameter)
+        key = key.replace("ring_material.", "wheel.material.")
+        raise ParameterError(_size_key(key), error.value, error.permitted, error.unit) from error
+    return options | {"count": count}
 
 
 def _size_key(parameter: str) -> str:

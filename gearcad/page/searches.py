@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from gearcad.designs.keys import Cell
     from gearcad.identify.candidates import Candidate
     from gearcad.sizing import SizedPair
+    from gearcad.sizing.planetary_sets import SizedSet
     from gearcad.sizing.proposals import PairsSoFar
 
 _BETWEEN = 0.4
@@ -120,6 +121,53 @@ def _sized_row(pair: SizedPair) -> dict[str, Any]:
         "ripple": 100 * pair.ripple,
         "error": pair.transmission_error,
         "front": pair.front,
+    }
+
+
+def _size_sets(asked: RunRequest, tell: Teller) -> dict[str, Any]:
+    """Find planetary sets for a task, as `gearcad size --planetary` does, and write the same files."""
+    from gearcad.jobs.searches import set_spec, write_set_sizes
+    from gearcad.jobs.set_size_options import set_task_of
+    from gearcad.sizing.planetary_sets import expected, size_sets
+
+    given = dict(asked.options)
+    count = given.pop("count")
+    task, pace = set_task_of(given), _Pace()
+    outlook = expected(task, count)
+    tell(expected={"seconds": outlook.seconds, "memory": outlook.memory})
+
+    def state(found: Sequence[SizedSet]) -> dict[str, Any]:
+        rows = [_set_row(each) | {"text": set_spec(task, each, place)} for place, each in enumerate(found, 1)]
+        return {"rows": rows, "front": [], "cloud": [], "rated": True}
+
+    def heard(found: Sequence[SizedSet]) -> None:
+        if pace.due():
+            tell(found=state(found))
+
+    result = size_sets(task, count, tell.progress, heard)
+    tell(found=state(result.found))
+    files = write_set_sizes(result, Path(asked.into))
+    return _result("sets", files, "", [])
+
+
+def _set_row(sized: SizedSet) -> dict[str, Any]:
+    from gearcad.rating.strength import RatedPart
+
+    own = sized.candidate
+    return {
+        "name": sized.name,
+        "mass": sized.mass,
+        "margin": min(sized.margins.values()),
+        "S_H": sized.least[RatedPart.FLANK],
+        "S_F": sized.least[RatedPart.ROOT],
+        "i": own.ratio,
+        "off": 100 * own.deviation,
+        "m": own.task.module,
+        "b": own.task.width,
+        "diameter": own.diameter,
+        "a": own.centre_distance,
+        "planets": own.planets,
+        "K_gamma": sized.load.mesh_load_factor,
     }
 
 
@@ -335,6 +383,7 @@ def _result(name: str, files: Sequence[Path], conclusion: str, notices: Sequence
 
 SEARCHES = {
     "size": SearchKind(find=_size),
+    "size-sets": SearchKind(find=_size_sets),
     "modify": SearchKind(find=_modify),
     "identify": SearchKind(find=_identify),
     "study": SearchKind(find=_study),

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from bisect import insort
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Annotated, Any, NamedTuple
@@ -223,8 +225,16 @@ _FINE_WIDTH = 20.0
 """Face width (mm) up to which it goes by half millimetres."""
 
 
-def size_sets(task: SetSizeTask, count: int = 20, progress: Progress | None = None) -> SizedSets:
-    """Return the `count` lightest sets that bear the task. Raises SolverError where none does."""
+def size_sets(
+    task: SetSizeTask,
+    count: int = 20,
+    progress: Progress | None = None,
+    heard: Callable[[Sequence[SizedSet]], None] | None = None,
+) -> SizedSets:
+    """Return the `count` lightest sets that bear the task. Raises SolverError where none does.
+
+    `heard` is called with the sets found so far, lightest first, each time that there is another one.
+    """
     result = search(task.sets, task.considered)
     agenda = Agenda(progress, _seconds(len(result.found), count))
     rough: list[_Rough] = []
@@ -243,12 +253,17 @@ def size_sets(task: SetSizeTask, count: int = 20, progress: Progress | None = No
         if sized is None:
             refused[each.candidate.name] = "no module and width within the limits let it hold"
         else:
-            found.append(sized)
+            insort(found, sized, key=_by_mass)
+            if heard is not None:
+                heard(found[:count])
         agenda(_SIZED, (place + 1) / len(refined), each.candidate.name)
     if not found:
         raise SolverError(_nothing(task, len(result.found), refused))
-    found.sort(key=lambda each: (round(each.mass, 9), each.name))
     return SizedSets(task=task, found=tuple(found[:count]), considered=len(result.found), refined=len(refined), refused=refused)
+
+
+def _by_mass(sized: SizedSet) -> tuple[float, str]:
+    return round(sized.mass, 9), sized.name
 
 
 def expected(task: SetSizeTask, count: int) -> Expected:

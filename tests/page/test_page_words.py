@@ -13,7 +13,7 @@ from gearcad.core.runtime import PACKAGE
 from gearcad.designs.keys import FIELDS, SPEEDS
 from gearcad.designs.train_keys import MAIN, PLANETARY, TRAIN, TRAIN_PARTS
 from gearcad.page.fields import part_title, table_title, words_of
-from gearcad.page.forms import form_fields
+from gearcad.page.forms import REQUIRED, form_fields
 from gearcad.page.panels import drawn_data, sheet_content
 from gearcad.page.panels import sheet_content as rating
 from gearcad.page.words import PageLanguage, PageWords, language_of
@@ -80,7 +80,7 @@ def _words_of_symbols() -> set[str]:
 
 def _words_of_forms() -> set[str]:
     """Fields of the forms of searches, what is said more of them, and words for what stands for empty ones."""
-    fields = [field for kind in ("size", "identify", "modify") for field in form_fields(kind)]
+    fields = [field for kind in REQUIRED for field in form_fields(kind)]
     said = {words for field in fields for words in (field.hint, field.usual) if words.replace(" ", "").isalpha()}
     return said | {field.words for field in fields} | {field.hint for field in fields if field.hint}
 

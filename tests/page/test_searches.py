@@ -16,6 +16,7 @@ from gearcad.cli.size import size as size_command
 from gearcad.core.errors import ParameterError, SpecError
 from gearcad.core.quantities import schema_of
 from gearcad.designs import PairDesign, read_spec
+from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.designs.reader import edit_spec, starter_text
 from gearcad.designs.table import open_table
 from gearcad.identify.measurements import Measurements
@@ -36,6 +37,8 @@ TASK = {"torque": "100", "speed": "1500", "ratio": "2", "life": "1e4", "material
 TASK |= {"wheel_hardness": "320", "safety_flank": "0.5", "count": "3"}
 RANGES = {"teeth": "17:20", "module": "2,2.5", "helix_angle": "0,15", "width_ratio": "0.8,1", "shift": "0.2:0.6:0.2"}
 RANGES |= {"shift_sum": "0.5"}
+SET_TASK = {"input_torque": "300", "speed": "1500", "ratio": "5.2", "life": "20000", "material": "Eh MQ", "planets": "3"}
+SET_TASK |= {"module": "2,2.5", "teeth": "20:34", "ring_teeth": "80:90", "count": "2"}
 READINGS = {"teeth": "24", "tip_diameter": "52.02", "root_diameter": "43.01", "span": "3:15.40; 4:21.30", "helix_angle": "0"}
 
 
@@ -88,6 +91,49 @@ def test_a_pair_that_is_taken_is_the_row_of_the_table_and_is_rated_at_once(runs:
         assert min(each.safety for each in rated.flank) == pytest.approx(row["S_H"], rel=1e-9)
     for row in run.found["front"]:
         assert design_of(row["text"], "x", Path()).name == row["name"]
+
+
+def test_sets_are_those_of_the_command_and_so_are_their_files(runs: Runs, tmp_path: Path) -> None:
+    run = done(runs, "size-sets", options_of("size-sets", SET_TASK, comma=False))
+    words = [word for key, text in SET_TASK.items() for word in (f"--{key.replace('_', '-')}", text)]
+    told = invoke("size", "--planetary", *words, "-o", str(tmp_path), "--quiet")
+    assert told.exit_code == 0, told.output
+    for name in ("best.toml", "sets.csv", "size.json"):
+        assert (found := run.file(name)) is not None
+        assert found.read_bytes() == (tmp_path / name).read_bytes(), name
+    document = json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))
+    rows = run.found["rows"]
+    assert [(row["name"], row["mass"], row["K_gamma"]) for row in rows] == [
+        (each["name"], each["mass"], each["K_gamma"]) for each in document["found"]
+    ]
+    assert rows[0]["text"] == (tmp_path / "best.toml").read_text(encoding="utf-8")
+    for row, rated in zip(rows, document["found"], strict=True):
+        design = design_of(row["text"], "x", Path())
+        assert isinstance(design, PlanetaryDesign) and design.train.planets == row["planets"] == 3
+        assert row["S_H"] == rated["safety"]["flank"] and row["i"] == pytest.approx(5.2, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("typed", "key"),
+    [
+        ({"ratio": "0"}, "ratio"),
+        ({"ratio_tolerance": "-1"}, "ratio_tolerance"),
+        ({"wheel_hardness": "-5"}, "wheel_hardness"),
+        ({"planets": "0"}, "planets"),
+        ({"fixed": "carrier", "in": "carrier"}, None),
+        ({"output_torque": "100"}, None),
+    ],
+)
+def test_what_no_set_can_have_is_said_at_its_field(typed: dict[str, str], key: str | None) -> None:
+    with pytest.raises(ParameterError) as found:
+        options_of("size-sets", SET_TASK | typed, comma=False)
+    assert found.value.parameter in {field.key for field in form_fields("size-sets")}
+    assert key in (None, found.value.parameter)
+
+
+def test_a_torque_on_the_output_stands_for_that_on_the_input() -> None:
+    assert missing_keys("size-sets", {"speed": "1", "ratio": "5", "material": "Eh MQ"}) == ["input_torque"]
+    assert not missing_keys("size-sets", {"speed": "1", "ratio": "5", "material": "Eh MQ", "output_torque": "9"})
 
 
 def test_where_nothing_is_found_the_run_says_what_would_help(runs: Runs) -> None:
@@ -260,10 +306,15 @@ def test_fields_that_must_be_filled_in() -> None:
 
 
 def test_options_of_searches_can_be_sent_to_a_process() -> None:
-    for kind, typed in (("size", TASK), ("identify", READINGS), ("modify", {"torque": "5", "shape": "linear"})):
+    for kind, typed in (
+        ("size", TASK),
+        ("size-sets", SET_TASK),
+        ("identify", READINGS),
+        ("modify", {"torque": "5", "shape": "linear"}),
+    ):
         options = options_of(kind, typed, comma=False)
         assert json.loads(json.dumps(options)).keys() == options.keys()
-    assert list(SEARCHES) == ["size", "modify", "identify", "study"]
+    assert list(SEARCHES) == ["size", "size-sets", "modify", "identify", "study"]
 
 
 # ---------------------------------------------------------------------- charts

@@ -12,7 +12,7 @@ from support.random_trains import loops
 from gearcad import Gear
 from gearcad.core.errors import ParameterError, SolverError
 from gearcad.designs.reader import read_spec
-from gearcad.designs.spec_writers import write_sized_set, write_sized_sets
+from gearcad.designs.spec_writers import sized_set_text, write_sized_sets
 from gearcad.designs.table import open_table
 from gearcad.geometry.mating import internal_tips
 from gearcad.geometry.pair_data import PairData
@@ -239,7 +239,7 @@ def test_sets_hold_and_are_no_wider_than_they_must_be(sized: SizedSets) -> None:
 
 def test_the_spec_is_what_was_rated(sized: SizedSets, tmp_path: Path) -> None:
     best = sized.found[0]
-    write_sized_set(best, ["a set"], tmp_path / "best.toml")
+    (tmp_path / "best.toml").write_text(sized_set_text(best, ["a set"]), encoding="utf-8")
     design = read_spec(tmp_path / "best.toml")
     assert design.train.gears.keys() == best.train.gears.keys()
     for name, gear in design.train.gears.items():

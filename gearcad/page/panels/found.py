@@ -80,14 +80,23 @@ class SizePanel(SearchPanel):
         self._chart: Any = None
         self._table: FoundTable | None = None
         self._taken = ""
-        super().__init__(place, place.words["find pairs"])
+        super().__init__(place, self._begin_words(place.words))
+
+    @staticmethod
+    def _begin_words(words: PageWords) -> str:
+        return words["find pairs"]
+
+    @staticmethod
+    def _columns(words: PageWords) -> list[FoundColumn]:
+        """Return the columns of the table."""
+        return _pair_columns(words)
 
     def _show(self, found: Mapping[str, Any]) -> None:
         if self._table is None:
             with self._results:
                 self._hint = ui.label(self._words["click a row or a point: it stands there as the design"]).classes("task-hint")
                 self._chart = CHART({"series": []}, on_point_click=self._point).classes("task-chart")
-                self._table = FoundTable(_pair_columns(self._words), self._take, comma=self._place.comma)
+                self._table = FoundTable(self._columns(self._words), self._take, comma=self._place.comma)
         self._draw(found)
 
     def _draw(self, found: Mapping[str, Any]) -> None:
@@ -116,6 +125,33 @@ class SizePanel(SearchPanel):
             self._taken = rows[place]["name"]
             self._place.opened(rows[place]["text"], self._taken)
             self._draw(self._shown)
+
+
+class SetSizePanel(SizePanel):
+    """Planetary sets for a torque, a ratio, a speed, a life and a material."""
+
+    kind = "size-sets"
+
+    @staticmethod
+    def _begin_words(words: PageWords) -> str:
+        return words["find sets"]
+
+    @staticmethod
+    def _columns(words: PageWords) -> list[FoundColumn]:
+        return [
+            FoundColumn("name", words["set"], words["kind, teeth, planets, normal module and face width"]),
+            FoundColumn("mass", "kg", words["mass in kg"], 2),
+            FoundColumn("S_H", "S_H", words["safety of the flank against pitting"], 2),
+            FoundColumn("S_F", "S_F", words["safety of the root against breakage"], 2),
+            FoundColumn("i", "i", words["ratio"], 4),
+            FoundColumn("off", "%", words["deviation from the ratio wanted"], 2),
+            FoundColumn("planets", "N", words["number of planets"], 0),
+            FoundColumn("m", "m_n mm", words["normal module"], 2),
+            FoundColumn("b", "b mm", words["face width"], 1),
+            FoundColumn("diameter", "⌀ mm", words["diameter over all teeth"], 1),
+            FoundColumn("a", "a mm", words["centre distance"], 2),
+            FoundColumn("K_gamma", "K_γ", words["mesh load factor"], 2),
+        ]
 
 
 def _pair_columns(words: PageWords) -> list[FoundColumn]:

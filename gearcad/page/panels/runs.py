@@ -328,6 +328,7 @@ def _names(words: PageWords) -> dict[str, str]:
         "mesh": words["meshes of finite elements"],
         "verify": words["verification of the files"],
         "size": words["search for pairs"],
+        "size-sets": words["search for planetary sets"],
         "modify": words["search for modifications"],
         "identify": words["identification of a measured gear"],
         "study": words["map of two keys"],

@@ -176,10 +176,12 @@ def _choices(field: FormField, words: PageWords) -> dict[str, str]:
     """Return the words of each choice by its value; of materials also those of their groups."""
     own = choice_words(words)
     groups = _material_words(words)
+    set_types = {"A": words["sun and ring"], "B": words["stepped planets"], "C": words["two suns"], "D": words["two rings"]}
     found = {}
     for each in field.choices:
         group = groups.get(each.rpartition(" ")[0], "") if field.key.endswith("material") else ""
-        found[each] = f"{each}: {group}" if group else own.get(each, each)
+        kind = set_types.get(each, "") if field.key == "type" else ""
+        found[each] = f"{each}: {group or kind}" if group or kind else own.get(each, each)
     return found
 
 
@@ -192,6 +194,11 @@ def choice_words(words: PageWords) -> dict[str, str]:
         "sliding": words["little sliding"],
         "scuffing": words["little scuffing"],
         "true": words["yes"],
+        "sun": words["sun"],
+        "ring": words["ring"],
+        "carrier": words["carrier"],
+        "sun_2": words["second sun"],
+        "ring_2": words["second ring"],
         "linear": words["linear"],
         "parabolic": words["parabolic"],
     }
@@ -316,6 +323,8 @@ def _steps(words: PageWords) -> dict[str, str]:
     """Return the words of the steps of searches."""
     return {
         "variants": words["variants"],
+        "tooth numbers": words["tooth numbers"],
+        "sizes": words["sizes"],
         "refinement": words["refinement"],
         "transmission error": words["transmission error"],
         "designs": words["designs"],

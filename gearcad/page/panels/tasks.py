@@ -12,7 +12,7 @@ from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
 from gearcad.designs.reader import NO_DESIGNS, starter_text, starters
 from gearcad.page.folder import SPECS
-from gearcad.page.panels.found import IdentifyPanel, ModifyPanel, SizePanel
+from gearcad.page.panels.found import IdentifyPanel, ModifyPanel, SetSizePanel, SizePanel
 from gearcad.page.panels.search import TaskPlace
 from gearcad.page.panels.study import StudyPanel
 from gearcad.page.words import PageWords
@@ -37,7 +37,7 @@ class TasksPanel:
                 self._tabs = {key: ui.tab(key, title) for key, title in self._titles(is_empty=False).items()}
             self._panes = {key: ui.element("div").classes("task-pane") for key in self._tabs}
             with self._panes[_SIZE]:
-                SizePanel(place)
+                self._sizes()
             with self._panes[_STARTER]:
                 self._starters()
             with self._panes[_IDENTIFY]:
@@ -48,6 +48,23 @@ class TasksPanel:
                 self._study = StudyPanel(place)
             self._row.set_value(_SIZE)
         self.follow()
+
+    def _sizes(self) -> None:
+        """Make the forms for pairs and for planetary sets, of which one is seen."""
+        words, forms = self._place.words, dict[str, ui.element]()
+
+        def show(chosen: str) -> None:
+            for key, form in forms.items():
+                form.set_visibility(key == chosen)
+
+        titles = {SizePanel.kind: words["pair"], SetSizePanel.kind: words["planetary set"]}
+        choice = ui.toggle(titles, on_change=lambda event: show(str(event.value))).props("dense no-caps unelevated")
+        choice.classes("task-choice")
+        for panel in (SizePanel, SetSizePanel):
+            with ui.element("div") as forms[panel.kind]:
+                panel(self._place)
+        planetary = self._place.bench.shown_design is not None and self._place.bench.design.kind is DesignKind.PLANETARY
+        choice.set_value((SetSizePanel if planetary else SizePanel).kind)
 
     def follow(self) -> None:
         """Offer what can be done with the present design, or without one."""
@@ -81,7 +98,7 @@ class TasksPanel:
                 _IDENTIFY: words["from a measured gear"],
             }
         else:
-            first = {_SIZE: words["size a pair"], _STARTER: words["starters"], _IDENTIFY: words["identify"]}
+            first = {_SIZE: words["size gears"], _STARTER: words["starters"], _IDENTIFY: words["identify"]}
         return first | {_MODIFY: words["modify"], _STUDY: words["map"]}
 
     def _choose(self, chosen: str) -> None:
