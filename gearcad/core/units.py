@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
 from enum import StrEnum
 from fractions import Fraction
 from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
 
-__all__ = ["ShownUnit", "UnitSystem", "shown_unit"]
+__all__ = ["ShownUnit", "UnitSystem", "inch_units", "shown_unit"]
 
 _INCH = Fraction("25.4")
 """mm, exact (ISO 80000-3)."""
@@ -43,9 +44,18 @@ class ShownUnit(NamedTuple):
     name: str
     size: Fraction
 
+    @property
+    def more_digits(self) -> int:
+        """Decimals that a number in this unit has beside one of the documents, so that both are about as fine."""
+        return round(math.log10(self.size))
+
+    def text(self, stored: float, decimals: int) -> str:
+        """Return a number of the documents in this unit; `decimals` are those of the documents."""
+        return f"{self.of(stored):.{max(decimals + self.more_digits, 0)}f}"
+
     def of(self, stored: float) -> float:
         """Return a number of the documents in this unit."""
-        return float(Fraction(stored) / self.size) if math.isfinite(stored) else stored
+        return float(Fraction(stored) / self.size) if self.size != 1 and math.isfinite(stored) else stored
 
     def shown(self, stored: str) -> str:
         """Return the text of a number, or of several, of the documents in this unit; other texts as they are.
@@ -122,3 +132,8 @@ def shown_unit(system: UnitSystem, unit: str, key: str = "") -> ShownUnit | None
     if system is UnitSystem.METRIC or key.rpartition(".")[2] in _MODULES:
         return None
     return _INCHES.get(unit)
+
+
+def inch_units() -> Mapping[str, ShownUnit]:
+    """Return the units that stand in place of those of the documents, by the latter, where inches are shown."""
+    return _INCHES

@@ -8,6 +8,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, NamedTuple, Self
 
 from gearcad.core.errors import shown
@@ -237,6 +238,8 @@ LISTS = frozenset(key for key, field in _ALL_FIELDS.items() if field.several)
 NESTED = frozenset(key for key, field in _ALL_FIELDS.items() if field.nested)
 TEXT_LISTS = frozenset(key for key, field in _ALL_FIELDS.items() if field.texts)
 TEXTS = NESTED | frozenset(key for key, field in _ALL_FIELDS.items() if field.text or ELSEWHERE in field.marks)
+UNITS = MappingProxyType({key: field.symbol.unit for key, field in _ALL_FIELDS.items() if field.symbol.unit})
+"""Units of keys, as documents have them."""
 SWITCHES = frozenset(key for key, field in _ALL_FIELDS.items() if field.switch)
 """Full keys of whole numbers, of what may be several numbers (in a cell there is space between them), of lists of lists (a text
 in a cell), of lists of texts, of these and words, and of true and false; of a train's parts those of all (`general_key`)."""

@@ -37,10 +37,13 @@ def _axis(name: str, gap: int, comma: bool) -> dict[str, Any]:
     return axis
 
 
-def pairs_chart(found: Mapping[str, Any], taken: str, words: Mapping[str, str], *, comma: bool) -> dict[str, Any]:
-    """Return the scatter of masses (kg) over least margins of a search for sizes; `taken` is the name of the one taken.
+def pairs_chart(
+    found: Mapping[str, Any], taken: str, words: Mapping[str, str], *, comma: bool, unit: str = "kg"
+) -> dict[str, Any]:
+    """Return the scatter of masses (in `unit`) over least margins of a search for sizes; `taken` is the name of the one taken.
 
-    A point has margin, mass, name and place in its list. The cloud of all combinations is behind, and cannot be taken.
+    `words` has those of `margin` and `mass`. A point has margin, mass, name and place.
+    The cloud of all combinations is behind, and cannot be taken.
     """
     rows, front = found.get("rows", []), found.get(FRONT, [])
     series = [
@@ -57,7 +60,7 @@ def pairs_chart(found: Mapping[str, Any], taken: str, words: Mapping[str, str], 
         "grid": {"left": 56, "right": 16, "top": 12, "bottom": 46},
         "xAxis": _axis(words[_MARGIN], 28, comma),
         "yAxis": _axis(words[_MASS], 40, comma),
-        "tooltip": {"confine": True, "textStyle": {"fontSize": _SIZE}, ":formatter": _tooltip(comma)},
+        "tooltip": {"confine": True, "textStyle": {"fontSize": _SIZE}, ":formatter": _tooltip(unit, comma)},
         "series": series,
     }
 
@@ -70,12 +73,12 @@ def _point(row: Mapping[str, Any], place: int) -> list[Any]:
     return [float(f"{row['margin']:.5g}"), float(f"{row['mass']:.5g}"), row["name"], place]
 
 
-def _tooltip(comma: bool) -> str:
+def _tooltip(unit: str, comma: bool) -> str:
     """Return the function that writes the tooltip of a point: its values are numbers, and a name of digits and letters."""
     decimal = ".replace(/\\./g, ',')" if comma else ""
     return (
         f"point => point.value[2] + '<br>S/S_min ' + point.value[0].toFixed(3){decimal}"
-        f" + '<br>' + point.value[1].toPrecision(3){decimal} + ' kg'"
+        f" + '<br>' + point.value[1].toPrecision(3){decimal} + ' {unit}'"
     )
 
 

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from gearcad.core.errors import ParameterError
 from gearcad.core.quantities import FieldSchema, schema_of
+from gearcad.core.units import ShownUnit, UnitSystem, shown_unit
 from gearcad.designs.spec_writers import reading_of, size_of
 from gearcad.geometry.gear_parts import NAMED_RACKS
 from gearcad.identify.measurements import Gauge, Measurements
@@ -97,6 +98,10 @@ _WHEEL = "wheel_"
 """Beginning of the names of options that are about the wheel."""
 
 _DEFAULT = re.compile(r"\[default: ([-\d.:,]+)\]")
+_NUMBER = re.compile(r"(?<![\w.,])[-+]?(?:\d+(?:[.,]\d+)?|[.,]\d+)(?:[eE][-+]?\d+)?")
+_SPAN = re.compile(rf"{_NUMBER.pattern}(?!\d*[.,]?\d*\s*:)")
+"""A number; and one that has no colon behind it."""
+
 _SEPARATORS = re.compile(r"[;\s]+|,\s+")
 _MINUS = "\N{MINUS SIGN}"
 
@@ -126,6 +131,36 @@ def form_fields(kind: str) -> tuple[FormField, ...]:
     return tuple(field._replace(required=field.key in REQUIRED[kind]) for field in fields)
 
 
+_OTHER_NAMES = {"module": "normal_module"}
+"""Keys of specs by those of fields: the unit of a module stays mm."""
+
+
+def unit_of(field: FormField, units: UnitSystem) -> ShownUnit | None:
+    """Return the unit in which a field is shown and typed; None where that is its own."""
+    return shown_unit(units, field.unit, _OTHER_NAMES.get(field.key, field.key))
+
+
+@cache
+def fields_in(kind: str, units: UnitSystem) -> tuple[FormField, ...]:
+    """Return the fields of a form with units and usual texts as they are shown."""
+    return tuple(_field_in(field, unit_of(field, units)) for field in form_fields(kind))
+
+
+def _field_in(field: FormField, unit: ShownUnit | None) -> FormField:
+    if unit is None:
+        return field
+    usual = _NUMBER.sub(lambda number: unit.shown(number[0]), field.usual) if field.usual[:1].isdigit() else field.usual
+    return field._replace(unit=unit.name, usual=usual.replace(":mm", f":{unit.name}"))
+
+
+def stored_text(field: FormField, text: str, units: UnitSystem) -> str:
+    """Return what was typed into a field in the unit of documents: every number in it, but the teeth that a span has."""
+    if (unit := unit_of(field, units)) is None:
+        return text
+    pattern = _SPAN if field.key == Gauge.SPAN.value else _NUMBER
+    return pattern.sub(lambda number: unit.stored(number[0]), text)
+
+
 def missing_keys(kind: str, typed: Mapping[str, str]) -> list[str]:
     """Return the required fields of a form that are empty."""
     instead = _INSTEAD.get(kind, {})
@@ -137,6 +172,7 @@ def _size_fields() -> Iterator[FormField]:
     for option in SIZE_OPTIONS:
         schema, default = fields.get(option.name), _DEFAULT.search(option.help)
         words = _words(option.name, schema)
+        words = words._replace(unit="mm") if option.name in _OTHER_NAMES else words
         usual = default[1] if default else _USUAL.get(option.name, "")
         yield words._replace(
             usual=usual,
@@ -156,6 +192,7 @@ def _set_fields() -> Iterator[FormField]:
     for option in (*SET_OPTIONS, *shared_options()):
         name, default = option.name, _DEFAULT.search(option.help)
         field = FormField(name, *own[name]) if name in own else _words(name, fields[name])
+        field = field._replace(unit="mm") if name in _OTHER_NAMES else field
         usual = _SET_USUAL.get(name, default[1] if default else _USUAL.get(name, ""))
         yield field._replace(usual=usual, choices=_set_choices(name), first=name in _FIRST["size-sets"])
     yield _words("second_series")._replace(choices=("true",))
@@ -216,8 +253,8 @@ def usual_text(field: FormField, *, comma: bool) -> str:
 # ---------------------------------------------------------------------- what was typed
 
 
-def options_of(kind: str, typed: Mapping[str, str], *, comma: bool) -> dict[str, Any]:
-    """Return the options of a search from what was typed, as plain values for its process.
+def options_of(kind: str, typed: Mapping[str, str], *, comma: bool, units: UnitSystem = UnitSystem.METRIC) -> dict[str, Any]:
+    """Return the options of a search from what was typed in these units, as plain values for its process.
 
     With a decimal `comma` numbers of a list are separated by semicolons. Raises ParameterError that names the field.
     """
@@ -227,7 +264,7 @@ def options_of(kind: str, typed: Mapping[str, str], *, comma: bool) -> dict[str,
         if len(text) > _LONGEST:
             raise ParameterError(field.key, f"{text[:20]}...", f"must have at most {_LONGEST} characters")
         if text:
-            given[field.key] = text
+            given[field.key] = stored_text(field, text, units)
     read: dict[str, Callable[[dict[str, str], bool], dict[str, Any]]] = {
         "size": _size_options,
         "size-sets": _set_options,

@@ -59,8 +59,11 @@ class DrawnModification:
     values: Mapping[str, float]
 
     @classmethod
-    def of(cls, role: str, values: Mapping[str, Any], design: PairDesign) -> DrawnModification:
-        """Check what the browser sent. Raises ParameterError for other names, for what is no number, or out of range."""
+    def of(cls, role: str, values: Mapping[str, Any], design: PairDesign, *, finer: int = 0) -> DrawnModification:
+        """Check what the browser sent. Values have so many decimals more where they are `finer`.
+
+        Raises ParameterError for other names, for what is no number, or out of range.
+        """
         if role not in {each.value for each in Role}:
             raise ParameterError("role", role, "must be pinion or wheel")
         form = design.gears[role].flank_form
@@ -76,7 +79,7 @@ class DrawnModification:
             if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
                 raise ParameterError(name, value, "must be a number")
             low, high = AMOUNTS.get(name, (_LEAST_LENGTH, longest.get(name, 0.0)))
-            digits = _AMOUNT_DIGITS if name in AMOUNTS else _LENGTH_DIGITS
+            digits = (_AMOUNT_DIGITS if name in AMOUNTS else _LENGTH_DIGITS) + finer
             scale = 10**digits
             # Rounded to a multiple within the range: a rounded length may not be longer than the flank.
             found[name] = min(max(round(float(value), digits), low), math.floor(high * scale) / scale)

@@ -162,7 +162,7 @@ def _set_row(sized: SizedSet) -> dict[str, Any]:
         "S_F": sized.least[RatedPart.ROOT],
         "i": own.ratio,
         "off": 100 * own.deviation,
-        "m": own.task.module,
+        "normal_module": own.task.module,
         "b": own.task.width,
         "diameter": own.diameter,
         "a": own.centre_distance,
@@ -250,7 +250,7 @@ def _candidate_row(each: Candidate) -> dict[str, Any]:
     return {
         "name": " ".join([each.series, *([f"{pitch:g}"] if pitch is not None else [])]),
         "probability": 100 * each.probability,
-        "module": float(gear.normal_module),
+        "normal_module": float(gear.normal_module),
         "pressure_angle": gear.rack.pressure_angle,
         "helix_angle": gear.helix_angle,
         "shift": gear.profile_shift,

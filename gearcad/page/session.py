@@ -12,7 +12,7 @@ from typing import Any, ClassVar, NamedTuple, TypeVar
 
 from nicegui import app, background_tasks, run, ui
 
-from gearcad.core.units import UnitSystem
+from gearcad.core.units import UnitSystem, inch_units
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
 from gearcad.page.components.elements import BarView
@@ -311,7 +311,7 @@ class Session:
         self._client, self._has_browser = ui.context.client, False
         self._client.on_connect(self._connect)
         following = self._following = Following(lambda: bench.design, lambda: bench.status, words)
-        ui.query("html").props(f"lang={words.language.value}")
+        ui.query("html").props(f"lang={words.language.value}").props(f'data-units="{_units_told(words.units)}"')
         with ui.element("header").classes("bar"):
             self._bar()
         with ui.element("main").classes("panels") as self._panels:
@@ -544,6 +544,12 @@ class Session:
         """Close all sessions because the server ends."""
         for each in tuple(cls.open):
             each.leave()
+
+
+def _units_told(system: UnitSystem) -> str:
+    """Return the units that scripts show in place of those of documents, each with its size in the latter."""
+    units = {} if system is UnitSystem.METRIC else inch_units()
+    return " ".join(f"{unit}|{shown.name}|{float(shown.size)!r}" for unit, shown in units.items())
 
 
 def _left_titles(words: PageWords) -> dict[str, str]:

@@ -7,12 +7,13 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from fractions import Fraction
 from functools import cache
 from typing import Any
 
 from gearcad.core.messages import catalogue
 from gearcad.core.runtime import templates
-from gearcad.core.units import UnitSystem
+from gearcad.core.units import ShownUnit, UnitSystem, shown_unit
 
 __all__ = ["PageLanguage", "PageWords", "language_of"]
 
@@ -74,6 +75,15 @@ class PageWords:
     def number(self, text: str) -> str:
         """Return the text of one or several numbers with the decimal sign of the language; other text as it is."""
         return text.replace(".", ",") if self.language is PageLanguage.GERMAN and _NUMBERS.fullmatch(text) else text
+
+    def unit(self, unit: str, key: str = "") -> ShownUnit:
+        """Return the unit in which the page shows numbers that documents have in `unit`; `key` is that of the quantity."""
+        return shown_unit(self.units, unit, key) or ShownUnit(unit, Fraction(1))
+
+    def measure(self, value: float, decimals: int, unit: str) -> str:
+        """Return a number of the documents with its unit, as the page shows it; `decimals` are those in the documents."""
+        shown = self.unit(unit)
+        return f"{self.number(shown.text(value, decimals))} {shown.name}"
 
     def divided(self, text: str) -> str:
         """A text whose long words may go on in the next line, before any of the `parts` of which they are made."""

@@ -117,6 +117,16 @@ def test_what_is_drawn_too_far_ends_where_it_may(tmp_path: Path) -> None:
     assert form.last - form.first - 0.01 < drawn.values["tip_relief_length"] <= form.last - form.first
 
 
+def test_what_is_drawn_in_inches_comes_back_without_drift(tmp_path: Path) -> None:
+    bench = _bench(tmp_path)
+    drawn = DrawnModification.of(
+        "pinion", {"tip_relief": 900 * 0.0254, "tip_relief_length": 0.06 * 25.4}, _design(bench), finer=2
+    )
+    assert drawn.values == {"tip_relief": 22.86, "tip_relief_length": 1.524}
+    bench.change(drawn.texts, 1)
+    assert _design(bench).pair.pinion.modification.tip_relief / 0.0254 == pytest.approx(900)
+
+
 def test_without_a_load_the_reason_is_told(tmp_path: Path) -> None:
     bench = Workbench(TEXT.replace("[load]\ntorque = 120\n", ""), "mine", tmp_path)
     found = live_error(_design(bench))

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from support.page_server import awaited
 
+from gearcad.core.units import UnitSystem
 from gearcad.designs.reader import starter_text
 from gearcad.page.panels.runs import changes_between, figures_beside, verb_of
 from gearcad.page.panels.spec import _names
@@ -65,8 +66,11 @@ def test_figures_stand_beside_each_other(runs: Runs) -> None:
 
 
 def test_what_designs_differ_by() -> None:
-    assert changes_between({"a.b": "1", "a.c": "2"}, {"a.b": "1", "a.d": "3"}) == ["a.c 2 → -", "a.d - → 3"]
-    assert changes_between({}, {str(each): "1" for each in range(20)})[-1] == "+ 8"
+    assert changes_between({"a.b": "1", "a.c": "2"}, {"a.b": "1", "a.d": "3"}, ENGLISH) == ["a.c 2 → -", "a.d - → 3"]
+    assert changes_between({}, {str(each): "1" for each in range(20)}, ENGLISH)[-1] == "+ 8"
+    inches = PageWords.of(PageLanguage.ENGLISH, UnitSystem.INCH)
+    moved = changes_between({"pair.centre_distance": "101.6"}, {"pair.centre_distance": "102.87", "pinion.teeth": "20"}, inches)
+    assert moved == ["pair.centre_distance 4 → 4.05", "pinion.teeth - → 20"]
 
 
 def test_a_report_is_fenced_in(runs: Runs, client: Callable[[str], Any]) -> None:

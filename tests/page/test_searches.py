@@ -15,6 +15,7 @@ from support.specs import TEMPLATES
 from gearcad.cli.size import size as size_command
 from gearcad.core.errors import ParameterError, SpecError
 from gearcad.core.quantities import schema_of
+from gearcad.core.units import UnitSystem
 from gearcad.designs import PairDesign, read_spec
 from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.designs.reader import edit_spec, starter_text
@@ -23,7 +24,7 @@ from gearcad.identify.measurements import Measurements
 from gearcad.jobs.size_options import SIZE_OPTIONS, option_fields
 from gearcad.jobs.strength import Rate
 from gearcad.page.charts import FOUND, map_chart, nearest, pairs_chart
-from gearcad.page.forms import form_fields, missing_keys, options_of, usual_text
+from gearcad.page.forms import fields_in, form_fields, missing_keys, options_of, usual_text
 from gearcad.page.panels.table import read_results
 from gearcad.page.run_process import design_of
 from gearcad.page.runs import Run, Runs, RunState, download_file
@@ -156,7 +157,7 @@ def test_a_measured_gear_is_that_of_the_command(runs: Runs, tmp_path: Path) -> N
         assert told.exit_code == 0, told.output
         assert row["text"] == path.read_text(encoding="utf-8")
     assert run.line == "Certain: all others together are less probable than 5 %"
-    assert (run.found["rows"][0]["module"], run.found["rows"][0]["pressure_angle"]) == (2.0, 20.0)
+    assert (run.found["rows"][0]["normal_module"], run.found["rows"][0]["pressure_angle"]) == (2.0, 20.0)
 
 
 # ---------------------------------------------------------------------- modifications
@@ -315,6 +316,53 @@ def test_options_of_searches_can_be_sent_to_a_process() -> None:
         options = options_of(kind, typed, comma=False)
         assert json.loads(json.dumps(options)).keys() == options.keys()
     assert list(SEARCHES) == ["size", "size-sets", "modify", "identify", "study"]
+
+
+INCHES = {
+    "size": (
+        {
+            "torque": "885.0745791",
+            "speed": "1500",
+            "ratio": "2",
+            "material": "Eh MQ",
+            "centre_distance": "4",
+            "module": "2,2.5",
+        },
+        {"torque": pytest.approx(100.0), "centre_distance": 101.6, "module": "2,2.5", "speed": 1500.0},
+    ),
+    "identify": (
+        {"teeth": "24", "tip_diameter": "2.0480±0.0010", "span": "3:.6063; 4:0.8386", "over_pins": "0.1378:2.2130"},
+        {
+            "tip_diameter": [52.0192, 0.0254],
+            "sized": {"span": [[3, 15.40002], [4, 21.30044]], "over_pins": [[3.50012, 56.2102]]},
+        },
+    ),
+    "modify": ({"torque": "88.50745791", "pressure": "145.03773773"}, {"torque": 10.0, "pressure": 1000.0}),
+}
+"""What is typed in inches and pounds, and the options that it means: 1 N·m is 8.850745791 lbf·in, 1 ksi 6.894757293 MPa."""
+
+
+@pytest.mark.parametrize("kind", INCHES)
+def test_what_is_typed_in_inches_are_options_in_millimetres(kind: str) -> None:
+    typed, expected = INCHES[kind]
+    options = json.loads(json.dumps(options_of(kind, typed, comma=False, units=UnitSystem.INCH)))
+    for key, value in expected.items():
+        if key == "sized":
+            assert options[key].keys() == value.keys()
+            for gauge, pairs in value.items():
+                assert options[key][gauge] == [pytest.approx(pair) for pair in pairs]
+        else:
+            assert options[key] == (value if isinstance(value, str) else pytest.approx(value)), key
+
+
+def test_fields_in_inches_have_their_units_and_modules_stay() -> None:
+    fields = {field.key: field for field in fields_in("size", UnitSystem.INCH)}
+    assert (fields["centre_distance"].unit, fields["torque"].unit, fields["module"].unit) == ("in", "lbf·in", "mm")
+    assert fields["module"].usual == "1:10"
+    readings = {field.key: field for field in fields_in("identify", UnitSystem.INCH)}
+    assert (readings["span"].usual, readings["over_pins"].usual) == ("K:in", "D:in")
+    assert float(readings["uncertainty"].usual) == pytest.approx(0.02 / 25.4, rel=1e-6)
+    assert fields_in("size", UnitSystem.METRIC) == form_fields("size")
 
 
 # ---------------------------------------------------------------------- charts

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from support.commands import invoke
 
+from gearcad.core.units import UnitSystem
 from gearcad.designs.reader import starter_text
 from gearcad.page.run_process import ANALYSES, design_of, mesh_pair
 from gearcad.page.runs import Run, Runs, RunState
@@ -152,6 +153,13 @@ def test_what_is_drawn_is_what_the_file_has(plane: Run, solid: Run) -> None:
     pressure = document["summary"]["contact_pressure"]
     assert f"{pressure:.1f} MPa".replace(".", ",") in curves["told"]
     assert flank["option"]["visualMap"]["max"] == pressure
+    curves, flank = views_of(shown, PageWords.of(PageLanguage.ENGLISH, UnitSystem.INCH))
+    *_, errors, stiffness = ([value for _, value in series["data"]] for series in curves["option"]["series"])
+    assert errors == pytest.approx([each / 0.0254 for each in cycle["transmission_error"]])  # 1 µin is 0.0254 µm
+    assert stiffness == pytest.approx([each * 25.4 * 0.0254 / 4.4482216152605 for each in cycle["mesh_stiffness"]])
+    assert [each["unit"] for each in curves["curves"]] == ["%", "µin", "lbf/(in·µin)"]
+    assert f"{pressure / 6.894757293168:.2f} ksi" in curves["told"]
+    assert flank["option"]["visualMap"]["max"] == pytest.approx(pressure / 6.894757293168)
     drawn = drawn_part(shown)
     assert drawn is not None and drawn["limits"]["pressure"] == pressure
     design = design_of(PAIR, "mine", Path())

@@ -42,7 +42,9 @@ THREE = ui.scene
 """Element whose package of three.js the script of this element imports."""
 
 
-class BodiesView(Element, component="gear_bodies.js", esm={"gear-surfaces": "surfaces", "gear-colours": "colours"}):
+class BodiesView(
+    Element, component="gear_bodies.js", esm={"gear-surfaces": "surfaces", "gear-colours": "colours", "gear-units": "units"}
+):
     """Bodies, whose surfaces are sent once as long as they are seen; `label` says to those who cannot see it what it is."""
 
     def __init__(self, label: str, words: dict[str, str]) -> None:
@@ -68,7 +70,7 @@ CHARTS = ui.echart
 """Element whose package of ECharts the script of the results imports, once there is a chart to draw."""
 
 
-class ResultsView(Element, component="gear_results.js", esm={"gear-colours": "colours"}):
+class ResultsView(Element, component="gear_results.js", esm={"gear-colours": "colours", "gear-units": "units"}):
     """Curves and patterns of a run: calls `choose(number)` with the run to show; `words` are the page's own."""
 
     def __init__(self, choose: Callable[[int], None], words: dict[str, str]) -> None:
@@ -89,7 +91,7 @@ class LegendView(Element, component="gear_legend.js", esm={"gear-colours": "colo
         self._props["place"], self._props["words"] = place, words
 
 
-class ModificationsView(Element, component="gear_modifications.js"):
+class ModificationsView(Element, component="gear_modifications.js", esm={"gear-units": "units"}):
     """Diagrams of flanks with handles: calls `drawn` with role, values, step and whether a handle moves, and `released`."""
 
     def __init__(self, drawn: Callable[[Mapping[str, Any]], None], released: Callable[[], None], words: dict[str, str]) -> None:
@@ -297,7 +299,7 @@ class CompareView(Element, component="gear_compare.js", esm={"gear-symbols": "sy
         self.run_method("wait")
 
 
-class SectionToolsView(Element, component="gear_handles.js"):
+class SectionToolsView(Element, component="gear_handles.js", esm={"gear-units": "units"}):
     """Handles and measures in the section: calls `choose` with mode, body and size, `drawn` with key, value and step."""
 
     def __init__(
@@ -316,7 +318,7 @@ class SectionToolsView(Element, component="gear_handles.js"):
         self.run_method("show", content)
 
 
-class SectionView(Element, component="gear_section.js"):
+class SectionView(Element, component="gear_section.js", esm={"gear-units": "units"}):
     """Draws what `gearcad.page.panels.drawn_data` finds; `label` says to those who cannot see it what it is."""
 
     def __init__(self, label: str, words: dict[str, str]) -> None:

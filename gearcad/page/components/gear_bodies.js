@@ -1,5 +1,6 @@
 // The gears as solid bodies, in mesh. Surfaces come by their keys: what stays the same is not sent again. Lengths in mm, z up.
 import { colouredTeeth } from "gear-colours";
+import { shown, shownNumber, shownUnit } from "gear-units";
 import { cutOf, surfaceOf } from "gear-surfaces";
 import { OrbitControls, THREE } from "nicegui-scene";
 
@@ -19,8 +20,6 @@ function isWithoutCard() {
   return /swiftshader|llvmpipe|softpipe|software/i.test(name);
 }
 
-const fixed = (value, digits) =>
-  value.toLocaleString(document.documentElement.lang || "en", { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
 
 export default {
   template: `
@@ -47,7 +46,7 @@ export default {
       const [from, to] = this.points;
       const [x, y, z] = to.map((each, n) => each - from[n]);
       const [size, off] = [Math.hypot(x, y, z), 2 * this.error];
-      return `${fixed(size, 3)} mm   x ${fixed(x, 3)}   y ${fixed(y, 3)}   z ${fixed(z, 3)}   (±${off.toLocaleString(document.documentElement.lang || "en", { maximumSignificantDigits: 2 })}: ${this.words.facets})`;
+      return `${shown(size, 3, "mm")}   x ${shownNumber(x, 3, "mm")}   y ${shownNumber(y, 3, "mm")}   z ${shownNumber(z, 3, "mm")}   (±${(off / shownUnit("mm").size).toLocaleString(document.documentElement.lang || "en", { maximumSignificantDigits: 2 })}: ${this.words.facets})`;
     },
   },
   watch: {
@@ -254,7 +253,7 @@ export default {
           cut.cap.lookAt(middle.clone().sub(normal));
           cut.cap.scale.setScalar(2 * size);
         }
-        this.cutAt = `${fixed(place, 2)} mm`;
+        this.cutAt = shown(place, 2, "mm");
       }
       this.restyle();
       this.pose();

@@ -1,14 +1,16 @@
 // What the hand does in the section: handles that write inputs, measures, and the tool that rolls over a tooth. The section lets it
 // draw ("gear-section") and offers it each press ("gear-press"). Numbers are the server's. Lengths are in mm, angles in radians.
+import { fixed, shown, shownNumber, shownUnit, stored } from "gear-units";
+
 const REACH = 12; // pixels from a handle within which it is held
 const APART = 70; // pixels between handles of one gear
-const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1]; // mm to which values snap: not finer than a pixel
+const STEPS = [5e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1]; // of the unit that is shown, to which values snap: not finer than a pixel
+const FINEST = 0.01; // mm, or of a coefficient
+const NUDGES = { mm: 0.1, in: 0.005 }; // change by a key; of a coefficient 0.01
 const LONG = 4000; // pixels: half the length of a line that fills every window
 const PATIENCE = 1500; // ms until a move that nobody answers is taken for lost
 const PAUSE = 1000; // ms after which typing begins another step
 
-const fixed = (value, digits) =>
-  value.toLocaleString(document.documentElement.lang || "en", { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
 const number = (text) => Number(text.trim().replace(",", "."));
 
 export default {
@@ -19,9 +21,9 @@ export default {
         <select v-if="asksGear" :value="content.gear" :aria-label="words.gear" :title="words.gear" @change="gear = Number($event.target.value); ask(null)"><option v-for="(name, n) in content.gears" :key="n" :value="n">{{ name }}</option></select>
       </div>
       <div v-if="mode === 'draw'" class="row"><label v-for="handle in handles" :key="handle.key" :title="handle.words">{{ symbol(handle) }}
-        <input type="text" inputmode="decimal" :aria-label="handle.words" :data-handle="handle.key" :value="shown(handle)" @change="type($event, handle)" @keydown.up.prevent="nudge($event, handle, 1)" @keydown.down.prevent="nudge($event, handle, -1)" />{{ handle.unit }}</label></div>
+        <input type="text" inputmode="decimal" :aria-label="handle.words" :data-handle="handle.key" :value="shown(handle)" @change="type($event, handle)" @keydown.up.prevent="nudge($event, handle, 1)" @keydown.down.prevent="nudge($event, handle, -1)" />{{ unit(handle) }}</label></div>
       <div v-if="size !== null" class="row"><label>{{ mode === "pins" ? words.pin : words.diameter }}
-        <input type="text" inputmode="decimal" class="size" :value="size" @change="askFor($event)" />mm</label></div>
+        <input type="text" inputmode="decimal" class="size" :value="size" @change="askFor($event)" />{{ unit({ unit: "mm" }) }}</label></div>
       <div v-if="mode === 'tool' && content.tool" class="row">
         <button type="button" :aria-pressed="playing" :title="playing ? words.pause : words.play" @click="play">{{ playing ? "❚❚" : "▶" }}</button>
         <input type="range" min="0" :max="content.tool.turns.length - 1" step="1" v-model.number="at" :aria-label="words.step" />
@@ -44,16 +46,16 @@ export default {
     },
     size() {
       const { thickness, pins } = this.content ?? {};
-      return thickness ? fixed(thickness.diameter, 3) : pins ? fixed(pins.pin, 3) : null;
+      return thickness ? shownNumber(thickness.diameter, 3, "mm") : pins ? shownNumber(pins.pin, 3, "mm") : null;
     },
     why() {
       return this.content?.pins?.why_not || this.content?.why_not || "";
     },
     lines() {
       const { thickness, pins, gap } = this.content ?? {};
-      if (thickness) return [`${this.words.arc}: ${fixed(thickness.arc, 4)} mm`, `${this.words.chord}: ${fixed(thickness.chord, 4)} mm`];
-      if (pins && !pins.why_not) return [`${pins.internal ? this.words.between : this.words.over}: ${fixed(pins.over, 4)} mm`];
-      if (gap) return [`${this.words.circumferential}: ${fixed(gap.circumferential, 4)} mm`, `${this.words.line}: ${fixed(gap.line_of_action, 4)} mm`, `${this.words.normal}: ${fixed(gap.normal, 4)} mm`];
+      if (thickness) return [`${this.words.arc}: ${shown(thickness.arc, 4, "mm")}`, `${this.words.chord}: ${shown(thickness.chord, 4, "mm")}`];
+      if (pins && !pins.why_not) return [`${pins.internal ? this.words.between : this.words.over}: ${shown(pins.over, 4, "mm")}`];
+      if (gap) return [`${this.words.circumferential}: ${shown(gap.circumferential, 4, "mm")}`, `${this.words.line}: ${shown(gap.line_of_action, 4, "mm")}`, `${this.words.normal}: ${shown(gap.normal, 4, "mm")}`];
       return [];
     },
   },
@@ -89,7 +91,7 @@ export default {
     },
     askFor(event) {
       const size = number(event.target.value);
-      if (size > 0) this.ask(size);
+      if (size > 0) this.ask(stored(size, "mm"));
       else event.target.value = this.size;
     },
     play() {
@@ -153,7 +155,7 @@ export default {
       pen.rect(x - 6, y - 6, 12, 12);
       pen.fill();
       pen.stroke();
-      this.label(section, pen, `${this.symbol(handle)} = ${this.shown(handle)} ${handle.unit}`, x + 11, y + 4);
+      this.label(section, pen, `${this.symbol(handle)} = ${this.shown(handle)} ${this.unit(handle)}`, x + 11, y + 4);
       return [x, y].map(Math.round).join();
     },
     label(section, pen, words, x, y) {
@@ -176,7 +178,7 @@ export default {
       pen.arc(...section.to(centre), (diameter / 2) * section.view.scale, -(middle - half), -(middle + half), true);
       pen.stroke();
       const [x, y] = section.to([centre[0] + (diameter / 2) * Math.cos(middle), centre[1] + (diameter / 2) * Math.sin(middle)]);
-      this.label(section, pen, `${fixed(arc, 3)} mm`, x + 10, y - 8);
+      this.label(section, pen, shown(arc, 3, "mm"), x + 10, y - 8);
     },
     paintPins(section, pen, { circle, pin, odd }) {
       const { body, centre, stand } = this.frameOf(section);
@@ -238,26 +240,29 @@ export default {
       const { centre, point } = this.placeOf(section, this.held);
       const out = this.held.shape !== "circle" ? this.outward(section, this.held) : [point[0] - centre[0], point[1] - centre[1]].map((each) => each / this.held.radius);
       const moved = du * out[0] + dv * out[1];
-      const finest = STEPS.find((each) => each >= Math.abs(this.held.factor) / scale) ?? 1;
-      const value = this.held.value + moved * this.held.factor;
-      this.push(this.held, Math.round(value / finest) * finest);
+      const { size } = shownUnit(this.held.unit);
+      const least = Math.max(Math.abs(this.held.factor) / scale, size === 1 ? FINEST : 0) / size;
+      const finest = STEPS.find((each) => each >= least) ?? 1;
+      const value = (this.held.value + moved * this.held.factor) / size;
+      this.push(this.held, Math.round(value / finest) * finest * size);
     },
     drop() {
       this.held = null;
       this.redraw();
     },
-    shown: (handle) => fixed(handle.value, handle.unit ? 3 : 4),
+    shown: (handle) => (handle.unit ? shownNumber(handle.value, 3, handle.unit) : fixed(handle.value, 4)),
+    unit: (handle) => shownUnit(handle.unit).name,
     type(event, handle) {
       const value = number(event.target.value);
       if (!event.target.value.trim() || !Number.isFinite(value)) return (event.target.value = this.shown(handle));
       this.step += 1;
-      this.push(handle, value);
+      this.push(handle, stored(value, handle.unit));
     },
     nudge(event, handle, sign) {
       const now = performance.now();
       const goesOn = this.typed.key === handle.key && now - this.typed.at <= PAUSE;
       if (!goesOn) this.step += 1;
-      const value = (goesOn ? this.typed.value : handle.value) + sign * (handle.unit ? 0.1 : 0.01) * (event.shiftKey ? 10 : 1);
+      const value = (goesOn ? this.typed.value : handle.value) + sign * stored(NUDGES[this.unit(handle)] ?? FINEST, handle.unit) * (event.shiftKey ? 10 : 1);
       this.typed = { key: handle.key, at: now, value };
       this.push(handle, value);
     },

@@ -1,5 +1,7 @@
 // Diagrams of a gear's flanks with handles, and the transmission error that comes of them. Curves are the server's; handles send
 // what they say, one move at a time. Lengths are in mm, amounts in µm; material that is taken off is drawn downwards.
+import { fixed, shown, shownNumber, shownUnit, stored } from "gear-units";
+
 const LEFT = 52, RIGHT = 14, TOP = 22, BOTTOM = 40, HIGH = 160;
 const PATIENCE = 1500; // ms until a move that nobody answers is taken for lost
 const PAUSE = 1000; // ms after which keys begin another step
@@ -7,10 +9,8 @@ const LEAST_SCALE = 20; // µm that a diagram has at least
 const SHARE = 0.25; // place of the handle of a crowning, where it has a quarter of its amount
 const DEFAULT_LENGTH = 0.3; // share of the flank of a relief that had no length
 
-const fixed = (value, digits) =>
-  value.toLocaleString(document.documentElement.lang || "en", { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
 const isLength = (name) => name.endsWith("_length");
-const told = (name, value) => (isLength(name) ? `${fixed(value, 2)} mm` : `${fixed(value, 1)} µm`);
+const told = (name, value) => (isLength(name) ? shown(value, 2, "mm") : shown(value, 1, "µm"));
 const nice = (value) => {
   const power = 10 ** Math.floor(Math.log10(value));
   return [1, 2, 5, 10].find((each) => each * power >= value) * power;
@@ -25,11 +25,11 @@ export default {
           <button v-for="(each, n) in content.gears" :key="each.role" type="button" :aria-pressed="chosen === n" @click="chosen = n">{{ words[each.role] }}</button>
         </div>
         <figure>
-          <figcaption>{{ words.error }} (µm)</figcaption>
+          <figcaption>{{ words.error }} ({{ unit("") }})</figcaption>
           <p v-if="content.error.why_not" class="fault">{{ content.error.why_not }}</p>
           <template v-else>
-            <p class="peak"><span>{{ words.peak }}:</span> <span v-if="former" class="former">{{ words.before }} {{ peak(former) }} µm</span> <b>{{ former ? words.after : "" }} {{ peak(content.error) }} µm</b></p>
-            <svg :width="width" :height="high" role="img" :aria-label="words.error + ', ' + peak(content.error) + ' µm'">
+            <p class="peak"><span>{{ words.peak }}:</span> <span v-if="former" class="former">{{ words.before }} {{ peak(former) }}</span> <b>{{ former ? words.after : "" }} {{ peak(content.error) }}</b></p>
+            <svg :width="width" :height="high" role="img" :aria-label="words.error + ', ' + peak(content.error)">
               <g class="axes">
                 <line v-for="tick in course.up" :key="tick.y" :x1="left" :x2="width - right" :y1="tick.y" :y2="tick.y" />
                 <text v-for="tick in course.up" :key="'t' + tick.y" :x="left - 12" :y="tick.y + 4" text-anchor="end">{{ tick.words }}</text>
@@ -42,7 +42,7 @@ export default {
           </template>
         </figure>
         <figure v-for="diagram in diagrams" :key="diagram.key">
-          <figcaption>{{ words[diagram.key] }} (µm)</figcaption>
+          <figcaption>{{ words[diagram.key] }} ({{ unit("") }})</figcaption>
           <svg :width="width" :height="high" role="group" :aria-label="words[diagram.key]" @pointermove="drag" @pointerup="drop" @pointercancel="drop">
             <g class="axes">
               <line v-for="tick in diagram.up" :key="tick.y" :x1="left" :x2="width - right" :y1="tick.y" :y2="tick.y" :class="{ zero: !tick.value }" />
@@ -90,7 +90,7 @@ export default {
       const x = (angle) => LEFT + ((angle - from) / (to - from || 1)) * (this.width - LEFT - RIGHT);
       const y = (error) => TOP + ((high + room - error) / (high - low + 2 * room)) * (HIGH - TOP - BOTTOM);
       const line = ({ angles: at, errors: values }) => at.map((angle, n) => `${x(Math.min(Math.max(angle, from), to)).toFixed(1)},${y(values[n]).toFixed(1)}`).join(" ");
-      const up = [low, (low + high) / 2, high].map((value) => ({ y: y(value), words: fixed(value, 2) }));
+      const up = [low, (low + high) / 2, high].map((value) => ({ y: y(value), words: shownNumber(value, 2, "µm") }));
       const across = [-1, 0, 1].map((share) => ({ x: x((share * to) / 1.25), words: fixed((share * to) / 1.25, 1) }));
       return { up, across, points: line(this.content.error), former: this.former && line(this.former) };
     },
@@ -117,26 +117,26 @@ export default {
       this.late = setTimeout(this.go, PATIENCE);
     },
     peak(error) {
-      return fixed(error.peak_to_peak, 2);
+      return shown(error.peak_to_peak, 2, "µm");
     },
-    unit: (name) => (isLength(name) ? "mm" : "µm"),
-    number: (name, value) => fixed(value, isLength(name) ? 2 : 1),
+    unit: (name) => shownUnit(isLength(name) ? "mm" : "µm").name,
+    number: (name, value) => (isLength(name) ? shownNumber(value, 2, "mm") : shownNumber(value, 1, "µm")),
     // ---------------------------------------------------------------- drawing
     diagram(key) {
       const gear = this.gear;
       const [from, to] = key === "profile" ? [gear.first, gear.last] : [0, gear.width];
       const curve = gear[key];
-      const scale = this.scales?.[key] ?? nice(Math.max(LEAST_SCALE, 1.2 * Math.max(...curve.map(Math.abs))));
+      const scale = this.scales?.[key] ?? stored(nice(Math.max(LEAST_SCALE, 1.2 * Math.max(...curve.map(Math.abs))) / shownUnit("µm").size), "µm");
       const lowest = Math.min(...curve) < -0.5 ? -scale : -scale / 5;
       const x = (place) => LEFT + ((place - from) / (to - from)) * (this.width - LEFT - RIGHT);
       const y = (amount) => TOP + ((amount - lowest) / (scale - lowest)) * (HIGH - TOP - BOTTOM);
       const points = curve.map((amount, n) => `${x(from + ((to - from) * n) / (curve.length - 1)).toFixed(1)},${y(amount).toFixed(1)}`).join(" ");
-      const up = (lowest === -scale ? [-1, -0.5, 0, 0.5, 1] : [0, 0.5, 1]).map((share) => ({ value: share, y: y(share * scale), words: fixed(-share * scale + 0, scale < 10 ? 1 : 0) }));
+      const up = (lowest === -scale ? [-1, -0.5, 0, 0.5, 1] : [0, 0.5, 1]).map((share) => ({ value: share, y: y(share * scale), words: shownNumber(-share * scale + 0, scale < 10 ? 1 : 0, "µm") }));
       const across = (key === "profile" ? [0.2, 0.8] : [0.1, 0.5, 0.9]).map((share) => {
         const place = from + share * (to - from);
-        return { x: x(place), words: key === "profile" ? `${fixed(Math.abs(place), 1)} (⌀${fixed(2 * Math.hypot(gear.base, place), 1)})` : fixed(place, 1) };
+        return { x: x(place), words: key === "profile" ? `${shownNumber(Math.abs(place), 1, "mm")} (⌀${shownNumber(2 * Math.hypot(gear.base, place), 1, "mm")})` : shownNumber(place, 1, "mm") };
       });
-      const [low, high, title] = key === "profile" ? [this.words.root, this.words.tip, `${this.words.roll} (mm)`] : ["", "", `${this.words.height} (mm)`];
+      const [low, high, title] = key === "profile" ? [this.words.root, this.words.tip, `${this.words.roll} (${this.unit("_length")})`] : ["", "", `${this.words.height} (${this.unit("_length")})`];
       const back = (px) => from + ((px - LEFT) / (this.width - LEFT - RIGHT)) * (to - from);
       const amountAt = (py) => lowest + ((py - TOP) / (HIGH - TOP - BOTTOM)) * (scale - lowest);
       const handles = this.handles(key, from, to).map((handle) => ({ ...handle, x: x(handle.place), y: y(handle.amount), value: gear.values[handle.name], told: told(handle.name, gear.values[handle.name]) }));
@@ -192,7 +192,7 @@ export default {
       this.rested = setTimeout(this.release, PAUSE / 2);
     },
     type(event, name) {
-      const value = Number(event.target.value.trim().replace(",", "."));
+      const value = stored(Number(event.target.value.trim().replace(",", ".")), isLength(name) ? "mm" : "µm");
       if (!event.target.value.trim() || !Number.isFinite(value)) return (event.target.value = this.number(name, this.values[name]));
       if (this.number(name, value) === this.number(name, this.values[name])) return;
       this.step += 1;

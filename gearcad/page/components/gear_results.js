@@ -1,11 +1,10 @@
 // What a check or the dynamics found: curves over the roll slider, the pattern of contact, K_v over speed. Charts are loaded when
 // there is one to show. Colours are drawn into the section when it paints, and bodies get theirs by a message.
+import { fixed, shown } from "gear-units";
 import { HEXES, paintSection, rollAngle } from "gear-colours";
 
 const NARROW = 440; // pixels below which grids that stand side by side stand one over the other
 
-const fixed = (value, digits) =>
-  value.toLocaleString(document.documentElement.lang || "en", { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
 
 export default {
   template: `
@@ -125,10 +124,10 @@ export default {
     paint({ detail: { section, pen } }) {
       if (!this.result?.contacts || this.stale || !section.content?.meshes.length) return this.legend(null);
       const { pressure, root } = this.result.limits;
-      paintSection(section, pen, this.result, this.result.limits, fixed, "MPa");
+      paintSection(section, pen, this.result, this.result.limits, (value) => shown(value, 0, "MPa"), fixed);
       this.legend([
-        { words: this.words.pressure, most: `${fixed(pressure, 0)} MPa` },
-        { words: this.words.root, most: `${fixed(root, 0)} MPa` },
+        { words: this.words.pressure, most: shown(pressure, 0, "MPa") },
+        { words: this.words.root, most: shown(root, 0, "MPa") },
       ]);
       this.mark(rollAngle(section, this.result));
     },

@@ -1,4 +1,6 @@
 // The transverse section of the mesh, on a canvas: only what is seen is drawn. Lengths are in mm, angles in radians, y is up.
+import { shown } from "gear-units";
+
 const DASHES = { tip: [], reference: [8, 2, 1, 2], base: [4, 3], form: [1, 2], root: [], active: [2, 2], pitch: [10, 3, 2, 3] };
 const BY_PROCESSOR = { willReadFrequently: true }; // a graphics card that is none takes seconds for dashes and outlines
 const NEAR = 5; // pixels from a circle within which it is meant
@@ -13,8 +15,6 @@ function at(table, height) {
 }
 const turned = ([x, y], angle) => [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)];
 
-const fixed = (value, digits) =>
-  value.toLocaleString(document.documentElement.lang || "en", { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
 
 export default {
   template: `
@@ -24,7 +24,7 @@ export default {
         <button type="button" @click="near = false; fit()">{{ words.fit }}</button>
         <button type="button" v-if="content.meshes.length" @click="near = true; fit()">{{ words.mesh }}</button>
         <select v-if="content.meshes.length" v-model="flanks" :title="words.flanks" :aria-label="words.flanks"><option v-for="each in ['left', 'right']" :key="each" :value="each">{{ words[each] }}: {{ content.bodies[0].name }}</option><option value="both">{{ words.both }}</option></select>
-        <label v-if="helical" :title="words.height">z <input type="range" min="0" max="1" step="0.005" v-model.number="share" :aria-label="words.height" /> {{ fixed(height, 2) }} mm</label>
+        <label v-if="helical" :title="words.height">z <input type="range" min="0" max="1" step="0.005" v-model.number="share" :aria-label="words.height" /> {{ shown(height, 2, "mm") }}</label>
       </div>
       <p class="told" v-if="told" :style="toldAt">{{ told }}</p>
       <p class="nothing" v-if="empty">{{ words.nothing }}</p>
@@ -65,7 +65,7 @@ export default {
     cancelAnimationFrame(this.drawing);
   },
   methods: {
-    fixed,
+    shown,
     show(content, kept) {
       const former = this.extent();
       [this.content, this.kept, this.empty] = [content && Object.freeze(content), kept && Object.freeze(kept), !content];
@@ -382,7 +382,7 @@ export default {
           if (!body.teeth) continue;
           const [u, v] = this.to(this.place(body, this.turn));
           const off = Math.abs(Math.hypot(x - u, y - v) - (size / 2) * this.view.scale);
-          if (off < best) [best, text] = [off, `${body.name}: ${this.words[kind]} ${fixed(size, 4)} mm`];
+          if (off < best) [best, text] = [off, `${body.name}: ${this.words[kind]} ${shown(size, 4, "mm")}`];
         }
       [this.told, this.toldAt] = [text, { left: `${x + 12}px`, top: `${y + 12}px` }];
     },

@@ -8,14 +8,16 @@ from typing import Any, NamedTuple
 from nicegui import ui
 
 from gearcad.core.errors import GearcadError
+from gearcad.core.units import ShownUnit
 from gearcad.designs.reader import edit_spec
+from gearcad.designs.train_keys import UNITS
 from gearcad.designs.variations import column_symbol
 from gearcad.identify.standards import FREE
 from gearcad.page.charts import FOUND, FRONT, pairs_chart
 from gearcad.page.components.elements import CHART
 from gearcad.page.panels.search import SearchPanel, TaskPlace
 from gearcad.page.searches import IDENTIFIED
-from gearcad.page.words import PageWords
+from gearcad.page.words import PageLanguage, PageWords
 
 _ROW = """
 <q-tr :props="props" :class="{ taken: props.row.taken }" @click="() => $parent.$emit('take', props.row.id)">
@@ -30,19 +32,23 @@ _HEAD = '<q-th :props="props" :title="props.col.title">{{ props.col.label }}</q-
 
 
 class FoundColumn(NamedTuple):
-    """A column of a table: the key of its values, its heading, words, and the number of decimals (None: text)."""
+    """A column of a table: the key of its values, its heading, words, the number of decimals (None: text), and the unit.
+
+    Decimals and unit are those of the values; the page may show another unit.
+    """
 
     key: str
     label: str
     title: str
     decimals: int | None = None
+    unit: str = ""
 
 
 class FoundTable:
     """A table whose rows can be sorted, and taken: `take` hears the place of a row in its list."""
 
-    def __init__(self, columns: Sequence[FoundColumn], take: Callable[[int], None], *, comma: bool) -> None:
-        self._columns, self._comma = columns, comma
+    def __init__(self, columns: Sequence[FoundColumn], take: Callable[[int], None], words: PageWords) -> None:
+        self._columns, self._words = columns, words
         self._table = ui.table(columns=[], rows=[], row_key="id", pagination=0)
         self._table.props("dense flat hide-pagination binary-state-sort").classes("found-table")
         self._table.add_slot("body", _ROW)
@@ -53,21 +59,30 @@ class FoundTable:
         """Show rows; the one at a place is marked as taken."""
         rows = list(rows)
         filled = [column for column in self._columns if any(row.get(column.key) is not None for row in rows)]
-        self._table.columns = [_column(column, self._comma) for column in filled]
+        self._table.columns = [_column(column, self._words) for column in filled]
         self._table.rows = [
-            {column.key: row[column.key] for column in filled} | {"id": place, "taken": place == taken}
+            {column.key: _shown(row[column.key], column, self._words) for column in filled}
+            | {"id": place, "taken": place == taken}
             for place, row in enumerate(rows)
         ]
 
 
-def _column(column: FoundColumn, comma: bool) -> dict[str, Any]:
-    made = {"name": column.key, "field": column.key, "label": column.label, "title": column.title, "sortable": True}
+def _shown(value: Any, column: FoundColumn, words: PageWords) -> Any:
+    """Return a value of a column in the unit of the page."""
+    return words.unit(column.unit, column.key).of(value) if column.unit and isinstance(value, float) else value
+
+
+def _column(column: FoundColumn, words: PageWords) -> dict[str, Any]:
+    unit = words.unit(column.unit, column.key)
+    label = f"{column.label} {unit.name}".strip()
+    made = {"name": column.key, "field": column.key, "label": label, "title": column.title, "sortable": True}
     if column.decimals is None:
         return made | {"align": "left"}
-    decimal = ".replace('.', ',')" if comma else ""
+    decimal = ".replace('.', ',')" if words.language is PageLanguage.GERMAN else ""
+    decimals = max(column.decimals + unit.more_digits, 0)
     return made | {
         "align": "right",
-        ":format": f"value => typeof value === 'number' ? value.toFixed({column.decimals}){decimal} : ''",
+        ":format": f"value => typeof value === 'number' ? value.toFixed({decimals}){decimal} : ''",
     }
 
 
@@ -96,16 +111,18 @@ class SizePanel(SearchPanel):
             with self._results:
                 self._hint = ui.label(self._words["click a row or a point: it stands there as the design"]).classes("task-hint")
                 self._chart = CHART({"series": []}, on_point_click=self._point).classes("task-chart")
-                self._table = FoundTable(self._columns(self._words), self._take, comma=self._place.comma)
+                self._table = FoundTable(self._columns(self._words), self._take, self._words)
         self._draw(found)
 
     def _draw(self, found: Mapping[str, Any]) -> None:
         assert self._table is not None
         places = {row["name"]: place for place, row in enumerate(found["rows"])}
         self._table.show(found["rows"], places.get(self._taken))
-        words = {"margin": self._words["least safety over the required one"], "mass": self._words["mass in kg"]}
+        unit = self._words.unit("kg")
+        words = {"margin": self._words["least safety over the required one"], "mass": f"{self._words['mass']} ({unit.name})"}
+        chart = pairs_chart(_with_masses(found, unit), self._taken, words, comma=self._place.comma, unit=unit.name)
         self._chart.options.clear()
-        self._chart.options.update(pairs_chart(found, self._taken, words, comma=self._place.comma))
+        self._chart.options.update(chart)
         self._chart.update()
         self._results.set_visibility(bool(found["rows"]))
 
@@ -127,6 +144,12 @@ class SizePanel(SearchPanel):
             self._draw(self._shown)
 
 
+def _with_masses(found: Mapping[str, Any], unit: ShownUnit) -> dict[str, Any]:
+    """Return what a search for sizes has found, with its masses in the unit of the page."""
+    lists = {key: [row | {"mass": unit.of(row["mass"])} for row in found[key]] for key in ("rows", FRONT)}
+    return {**found, **lists, "cloud": [[margin, unit.of(mass)] for margin, mass in found["cloud"]]}
+
+
 class SetSizePanel(SizePanel):
     """Planetary sets for a torque, a ratio, a speed, a life and a material."""
 
@@ -140,16 +163,16 @@ class SetSizePanel(SizePanel):
     def _columns(words: PageWords) -> list[FoundColumn]:
         return [
             FoundColumn("name", words["set"], words["kind, teeth, planets, normal module and face width"]),
-            FoundColumn("mass", "kg", words["mass in kg"], 2),
+            FoundColumn("mass", "", words["mass"], 2, "kg"),
             FoundColumn("S_H", "S_H", words["safety of the flank against pitting"], 2),
             FoundColumn("S_F", "S_F", words["safety of the root against breakage"], 2),
             FoundColumn("i", "i", words["ratio"], 4),
             FoundColumn("off", "%", words["deviation from the ratio wanted"], 2),
             FoundColumn("planets", "N", words["number of planets"], 0),
-            FoundColumn("m", "m_n mm", words["normal module"], 2),
-            FoundColumn("b", "b mm", words["face width"], 1),
-            FoundColumn("diameter", "⌀ mm", words["diameter over all teeth"], 1),
-            FoundColumn("a", "a mm", words["centre distance"], 2),
+            FoundColumn("normal_module", "m_n", words["normal module"], 2, "mm"),
+            FoundColumn("b", "b", words["face width"], 1, "mm"),
+            FoundColumn("diameter", "⌀", words["diameter over all teeth"], 1, "mm"),
+            FoundColumn("a", "a", words["centre distance"], 2, "mm"),
             FoundColumn("K_gamma", "K_γ", words["mesh load factor"], 2),
         ]
 
@@ -157,18 +180,18 @@ class SetSizePanel(SizePanel):
 def _pair_columns(words: PageWords) -> list[FoundColumn]:
     return [
         FoundColumn("name", words["pair"], words["teeth, normal module and helix angle"]),
-        FoundColumn("mass", "kg", words["mass in kg"], 2),
+        FoundColumn("mass", "", words["mass"], 2, "kg"),
         FoundColumn("S_H", "S_H", words["safety of the flank against pitting"], 2),
         FoundColumn("S_F", "S_F", words["safety of the root against breakage"], 2),
-        FoundColumn("a", "a mm", words["centre distance"], 1),
-        FoundColumn("b", "b mm", words["face width"], 1),
+        FoundColumn("a", "a", words["centre distance"], 1, "mm"),
+        FoundColumn("b", "b", words["face width"], 1, "mm"),
         FoundColumn("u", "u", words["gear ratio"], 3),
         FoundColumn("eps_a", "ε_α", words["transverse contact ratio"], 2),
         FoundColumn("eps_b", "ε_β", words["overlap ratio"], 2),
         FoundColumn("sliding", "ζ", words["greatest specific sliding"], 2),
-        FoundColumn("temperature", "°C", words["integral temperature"], 0),
+        FoundColumn("temperature", "", words["integral temperature"], 0, "°C"),
         FoundColumn("ripple", "%", words["change of the length of the lines of contact"], 0),
-        FoundColumn("error", "TE µm", words["transmission error, peak to peak"], 2),
+        FoundColumn("error", "TE", words["transmission error, peak to peak"], 2, "µm"),
     ]
 
 
@@ -185,7 +208,7 @@ class IdentifyPanel(SearchPanel):
         if self._table is None:
             with self._results:
                 ui.label(self._words["click a row: it stands there as the design"]).classes("task-hint")
-                self._table = FoundTable(_gear_columns(self._words), self._take, comma=self._place.comma)
+                self._table = FoundTable(_gear_columns(self._words), self._take, self._words)
         self._table.show(self._rows(), None)
 
     def _take(self, place: int) -> None:
@@ -205,11 +228,11 @@ def _gear_columns(words: PageWords) -> list[FoundColumn]:
     return [
         FoundColumn("name", words["series"], words["series of the module or diametral pitch"]),
         FoundColumn("probability", "%", words["probability"], 1),
-        FoundColumn("module", "m_n mm", words["normal module"], 4),
+        FoundColumn("normal_module", "m_n", words["normal module"], 4, "mm"),
         FoundColumn("pressure_angle", "α_n °", words["normal pressure angle"], 2),
         FoundColumn("helix_angle", "β °", words["helix angle"], 2),
         FoundColumn("shift", "x", words["profile shift"], 3),
-        FoundColumn("thinning", "A_sn mm", words["tooth thinning (normal)"], 3),
+        FoundColumn("thinning", "A_sn", words["tooth thinning (normal)"], 3, "mm"),
         FoundColumn("chi_square", "χ²", words["sum of the squared deviations"], 1),
     ]
 
@@ -230,21 +253,19 @@ class ModifyPanel(SearchPanel):
             with ui.element("table").classes("task-table"):
                 _line("th", "", self._words["before"], self._words["after"], "")
                 for key, (words, unit, digits) in _figures(self._words).items():
-                    values = (self._number(found[side][key], digits) for side in ("before", "after"))
-                    _line("td", words, *values, unit)
+                    shown = self._words.unit(unit)
+                    values = (self._words.number(shown.text(found[side][key], digits)) for side in ("before", "after"))
+                    _line("td", words, *values, shown.name)
             with ui.element("table").classes("task-table"):
                 for key, value in found["changes"].items():
                     if key != "pair.name":
-                        shown = value if isinstance(value, str) else self._number(value, 2)
-                        _line("td", self._key_words(key), "", shown, self._words.message(found["notes"].get(key, "")))
+                        said = value if isinstance(value, str) else self._words.measure(value, 2, UNITS.get(key, "")).strip()
+                        _line("td", self._key_words(key), "", said, self._words.message(found["notes"].get(key, "")))
 
     def _key_words(self, key: str) -> str:
         """Return the words of a key of a gear's modification."""
         owner, symbol = column_symbol(f"{self.kind}.{key}") or ("", None)
         return key if symbol is None else f"{self._words.table.get(owner.capitalize(), owner)}: {self._words[symbol.words]}"
-
-    def _number(self, value: float, decimals: int) -> str:
-        return self._words.number(f"{value:.{decimals}f}")
 
     def _take(self) -> None:
         """Write the modifications into the text of the design, whatever else has changed there since."""

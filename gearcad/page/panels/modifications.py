@@ -7,6 +7,7 @@ from typing import Any
 
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import JsonObject
+from gearcad.core.units import UnitSystem
 from gearcad.designs.design import Design
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.page.components.elements import ModificationsView
@@ -14,6 +15,9 @@ from gearcad.page.live_modifications import QUICK, DrawnModification, drawn_gear
 from gearcad.page.panels import Panel
 from gearcad.page.words import PageWords
 from gearcad.page.workbench import Workbench
+
+_INCH_DIGITS = 2
+"""Decimals that values (mm, µm) have more where inches are typed: a whole µin has two."""
 
 
 class ModificationsPanel(Panel[JsonObject | None]):
@@ -28,6 +32,7 @@ class ModificationsPanel(Panel[JsonObject | None]):
         self._step: int | None = None
         self._shown: JsonObject | None = None
         self._before: JsonObject | None = None
+        self._finer = 0 if words.units is UnitSystem.METRIC else _INCH_DIGITS
         self.look: Callable[[], None] = lambda: None
         self._view = ModificationsView(self._drawn, self._released, _own(words))
 
@@ -53,7 +58,7 @@ class ModificationsPanel(Panel[JsonObject | None]):
         if not isinstance(design, PairDesign) or not isinstance(values, Mapping) or not isinstance(step, int):
             return
         try:
-            drawn = DrawnModification.of(str(told.get("role")), values, design)
+            drawn = DrawnModification.of(str(told.get("role")), values, design, finer=self._finer)
         except ParameterError:
             return
         if step != self._step:

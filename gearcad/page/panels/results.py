@@ -155,18 +155,19 @@ def _told(content: JsonObject, words: PageWords) -> str:
     """The model of a check, and its greatest figures."""
     summary, limits = content["summary"], limits_of(content)
     model = words["plane model"] if content["model"] == "2d" else words["solid bodies"]
-    roots = " / ".join(words.number(f"{summary[f'root_tension_{role.value}']:.1f}") for role in Role)
-    pressure = words.number(f"{limits['pressure']:.1f}")
+    stress = words.unit("MPa")
+    roots = " / ".join(words.number(stress.text(summary[f"root_tension_{role.value}"], 1)) for role in Role)
     figures = [
-        f"{words['contact pressure']} {pressure} MPa",
-        f"{words['root tension']} {words['Pinion']} / {words['Wheel']} {roots} MPa",
+        f"{words['contact pressure']} {words.measure(limits['pressure'], 1, 'MPa')}",
+        f"{words['root tension']} {words['Pinion']} / {words['Wheel']} {roots} {stress.name}",
         f"{words['transmission error, peak to peak']} {_micrometres(summary['transmission_error_peak_to_peak'], words)}",
     ]
     return f"{model[:1].upper()}{model[1:]}, {content['name']}: {', '.join(figures)}"
 
 
 def _micrometres(value: float, words: PageWords) -> str:
-    return f"{words.number(f'{value:.3g}')} µm"
+    unit = words.unit("µm")
+    return f"{words.number(f'{unit.of(value):.3g}')} {unit.name}"
 
 
 def _axis(name: str, /, **more: Any) -> dict[str, Any]:
@@ -206,10 +207,13 @@ def _curves_view(content: JsonObject, words: PageWords) -> dict[str, Any]:
     curves = content["curves"]
     angles: list[float] = curves["roll_angle"]
     shares = [[100 * share for share in pairs] for pairs in zip(*curves["load_share"], strict=True)]
+    length, stiffness = words.unit("µm"), words.unit("N/(mm·µm)")
+    errors = list(map(length.of, curves["transmission_error"]))
+    stiffnesses = list(map(stiffness.of, curves["mesh_stiffness"]))
     strips = [
         (f"{words['load share of each pair of teeth']} (%)", shares),
-        (f"{words['transmission error']} (µm)", [curves["transmission_error"]]),
-        (f"{words['mesh stiffness']} (N/(mm·µm))", [curves["mesh_stiffness"]]),
+        (f"{words['transmission error']} ({length.name})", [errors]),
+        (f"{words['mesh stiffness']} ({stiffness.name})", [stiffnesses]),
     ]
     ends: dict[str, Any] = {"min": angles[0], "max": angles[-1]}
     option: dict[str, Any] = {"animation": False, "title": [], "grid": [], "xAxis": [], "yAxis": [], "series": []}
@@ -239,8 +243,18 @@ def _curves_view(content: JsonObject, words: PageWords) -> dict[str, Any]:
                 "course": greatest,
                 "digits": 1,
             },
-            {"words": words["transmission error"], "unit": "µm", "course": curves["transmission_error"], "digits": 2},
-            {"words": words["mesh stiffness"], "unit": "N/(mm·µm)", "course": curves["mesh_stiffness"], "digits": 2},
+            {
+                "words": words["transmission error"],
+                "unit": length.name,
+                "course": errors,
+                "digits": max(2 + length.more_digits, 0),
+            },
+            {
+                "words": words["mesh stiffness"],
+                "unit": stiffness.name,
+                "course": stiffnesses,
+                "digits": max(2 + stiffness.more_digits, 0),
+            },
         ],
     }
 
@@ -249,19 +263,22 @@ def _flank_view(content: JsonObject, words: PageWords) -> dict[str, Any]:
     """The greatest contact pressure on both flanks unrolled: face width across, roll length up."""
     pattern, limits = content["pattern"], limits_of(content)
     is_plane = content["model"] == "2d"
+    length, stress = words.unit("mm"), words.unit("MPa")
     across = [words["whole face width"]] if is_plane else [_plain(each, words) for each in pattern["across"]]
     option: dict[str, Any] = {"animation": False, "title": [], "grid": [], "xAxis": [], "yAxis": [], "series": []}
     for n, role in enumerate(Role):
         rows = sorted(zip(pattern[role.value], pattern["pressure"], strict=True), key=lambda row: row[0])
-        cells = [[i, j, value] for j, (_, row) in enumerate(rows) for i, value in enumerate(row) if value is not None]
+        cells = [
+            [i, j, stress.of(value)] for j, (_, row) in enumerate(rows) for i, value in enumerate(row) if value is not None
+        ]
         beside = {"left": 64, "right": "58%"} if n == 0 else {"left": "52%", "right": 104}
         option["grid"].append({**beside, "top": 26, "bottom": 46})
-        name = "" if is_plane else f"{words['across the face width']} (mm)"
+        name = "" if is_plane else f"{words['across the face width']} ({length.name})"
         category = {"type": "category", "axisTick": {"show": False}, "splitLine": {"show": False}}
         under = {"nameLocation": "middle", "nameGap": 24, "nameTextStyle": _TEXT}
         option["xAxis"].append(_axis(name, gridIndex=n, **(category | under), data=across))
         rolls = [_plain(roll, words) for roll, _ in rows]
-        title = f"{words[role.value.capitalize()]}: {words['roll length']} (mm)"
+        title = f"{words[role.value.capitalize()]}: {words['roll length']} ({length.name})"
         option["title"].append(
             {"text": title, "left": beside["left"], "top": 2, "textStyle": {**_TEXT, "fontWeight": "normal"}}
         )
@@ -270,13 +287,13 @@ def _flank_view(content: JsonObject, words: PageWords) -> dict[str, Any]:
         option["series"].append({"type": "heatmap", "xAxisIndex": n, "yAxisIndex": n, "data": cells, "name": title})
     option["visualMap"] = {
         "min": 0,
-        "max": limits["pressure"],
+        "max": stress.of(limits["pressure"]),
         "calculable": False,
         "orient": "vertical",
         "right": 4,
         "top": 30,
         "itemHeight": 110,
-        "text": [words.number(f"{limits['pressure']:.0f}") + " MPa", "0"],
+        "text": [words.measure(limits["pressure"], 0, "MPa"), "0"],
         "textStyle": _TEXT,
     }
     option["tooltip"] = {"position": "top", "textStyle": {"fontSize": 13}}
@@ -296,7 +313,7 @@ def _flank_view(content: JsonObject, words: PageWords) -> dict[str, Any]:
 
 
 def _plain(value: float, words: PageWords) -> str:
-    return words.number(f"{value:.1f}")
+    return words.number(words.unit("mm").text(value, 1))
 
 
 def _speed_view(content: JsonObject, words: PageWords) -> dict[str, Any]:
@@ -359,7 +376,7 @@ def coloured_kinds(content: JsonObject, design: Design, words: PageWords) -> lis
             "key": key,
             "words": said[key],
             "most": most,
-            "told": f"{words.number(f'{most:.0f}')} MPa",
+            "told": words.measure(most, 0, "MPa"),
             "surfaces": {role.value: teeth[role.value][key] for role in Role},
             "on": on,
         }

@@ -14,6 +14,7 @@ from gearcad.core.records import Verdict
 from gearcad.core.runtime import Expected, about, about_memory
 from gearcad.designs.design import Design
 from gearcad.designs.planetary_designs import PlanetaryDesign
+from gearcad.designs.train_keys import UNITS
 from gearcad.designs.variations import column_of_train, column_symbol
 from gearcad.page.components.elements import RunsView
 from gearcad.page.fields import given_texts
@@ -32,10 +33,15 @@ def verb_of(run: Run) -> str:
     return RUNS[run.asked.kind].job().verb
 
 
-def changes_between(former: Mapping[str, str], given: Mapping[str, str]) -> list[str]:
+def changes_between(former: Mapping[str, str], given: Mapping[str, str], words: PageWords) -> list[str]:
     """Return the differences between two specs as words, one for each key; beyond a limit only their number is given."""
+
+    def shown(texts: Mapping[str, str], key: str) -> str:
+        unit = words.unit(UNITS.get(key, ""), key)
+        return unit.shown(texts[key]) if key in texts else "-"
+
     keys = [key for key in dict.fromkeys((*former, *given)) if former.get(key) != given.get(key)]
-    told = [f"{key} {former.get(key, '-')} → {given.get(key, '-')}" for key in keys[:_MOST_CHANGES]]
+    told = [f"{key} {shown(former, key)} → {shown(given, key)}" for key in keys[:_MOST_CHANGES]]
     return told if len(keys) <= _MOST_CHANGES else [*told, f"+ {len(keys) - _MOST_CHANGES}"]
 
 
@@ -45,17 +51,19 @@ def figures_beside(runs: Sequence[Run], words: PageWords) -> list[dict[str, Any]
     symbol_of = column_of_train if verb == "planetary" else column_symbol
     found = []
     for key in dict.fromkeys(key for each in runs for key in each.figures):
-        cells = [_text(each.figures.get(key), words) for each in runs]
+        values = [each.figures.get(key) for each in runs]
+        owner, symbol = symbol_of(f"{verb}.{key}") or ("", None)
+        unit = words.unit(symbol.unit if symbol else "", key)
+        cells = [_text(unit.of(value) if isinstance(value, float) else value, words) for value in values]
         if not any(cells):
             continue
-        owner, symbol = symbol_of(f"{verb}.{key}") or ("", None)
         said = words[symbol.words] if symbol and symbol.words else words.message(key.replace("_", " "))
         found.append(
             {
                 "key": key,
                 "words": words.divided(f"{words.table.get(owner.capitalize(), owner)}: {said}" if owner else said),
                 "symbol": symbol.parts if symbol else (),
-                "unit": symbol.unit if symbol else "",
+                "unit": unit.name,
                 "cells": cells,
                 "differs": len(set(cells)) > 1,
             }
@@ -275,7 +283,7 @@ class RunsPanel:
             heads = [
                 {
                     "number": each.number,
-                    "changes": changes_between(former.given, each.given) if former else [],
+                    "changes": changes_between(former.given, each.given, self._words) if former else [],
                 }
                 for each, former in zip(runs, [*runs[1:], None], strict=True)
             ]

@@ -11,7 +11,7 @@ from nicegui import ui
 from gearcad.core.errors import GearcadError, ParameterError
 from gearcad.core.symbols import parts_of
 from gearcad.page.fields import given_texts
-from gearcad.page.forms import FormField, form_fields, missing_keys, options_of, usual_text
+from gearcad.page.forms import FormField, fields_in, form_fields, missing_keys, options_of, usual_text
 from gearcad.page.runs import Run, Runs, RunState
 from gearcad.page.words import PageLanguage, PageWords
 from gearcad.page.workbench import Workbench
@@ -49,7 +49,7 @@ class FormView:
     def __init__(self, kind: str, place: TaskPlace, enter: Callable[[], None]) -> None:
         self._kind, self._place, self._words, self._enter = kind, place, place.words, enter
         self._fields: dict[str, Any] = {}
-        fields = form_fields(kind)
+        fields = fields_in(kind, place.words.units)
         with ui.element("div").classes("task-form"):
             for field in fields:
                 if field.first:
@@ -81,7 +81,7 @@ class FormView:
                     None, (field.symbol or ("" if field.choices else self._words[field.words]), typed[field.key], field.unit)
                 )
             )
-            for field in form_fields(self._kind)
+            for field in fields_in(self._kind, self._words.units)
             if field.key in typed
         )
         return " · ".join(parts) or self._words["task"]
@@ -96,7 +96,7 @@ class FormView:
             self._fields[missing[0]].run_method("focus")
             return None
         try:
-            return options_of(self._kind, self.typed, comma=self._place.comma)
+            return options_of(self._kind, self.typed, comma=self._place.comma, units=self._words.units)
         except ParameterError as error:
             self.blame(error)
             return None

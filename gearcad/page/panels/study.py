@@ -9,7 +9,11 @@ from typing import Any, NamedTuple
 from nicegui import background_tasks, run, ui
 
 from gearcad.core.errors import GearcadError, ParameterError
+from gearcad.core.symbols import Symbol
+from gearcad.core.units import ShownUnit
 from gearcad.designs.design import Design
+from gearcad.designs.keys import DesignKind
+from gearcad.designs.train_keys import UNITS
 from gearcad.designs.variations import column_of_train, column_symbol
 from gearcad.page.charts import CELLS, map_chart, nearest
 from gearcad.page.components.elements import CHART
@@ -130,8 +134,9 @@ class StudyPanel(SearchPanel):
         whole = axis.key.value.endswith("teeth")
         reach = float(_STEPS) if whole else abs(value) * _SHARE or 1.0
         reach = reach if whole else float(f"{reach:.1g}")
+        unit = self._unit(axis.key.value)
         for field, number in ((axis.first, value - reach), (axis.last, value + reach)):
-            field.set_value(self._words.number(f"{number:.6g}"))
+            field.set_value(self._words.number(f"{unit.of(number):.6g}"))
         axis.count.set_value(str(2 * _STEPS + 1 if whole else _COUNT))
 
     def _options(self) -> dict[str, Any] | None:
@@ -160,7 +165,7 @@ class StudyPanel(SearchPanel):
     def _vary(self, axis: _Axis) -> str:
         """Return what was typed for a key as `gearcad study` has it. Raises ParameterError."""
         key, texts = str(axis.key.value), [str(field.value or "").strip()[:_LONGEST] for field in axis[1:]]
-        first, last = (number_of(key, text) for text in texts[:2])
+        first, last = (number_of(key, self._unit(key).stored(text)) for text in texts[:2])
         if not texts[2].isdecimal():
             raise ParameterError(key, texts[2], "must have a whole number of values")
         return f"{key}={first!r}:{last!r}:{int(texts[2])}".replace(".0:", ":")
@@ -175,13 +180,29 @@ class StudyPanel(SearchPanel):
                 self._told = ui.label().classes("task-hint")
         words = {"across": self._key_words(found["across"]), "up": self._key_words(found["up"])}
         self._place_marked = self._marked(found)
-        chart = map_chart(found, (self._value(found["across"]), self._value(found["up"])), words, comma=self._place.comma)
+        present = [self._unit(found[side]).of(self._value(found[side])) for side in ("across", "up")]
+        chart = map_chart(self._in_units(found), (present[0], present[1]), words, comma=self._place.comma)
         self._chart.options.clear()
         self._chart.options.update(chart)
         self._chart.update()
         faults = [line for *_, line in found["cells"] if line]
         told = f"{self._words['designs without gears']}: {len(faults)} / {len(found['cells'])}. "
         self._told.set_text(told + self._words.message(faults[0]) if faults else "")
+
+    def _unit(self, key: str) -> ShownUnit:
+        """Return the unit in which the values of a key are shown."""
+        return self._words.unit(UNITS.get(key, ""), key)
+
+    def _in_units(self, found: Mapping[str, Any]) -> dict[str, Any]:
+        """Return a map with its axes and its result in the units of the page."""
+        axes = {
+            ends: [_shown(each, self._unit(found[key])) for each in found[ends]]
+            for ends, key in (("xs", "across"), ("ys", "up"))
+        }
+        symbol = _symbol_of(found["result"], self._design)
+        unit = self._words.unit(symbol[1].unit if symbol else "", found["result"])
+        cells = [(x, y, None if value is None else unit.of(value), line) for x, y, value, line in found["cells"]]
+        return {**found, **axes, "cells": cells}
 
     def _marked(self, found: Mapping[str, Any]) -> tuple[int | None, int | None]:
         """Return the place across and up of the cell that is nearest to the present design."""
@@ -236,6 +257,11 @@ class StudyPanel(SearchPanel):
             self._line.set_text(self._words.message(str(error)))
 
 
+def _shown(value: Any, unit: ShownUnit) -> Any:
+    """Return a value of an axis in the unit of the page; a whole number stays one where that is its own."""
+    return value if unit.size == 1 or not isinstance(value, int | float) else unit.of(value)
+
+
 def _typed(value: Any) -> str:
     """Return a value as somebody would type it."""
     return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
@@ -248,7 +274,9 @@ def _keys(design: Design, tables: Mapping[str, Any], words: PageWords) -> Iterat
             for field in group["fields"]:
                 if field["number"] and not field["choices"]:
                     title = ": ".join(filter(None, (words[table["title"]], *(words[each] for each in group["titles"]))))
-                    yield field["key"], " ".join(filter(None, (f"{title}: {words[field['words']]}", field["symbol"])))
+                    unit = words.unit(field["unit"], field["key"]).name
+                    said = " ".join(filter(None, (f"{title}: {words[field['words']]}", field["symbol"])))
+                    yield field["key"], f"{said} ({unit})" if unit else said
 
 
 def _usual_keys(keys: Mapping[str, str], given: Mapping[str, str]) -> list[str | None]:
@@ -264,11 +292,19 @@ def _is_number(text: str) -> bool:
         return False
 
 
+def _symbol_of(key: str, design: Design | None) -> tuple[str, Symbol] | None:
+    """Return whose figure a column of a table of results is, and its symbol; None for a column without one."""
+    is_train = design is not None and design.kind is DesignKind.PLANETARY
+    return (column_of_train if is_train else column_symbol)(key)
+
+
 def _column_words(key: str, design: Design, words: PageWords) -> str:
     """Return the words of a column of a table of results."""
-    found = (column_of_train if design.kind.value == "planetary" else column_symbol)(key)
+    found = _symbol_of(key, design)
     if found is None:
         return key
     owner, symbol = found
+    unit = words.unit(symbol.unit, key).name
     said = f"{words[symbol.words]} {symbol.symbol}".strip() or key
+    said = f"{said} ({unit})" if unit else said
     return f"{words.table.get(owner.capitalize(), owner)}: {said}" if owner else said

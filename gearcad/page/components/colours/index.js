@@ -61,7 +61,7 @@ function placeOf(section, mesh, side, tooth) {
 }
 
 // Colours of one result on the teeth of the section: pressure where a contact passes the flank, tension of the root as it is now.
-export function paintSection(section, pen, result, limits, fixed, unit) {
+export function paintSection(section, pen, result, limits, told, fixed) {
   for (const mesh of meshesOf(section, result)) {
     const side = sideOf(section, mesh, result);
     const towards = mesh.towards + (mesh.orbit ?? 0) * section.turn;
@@ -87,7 +87,7 @@ export function paintSection(section, pen, result, limits, fixed, unit) {
       for (let tooth = 0; tooth < count; tooth += 1)
         paintTooth(section, pen, body, place, stand + tooth * pitch, flank, result, role, touching[tooth], limits);
     }
-    paintContacts(section, pen, result, places, on, limits, fixed, unit);
+    paintContacts(section, pen, result, places, on, limits, told, fixed);
   }
 }
 
@@ -138,7 +138,7 @@ function paintTooth(section, pen, body, centre, angle, flank, result, role, touc
 }
 
 // Pressure and share of the load beside each contact.
-function paintContacts(section, pen, result, places, on, limits, fixed, unit) {
+function paintContacts(section, pen, result, places, on, limits, told, fixed) {
   if (result.base_pitch * section.view.scale < LEAST) return;
   const { place: known, pressure, share } = result.contacts;
   pen.font = "13px system-ui, sans-serif";
@@ -153,7 +153,7 @@ function paintContacts(section, pen, result, places, on, limits, fixed, unit) {
     pen.lineWidth = 1.5;
     pen.fill();
     pen.stroke();
-    const words = `${pressed === null ? "-" : fixed(pressed, 0)} ${unit}, ${fixed(100 * carried, 0)} %`;
+    const words = `${pressed === null ? "-" : told(pressed)}, ${fixed(100 * carried, 0)} %`;
     const width = pen.measureText(words).width;
     pen.fillStyle = section.colours.paper;
     pen.globalAlpha = 0.85;
