@@ -12,7 +12,7 @@ from gearcad.identify import Measurements
 
 __all__ = ["key_tables"]
 
-_PARTS = ("rack", "cutter", "premachining", "finishing", "double_helix", "body", "modification")
+_PARTS = ("rack", "cutter", "premachining", "finishing", "making", "double_helix", "body", "modification")
 _BESIDE = ("material", "load", "mounting", "rating", "check", "mesh", "dynamics", "drawing", "verify")
 
 

@@ -65,16 +65,26 @@ _OPTIONS = (
 @format_option
 @files_options
 @click.option("--stage", default="finished", show_default=True, help="precut (before the flanks are finished) or finished.")
+@click.option("--as-made", is_flag=True, help="Write each gear with a table making as its mould, print or path is made, too.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document: the files and the warnings.")
 @click.option("--quiet", is_flag=True, help="No progress and no warnings on the screen.")
 @debug_option
-def build(spec: Path, output: Path | None, formats: str, options: FileOptions, stage: str, as_json: bool, quiet: bool) -> None:
+def build(
+    spec: Path,
+    output: Path | None,
+    formats: str,
+    options: FileOptions,
+    stage: str,
+    as_made: bool,
+    as_json: bool,
+    quiet: bool,
+) -> None:
     from gearcad.core.output import json_text
     from gearcad.designs.reader import read_spec
     from gearcad.jobs.build import Build
     from gearcad.jobs.job import with_summary
 
-    job = Build(formats=parse_choices("format", formats, Format), options=options, stage=stage)
+    job = Build(formats=parse_choices("format", formats, Format), options=options, stage=stage, as_made=as_made)
     design = job.run(read_spec(spec))
     folder = folder_of(output, design.name)
     with file_progress(shown=not quiet) as progress:

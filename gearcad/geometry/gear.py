@@ -13,9 +13,10 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
-from gearcad.core.errors import GeometryError, InputError, format_number
-from gearcad.core.quantities import derive
+from gearcad.core.errors import GeometryError, InputError, at_most, format_number
+from gearcad.core.quantities import Derived, derive
 from gearcad.core.records import Floats, JsonObject, Notice, concise
+from gearcad.geometry.as_made import MadeTeeth
 from gearcad.geometry.curves import Curve, CurveKind, Involute, Land
 from gearcad.geometry.feasibility import check_given, check_tool, trimming_notices
 from gearcad.geometry.gear_data import GearData, check_body
@@ -90,6 +91,8 @@ class Gear(GearData):
             check_flanks(self.flank_form, self.profile)
         except InputError as error:
             raise error.within("modification") from None
+        if self.making.present:
+            self.as_made  # noqa: B018 - refuses what cannot be made
 
     # ------------------------------------------------------------------ the tooth
 
@@ -246,6 +249,43 @@ class Gear(GearData):
     def _repr_html_(self) -> str:
         return gear_html(self, self.profile)
 
+    @property
+    def first_layer(self) -> float:
+        """Height (mm) of the step at the lower end, and its depth; 0 but for a print as it is made."""
+        return 0.0
+
+    @cached_property
+    def as_made(self) -> Gear:
+        """The gear as its mould, print or path is made; itself where no process is named."""
+        return AsMadeGear.of(self) if self.making.present else self
+
+    def _making_document(self) -> JsonObject:
+        """Return the sizes (mm) of the gear, and of what is made for it."""
+        made, size = self.as_made, "between_balls" if self.internal else "over_balls"
+        assert isinstance(made, AsMadeGear)
+        teeth, ball, scale = self.span_teeth, self.ball_diameter, self.making.radial_scale
+        names = ("tip_diameter", "root_diameter", "form_diameter")
+
+        def sizes(gear: Gear, thickness: float, span: float | None, over: float | None) -> JsonObject:
+            found = {name: getattr(gear, name) for name in names}
+            found |= {"normal_tooth_thickness": thickness, "span_teeth": teeth, "span_measurement": span}
+            return found | {"ball_diameter": ball, size: over, "face_width": gear.face_width, "bore": gear.body.bore}
+
+        measured = self.between_balls if self.internal else self.over_balls
+        thickness = made.made.thickness_at(scale * abs(self.reference_diameter) / 2)
+        span = None if teeth is None else made.made.span_over(teeth)
+        document: JsonObject = {
+            "nominal": sizes(self, self.normal_tooth_thickness, None if teeth is None else self.span_measurement, measured),
+            "as_made": sizes(made, thickness, span, made.made.over_balls(ball)),
+        }
+        if self.making.process == "mould":
+            document["cavity"] = made.made.cavity_document()
+        if self.making.cuts:
+            document["path_offset"] = made.made.offset
+            document["path_tolerance"] = self.making.arc_tolerance
+            document["lead_in"] = self.making.lead_length(self.normal_module)
+        return document
+
     # ------------------------------------------------------------------ before the flanks are finished
 
     @cached_property
@@ -324,10 +364,12 @@ class Gear(GearData):
         parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix", "body")}
         parts["body"]["hub_side"] = self.body.hub_side.value
         parts["modification"] = self.flank_form.to_dict()
-        two_steps = {"premachining", "finishing"}
+        two_steps = {"premachining", "finishing", "making"}
         inputs = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in parts.keys() | two_steps}
         if self.premachining.present:
             parts |= {"premachining": self._premachining_document(), "finishing": asdict(self.finishing)}
+        if self.making.present:
+            parts["making"] = self.making.inputs | self._making_document()
         names = (*_DERIVED, *(_OF_RINGS if self.internal else _OF_EXTERNAL))
         derived = {name: getattr(self, name) for name in names}
         if math.isinf(self.lead):
@@ -336,6 +378,117 @@ class Gear(GearData):
             derived["thickness_limits"] = self.thickness_limits.to_dict()
         warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}
         return {**inputs, **parts, **derived, **warnings}
+
+
+@dataclass(frozen=True, kw_only=True)
+class AsMadeGear(Gear):
+    """A gear as its mould, print or path is made: `made` is its outline, and its sizes are those as made.
+
+    Obtained as `gear.as_made`. Without modification of the flanks. Raises GeometryError for a body that is not possible.
+    """
+
+    made: MadeTeeth
+
+    __repr__ = concise
+
+    @classmethod
+    def of(cls, gear: Gear, set_back: float = 0.0) -> AsMadeGear:
+        """Return a gear as it is made, or as the path that cuts it; its outline set back by so much (mm) more."""
+        making, side = gear.making, gear._side
+        made = MadeTeeth(gear, gear.profile, rounded=making.cuts, set_back=set_back)
+        radial, axial, helix = making.radial_scale, making.axial_scale, gear.double_helix
+        slope = math.tan(math.radians(gear.helix_angle)) * radial / axial
+        gap = helix.gap_diameter
+        changed = {
+            "made": made,
+            "normal_module": gear.normal_module * radial,
+            "normal_diametral_pitch": Derived(gear.normal_diametral_pitch / radial),
+            "helix_angle": math.degrees(math.atan(slope)),
+            "face_width": made.face_width,
+            "tip_diameter": 2 * side * made.tip_radius,
+            "root_diameter": 2 * side * made.root_radius,
+            "body": made.body,
+            "double_helix": replace(
+                helix,
+                gap_width=None if helix.gap_width is None else helix.gap_width * axial,
+                gap_diameter=None if gap is None else gap * radial + 2 * made.offset,
+            ),
+            "modification": FlankModification(),
+        }
+        return cls(**{each.name: getattr(gear, each.name) for each in fields(gear)} | changed)
+
+    def __post_init__(self) -> None:
+        try:
+            check_body(self)
+        except GeometryError as error:
+            key = "first_layer" if self.made.set_back else "offset"
+            permitted = f"must leave a body: as made its {error.parameter} {error.permitted}"
+            raise GeometryError(f"making.{key}", getattr(self.making, key), permitted, "mm") from None
+        if self.first_layer:
+            self._check_foot()
+
+    def _check_foot(self) -> None:
+        """Raise GeometryError unless the teeth stand on the first layer, and something is left of it."""
+        height, nominal = self.first_layer, self.nominal
+        for name, there in (
+            ("body.end_chamfer", nominal.body.end_chamfer),
+            ("body.hub_side", nominal.body.hub_ends[0]),
+            ("double_helix.gap_width", nominal.double_helix.present),
+        ):
+            if there:
+                permitted = f"must be left out beside {name}: it is for teeth that stand on the first layer with a plane end"
+                raise GeometryError("making.first_layer", height, permitted, "mm")
+        if height >= self.face_width:
+            raise GeometryError(
+                "making.first_layer", height, f"must be below {at_most(self.face_width)} mm, the face width", "mm"
+            )
+        self.foot  # noqa: B018 - checks its outline
+
+    @property
+    def nominal(self) -> Gear:
+        """The gear that is made."""
+        assert isinstance(self.made.gear, Gear)
+        return self.made.gear
+
+    @property
+    def first_layer(self) -> float:
+        """Height (mm) of the first layer, over which the outline is set back by as much."""
+        return 0.0 if self.made.set_back else self.making.first_layer
+
+    @cached_property
+    def foot(self) -> AsMadeGear:
+        """The gear set back by the spread of the first layer."""
+        return AsMadeGear.of(self.nominal, self.first_layer)
+
+    @property
+    def profile(self) -> ToothProfile:
+        """The outline of a tooth as it is made."""
+        return self.made.profile
+
+    @property
+    def normal_tooth_thickness(self) -> float:
+        """Normal tooth thickness s_n (mm) on the scaled reference circle."""
+        return self.made.thickness_at(abs(self.reference_diameter) / 2)
+
+    @property
+    def base_half_angle(self) -> float:
+        """Half tooth angle on the base circle (degrees), of a flank that is an involute."""
+        return self._side * self.profile.base_half_angle
+
+    @cached_property
+    def transverse_module(self) -> float:
+        """m_t, scaled."""
+        return self.made.gear.transverse_module * self.making.radial_scale
+
+    @cached_property
+    def transverse_pressure_angle(self) -> float:
+        """alpha_t of the nominal gear: scaling does not change it."""
+        return self.made.gear.transverse_pressure_angle
+
+    @cached_property
+    def base_helix_angle(self) -> float:
+        """beta_b of the scaled flank."""
+        return math.degrees(math.atan(self.made.twist * self.made.base_radius))
 
 
 class PrecutGear(Gear):
@@ -445,6 +598,8 @@ def flank_curves(gear: Gear) -> list[FlankCurve]:
             found.append(FlankCurve(curve, form.first, form.first, fading))
         elif curve.kind is CurveKind.CHAMFER:
             found.append(FlankCurve(curve, form.last, form.last))
+        elif not isinstance(curve, Involute) and curve.kind is CurveKind.INVOLUTE:  # of teeth as they are made
+            found.append(FlankCurve(curve, 0.0, 0.0))
         elif isinstance(curve, Involute):
             breaks = form.roll_breaks if gear.modification.present else ()
             lengths = [form.first, *breaks, form.last]

@@ -17,6 +17,7 @@ from gearcad.core.quantities import NOT_GIVEN, Derived, Range, Whole, Words, is_
 from gearcad.core.records import Floats
 from gearcad.geometry.fits import ToothAllowance, tooth_thickness_allowance
 from gearcad.geometry.gear_parts import ISO53_A, BasicRack, Body, DoubleHelix, NormalDiametralPitch, NormalModule, ShaperCutter
+from gearcad.geometry.making import Making
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.premachining import Finishing, Premachining
 from gearcad.geometry.toothed import FaceWidth, GearSizes, HelixAngle, TipAlteration, ToothedPart, ToothThinning
@@ -62,6 +63,7 @@ class GearData(GearSizes[float], ToothedPart):
     cutter: ShaperCutter = field(default=ShaperCutter())
     premachining: Premachining = field(default=Premachining())
     finishing: Finishing = field(default=Finishing())
+    making: Making = field(default=Making())
     double_helix: DoubleHelix = field(default=DoubleHelix())
     body: Body = field(default=Body())
     modification: FlankModification = field(default=FlankModification())

@@ -8,19 +8,20 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
-from gearcad.core.errors import GeometryError, ParameterError, as_choice, require_one_of
+from gearcad.core.errors import GeometryError, ParameterError, as_choice, require_one_of, require_switch
 from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Progress
 from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear
+from gearcad.geometry.making import Making
 from gearcad.jobs.job import Data, Job, Subject, Writer, as_design
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.body_plan import require_rim
 from gearcad.solids.facets.tessellation import gear_chord_error
 from gearcad.solids.files.formats import formats_minding
-from gearcad.solids.files.products import GearProduct, PairProduct
+from gearcad.solids.files.products import GearProduct, MadeProduct, PairProduct
 from gearcad.version import __version__
 
 if TYPE_CHECKING:
@@ -46,10 +47,10 @@ def products_of(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[st
     return {name: GearProduct(gear=gear, name=design.name, options=options) for name, gear in design.gears.items()}, None
 
 
-def _train_product(design: PlanetaryDesign, options: FileOptions) -> TrainProduct:
+def _train_product(design: PlanetaryDesign, options: FileOptions, *, as_made: bool = False) -> TrainProduct:
     from gearcad.solids.files.train_products import TrainProduct
 
-    return TrainProduct(design.train, options, given_speeds(design))
+    return TrainProduct(design.train, options, given_speeds(design), as_made)
 
 
 def _with_rack(
@@ -118,8 +119,10 @@ class Build(Job[ToothedDesign, ToothedDesign]):
 
     Per part `pinion.step`, `wheel.step`, `rack.step` or `gear.step` and so on, of a planetary train by the names of its gears
     and of its carrier, if one is made; a pair, or a train, also gets `assembly.*`, posed in mesh, in the formats that have
-    assemblies. The `stage` "precut" makes each gear as it is before its flanks are finished, and no assembly. Raises
-    ParameterError without a format.
+    assemblies. The `stage` "precut" makes each gear as it is before its flanks are finished, and no assembly. With `as_made`
+    there are also `gear-as-made.step` and so on of each gear with a table making: what its mould or print is made to, or as
+    DXF the path of the wire or beam; and `assembly-as-made.*` of a planetary train that is printed as a whole.
+    Raises ParameterError without a format.
     """
 
     verb = "build"
@@ -129,9 +132,11 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     formats: tuple[Format, ...] = _DEFAULT
     options: FileOptions = field(default_factory=FileOptions)
     stage: str = "finished"
+    as_made: bool = False
 
     def __post_init__(self) -> None:
         require_one_of("stage", self.stage, ("precut", "finished"))
+        require_switch("as_made", self.as_made)
         object.__setattr__(self, "formats", _formats(self.formats))
         if not self.formats:
             raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
@@ -144,6 +149,8 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             raise GeometryError("bracket", True, f"needs a pair of gears: {alone}")
         if self.stage == "precut" and not any(gear.premachining.present for gear in design.gears.values()):
             raise GeometryError("stage", self.stage, "needs a gear with a table premachining, such as [pinion.premachining]")
+        if self.as_made:
+            self._require_made(design)
         for option in _OF_TRAINS:
             if getattr(self.options, option) and design.kind is not DesignKind.PLANETARY:
                 raise GeometryError(option, True, "needs a planetary train")
@@ -156,6 +163,20 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         if set(self.formats).intersection(formats_minding("chord_error")):
             require_facets(design, self.options)
         return design
+
+    def _require_made(self, design: ToothedDesign) -> None:
+        """Raise GeometryError unless some gear says how it is made, and there are files of it as made."""
+        gears = {name: gear for name, gear in design.gears.items() if gear.making.present}
+        if not gears:
+            raise GeometryError("as_made", True, "needs a gear with a table making, such as [pinion.making]")
+        if self.stage != "finished":
+            raise GeometryError("as_made", True, f'must be left out of the stage "{self.stage}"')
+        for name, gear in gears.items():
+            if gear.modification.present:
+                raise GeometryError("as_made", True, f"needs flanks without modification: leave out [{name}.modification]")
+            if not any(_is_made(gear, kind) for kind in self.formats):
+                needed = "dxf, for the path" if gear.making.cuts else "one other than csv"
+                raise GeometryError("as_made", True, f"needs the format {needed} of {name}")
 
     def document(self, result: ToothedDesign) -> JsonObject:
         """Return the document that `--json` prints: kind, name of the design, and gearcad's version."""
@@ -176,6 +197,27 @@ class Build(Job[ToothedDesign, ToothedDesign]):
                 found |= _train_writers(kind, cast("TrainProduct", assembly))
             elif assembly is not None and kind.entry.write_pair is not None:
                 found[f"assembly.{kind.value}"] = partial(kind.entry.write_pair, assembly)
+        return found | (self._made_files(result, parts) if self.as_made else {})
+
+    def _made_files(self, design: ToothedDesign, parts: Mapping[str, PartProduct]) -> dict[str, Writer]:
+        """Return the files of the gears as they are made, and of a train that is printed as a whole."""
+        found: dict[str, Writer] = {}
+        made = {
+            name: MadeProduct.of(product)
+            for name, product in parts.items()
+            if isinstance(product, GearProduct) and product.gear.making.present
+        }
+        train = None
+        if design.kind is DesignKind.PLANETARY and _printed_as_one([gear.making for gear in design.gears.values()]):
+            train = _train_product(cast("PlanetaryDesign", design), self.options, as_made=True)
+        for kind in reversed(self.formats):
+            found |= {
+                f"{name}-as-made.{kind.value}": partial(kind.entry.write, product)
+                for name, product in made.items()
+                if _is_made(parts[name].gear, kind)  # type: ignore[union-attr]
+            }
+            if train is not None and kind.entry.write_train is not None:
+                found[f"assembly-as-made.{kind.value}"] = partial(kind.entry.write_train, train)
         return found
 
     def _products(self, design: ToothedDesign) -> tuple[Mapping[str, PartProduct], AssemblyProduct | None]:
@@ -192,7 +234,8 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     @property
     def parts(self) -> dict[str, dict[str, Any]]:
         """The data, and each format with the options that matter to it."""
-        stage = {} if self.stage == "finished" else {"stage": self.stage}
+        stage: dict[str, Any] = {} if self.stage == "finished" else {"stage": self.stage}
+        stage |= {"as_made": True} if self.as_made else {}
         return Data().parts | {kind.value: kind.minded(self.options) | stage for kind in self.formats}
 
     def part_of(self, file: str) -> str:
@@ -210,7 +253,23 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         options = FileOptions(**{name: value for kind in formats for name, value in kind.minded(self.options).items()})
         foreign = () if design.kind is DesignKind.PLANETARY else _OF_TRAINS
         foreign = foreign if design.kind is DesignKind.PAIR else (*foreign, "bracket")
-        return Build(formats=formats, options=replace(options, **dict.fromkeys(foreign, False)), stage=self.stage)
+        as_made = self.as_made and any(gear.making.present for gear in getattr(design, "gears", {}).values())
+        options = replace(options, **dict.fromkeys(foreign, False))
+        return Build(formats=formats, options=options, stage=self.stage, as_made=as_made)
+
+
+def _is_made(gear: Gear, kind: Format) -> bool:
+    """Return whether a format has a gear as it is made: a path is drawn as DXF alone, and no table of points is made."""
+    return kind is Format.DXF if gear.making.cuts else kind is not Format.CSV
+
+
+def _printed_as_one(makings: Sequence[Making]) -> bool:
+    """Return whether all gears are printed, and shrink alike."""
+    return {each.process for each in makings} == {"print"} and len({_scales(each) for each in makings}) == 1
+
+
+def _scales(making: Making) -> tuple[float, float]:
+    return making.radial_scale, making.axial_scale
 
 
 def _formats(given: object) -> tuple[Format, ...]:
@@ -241,6 +300,7 @@ def build(
     carrier: bool = False,
     exploded: bool = False,
     turning: bool = False,
+    as_made: bool = False,
     progress: Progress | None = None,
 ) -> list[Path]:
     """Write the files of gears, racks, pairs and trains into `folder`, all or none, and return their paths as they were made.
@@ -248,6 +308,7 @@ def build(
     `formats` are of "step", "stl", "3mf", "glb", "png", "dxf" and "csv". `chord_error` (mm) bounds the facets; `bracket` puts a
     pair on two shafts with a bracket (STEP); `circles` draws the tip, reference, base and root circles (DXF), of a rack the
     lines. Of a planetary train, `carrier` adds pins and plates, `exploded` moves members apart, `turning` animates (GLB).
+    `as_made` adds the files of gears as they are made (see `Making`).
 
     >>> import tempfile
     >>> from gearcad import Gear
@@ -261,5 +322,5 @@ def build(
     options = FileOptions(
         chord_error=chord_error, bracket=bracket, circles=circles, carrier=carrier, exploded=exploded, turning=turning
     )
-    job = Build(formats=_formats(formats), options=options)
+    job = Build(formats=_formats(formats), options=options, as_made=as_made)
     return job.write(job.run(as_design(subject)), folder, progress)

@@ -41,6 +41,7 @@ _TITLES = {
     "cutter": "Shaper cutter",
     "premachining": "Cut before finishing",
     "finishing": "Finishing of the flanks",
+    "making": "As made",
     "modification": "Flank modifications",
 }
 """Titles of parts that are not their names."""

@@ -138,6 +138,7 @@ _GEAR_BLOCKS = {
     "Basic rack": _of_part("rack"),
     "Shaper cutter": _of_part("cutter") + " cutter_tip_diameter",
     "Cut before finishing": _of_part("premachining") + " " + _of_part("finishing"),
+    "As made": _of_part("making"),
     "Double helix": _of_part("double_helix"),
     "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle transverse_pitch transverse_base_pitch",
     "Diameters": "tip_diameter tip_form_diameter reference_diameter base_diameter form_diameter root_diameter undercut",

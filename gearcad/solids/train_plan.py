@@ -62,17 +62,26 @@ class Standing:
 class TrainLayout:
     """Every body of a train in its place: what stands by itself, and the planets one by one, each with its rims.
 
-    `lifts` says by how much (mm) bodies of a key stand higher than in mesh.
+    `lifts` says by how much (mm) bodies of a key stand higher than in mesh. With `as_made` the gears are as they are made, and
+    all distances are scaled as the first of them shrinks.
     """
 
     train: PlanetaryTrain
     pose: TrainPose
     lifts: Mapping[str, float] = field(default_factory=dict)
+    as_made: bool = False
 
     @cached_property
     def bodies(self) -> dict[str, TrainBody]:
         """The gears that are made, by their keys: those of the planets once."""
-        return train_bodies(self.train)
+        bodies = train_bodies(self.train)
+        return {key: replace(body, gear=body.gear.as_made) for key, body in bodies.items()} if self.as_made else bodies
+
+    @cached_property
+    def _scales(self) -> tuple[float, float]:
+        """Scale of distances across and along the axis."""
+        making = next(iter(self.bodies.values())).gear.making
+        return (making.radial_scale, making.axial_scale) if self.as_made else (1.0, 1.0)
 
     @cached_property
     def carrier(self) -> Axle:
@@ -118,7 +127,9 @@ class TrainLayout:
         )
 
     def _standing(self, name: str, key: str, axle: Axle, rotation: float, height: float) -> Standing:
-        return Standing(name, self.bodies[key], axle, rotation, height + self.lifts.get(key, 0.0))
+        across, along = self._scales
+        place = axle if across == 1 else replace(axle, x=axle.x * across, y=axle.y * across)
+        return Standing(name, self.bodies[key], place, rotation, height * along + self.lifts.get(key, 0.0))
 
 
 def stage_keys(train: PlanetaryTrain) -> list[PerGear[str]]:
@@ -362,13 +373,19 @@ class TrainPlan:
 
     @classmethod
     def of(
-        cls, train: PlanetaryTrain, *, carrier_angle: float = 0.0, carrier: bool = False, exploded: bool = False
+        cls,
+        train: PlanetaryTrain,
+        *,
+        carrier_angle: float = 0.0,
+        carrier: bool = False,
+        exploded: bool = False,
+        as_made: bool = False,
     ) -> TrainPlan:
         """Return the plan of a train, its carrier turned by so much (degrees).
 
         Raises GeometryError for rings without a rim, bodies that stand in each other, a carrier for planets without bores.
         """
-        layout = TrainLayout(train, train.pose(carrier_angle))
+        layout = TrainLayout(train, train.pose(carrier_angle), as_made=as_made)
         require_bodies(layout)
         require_room(layout)
         pins = carrier_plan(layout) if carrier else None

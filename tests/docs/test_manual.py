@@ -198,6 +198,7 @@ def test_shared_keys_of_pairs_are_those_that_the_page_does_not_name() -> None:
             "gear.cutter",
             "gear.premachining",
             "gear.finishing",
+            "gear.making",
             "gear.double_helix",
             "gear.body",
             "gear.modification",

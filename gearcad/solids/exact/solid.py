@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from gearcad.geometry.gear import Gear
+from gearcad.geometry.gear import AsMadeGear, Gear
+from gearcad.geometry.gear_data import twist
 from gearcad.solids.body_plan import Colour, keyway_half_angle, require_rim
 from gearcad.solids.exact.boundary import (
     Boundary,
@@ -266,12 +267,65 @@ def _bolts(gear: Gear) -> list[Point]:
     return [(radius * math.cos(angle), radius * math.sin(angle)) for angle in angles]
 
 
+def stepped_boundary(gear: AsMadeGear) -> Boundary:
+    """Return a print as a closed boundary: over the first layer all its walls are set back by as much as that is high."""
+    height, width = gear.first_layer, gear.face_width
+    recorder = Recorder(accuracy_for(gear))
+    foot, rest = replace(gear.foot, face_width=height), replace(gear, face_width=width - height)
+    bottom, below = add_teeth(foot, recorder)
+    above, top = add_teeth(rest, recorder.moved(height, twist(gear, height)))
+    lower = _walls(foot, recorder, (0.0, height))
+    upper = _walls(gear, recorder, (height, width + gear.body.hub_ends[1]))
+    if gear.internal:
+        (rim, *holes), (outer, *others) = lower, upper
+        recorder.face(level_plane(height), [below, backward(above)], outward=False)
+        recorder.face(level_plane(height), [outer[0].loop(along=True), rim[1].loop(along=False)], outward=False)
+        ends = ([rim[0].loop(along=True), backward(bottom)], [outer[1].loop(along=True), backward(top)])
+    else:
+        holes, others = lower, upper
+        recorder.face(level_plane(height), [above, backward(below)], outward=False)
+        ends = ([bottom], [_with_hub(gear, recorder, top)])
+    for hole, other in zip(holes, others, strict=True):
+        recorder.face(level_plane(height), [hole[1].loop(along=True), other[0].loop(along=False)], outward=False)
+    heights = (0.0, width + gear.body.hub_ends[1])
+    for which, walls in enumerate((holes, others)):
+        loops = [*ends[which], *(wall[which].loop(along=False) for wall in walls)]
+        recorder.face(level_plane(heights[which]), loops, outward=which == 1)
+    return recorder.boundary()
+
+
+def _walls(gear: Gear, recorder: Recorder, heights: tuple[float, float]) -> list[tuple[Contour, Contour]]:
+    """Add the wall of the bore, or of the rim and the bolt holes; their contours at two heights."""
+    if gear.internal:
+        holes = [tube(recorder, gear.body.bolt_diameter / 2, heights, axis, outward=False) for axis in _bolts(gear)]
+        walls = [tube(recorder, require_rim(gear) / 2, heights, outward=True), *holes]
+        return [(low, high) for low, high in walls]
+    if not gear.body.bore:
+        return []
+    low, high = (_opening(gear, recorder, z) for z in heights)
+    _add_opening(gear, recorder, low, high, heights)
+    return [(low, high)]
+
+
+def _with_hub(gear: Gear, recorder: Recorder, loop: Chain) -> Chain:
+    """Add the hub on the upper end; the loop of its own end, or that of the teeth without one."""
+    front = gear.body.hub_ends[1]
+    if not front:
+        return loop
+    width = gear.face_width
+    inner, outer = tube(recorder, gear.body.hub_diameter / 2, (width, width + front), outward=True)
+    recorder.face(level_plane(width), [loop, inner.loop(along=False)], outward=True)
+    return outer.loop(along=True)
+
+
 def gear_boundary(gear: Gear) -> Boundary:
     """Return the gear as a closed boundary, within 1 nm of the exact involute and fillet, or of its modified flanks.
 
     Teeth from z = 0 to the face width, tooth 0 centred on +x at z = 0. Raises GeometryError for a ring
     without a rim diameter.
     """
+    if isinstance(gear, AsMadeGear) and gear.first_layer:
+        return stepped_boundary(gear)
     recorder = Recorder(accuracy_for(gear))
     lower, upper = (add_halves if gear.double_helix.gap_width else add_teeth)(gear, recorder)
     (add_ring_blank if gear.internal else add_blank)(gear, recorder, lower, upper)

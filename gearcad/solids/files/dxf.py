@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,7 +15,7 @@ from gearcad.core.dxf import CUT, NOT_CUT, add_layers, drawing
 from gearcad.core.errors import SolverError, require_number
 from gearcad.core.records import Floats
 from gearcad.geometry import Body, Gear
-from gearcad.geometry.curves import Chamfer, CurveKind, PlaneCurve
+from gearcad.geometry.curves import Chamfer, Curve, CurveKind, PlaneCurve
 from gearcad.geometry.gear import middle_section
 from gearcad.geometry.rack import Rack, RackCurveKind
 from gearcad.solids.body_plan import SNAP, OutlinePiece, keyway_half_angle, outline_pieces
@@ -127,12 +128,16 @@ def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
     Profile modifications are in it as they are at mid face width. On a ring what it encloses is the opening.
     """
     require_number("accuracy", accuracy, "mm", at_least=1e-7)
-    curves = middle_section(gear)
+    return contour_of(middle_section(gear), gear.tooth_count, gear.profile.root_diameter, accuracy)
+
+
+def contour_of(curves: Sequence[Curve], teeth: int, root_diameter: float, accuracy: float) -> Floats:
+    """Closed contour (n, 3) of teeth whose half outline is `curves`, root to tip: see `gear_contour`."""
     flank = joined([arcs_of(curve, accuracy) for curve in curves if curve.kind not in (CurveKind.ROOT, CurveKind.TIP)])
-    half_pitch = math.pi / gear.tooth_count
+    half_pitch = math.pi / teeth
     land = curves[0].kind is CurveKind.ROOT
     if not land:  # the fillet ends in the middle of the space, where that of the next tooth begins
-        flank.vertices[0] = gear.profile.root_diameter / 2 * np.array([math.cos(half_pitch), math.sin(half_pitch)])
+        flank.vertices[0] = root_diameter / 2 * np.array([math.cos(half_pitch), math.sin(half_pitch)])
     right, left = flank.vertices * [1, -1], flank.vertices[::-1]
     root_angle, tip_angle = (math.atan2(flank.vertices[i, 1], flank.vertices[i, 0]) for i in (0, -1))
     lands = math.tan(tip_angle / 2), math.tan((half_pitch - root_angle) / 2)
@@ -140,7 +145,7 @@ def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
     bulge = np.r_[-flank.bulges, lands[0], -flank.bulges[::-1], lands[1]]
     if not land:
         x, y, bulge = x[:-1], y[:-1], bulge[:-1]
-    turn = 2 * half_pitch * np.arange(gear.tooth_count)[:, None]
+    turn = 2 * half_pitch * np.arange(teeth)[:, None]
     cosine, sine = np.cos(turn), np.sin(turn)
     columns = np.broadcast_arrays(cosine * x - sine * y, sine * x + cosine * y, bulge)
     return np.stack(columns, -1).reshape(-1, 3)

@@ -13,6 +13,8 @@ from gearcad.geometry.rack import Rack
 from gearcad.geometry.rack_pair import RackPair
 from gearcad.solids.body_plan import BRIGHT_STEEL, PART_COLOURS, STEEL, Colour
 from gearcad.solids.exact.assemblies import pair_product, part_names, rack_part_names, rack_product
+from gearcad.solids.exact.kernel import kernel_solid
+from gearcad.solids.exact.kernel_mesh import kernel_facets
 from gearcad.solids.exact.rack_solid import rack_boundary
 from gearcad.solids.exact.solid import AssembledProduct, SolidProduct, gear_boundary
 from gearcad.solids.facets.tessellation import Facets, tessellate, tessellate_rack
@@ -55,6 +57,8 @@ class GearProduct:
 
     @cached_property
     def facets(self) -> Facets:
+        if self.gear.first_layer:  # a step at its end
+            return kernel_facets(kernel_solid(gear_boundary(self.gear)), self.options.chord_error)
         return tessellate(self.gear, self.options.chord_error)
 
     def solid(self) -> SolidProduct:
@@ -76,6 +80,26 @@ class GearProduct:
         from gearcad.solids.files.points import write_points
 
         write_points(self.gear, path)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MadeProduct(GearProduct):
+    """A gear as its mould or print is made; of one that is cut, the path of the wire or beam."""
+
+    @classmethod
+    def of(cls, product: GearProduct) -> MadeProduct:
+        """Return the product of the same name, as it is made."""
+        made = product.gear if product.gear.making.cuts else product.gear.as_made
+        return cls(gear=made, name=product.name, options=product.options, colour=product.colour)
+
+    def write_dxf(self, path: Path) -> None:
+        """Write the section as it is made, or the path: see `write_path_dxf`."""
+        if not self.gear.making.cuts:
+            super().write_dxf(path)
+            return
+        from gearcad.solids.files.cut_path import write_path_dxf
+
+        write_path_dxf(self.gear, path)
 
 
 @dataclass(frozen=True)

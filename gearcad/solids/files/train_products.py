@@ -8,18 +8,19 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gearcad.core.dxf import drawing
-from gearcad.core.records import Floats, Wholes
+from gearcad.core.records import Floats
 from gearcad.geometry.gear_data import section_turn
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.train_data import shafts_of, speeds
 from gearcad.solids.body_plan import BRIGHT_STEEL, TRAIN_COLOURS
 from gearcad.solids.exact.boundary import ORIGIN, Boundary, Chain, Point, Recorder, level_plane
 from gearcad.solids.exact.kernel import kernel_solid
+from gearcad.solids.exact.kernel_mesh import kernel_facets
 from gearcad.solids.exact.solid import (
     AssembledProduct,
     Occurrence,
@@ -127,42 +128,9 @@ def _occurrence(standing: Standing, parts: dict[str, SolidProduct], origin: Poin
     return Occurrence(standing.name, parts[standing.body.key], frame)
 
 
-_TURN = 0.1
-"""Largest angle (rad) between the normals of neighbouring triangles."""
-
-
 def carrier_facets(plan: CarrierPlan, chord_error: float) -> Facets:
     """Return the solid in triangles of the kernel, nowhere more than `chord_error` (mm) from it."""
-    from OCP.BRepMesh import BRepMesh_IncrementalMesh
-    from OCP.TopAbs import TopAbs_FACE
-    from OCP.TopExp import TopExp_Explorer
-
-    solid = kernel_solid(carrier_boundary(plan))
-    BRepMesh_IncrementalMesh(solid, chord_error, True, _TURN)
-    explorer, points, triangles, count = TopExp_Explorer(solid, TopAbs_FACE), list[Floats](), list[Wholes](), 0
-    while explorer.More():
-        nodes, corners = _of_face(explorer.Current())
-        points.append(nodes)
-        triangles.append(corners + count)
-        count += len(nodes)
-        explorer.Next()
-    # The kernel meshes face by face: along their common edges the points are there twice, to the last bit.
-    unique, same = np.unique(np.concatenate(points), axis=0, return_inverse=True)
-    return Facets(unique, same.reshape(-1)[np.concatenate(triangles)])
-
-
-def _of_face(shape: Any) -> tuple[Floats, Wholes]:
-    """Return the points (n, 3) and triangles (m, 3) of a face, counter-clockwise seen from outside."""
-    from OCP.BRep import BRep_Tool
-    from OCP.TopAbs import TopAbs_REVERSED
-    from OCP.TopLoc import TopLoc_Location
-    from OCP.TopoDS import TopoDS
-
-    mesh = BRep_Tool.Triangulation_s(TopoDS.Face_s(shape), TopLoc_Location())
-    nodes = [mesh.Node(i) for i in range(1, mesh.NbNodes() + 1)]
-    order = (1, 3, 2) if shape.Orientation() == TopAbs_REVERSED else (1, 2, 3)
-    corners = [[mesh.Triangle(i).Value(k) - 1 for k in order] for i in range(1, mesh.NbTriangles() + 1)]
-    return np.array([(node.X(), node.Y(), node.Z()) for node in nodes]), np.array(corners)
+    return kernel_facets(kernel_solid(carrier_boundary(plan)), chord_error)
 
 
 _SECONDS = 10.0
@@ -317,12 +285,13 @@ class CarrierProduct:
 class TrainProduct:
     """A planetary train, as the options ask for it. Raises GeometryError where it cannot be made: see `TrainPlan`.
 
-    `speeds` (rpm) are those that are given, by which it turns in an animation.
+    `speeds` (rpm) are those that are given, by which it turns in an animation. With `as_made` its gears are as they are made.
     """
 
     train: PlanetaryTrain
     options: FileOptions
     speeds: Mapping[str, float] = field(default_factory=dict)
+    as_made: bool = False
 
     @property
     def name(self) -> str:
@@ -331,7 +300,14 @@ class TrainProduct:
     @cached_property
     def plan(self) -> TrainPlan:
         """Plan of the train: its bodies and their places."""
-        return TrainPlan.of(self.train, carrier=self.options.carrier, exploded=self.options.exploded)
+        return self._plan(exploded=self.options.exploded)
+
+    def _plan(self, *, exploded: bool) -> TrainPlan:
+        return TrainPlan.of(self.train, carrier=self.options.carrier, exploded=exploded, as_made=self.as_made)
+
+    @property
+    def _layout(self) -> TrainLayout:
+        return TrainLayout(self.train, self.train.pose(), as_made=self.as_made)
 
     def require_room(self) -> None:
         """Raise what making the plan raises."""
@@ -342,7 +318,7 @@ class TrainProduct:
         """The gears by the names of their files."""
         return {
             key: GearProduct(gear=body.gear, name=body.name, options=self.options, colour=body.colour)
-            for key, body in TrainLayout(self.train, self.train.pose()).bodies.items()
+            for key, body in self._layout.bodies.items()
         }
 
     def solid(self) -> AssembledProduct:
@@ -357,7 +333,7 @@ class TrainProduct:
 
     def other_scene(self) -> list[ScenePart]:
         """Return the scene moved apart, or in mesh where the scene is apart already."""
-        return list(self._scene(TrainPlan.of(self.train, carrier=self.options.carrier, exploded=not self.options.exploded)))
+        return list(self._scene(self._plan(exploded=not self.options.exploded)))
 
     def turning(self) -> Turning | None:
         """Turning of the train; None unless the options ask for it."""
@@ -365,7 +341,7 @@ class TrainProduct:
 
     def write_dxf(self, path: Path) -> None:
         """All sections in mesh: see `write_train_dxf`."""
-        write_train_dxf(TrainLayout(self.train, self.train.pose()), path, circles=self.options.circles)
+        write_train_dxf(self._layout, path, circles=self.options.circles)
 
     def _scene(self, plan: TrainPlan) -> Iterator[ScenePart]:
         for standing in plan.layout.standing:
