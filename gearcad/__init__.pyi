@@ -31,12 +31,15 @@ from .geometry import DoubleHelix as DoubleHelix
 from .geometry import FlankModification as FlankModification
 from .geometry import Gear as Gear
 from .geometry import GearPair as GearPair
+from .geometry import HubInputs as HubInputs
 from .geometry import HubSide as HubSide
 from .geometry import Rack as Rack
 from .geometry import RackPair as RackPair
 from .geometry import ReliefShape as ReliefShape
+from .geometry import ShaftInputs as ShaftInputs
 from .geometry import ShaperCutter as ShaperCutter
 from .geometry import ShiftSplit as ShiftSplit
+from .geometry import SplineJoint as SplineJoint
 from .geometry import ToothProfile as ToothProfile
 from .jobs.build import build as build
 from .jobs.draw import draw as draw

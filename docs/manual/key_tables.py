@@ -27,6 +27,7 @@ def key_tables() -> Mapping[str, Mapping[str, FieldSchema]]:
         **{f"gear.{part}": {key: each for key, each in gear.items() if key.partition(".")[0] == part} for part in _PARTS},
         "pair": {key: each for key, each in FIELDS["pair"].items() if key not in SHARED},
         "rack": {key: each for key, each in FIELDS["rack"].items() if key.partition(".")[0] not in ("material", "drawing")},
+        **_spline(),
         **{table: dict(FIELDS[table]) for table in _BESIDE},
         "part_drawing": own_drawing,
         "train": dict(TRAIN["train"]),
@@ -38,6 +39,15 @@ def key_tables() -> Mapping[str, Mapping[str, FieldSchema]]:
     transient = {key: each for key, each in found["dynamics"].items() if key.startswith("transient.")}
     found["dynamics"] = {key: each for key, each in found["dynamics"].items() if key not in transient}
     found["dynamics.transient"] = {key.removeprefix("transient."): each for key, each in transient.items()}
+    return found
+
+
+def _spline() -> dict[str, dict[str, FieldSchema]]:
+    """The keys of [spline], and those of its shaft and its hub in tables of their own."""
+    found: dict[str, dict[str, FieldSchema]] = {"spline": {}, "spline.shaft": {}, "spline.hub": {}}
+    for key, each in FIELDS["spline"].items():
+        part, dot, _ = key.partition(".")
+        found[f"spline.{part}" if dot else "spline"][key] = each
     return found
 
 

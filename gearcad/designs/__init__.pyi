@@ -3,6 +3,7 @@ from .gear_designs import GearDesign as GearDesign
 from .gear_designs import GearedDesign as GearedDesign
 from .gear_designs import Inputs as Inputs
 from .gear_designs import RackDesign as RackDesign
+from .gear_designs import SplineDesign as SplineDesign
 from .gear_designs import ToothedDesign as ToothedDesign
 from .keys import DesignKind as DesignKind
 from .pair_designs import PairDesign as PairDesign

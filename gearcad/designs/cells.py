@@ -297,6 +297,7 @@ def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
         DesignKind.RACK_PAIR: "rack" in owners and paired,
         DesignKind.TRAIN: any(map(_of_train, keys)),
         DesignKind.PLANETARY: bool(owners & planetary),
+        DesignKind.SPLINE: "spline" in owners,
     }
     return {kind for kind, made in makes.items() if made}
 
@@ -321,6 +322,8 @@ def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
         headings.pop()
     dotted = (heading for heading in headings if "." in heading and heading not in COLUMNS["gear"])
     kinds = kinds_of(f"{nearest_table(first) or ''}.{rest}" for first, _, rest in (each.partition(".") for each in dotted))
+    if any(heading in _OF_SPLINES_ALONE for heading in headings):
+        kinds = {DesignKind.SPLINE}
     places: dict[str, int] = {}
     columns, faults = [], []
     for index, heading in enumerate(headings):
@@ -337,6 +340,10 @@ def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
     if faults:
         raise SpecError("\n".join(faults))
     return tuple(columns)
+
+
+_OF_SPLINES_ALONE = ("designation", "nominal_diameter", "centring")
+"""Keys without a table that only [spline] has."""
 
 
 def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from gearcad.check.options import CheckOptions
     from gearcad.drawing.options import DrawingOptions, PartDrawing
     from gearcad.dynamics.options import DynamicsOptions
+    from gearcad.geometry.spline import SplineJoint
     from gearcad.load import Load
     from gearcad.material import Materials
     from gearcad.meshing.options import MeshOptions
@@ -214,6 +215,53 @@ class RackDesign(ToothedDesign):
     def described(self) -> Mapping[str, Described]:
         """The one rack of the design."""
         return {"rack": self.rack}
+
+
+@dataclass(frozen=True, kw_only=True)
+class SplineDesign(ToothedDesign):
+    """A spline joint: a shaft, a hub, or both, and their material. Its gears are the outlines of both."""
+
+    kind: ClassVar[DesignKind] = DesignKind.SPLINE
+    elsewhere: ClassVar[str] = "a spline is for `gearcad data`, `gearcad build`, `gearcad draw` and `gearcad mesh`"
+
+    spline: SplineJoint
+    material: Material | None = None
+
+    @classmethod
+    def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
+        """Return the design that [spline] describes. Raises SpecError."""
+        from gearcad.geometry.spline import SplineJoint
+
+        spec = cls.spec(tables, where)
+        beside = beside_teeth(spec, tables)
+        name = spec.name("spline", default_name)
+        with spec.blame("spline"):
+            inputs = spec.fields_of("spline") | {"name": name}
+        return cls(name=name, spline=spec.simple("spline", SplineJoint, values=inputs), **beside)
+
+    @classmethod
+    def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
+        """Return the values of a spec of [spline], [material], [drawing] and [mesh]. Raises SpecError."""
+        require_known_tables(tables, where)
+        for table in tables:
+            if table not in ("spline", *OF_SPLINES):
+                others = ", ".join(f"[{name}]" for name in OF_SPLINES)
+                raise SpecError(f"{where(table)}: [{table}] cannot stand beside [spline]: permitted are {others}")
+        return Spec.of(tables, where)
+
+    @property
+    def gears(self) -> dict[str, Gear]:
+        """The shaft and the hub as gears, a hub internal, each as far as it is asked for."""
+        return {name: part.gear for name, part in self.spline.parts.items()}
+
+    @property
+    def described(self) -> Mapping[str, Described]:
+        """Shaft, hub and their joint."""
+        return {**self.spline.parts, "joint": self.spline}
+
+
+OF_SPLINES = ("material", "drawing", "mesh", "verify")
+"""Tables that may stand beside [spline]."""
 
 
 def require_tables_of_racks(tables: Mapping[str, Any], where: Where, kind: DesignKind, beside: tuple[str, ...]) -> None:

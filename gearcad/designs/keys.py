@@ -29,6 +29,7 @@ class DesignKind(Enum):
     RACK_PAIR = "rack_pair"
     TRAIN = "train"
     PLANETARY = "planetary"
+    SPLINE = "spline"
 
     @property
     def words(self) -> str:
@@ -59,6 +60,7 @@ MAIN_TABLES = {
     DesignKind.RACK_PAIR: ("pair", "pinion", "rack"),
     DesignKind.TRAIN: ("train",),
     DesignKind.PLANETARY: ("planetary",),
+    DesignKind.SPLINE: ("spline",),
 }
 """The tables without which a spec makes no gear, no rack, no pair of them, no train; the first is what bare keys are of."""
 
@@ -121,8 +123,15 @@ class LazyTable(Mapping[str, Value]):
 BESIDE = LazyTable(_HOMES, _kind_beside)
 """Tables beside those of the gears, and the types that they make, imported only for specs that have them."""
 
-PARTS_BESIDE = LazyTable(_HOMES, lambda table: parts_of(BESIDE[table]))
-"""Fields of these that have fields of their own, and their types."""
+
+def _splines() -> type[DataclassInstance]:
+    from gearcad.geometry.spline import SplineJoint
+
+    return SplineJoint
+
+
+PARTS_BESIDE = LazyTable((*_HOMES, "spline"), lambda table: parts_of(_splines() if table == "spline" else BESIDE[table]))
+"""Fields of these, and of a spline, that have fields of their own, and their types."""
 
 
 @dataclass(frozen=True)
@@ -200,6 +209,8 @@ def _fields(table: str) -> dict[str, FieldSchema]:
         return dict(flat_fields(Rack)) | _own_material() | _own_drawing()
     if table == "pair":
         return _fields_of_pairs()
+    if table == "spline":
+        return dict(flat_fields(_splines()))
     found = dict(flat_fields(BESIDE[table]))
     return found | names_of_materials("pinion", "wheel", "rack") if table == "material" else found
 
@@ -214,7 +225,7 @@ def _fields_of_pairs() -> dict[str, FieldSchema]:
     }
 
 
-FIELDS = LazyTable(("gear", "pair", "pinion", "wheel", "rack", *_HOMES), _fields)
+FIELDS = LazyTable(("gear", "pair", "pinion", "wheel", "rack", "spline", *_HOMES), _fields)
 """Field of each key of each table; the keys are flattened with dots."""
 
 
@@ -246,11 +257,15 @@ def explain_unknown_table(table: str, fields: Fields = FIELDS) -> str:
     return f"unknown table; permitted are {', '.join(f'[{name}]' for name in fields)}"
 
 
+_ALONE = ("gear", "rack", "spline")
+"""Tables of designs of one part, or of a spline, whose keys other tables have too."""
+
+
 def explain_unknown_key(table: str, key: str) -> str:
     """Return the end of the message about a key that `table` does not have: where it belongs, or the nearest one."""
     if (moved := MOVED.get(f"{table}.{key}")) is not None:
         return f"is no key any more: {moved}"
-    homes = [f"[{name}]" for name, keys in KEYS.items() if key in keys and name not in ("gear", "rack") and key not in KEYS]
+    homes = [f"[{name}]" for name, keys in KEYS.items() if name not in _ALONE and key in keys and key not in KEYS]
     if not homes and key in KEYS["rack"]:
         homes = ["[rack]"]
     if homes and table != "gear":

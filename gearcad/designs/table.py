@@ -44,7 +44,7 @@ _TOOTHED = {
 _SOUND = {
     kind: {f"{owner}.{field}": value for field, value in _REQUIRED.items() for owner in owners if field in FIELDS[owner]}
     for kind, owners in _TOOTHED.items()
-}
+} | {DesignKind.SPLINE: {"spline.designation": "W 30 x 1.25 x 22 x 8f"}}
 
 _TEETH = {"sun": 24, "planet": 21, "planet_2": 18, "sun_2": 27, "ring": -66, "ring_2": -63}
 _SETS = {
@@ -131,6 +131,8 @@ def _home(key: str) -> DesignKind:
     owner = key.partition(".")[0]
     if owner == "rack":
         return DesignKind.RACK
+    if owner == "spline":
+        return DesignKind.SPLINE
     if key in ("pair.mounting_distance", "material.rack"):
         return DesignKind.RACK_PAIR
     if key in (f"material.{role.value}" for role in Role):

@@ -250,7 +250,7 @@ _NO_COLUMN = (("gear", "name"), ("pair", "name"), ("rack", "name"))
 COLUMNS = {table: tuple(field for field in fields if (table, field) not in _NO_COLUMN) for table, fields in KEYS.items()}
 """Permitted keys of the columns of a design table, by their tables, where the design's own name has a column `name`."""
 
-_USUAL = tuple(table for table in COLUMNS if table not in ("gear", "rack"))
+_USUAL = tuple(table for table in COLUMNS if table not in ("gear", "rack", "spline"))
 
 
 def nearest_table(name: str) -> str | None:

@@ -30,6 +30,8 @@ from gearcad.geometry.path_of_contact import BaseTangent, ContactLineLengths, Co
 from gearcad.geometry.profile import InternalProfile, ToothProfile
 from gearcad.geometry.rack import Rack, RackProfile
 from gearcad.geometry.rack_pair import RackPair
+from gearcad.geometry.spline import SplineJoint
+from gearcad.geometry.spline_inputs import HubInputs, ShaftInputs
 
 __all__ = [
     "ISO53_A",
@@ -48,6 +50,7 @@ __all__ = [
     "FlankModification",
     "Gear",
     "GearPair",
+    "HubInputs",
     "HubSide",
     "Inspection",
     "InternalProfile",
@@ -59,8 +62,10 @@ __all__ = [
     "RackPose",
     "RackProfile",
     "ReliefShape",
+    "ShaftInputs",
     "ShaperCutter",
     "ShiftSplit",
+    "SplineJoint",
     "ToothProfile",
     "inverse_involute",
     "involute",

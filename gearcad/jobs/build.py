@@ -126,7 +126,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     """
 
     verb = "build"
-    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE)
     why = "there are no teeth"
 
     formats: tuple[Format, ...] = _DEFAULT

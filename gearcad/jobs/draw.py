@@ -157,7 +157,7 @@ class Draw(Job[ToothedDesign, Drawing]):
     """
 
     verb = "draw"
-    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE)
     why = "there are no teeth"
 
     formats: tuple[SheetFormat, ...] = _ALL

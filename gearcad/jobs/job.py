@@ -16,7 +16,7 @@ from gearcad.core.records import JsonObject, Notice, PerGear, texts
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
-from gearcad.geometry import Gear, GearPair, Rack, RackPair
+from gearcad.geometry import Gear, GearPair, Rack, RackPair, SplineJoint
 from gearcad.material import Material
 
 if TYPE_CHECKING:
@@ -185,7 +185,7 @@ def _plain(value: Any) -> Any:
     return list(value) if isinstance(value, tuple) else value.value if isinstance(value, Enum) else value
 
 
-Subject: TypeAlias = "Design | GearPair | Gear | RackPair | Rack | PlanetaryTrain"
+Subject: TypeAlias = "Design | GearPair | Gear | RackPair | Rack | PlanetaryTrain | SplineJoint"
 """Objects that Python may give to a job."""
 
 
@@ -194,7 +194,7 @@ def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: 
 
     All kinds of designs are imported here: a command reads its own from a spec.
     """
-    from gearcad.designs import Design, GearDesign, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign
+    from gearcad.designs import Design, GearDesign, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, SplineDesign
     from gearcad.designs.keys import BESIDE
     from gearcad.planetary import PlanetaryTrain, TrainLoad
 
@@ -208,9 +208,11 @@ def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: 
         subject = RackPairDesign(name=subject.name, pair=subject)
     elif isinstance(subject, PlanetaryTrain):
         subject = PlanetaryDesign(name=subject.name, train=subject)
+    elif isinstance(subject, SplineJoint):
+        subject = SplineDesign(name=subject.name, spline=subject)
     if not isinstance(subject, Design):
-        permitted = "must be a GearPair, a Gear, a RackPair, a Rack, a PlanetaryTrain, or a design such as gearcad.read gives"
-        raise ParameterError("subject", subject, permitted)
+        objects = "a GearPair, a Gear, a RackPair, a Rack, a PlanetaryTrain, a SplineJoint"
+        raise ParameterError("subject", subject, f"must be {objects}, or a design such as gearcad.read gives")
     kinds = {**BESIDE, **({"load": TrainLoad} if isinstance(subject, PlanetaryDesign) else {})}
     given: dict[str, Any] = {**inputs, "load": load} if load is not None else {**inputs}
     for name, value in given.items():

@@ -202,6 +202,37 @@ def rack_section(rack: Rack) -> Section:
     return Section(("rack",), tuple(blocks))
 
 
+_SPLINE_BLOCKS = {
+    "Teeth": "teeth module pressure_angle profile_shift root length",
+    "Diameters": "tip_diameter reference_diameter base_diameter form_diameter form_diameter_max form_diameter_min root_diameter"
+    " root_radius bore outer_diameter",
+    "Fit": "fit deviation tolerance_actual tolerance_effective",
+    "Tooth thickness and space width": " ".join(k for k in symbols.SPLINE if k.startswith(("tooth_thickness", "space_width"))),
+    "Inspection": "pin_diameter over_pins over_pins_max over_pins_min between_pins between_pins_max between_pins_min pin_factor"
+    " span_teeth span_measurement span_measurement_max span_measurement_min",
+}
+_JOINT_BLOCKS = {
+    "Joint": "designation standard edition nominal_diameter diametral_pitch centring form_clearance",
+    "Play, along the reference circle": "effective_play_min effective_play_max actual_play_min actual_play_max backlash_angle",
+}
+
+
+def spline_sections(document: Mapping[str, Any], parts: Iterable[str]) -> tuple[Section, Section]:
+    """Return the section of the shaft and the hub of a spline's document, as far as they are there, and that of their joint."""
+    columns = tuple(parts)
+    of_parts = _spline_blocks("spline", _SPLINE_BLOCKS, [document[part] for part in columns])
+    return Section(columns, of_parts), Section((), _spline_blocks("joint", _JOINT_BLOCKS, [document["joint"]]))
+
+
+def _spline_blocks(owner: str, titles: Mapping[str, str], documents: list[Mapping[str, Any]]) -> tuple[Block, ...]:
+    """Return the blocks of titles and keys whose rows some of the documents have."""
+    blocks: list[Block] = []
+    for title, keys in titles.items():
+        rows = (_row(f"{owner}.{key}", symbols.SPLINE[key], [each.get(key) for each in documents]) for key in keys.split())
+        blocks += block(title, (row for row in rows if set(row.texts) != {ABSENT}))
+    return tuple(blocks)
+
+
 def _gear_row(key: str, gears: Mapping[str, Mapping[str, Any]]) -> Row:
     return _row(
         f"gear.{key}", _OF_GEAR[key], [values.get(key) if _is_there(values, key) else None for values in gears.values()]

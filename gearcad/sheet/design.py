@@ -14,7 +14,18 @@ from gearcad.designs.design import Design
 from gearcad.designs.keys import BESIDE, FIELDS, DesignKind, Fields
 from gearcad.geometry import Rack
 from gearcad.material import Material
-from gearcad.sheet.blocks import ABSENT, Row, Section, Sheet, block, flattened, gear_section, pair_section, rack_section
+from gearcad.sheet.blocks import (
+    ABSENT,
+    Row,
+    Section,
+    Sheet,
+    block,
+    flattened,
+    gear_section,
+    pair_section,
+    rack_section,
+    spline_sections,
+)
 
 __all__ = ["sheet_of"]
 
@@ -31,12 +42,15 @@ def sheet_of(design: Design) -> Sheet:
         return Sheet(design.name, title, "lengths in mm", "", tuple(train_sections(document)), design.notices)
     sections = tuple(section for section in _sections(design, document) if section.blocks)
     units = "lengths in mm, angles in degrees"
-    return Sheet(design.name, _title(design, document), units, "clauses of ISO 21771:2007", sections, design.notices)
+    clauses = "" if design.kind is DesignKind.SPLINE else "clauses of ISO 21771:2007"
+    return Sheet(design.name, _title(design, document), units, clauses, sections, design.notices)
 
 
 def _sections(design: Design, document: Mapping[str, Any]) -> Iterator[Section]:
     pair = flattened(document.get("pair", {})) | document.get("drive", {})
-    if design.gears:
+    if design.kind is DesignKind.SPLINE:
+        yield from spline_sections(document, design.gears)
+    elif design.gears:
         yield gear_section(design.gears, document, pair)
     if isinstance(rack := design.described.get("rack"), Rack):
         yield rack_section(rack)
@@ -89,6 +103,10 @@ def _title(design: Design, document: Mapping[str, Any]) -> str:
     if isinstance(rack := design.described.get("rack"), Rack):
         teeth = " / ".join(map(str, [*(gear.teeth for gear in design.gears.values()), rack.teeth]))
         return f"{'helical' if rack.helix_angle else 'spur'} {'pinion and ' if design.gears else ''}rack, z = {teeth}"
+    if design.kind is DesignKind.SPLINE:
+        joint = document["joint"]
+        what = " and ".join(design.gears)
+        return f"splined {what}, {joint['standard']}, z = {joint['teeth']}, m = {format_number(joint['module'])} mm"
     teeth = " / ".join(str(gear.teeth) for gear in design.gears.values())
     if design.kind is DesignKind.PLANETARY:
         return f"planetary train of type {document['planetary']['set_type']}, z = {teeth}"

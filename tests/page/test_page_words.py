@@ -92,6 +92,8 @@ def _titles_of_sheets() -> set[str]:
         blocks._GEAR_BLOCKS,
         blocks._RACK_BLOCKS,
         blocks._PAIR_BLOCKS,
+        blocks._SPLINE_BLOCKS,
+        blocks._JOINT_BLOCKS,
         trains._TITLES.values(),
         trains.FACTORS,
         trains._SHORT.values(),

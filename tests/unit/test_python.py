@@ -160,7 +160,7 @@ def test_a_job_without_a_load_or_on_something_else_is_one_line(verb: str) -> Non
     with pytest.raises(
         ParameterError,
         match=r"^subject = 3: must be a GearPair, a Gear, a RackPair, a Rack, a PlanetaryTrain,"
-        r" or a design such as gearcad\.read gives$",
+        r" a SplineJoint, or a design such as gearcad\.read gives$",
     ):
         job(3)
     with pytest.raises(ParameterError, match=r"^load = 5: must be a Load$"):

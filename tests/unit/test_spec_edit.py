@@ -219,6 +219,8 @@ def base_of(table: str, key: str) -> Mapping[str, Any]:
         return {"rack": RACK} if not key.startswith("material") else RACK_PAIR
     if table == "gear":
         return {"gear": GEAR}
+    if table == "spline":
+        return {"spline": {"standard": "ISO 4156", "module": 2.0, "teeth": 20}}
     return RACK_PAIR if (table, key) == ("material", "rack") else PAIR
 
 
