@@ -157,7 +157,7 @@ class Draw(Job[ToothedDesign, Drawing]):
     """
 
     verb = "draw"
-    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "there are no teeth"
 
     formats: tuple[SheetFormat, ...] = _ALL
