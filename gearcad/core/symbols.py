@@ -249,6 +249,22 @@ RACK = {
     "tip_thickness": GEAR["tip_thickness"],
     "pin_diameter": Symbol("D_M", "mm", "Annex A", "ball or pin diameter"),
     "over_pin": Symbol("M", "mm", "", "over a pin, from the back"),
+    "premachining.residual_undercut": GEAR["premachining.residual_undercut"],
+    "premachining.greatest_undercut": GEAR["premachining.greatest_undercut"],
+    "premachining.root_depth": Symbol("h_f", "mm", "4.5", "root depth, as cut"),
+    "premachining.root_form_depth": Symbol("h_Ff", "mm", "", "begin of the flank, wheel free"),
+    "premachining.precut.normal_tooth_thickness": GEAR["premachining.precut.normal_tooth_thickness"],
+    "premachining.precut.pin_diameter": GEAR["premachining.precut.ball_diameter"],
+    "premachining.precut.over_pin": Symbol("M", "mm", "", "before finishing, over a pin"),
+    "premachining.precut.tip_thickness": GEAR["premachining.precut.tip_thickness"],
+    "premachining.precut.tip_height": Symbol("h_a", "mm", "4.5", "before finishing, tip height"),
+    "premachining.precut.form_depth": Symbol("h_Ff", "mm", "", "before finishing, begin of the flank"),
+    "premachining.least_stock.stock": GEAR["premachining.least_stock.stock"],
+    "premachining.least_stock.residual_undercut": GEAR["premachining.least_stock.residual_undercut"],
+    "premachining.least_stock.root_form_depth": Symbol("h_Ff", "mm", "", "least stock, begin of the flank"),
+    "premachining.most_stock.stock": GEAR["premachining.most_stock.stock"],
+    "premachining.most_stock.residual_undercut": GEAR["premachining.most_stock.residual_undercut"],
+    "premachining.most_stock.root_form_depth": Symbol("h_Ff", "mm", "", "greatest stock, begin of the flank"),
 }
 
 RACK_PAIR = {

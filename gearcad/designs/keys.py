@@ -51,6 +51,7 @@ Cell = int | float | str | tuple[float, ...]
 """Value that both a spec and a cell of a design table can hold."""
 
 PARTS = parts_of(Gear)
+RACK_PARTS = parts_of(Rack)
 """Fields of a gear that have fields of their own, and their types."""
 
 MAIN_TABLES = {

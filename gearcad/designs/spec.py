@@ -17,7 +17,17 @@ from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecE
 from gearcad.core.quantities import FieldSchema, parts_of, schema_of
 from gearcad.core.records import PerGear, Role, naming
 from gearcad.designs.design import Where, require_plain_name, require_sane_tables
-from gearcad.designs.keys import ALTERNATIVES, FIELDS, GEAR_FIELDS, PARTS, PARTS_BESIDE, SHARED, explain_unknown_key, field_of
+from gearcad.designs.keys import (
+    ALTERNATIVES,
+    FIELDS,
+    GEAR_FIELDS,
+    PARTS,
+    PARTS_BESIDE,
+    RACK_PARTS,
+    SHARED,
+    explain_unknown_key,
+    field_of,
+)
 from gearcad.geometry import (
     NAMED_RACKS,
     BasicRack,
@@ -419,7 +429,7 @@ class Spec:
 
     def rack_inputs(self, owner: str) -> dict[str, Any]:
         """Return keyword arguments of Rack; missing values are None."""
-        return self._inputs_of(owner, {"rack": BasicRack}, FIELDS["rack"])
+        return self._inputs_of(owner, RACK_PARTS, FIELDS["rack"])
 
     def _inputs_of(self, owner: str, kinds: Mapping[str, type[Any]], fields: Mapping[str, FieldSchema]) -> dict[str, Any]:
         """Return keyword arguments for a type with parts of these kinds and with these fields."""

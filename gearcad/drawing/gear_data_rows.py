@@ -114,14 +114,14 @@ def _hand(drawn: DrawnGear, write: RowWriter) -> GearDataRow:
 
 def rack_rows(part: Gear | Rack, write: RowWriter) -> Iterator[GearDataRow]:
     """Yield the rows of the basic rack: its name in ISO 53, else its coefficients."""
-    dedendum = part.dedendum if isinstance(part, Gear) else part.rack.dedendum
+    dedendum = part.dedendum
     own = abs(dedendum - part.rack.dedendum) < _SAME
     name = next((name for name, rack in NAMED_RACKS.items() if own and part.rack == rack), None)
-    if name is not None and not (isinstance(part, Gear) and part.premachining.present):
+    if name is not None and not part.premachining.present:
         yield write.text("basic_rack", name.replace("ISO53_", "ISO 53 "))
         return
     yield write.plain("rack_addendum", part.rack.addendum, "h_aP*", name="rack.addendum")
-    if isinstance(part, Gear) and part.premachining.present:  # the tool of its rows makes the root
+    if part.premachining.present:  # the tool of its rows makes the root
         return
     yield write.plain("rack_dedendum", dedendum, "h_fP*", name="rack.dedendum" if own else "dedendum")
     if part.rack.root_radius == "full":
@@ -330,21 +330,13 @@ def premachining_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
     pre, before, module = gear.premachining, gear.precut, gear.normal_module
     if not pre.present:
         return
-    yield write.plain("tool_addendum", gear.tool_addendum, "h_aP0*", name="premachining.tool_addendum")
-    yield write.plain("tool_tip_radius", gear.root_radius, "ρ_aP0*", name="premachining.tool_tip_radius")
-    if pre.protuberance_angle is not None:
-        text = f"{write.words.shortest(pre.protuberance, 4)} mm / {write.words.shortest(pre.protuberance_angle, 4)}°"
-        numbers = {"premachining.protuberance": pre.protuberance, "premachining.protuberance_angle": pre.protuberance_angle}
-        yield write.text("protuberance", text, "p_rP0", numbers)
+    yield from _tool_rows(gear, write)
     if pre.tool_pressure_angle is not None or pre.tool_module is not None:
         angle = tool_pressure_angle(gear)
         cut = module * math.cos(math.radians(gear.rack.pressure_angle)) / math.cos(math.radians(angle))
         text = f"{write.words.shortest(cut, 6)} mm / {write.words.shortest(angle, 4)}°"
         yield write.text("short_lead_tool", text, "m_0 / α_n0")
-    stock = f"{write.words.shortest(gear.stock, 4)}"
-    if pre.stock_tolerance:
-        stock += f" ± {write.words.shortest(pre.stock_tolerance, 4)}"
-    yield write.text("stock", f"{stock} mm", "q", {"premachining.stock": gear.stock})
+    yield _stock_row(gear, write)
     if (count := before.inspection.spanned) is not None and before.span_measurement is not None:
         numbers = {"premachining.precut.span_measurement": before.span_measurement}
         text = write.words.number(before.span_measurement, write.decimals)
@@ -355,6 +347,38 @@ def premachining_rows(gear: Gear, write: RowWriter) -> Iterator[GearDataRow]:
         numbers = {"premachining.precut.ball_diameter": before.ball_diameter, f"premachining.precut.{name}": size}
         text = f"{write.words.number(size, write.decimals)} / {write.words.shortest(before.ball_diameter, 6)}"
         yield write.text(f"precut_{name}", text, "M_dK / D_M", numbers)
+
+
+def _tool_rows(part: Gear | Rack, write: RowWriter) -> Iterator[GearDataRow]:
+    """Yield the rows of addendum, tip radius and protuberance of the tool that cuts before finishing."""
+    pre, addendum = part.premachining, part.dedendum
+    yield write.plain("tool_addendum", addendum, "h_aP0*", name="premachining.tool_addendum")
+    yield write.plain("tool_tip_radius", part.root_radius, "ρ_aP0*", name="premachining.tool_tip_radius")
+    if pre.protuberance_angle is not None:
+        text = f"{write.words.shortest(pre.protuberance, 4)} mm / {write.words.shortest(pre.protuberance_angle, 4)}°"
+        numbers = {"premachining.protuberance": pre.protuberance, "premachining.protuberance_angle": pre.protuberance_angle}
+        yield write.text("protuberance", text, "p_rP0", numbers)
+
+
+def _stock_row(part: Gear | Rack, write: RowWriter) -> GearDataRow:
+    """Return the row of the stock on each flank and its tolerance (mm)."""
+    stock = f"{write.words.shortest(part.stock, 4)}"
+    if tolerance := part.premachining.stock_tolerance:
+        stock += f" ± {write.words.shortest(tolerance, 4)}"
+    return write.text("stock", f"{stock} mm", "q", {"premachining.stock": part.stock})
+
+
+def rack_premachining_rows(rack: Rack, write: RowWriter) -> Iterator[GearDataRow]:
+    """Yield the rows of the tool that cuts the teeth of a rack before they are finished, and of the height over a pin then."""
+    if not rack.premachining.present:
+        return
+    yield from _tool_rows(rack, write)
+    yield _stock_row(rack, write)
+    before = rack.precut
+    if before.over_pin is not None:
+        numbers = {"premachining.precut.pin_diameter": before.pin_diameter, "premachining.precut.over_pin": before.over_pin}
+        text = f"{write.words.number(before.over_pin, write.decimals)} / {write.words.shortest(before.pin_diameter, 6)}"
+        yield write.text("precut_over_pin", text, "M / D_M", numbers)
 
 
 def chamfer_rows(part: Gear | Rack, write: RowWriter) -> Iterator[GearDataRow]:
@@ -473,6 +497,7 @@ def _rack(drawn: DrawnGear, rack: Rack, write: RowWriter) -> Iterator[GearDataRo
     yield from mate_rows(drawn, write)
     yield from tolerance_rows(drawn, write)
     yield from roughness_rows(drawn, write)
+    yield from rack_premachining_rows(rack, write)
     yield from chamfer_rows(rack, write)
 
 

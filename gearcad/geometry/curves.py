@@ -22,6 +22,7 @@ from gearcad.core.records import Floats
 from gearcad.geometry.involute import involute_at_roll
 
 if TYPE_CHECKING:
+    from gearcad.geometry.cutter_flank import CutterFlank
     from gearcad.geometry.fillets import FilletTool
 
 AIM = 0.98
@@ -203,7 +204,38 @@ class WheelArc(_Cartesian):
         return place
 
 
-RootCurve = Fillet | Involute | WheelArc
+@dataclass(frozen=True)
+class FlankTrace(_Cartesian):
+    """Piece of a fillet that the straight flank of a cutter's protuberance cuts, between two ways (mm) along that flank."""
+
+    flank: CutterFlank
+    last: float
+    half_pitch: float
+    first: float = 0.0
+    kind: CurveKind = CurveKind.FILLET
+
+    def _way(self, s: ArrayLike) -> Floats:
+        return self.first + np.asarray(s, float) * (self.last - self.first)
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        radius, angle = self.flank.cut(self._way(s))
+        return radius, self.half_pitch - angle
+
+    def direction(self, s: ArrayLike) -> Floats:
+        return self.flank.direction(self._way(s), self.half_pitch)
+
+    def half_angle(self, radius: ArrayLike) -> Floats:
+        """Return half tooth angle (rad) at radii (mm) on the curve."""
+        angle: Floats = self.half_pitch - self.flank.cut(self.flank.way_at(radius, self.first, self.last))[1]
+        return angle
+
+    def parameter_at(self, radius: ArrayLike) -> Floats:
+        """Return the parameters s at radii (mm) on the curve."""
+        place: Floats = (self.flank.way_at(radius, self.first, self.last) - self.first) / (self.last - self.first)
+        return place
+
+
+RootCurve = Fillet | Involute | WheelArc | FlankTrace
 """A smooth piece of a fillet; that of an involute is cut by the flank of a protuberance."""
 
 
@@ -287,7 +319,7 @@ class Chamfer(_Cartesian):
 
 def parameter_at(curve: Curve, radius: Floats) -> Floats:
     """Return the parameters of points of a fillet's piece at radii (mm) between its ends."""
-    if isinstance(curve, WheelArc):
+    if isinstance(curve, WheelArc | FlankTrace):
         return curve.parameter_at(radius)
     assert isinstance(curve, Fillet)
     return curve.parameter(curve.tool.theta_at(radius, curve.last))

@@ -184,11 +184,14 @@ class _CutterTips(ToothTips):
     """The rounded tips of a cutter: points of the corner from the end of its involute on."""
 
     @classmethod
-    def rounded(cls, tip: ShaperTip, teeth: int) -> _CutterTips:
-        """Return the rounded tips of a cutter with `teeth` teeth, from its corner `tip`."""
-        along, across = tip.outline(np.linspace(tip.last_angle, 0.0, _CORNER_POINTS if tip.radius else 1))
+    def rounded(cls, tip: ShaperTip, teeth: int, outside: float) -> _CutterTips:
+        """Return the rounded tips of a cutter with `teeth` teeth, from its corner `tip`.
+
+        `outside` (rad): by how much the corner stands out of the flanks that touch those of the ring, on the base circle.
+        """
+        along, across = tip.outline(np.linspace(tip.corner_end, 0.0, _CORNER_POINTS if tip.radius else 1))
         edges = zip(np.hypot(along, across).tolist(), np.arctan2(across, along).tolist(), strict=True)
-        return cls(teeth, tip.base_radius, tip.base_half_angle, tuple(edges))
+        return cls(teeth, tip.base_radius, tip.base_half_angle - outside, tuple(edges))
 
     @cached_property
     def corner(self) -> tuple[Floats, Floats]:
@@ -218,7 +221,9 @@ def trimming_notices(gear: GearData, profile: ToothProfile) -> Iterator[Notice]:
 def _tips(gear: GearData, profile: ToothProfile, teeth: int) -> InternalTips:
     """Return the tips of the cutter inside its ring, with `teeth` teeth of the cutter."""
     tip = shaper_tip(gear, corner_radius(gear))
-    return InternalTips(_CutterTips.rounded(tip, teeth), ToothTips.of(profile), tip.centre_distance)
+    residual = gear.premachining.protuberance - gear.stock
+    outside = residual / (tip.base_radius * math.cos(math.radians(gear.base_helix_angle)))
+    return InternalTips(_CutterTips.rounded(tip, teeth, outside), ToothTips.of(profile), tip.centre_distance)
 
 
 def _fewer(gear: GearData, profile: ToothProfile, margin: Callable[[InternalTips], float]) -> str:

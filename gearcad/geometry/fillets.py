@@ -220,10 +220,6 @@ far below it.
 """
 
 
-_FLANK_PLACES = 257
-"""Places along the flank of a cutter's protuberance that are compared with its flank."""
-
-
 class _Normal(NamedTuple):
     """The normal of the corner: its direction delta from the middle's radial line (rad), and length |p'|/rho of the tangent.
 
@@ -291,7 +287,7 @@ class ShaperTip:
         """Radius r_M of the middle of the corner."""
         return self.tip_radius - self.radius
 
-    def _corner(self, theta: Floats) -> tuple[Floats, Floats]:
+    def corner(self, theta: Floats) -> tuple[Floats, Floats]:
         """Return the points of the corner, radially and across, from the cutter's axis with the corner's middle on the radial
         line.
         """
@@ -299,7 +295,7 @@ class ShaperTip:
 
     def outline(self, theta: ArrayLike) -> tuple[Floats, Floats]:
         """Return the points of the corner along and across the middle of the cutter's tooth, from the cutter's axis (mm)."""
-        along, across = self._corner(np.asarray(theta, float))
+        along, across = self.corner(np.asarray(theta, float))
         cosine, sine = math.cos(self.middle_angle), math.sin(self.middle_angle)
         return along * cosine - across * sine, along * sine + across * cosine
 
@@ -323,31 +319,20 @@ class ShaperTip:
 
     @cached_property
     def last_angle(self) -> float:
-        """theta where the corner ends: at the cutter's involute, or at the flank of a protuberance, pi/2 - a_pr."""
+        """theta up to which the corner cuts: its end, or the place beyond which its normal misses the pitch point."""
+        end = self.corner_end
         if self.protuberance_angle is None:
-            return self.tangent_angle
-        end = math.pi / 2 - self.protuberance_angle
+            return end
         if not self.rolls or float(self._moment(end)[0]) <= self.working_radius:
             return end
         # Beyond this place the normal of the corner does not come through the pitch point any more.
         limit = root_between(lambda theta: float(self._moment(theta)[0]) - self.working_radius, self.tangent_angle, end)
         return limit * (1 - _ROUNDING)
 
-    def protuberance_is_covered(self, residual_angle: float, protuberance_angle: float) -> bool:
-        """Return whether the straight flank of the protuberance stays inside the flank that finishes, and meets its own.
-
-        The angles (rad) are those by which the corner's involute stands out of the two, on the base circle of the cutter.
-        """
-        if self.protuberance_angle is None:
-            return True
-        along, across = self._corner(np.array(math.pi / 2 - self.protuberance_angle))
-        way = np.linspace(0.0, float(along) - self.base_radius, _FLANK_PLACES)
-        along, across = along - way, across + way * math.tan(self.protuberance_angle) / self._c
-        radius = np.maximum(np.hypot(along, across), self.base_radius)
-        roll = np.sqrt((radius - self.base_radius) * (radius + self.base_radius)) / self.base_radius
-        out = self.middle_angle + np.arctan2(across, along) - (self.base_half_angle - (roll - np.arctan(roll)))
-        meets = np.flatnonzero(out <= -protuberance_angle)
-        return len(meets) > 0 and bool(np.all(out[: meets[0] + 1] <= -residual_angle))
+    @property
+    def corner_end(self) -> float:
+        """theta where the corner ends: at the cutter's involute, or at the flank of a protuberance, pi/2 - a_pr."""
+        return self.tangent_angle if self.protuberance_angle is None else math.pi / 2 - self.protuberance_angle
 
     @cached_property
     def tangent_angle(self) -> float:
@@ -373,7 +358,7 @@ class ShaperTip:
     @cached_property
     def _join(self) -> tuple[float, float]:
         """Radius (mm) and angle from the corner's middle (rad) of the join, on the cutter."""
-        along, across = self._corner(np.array(self.tangent_angle))
+        along, across = self.corner(np.array(self.tangent_angle))
         return float(np.hypot(along, across)), float(np.arctan2(across, along))
 
     @cached_property
@@ -390,19 +375,19 @@ class ShaperTip:
     # ------------------------------------------------------------------ what it cuts
 
     @property
-    def _side(self) -> int:
+    def side(self) -> int:
         """Return on which side the gear's axis is: +1 behind the cutter's (a ring), -1 before the cutter's tip."""
         return 1 if self.internal else -1
 
     @cached_property
     def working_radius(self) -> float:
         """r_w0 = a_0 z_0/(|z| -+ z_0) of the cutter (mm)."""
-        return self.centre_distance * self.cutter_teeth / (self.teeth - self._side * self.cutter_teeth)
+        return self.centre_distance * self.cutter_teeth / (self.teeth - self.side * self.cutter_teeth)
 
     @cached_property
-    def _pitch_radius(self) -> float:
+    def pitch_radius(self) -> float:
         """r_w = a_0 |z|/(|z| -+ z_0) of the gear (mm)."""
-        return self.centre_distance * self.teeth / (self.teeth - self._side * self.cutter_teeth)
+        return self.centre_distance * self.teeth / (self.teeth - self.side * self.cutter_teeth)
 
     @property
     def rolls(self) -> bool:
@@ -414,17 +399,17 @@ class ShaperTip:
         normal = self._normal(theta)
         gamma = np.arcsin(normal.moment / self.working_radius)
         rise = 2 * self.working_radius * np.sin(gamma / 2) ** 2 - normal.short
-        reach = self._side * (self.root_radius - self._pitch_radius) + rise
+        reach = self.side * (self.root_radius - self.pitch_radius) + rise
         return _Contact(normal, gamma, gamma - normal.delta - self.middle_angle, rise, reach)
 
     def cut(self, theta: ArrayLike) -> tuple[Any, Any]:
         """Return the points that the corner cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
         theta = np.asarray(theta, float)
         if not self.rolls:
-            along, across = self._corner(theta)
+            along, across = self.corner(theta)
             return np.hypot(along, across), self.middle_angle + np.arctan2(across, along)
         contact = self._contact(theta)
-        x = self._pitch_radius + self._side * contact.reach * np.cos(contact.gamma)
+        x = self.pitch_radius + self.side * contact.reach * np.cos(contact.gamma)
         y = contact.reach * np.sin(contact.gamma)
         return np.hypot(x, y), np.arctan2(y, x) - self.share * contact.turn
 
@@ -446,7 +431,7 @@ class ShaperTip:
         """
         along, across, turn = np.asarray(along), np.asarray(across), np.asarray(turn)
         x, y = along * np.cos(turn) - across * np.sin(turn), along * np.sin(turn) + across * np.cos(turn)
-        x = self.centre_distance + self._side * x
+        x = self.centre_distance + self.side * x
         return np.hypot(x, y), np.arctan2(y, x) - turn * self.share
 
     def direction(self, theta: ArrayLike, half_pitch: float) -> Floats:
@@ -455,7 +440,7 @@ class ShaperTip:
         if not self.rolls:
             return half_pitch - (self._normal(theta).delta + self.middle_angle) - math.pi / 2
         contact = self._contact(theta)
-        return half_pitch + self.share * contact.turn - self._side * contact.gamma - math.pi / 2
+        return half_pitch + self.share * contact.turn - self.side * contact.gamma - math.pi / 2
 
     # ------------------------------------------------------------------ where it ends
 
@@ -468,12 +453,12 @@ class ShaperTip:
 
     def action(self, base_radius: float) -> float:
         """a_0 sin a_w0 (mm): the line of action between the gear's base circle and the cutter's."""
-        bases = base_radius - self._side * self.base_radius
+        bases = base_radius - self.side * self.base_radius
         return math.sqrt(max((self.centre_distance - bases) * (self.centre_distance + bases), 0.0))
 
     def _reach(self, base_radius: float) -> float:
         """Return the roll length (mm) on the gear where the join cuts; negative where it would be beyond the base circle."""
-        return self.action(base_radius) + self._side * self.join_length
+        return self.action(base_radius) + self.side * self.join_length
 
     def undercuts(self, base_radius: float, sine: float) -> bool:
         """Return whether the corner cuts away part of an involute with this base radius (mm); that of a ring it never does."""
@@ -482,7 +467,7 @@ class ShaperTip:
     def theta_at(self, radius: ArrayLike, last: float) -> Floats:
         """Inverse of `cut`: theta in [0, last] that cuts at `radius` (mm), to machine precision."""
         radius = np.atleast_1d(np.asarray(radius, float))
-        way = self._side * (self.root_radius - radius)
+        way = self.side * (self.root_radius - radius)
         goal = np.sqrt(np.maximum(way * (radius + self.root_radius), 0.0))
         root_of = self._rolled_square if self.rolls else self._square
         return where_root_is(goal, last, root_of, resolution=_ROUNDING)
@@ -493,7 +478,7 @@ class ShaperTip:
         With l from the pitch point to the point along the normal, R^2 = r_w^2 + l^2 +- 2 r_w l cos gamma;
         l' = h (gamma' - delta') and h' = q delta' - rho D/c for the place q along the normal.
         """
-        c, side, own, pitch = self._c, self._side, self.working_radius, self._pitch_radius
+        c, side, own, pitch = self._c, self.side, self.working_radius, self.pitch_radius
         normal, gamma, _, rise, reach = self._contact(theta)
         square = 4 * pitch * reach * np.sin(gamma / 2) ** 2 - rise * (side * (2 * reach - rise) + 2 * pitch)
         turned = c / normal.stretch**2

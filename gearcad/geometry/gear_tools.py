@@ -11,9 +11,11 @@ from functools import lru_cache
 
 from gearcad.core.errors import GeometryError, at_least, at_most
 from gearcad.core.records import Notice
+from gearcad.geometry.cutter_flank import CutterFlank
 from gearcad.geometry.fillets import FilletTool, ShaperTip, ToolTip
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.involute import inverse_involute, involute, root_between
+from gearcad.geometry.premachining import WHEEL_TIP
 from gearcad.geometry.root_outline import FlankInvolute, OutlineFault, RootOutline, RootTools, Wheel
 
 _ROUNDING = 1e-14
@@ -118,14 +120,10 @@ def chamfering_ramp(gear: GearData) -> FlankInvolute | None:
     return FlankInvolute(r * math.cos(transverse), half)
 
 
-_WHEEL_TIP = 0.2
-"""Radius of a finishing wheel's tip that nobody gives, in normal modules."""
-
-
 def wheel_tip_radius(gear: GearData) -> float:
     """Return the radius (mm) of the tip of the finishing wheel: as given, or a fifth of the normal module."""
     given = gear.finishing.wheel_tip_radius
-    return _WHEEL_TIP * gear.normal_module if given is None else given
+    return WHEEL_TIP * gear.normal_module if given is None else given
 
 
 def _check_end(gear: GearData, end: float) -> None:
@@ -181,13 +179,13 @@ def root_outline(gear: GearData) -> RootOutline | None:
         return None
     base = abs(gear.base_diameter) / 2
     half = math.radians(-gear.base_half_angle if gear.internal else gear.base_half_angle)
-    tools = RootTools(fillet_tool(gear), math.pi / gear.tooth_count, gear.internal)
+    tool, straight = fillet_tool(gear), None
+    if isinstance(tool, ShaperTip) and pre.protuberance:
+        outside = pre.protuberance / (tool.base_radius * math.cos(math.radians(gear.base_helix_angle)))
+        straight = CutterFlank(tool, outside)
+    tools = RootTools(tool, math.pi / gear.tooth_count, gear.internal, straight)
     before, after = FlankInvolute(base, half + gear.stock_angle, gear.internal), FlankInvolute(base, half, gear.internal)
     bulges = pre.protuberance - gear.stock, pre.protuberance
-    if isinstance(tools.tool, ShaperTip) and pre.protuberance:
-        per_mm = 1 / (tools.tool.base_radius * math.cos(math.radians(gear.base_helix_angle)))
-        if not tools.tool.protuberance_is_covered(max(bulges[0], 0.0) * per_mm, bulges[1] * per_mm):
-            raise _no_outline(gear, "protuberance_angle")
     try:
         return tools.finished(before, after, bulges, finishing_wheel(gear))
     except OutlineFault as fault:
@@ -198,12 +196,19 @@ def _no_outline(gear: GearData, what: str) -> GeometryError:
     """Return the error for a root that the tools do not leave."""
     pre, end = gear.premachining, gear.finishing.end_diameter
     if what == "protuberance_angle":
-        permitted = "must be less: the flank of the cutter's protuberance would cut the finished flank, or not meet its own"
+        permitted = "must be less: the flank of the protuberance does not come out of the flank above the base circle"
         return GeometryError("premachining.protuberance_angle", pre.protuberance_angle, permitted, "deg")
+    if what == "protuberance":
+        permitted = "must be less, or cutter_teeth fewer: the corner of the cutter still cuts the flank behind the pitch point"
+        return GeometryError("premachining.protuberance", pre.protuberance, permitted, "mm")
     if what == "end_diameter":
         left = gear.stock - pre.protuberance
         permitted = f"must be given: the tool leaves {left:.6g} mm of stock at the root, and the wheel must end above it"
         return GeometryError("finishing.end_diameter", end, permitted, "mm")
+    radius, across = wheel_tip_radius(gear), 1 - math.sin(math.radians(gear.rack.pressure_angle))
+    if radius * across <= (left := gear.stock - pre.protuberance):
+        permitted = f"must be above {at_least(left / across)} mm: the rounding of the wheel ends in the stock that is left"
+        return GeometryError("finishing.wheel_tip_radius", radius, permitted, "mm")
     permitted = "must be nearer to the tip: the rounding of the wheel reaches into the root that is cut before"
     return GeometryError("finishing.end_diameter", end, permitted, "mm")
 

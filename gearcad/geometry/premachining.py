@@ -49,16 +49,14 @@ class SemiTopping:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Premachining:
-    """Tool that cuts the teeth before they are finished. Without `tool_addendum` or a stock of DIN 3972 there is none.
+class RackPremachining:
+    """Tool that cuts the teeth of a rack before they are finished; without `tool_addendum` or a stock of DIN 3972 none does.
 
-    `tool_addendum` h_aP0 and `tool_tip_radius` are in normal modules; the tool reaches (h_aP0 - x) m_n below the reference
-    circle. `protuberance` (mm) is how far the tip arc stands out of the flank of the tool, `stock` (mm) what it leaves on each
+    `tool_addendum` h_aP0 and `tool_tip_radius` are in normal modules; the tool reaches h_aP0 m_n below its reference line.
+    `protuberance` (mm) is how far the tip arc stands out of the flank of the tool, `stock` (mm) what it leaves on each
     flank, both normal to the flank; "din3972-III" and "din3972-IV" follow from the module, and give the addendum too.
     `stock_tolerance` (mm): the stock is within plus and minus of it. `topping` (mm) is the depth of the tool's root below its
-    reference line if it cuts the tips. `tool_pressure_angle` (degrees), less than that of the gear, is of a hob with a short
-    lead, whose module follows; `tool_module` may say so too. With `cutter_teeth` the tool is a shaper cutter.
-    `protuberance_angle` (degrees) is that of its flank to the middle of the tool's tooth.
+    reference line if it cuts the tips. `protuberance_angle` (degrees) is that of its flank to the middle of the tool's tooth.
     Raises ParameterError, or GeometryError for keys that do not belong together.
     """
 
@@ -71,10 +69,6 @@ class Premachining:
     ] = 0.0
     stock_tolerance: Annotated[float, _MM, Words("tolerance of the stock, ±")] = 0.0
     topping: Annotated[float | None, _MM, Words("topping tool, dedendum", "h_fP0")] = None
-    tool_pressure_angle: Annotated[float | None, Range("deg", 1, 45), Words("pre-cutting tool, pressure angle", "α_n0")] = None
-    tool_module: Annotated[float | None, Range("mm", 0.01, 200), Words("pre-cutting tool, module", "m_0")] = None
-    cutter_teeth: Annotated[int | None, Whole(3, 2000), Words("pre-cutting cutter, teeth", "z_0")] = None
-    cutter_profile_shift: Annotated[float, Range("", -5, 5), Words("pre-cutting cutter, profile shift", "x_0")] = 0.0
     semi_topping: SemiTopping = field(default=SemiTopping())
 
     __repr__ = concise
@@ -96,14 +90,6 @@ class Premachining:
         if isinstance(self.stock, float) and self.stock_tolerance > self.stock:
             permitted = f"must be at most {self.stock:g} mm, the stock"
             raise GeometryError("stock_tolerance", self.stock_tolerance, permitted, "mm")
-        if self.cutter_teeth is None and self.cutter_profile_shift:
-            raise GeometryError("cutter_profile_shift", self.cutter_profile_shift, "must be left out without cutter_teeth")
-        if self.cutter_teeth is not None:
-            for name in ("tool_pressure_angle", "tool_module", "topping"):
-                if (value := getattr(self, name)) is not None:
-                    raise GeometryError(name, value, "must be left out where cutter_teeth is given: it is of a hob")
-            if self.semi_topping.present:
-                raise GeometryError("semi_topping.angle", self.semi_topping.angle, "must be left out: it is of a hob", "deg")
         if self.topping is not None and self.semi_topping.present:
             raise GeometryError("topping", self.topping, "must be left out where semi_topping is given", "mm")
 
@@ -131,6 +117,42 @@ class Premachining:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Premachining(RackPremachining):
+    """Tool that cuts the teeth of a gear before they are finished.
+
+    It reaches (h_aP0 - x) m_n below the reference circle. `tool_pressure_angle` (degrees), less than that of the gear, is of a
+    hob with a short lead, whose module follows; `tool_module` may say so too. With `cutter_teeth` the tool is a shaper cutter.
+    Raises as its parent.
+    """
+
+    tool_pressure_angle: Annotated[float | None, Range("deg", 1, 45), Words("pre-cutting tool, pressure angle", "α_n0")] = None
+    tool_module: Annotated[float | None, Range("mm", 0.01, 200), Words("pre-cutting tool, module", "m_0")] = None
+    cutter_teeth: Annotated[int | None, Whole(3, 2000), Words("pre-cutting cutter, teeth", "z_0")] = None
+    cutter_profile_shift: Annotated[float, Range("", -5, 5), Words("pre-cutting cutter, profile shift", "x_0")] = 0.0
+
+    __repr__ = concise
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.cutter_teeth is None:
+            if self.cutter_profile_shift:
+                raise GeometryError("cutter_profile_shift", self.cutter_profile_shift, "must be left out without cutter_teeth")
+            return
+        for name in ("tool_pressure_angle", "tool_module", "topping"):
+            if (value := getattr(self, name)) is not None:
+                raise GeometryError(name, value, "must be left out where cutter_teeth is given: it is of a hob")
+        if self.semi_topping.present:
+            raise GeometryError("semi_topping.angle", self.semi_topping.angle, "must be left out: it is of a hob", "deg")
+
+
+_WheelTip = Annotated[float | None, Range("mm", 0.001, 100), Words("tip radius of the wheel", "ρ_g")]
+_NotchDepth = Annotated[float | None, Range("mm", 0, 100), Words("depth of the grinding notch", "t_g", "ISO 6336-3")]
+
+WHEEL_TIP = 0.2
+"""Radius of a finishing wheel's tip that nobody gives, in normal modules."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Finishing:
     """Finishing of flanks that were cut before: by a wheel that rolls as a rack, or by a form wheel.
 
@@ -142,8 +164,27 @@ class Finishing:
 
     kind: Annotated[str, Choice(("generating", "form")), Words("kind of finishing")] = "generating"
     end_diameter: Annotated[float | None, Range("mm", -2e6, 2e6), Words("end of the finished flank", "d_FfG")] = None
-    wheel_tip_radius: Annotated[float | None, Range("mm", 0.001, 100), Words("tip radius of the wheel", "ρ_g")] = None
-    notch_depth: Annotated[float | None, Range("mm", 0, 100), Words("depth of the grinding notch", "t_g", "ISO 6336-3")] = None
+    wheel_tip_radius: _WheelTip = None
+    notch_depth: _NotchDepth = None
+
+    __repr__ = concise
+
+    def __post_init__(self) -> None:
+        require_fields(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RackFinishing:
+    """Finishing of the flanks of a rack that were cut before, by a wheel with the profile of a space.
+
+    `end_depth` (mm) is the depth below the reference line at which the finished flank ends, negative above the line. None lets
+    the wheel run free of the root, which takes a protuberance of at least the stock. `wheel_tip_radius` and `notch_depth` (mm)
+    are as in `Finishing`. Raises ParameterError.
+    """
+
+    end_depth: Annotated[float | None, Range("mm", -1000, 1000), Words("end of the finished flank, below", "h_FfG")] = None
+    wheel_tip_radius: _WheelTip = None
+    notch_depth: _NotchDepth = None
 
     __repr__ = concise
 

@@ -9,177 +9,28 @@ Raises ParameterError or GeometryError, whose limits can be used as they are pri
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field, fields
-from enum import Enum
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
-from typing import Annotated, Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core import symbols
-from gearcad.core.errors import GeometryError, ParameterError, at_least, at_most
-from gearcad.core.quantities import NOT_GIVEN, Range, Whole, Words, derive, derive_count, is_given, symbols_of
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.quantities import derive, derive_count, symbols_of
 from gearcad.core.records import Floats, JsonObject, Notice, concise
-from gearcad.geometry.curves import PlaneCurve, parameters_within
+from gearcad.geometry.curves import parameters_within
 from gearcad.geometry.gear import Gear
-from gearcad.geometry.gear_data import LEAST_RIM
-from gearcad.geometry.gear_parts import ISO53_A, LEAST_FEATURE, BasicRack, NormalDiametralPitch, NormalModule, derive_module
+from gearcad.geometry.gear_parts import derive_module
 from gearcad.geometry.gear_pictures import CHORD_ERROR, Pose, RackPose, drawing, gear_shapes, polygon, sheet
 from gearcad.geometry.inspection import RackInspection
+from gearcad.geometry.premachining import RackFinishing
 from gearcad.geometry.profile import LEAST_LAND, RADIUS_SLACK
-from gearcad.geometry.toothed import (
-    FaceWidth,
-    HelixAngle,
-    TipAlteration,
-    ToothedPart,
-    ToothThinning,
-    check_fields,
-    check_root_radius,
-    check_thickness,
-    check_width,
-    most_dedendum,
-    tip_notices,
-)
-
-_LENGTH = Range("mm", 0, None, ends="(]")
-_FEATURE = Range("mm", 0, None)
-
-WHOLE_PITCH = 1e-9
-"""Share of a pitch by which a given length may miss a whole number of them, as printed lengths do."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class RackData(ToothedPart):
-    """The fields of a `Rack`, unchecked, and sizes that need no outline of a tooth. Lengths in mm, angles in degrees."""
-
-    name: Annotated[str, Words("name")] = "rack"
-    teeth: Annotated[int | None, Whole(1, 2000), Words("number of teeth (whole pitches)", "z")] = None
-    length: Annotated[float, _LENGTH, Words("length", "L")] = NOT_GIVEN
-    normal_module: NormalModule = NOT_GIVEN
-    normal_diametral_pitch: NormalDiametralPitch = NOT_GIVEN
-    helix_angle: HelixAngle = 0.0
-    face_width: FaceWidth
-    height: Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("height, back to reference line", "H_0")]
-    tip_alteration: TipAlteration = 0.0
-    tooth_thinning: ToothThinning = 0.0
-    tip_chamfer: Annotated[float, _FEATURE, Words("tip chamfer, height", "h_K", "6.1")] = 0.0
-    rack: BasicRack = field(default=ISO53_A)
-
-    @property
-    def normal_pitch(self) -> float:
-        """Normal pitch p_n = pi m_n, perpendicular to the teeth."""
-        return math.pi * self.normal_module
-
-    @property
-    def transverse_base_pitch(self) -> float:
-        """Transverse base pitch p_bt = p_t cos alpha_t."""
-        return self.transverse_pitch * math.cos(math.radians(self.transverse_pressure_angle))
-
-    @property
-    def normal_tooth_thickness(self) -> float:
-        """Normal tooth thickness s_n = pi m_n/2 - thinning, on the reference line."""
-        return self.normal_module * math.pi / 2 - self.tooth_thinning
-
-    @property
-    def tip_height(self) -> float:
-        """Addendum h_a = m_n (h_aP + k), above the reference line."""
-        return self.normal_module * (self.rack.addendum + self.tip_alteration)
-
-    @property
-    def tip_form_height(self) -> float:
-        """Height (mm) above the reference line at which the straight flank ends: the tip less its chamfer."""
-        return self.tip_height - self.tip_chamfer
-
-    @property
-    def root_depth(self) -> float:
-        """Dedendum h_f = m_n h_fP, below the reference line."""
-        return self.normal_module * self.rack.dedendum
-
-    @property
-    def form_depth(self) -> float:
-        """h_Ff = h_f - rho_f (1 - sin alpha_n): where the straight flank begins, below the reference line."""
-        radius = self.root_radius * self.normal_module
-        return self.root_depth - radius * (1 - math.sin(math.radians(self.rack.pressure_angle)))
-
-    @property
-    def tip_thickness(self) -> float:
-        """s_an = s_n - 2 h_a tan alpha_n: normal tooth thickness at the tip, before a tip chamfer."""
-        return self.normal_tooth_thickness - 2 * self.tip_height * math.tan(math.radians(self.rack.pressure_angle))
-
-    @property
-    def total_height(self) -> float:
-        """Height (mm) from the back to the tips."""
-        return self.height + self.tip_height
-
-    @property
-    def whole_pitches(self) -> int:
-        """Number of whole pitches in the length."""
-        return math.floor(self.length / self.transverse_pitch + WHOLE_PITCH)
-
-    @property
-    def drift(self) -> float:
-        """Distance (mm) that a tooth moves along +x per mm of height z: -tan beta, as a right-hand tooth on +y does."""
-        return 0.0 - math.tan(math.radians(self.helix_angle))
-
-
-class RackCurveKind(Enum):
-    """Kind of a piece of the outline; the value is its name in files."""
-
-    ROOT = "root land"
-    FILLET = "fillet"
-    FLANK = "flank"
-    CHAMFER = "tip chamfer"
-    TIP = "tip land"
-
-
-class RackCurve(PlaneCurve, Protocol):
-    """A piece of the outline of the left half of a tooth, root side first."""
-
-    @property
-    def kind(self) -> RackCurveKind: ...
-
-
-@dataclass(frozen=True)
-class Straight:
-    """A land, a flank or a chamfer, between two points (mm)."""
-
-    kind: RackCurveKind
-    start: tuple[float, float]
-    end: tuple[float, float]
-
-    def points(self, s: ArrayLike) -> Floats:
-        s = np.asarray(s, float)[..., None]
-        points: Floats = (1 - s) * np.array(self.start) + s * np.array(self.end)
-        return points
-
-    def direction(self, s: ArrayLike) -> Floats:
-        (x, y), (to_x, to_y) = self.start, self.end
-        return np.full(np.shape(s), math.atan2(to_y - y, to_x - x))
-
-
-@dataclass(frozen=True)
-class FilletArc:
-    """The fillet: a circle about (`x`, `y`) in the normal section (mm), from its lowest point over the angle `last` (rad).
-
-    `stretch` is 1/cos beta, by which the transverse section is wider.
-    """
-
-    x: float
-    y: float
-    radius: float
-    last: float
-    stretch: float
-    kind: RackCurveKind = RackCurveKind.FILLET
-
-    def points(self, s: ArrayLike) -> Floats:
-        theta = np.asarray(s, float) * self.last
-        return np.stack([(self.x + self.radius * np.sin(theta)) * self.stretch, self.y - self.radius * np.cos(theta)], -1)
-
-    def direction(self, s: ArrayLike) -> Floats:
-        theta = np.asarray(s, float) * self.last
-        return np.arctan2(np.sin(theta), np.cos(theta) * self.stretch)
+from gearcad.geometry.rack_data import RackData, check_rack_length, check_rack_numbers, check_rack_teeth
+from gearcad.geometry.rack_root import FilletArc, RackCurve, RackCurveKind, RackRamp, RackRoot, Straight
+from gearcad.geometry.toothed import check_fields, tip_notices
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -187,7 +38,8 @@ class RackProfile:
     """Exact transverse outline of one tooth of a rack: root land, fillet, flank, tip chamfer, tip land.
 
     Normal pitch and thickness on the reference line, heights, radius of the fillets and height of the tip chamfer (45 degrees
-    in the transverse section) in mm; angles in degrees. Normally obtained as `rack.profile`.
+    in the transverse section) in mm; angles in degrees. `root` and `ramp` are of teeth that are cut before they are finished.
+    Normally obtained as `rack.profile`.
     """
 
     normal_pitch: float
@@ -198,6 +50,8 @@ class RackProfile:
     root_depth: float
     root_radius: float
     tip_chamfer: float = 0.0
+    root: RackRoot | None = None
+    ramp: RackRamp | None = None
 
     @property
     def stretch(self) -> float:
@@ -217,6 +71,8 @@ class RackProfile:
     @property
     def form_depth(self) -> float:
         """Depth (mm) below the reference line at which the straight flank begins."""
+        if self.root is not None:
+            return self.root.form_depth
         return self.root_depth - self.root_radius * (1 - math.sin(math.radians(self.pressure_angle)))
 
     @cached_property
@@ -227,9 +83,36 @@ class RackProfile:
         return FilletArc(-u, -depth, self.root_radius, math.pi / 2 - angle, self.stretch)
 
     @property
+    def tip_form_height(self) -> float:
+        """Height (mm) above the reference line at which the straight flank ends."""
+        return self.tip_height - self.tip_chamfer if self.ramp is None else self.ramp.start
+
+    @property
+    def chamfered(self) -> bool:
+        """Whether something is between the flank and the tip land."""
+        return bool(self.tip_chamfer) or self.ramp is not None
+
+    @property
+    def _chamfer_slope(self) -> float:
+        """Slope of the tip chamfer against the height (transverse section): 1, or that of the ramp."""
+        return 1.0 if self.ramp is None else self.ramp.slope * self.stretch
+
+    @cached_property
+    def _root_pieces(self) -> tuple[FilletArc | Straight, ...]:
+        if self.root is not None:
+            return self.root.pieces
+        return (self._fillet,) if self.root_radius else ()
+
+    @property
+    def _foot(self) -> float:
+        """Place (mm along the rack) where the root land ends, left of the middle of the tooth."""
+        pieces = self._root_pieces
+        return float(pieces[0].points(0.0)[0]) if pieces else self._fillet.x * self.stretch
+
+    @property
     def root_land(self) -> float:
         """Width of the root land along the rack (mm); 0 where fillets meet."""
-        width = self.pitch + 2 * self._fillet.x * self.stretch
+        width = self.pitch + 2 * self._foot
         return width if width >= LEAST_LAND else 0.0
 
     @cached_property
@@ -238,20 +121,19 @@ class RackProfile:
 
         The root land is absent where the fillets meet, the fillet where there is no radius, the chamfer where there is none.
         """
-        fillet, tip = self._fillet, self.tip_height
+        pieces, tip = self._root_pieces, self.tip_height
         middle = (-self.pitch / 2, -self.root_depth)
-        foot = (fillet.x * self.stretch, -self.root_depth)
+        foot = (self._foot, -self.root_depth)
         form = (-self.half_thickness_on_flank(-self.form_depth), -self.form_depth)
-        if not (self.root_land or self.root_radius):  # flanks meet, rounding or not
+        if not (self.root_land or pieces):  # flanks meet, rounding or not
             form = middle
-        end = (-self.half_thickness_on_flank(tip - self.tip_chamfer), tip - self.tip_chamfer)
-        top = (end[0] + self.tip_chamfer, tip)
-        curves: list[RackCurve] = [Straight(RackCurveKind.FLANK, form, end)]
-        if self.root_radius:
-            curves.insert(0, fillet)
+        end = (-self.half_thickness_on_flank(self.tip_form_height), self.tip_form_height)
+        run = self.tip_chamfer if self.ramp is None else (tip - end[1]) * self._chamfer_slope
+        top = (end[0] + run, tip)
+        curves: list[RackCurve] = [*pieces, Straight(RackCurveKind.FLANK, form, end)]
         if self.root_land:
             curves.insert(0, Straight(RackCurveKind.ROOT, middle, foot))
-        if self.tip_chamfer:
+        if self.chamfered:
             curves.append(Straight(RackCurveKind.CHAMFER, end, top))
         return (*curves, Straight(RackCurveKind.TIP, top, (0.0, tip)))
 
@@ -275,81 +157,11 @@ class RackProfile:
             permitted = f"must be from {-self.root_depth:.10g} to {self.tip_height:.10g} mm (root to tip)"
             raise ParameterError("height", float(given[outside].flat[0]), permitted, "mm")
         half = self._on_flank(given)
-        fillet, end = self._fillet, self.tip_height - self.tip_chamfer
-        below = np.clip(fillet.y - given, -fillet.radius, fillet.radius)
-        along = np.sqrt((fillet.radius - below) * (fillet.radius + below))
-        half = np.where(given < -self.form_depth, -(fillet.x + along) * self.stretch, half)
-        half = np.where(given > end, self._on_flank(end) - (given - end), half)
+        end, below = self.tip_form_height, given < -self.form_depth
+        if self.root is None or self.root.pieces:
+            half = np.where(below, (self.root or self._fillet).half_thickness(given), half)
+        half = np.where(given > end, self._on_flank(end) - (given - end) * self._chamfer_slope, half)
         return float(half) if half.ndim == 0 else half
-
-
-MOST_PITCHES = 2000
-"""Largest number of teeth of a rack."""
-
-
-def check_rack_numbers(rack: RackData) -> None:
-    """Raise ParameterError or GeometryError for numbers that do not fit the module, and unless teeth or a length are given."""
-    if 0 < rack.tip_chamfer < LEAST_FEATURE:
-        raise ParameterError("tip_chamfer", rack.tip_chamfer, f"must be 0 or at least {LEAST_FEATURE} mm", "mm")
-    if not is_given(rack.teeth) and not is_given(rack.length):
-        raise ParameterError("teeth", None, "must be a whole number from 1 to 2000, or give the length in mm")
-    if is_given(rack.teeth) and is_given(rack.length):
-        long = f"{rack.teeth} teeth are {(rack.teeth or 0) * rack.transverse_pitch:.6f} mm long"
-        raise GeometryError("length", rack.length, f"must be left out where teeth are given: {long}", "mm")
-    check_width(rack, rack.face_width)
-
-
-def check_rack_length(rack: RackData) -> None:
-    """Raise GeometryError unless a given length holds a pitch, and not too many."""
-    pitch = rack.transverse_pitch
-    if not 1 <= rack.whole_pitches <= MOST_PITCHES:
-        permitted = f"must be from {at_least(pitch)} to {at_most(MOST_PITCHES * pitch)} mm (1 to {MOST_PITCHES} pitches)"
-        raise GeometryError("length", rack.length, permitted, "mm")
-
-
-def check_rack_teeth(rack: RackData) -> None:
-    """Raise GeometryError unless the teeth are possible.
-
-    There must be some tooth on the reference line, a fillet that fits the space, some flank, some tip land, and a back below
-    the roots.
-    """
-    check_thickness(rack)
-    if (most := most_dedendum(rack)) is not None:
-        permitted = f"must be at most {at_most(most)}, where the flanks of a space meet"
-        raise GeometryError("rack.dedendum", rack.rack.dedendum, permitted)
-    check_root_radius(rack)
-    _check_flank(rack)
-    if rack.tip_chamfer:
-        _check_chamfer(rack)
-    least = rack.root_depth + LEAST_RIM * rack.normal_module
-    if rack.height < least:
-        permitted = f"must be at least {at_least(least)} mm ({LEAST_RIM} m_n below the roots, {rack.root_depth:.6g} mm deep)"
-        raise GeometryError("height", rack.height, permitted, "mm")
-
-
-def _check_flank(rack: RackData) -> None:
-    """Raise GeometryError unless the tip is above the form line and some land is on it."""
-    m, tangent = rack.normal_module, math.tan(math.radians(rack.rack.pressure_angle))
-    if rack.tip_height <= -rack.form_depth:
-        least = at_least(-rack.form_depth / m - rack.rack.addendum)
-        raise GeometryError("tip_alteration", rack.tip_alteration, f"must be above {least}: no flank is left above the fillet")
-    if rack.tip_thickness < LEAST_LAND:
-        highest = (rack.normal_tooth_thickness - LEAST_LAND) / 2 / tangent
-        permitted = f"must be at most {at_most(highest / m - rack.rack.addendum)} (pointed tooth)"
-        raise GeometryError("tip_alteration", rack.tip_alteration, permitted)
-
-
-def _check_chamfer(rack: RackData) -> None:
-    """Raise GeometryError unless the tip chamfer takes material off and leaves some flank and some land."""
-    slope = math.tan(math.radians(rack.transverse_pressure_angle))
-    if slope >= 1:
-        permitted = "must be 0 mm: the flank leans in by more than the chamfer's 45 deg"
-        raise GeometryError("tip_chamfer", rack.tip_chamfer, permitted, "mm")
-    land = rack.tip_thickness / math.cos(math.radians(rack.helix_angle))
-    most = min((land - LEAST_LAND) / 2 / (1 - slope), rack.tip_height + rack.form_depth)
-    if rack.tip_chamfer >= most:
-        permitted = f"must be below {at_most(most)} mm: some flank and some tip land are left"
-        raise GeometryError("tip_chamfer", rack.tip_chamfer, permitted, "mm")
 
 
 _OF_RACK = "teeth length normal_module helix_angle face_width height tip_height root_depth".split()
@@ -464,7 +276,70 @@ class Rack(RackData):
             root_depth=self.root_depth,
             root_radius=radius if radius >= LEAST_LAND else 0.0,
             tip_chamfer=self.tip_chamfer,
+            root=self.root,
+            ramp=self.ramp,
         )
+
+    # ------------------------------------------------------------------ before the flanks are finished
+
+    @cached_property
+    def precut(self) -> Rack:
+        """The rack before its flanks are finished; itself where they are cut in one step."""
+        if not self.premachining.present:
+            return self
+        given = {each.name: getattr(self, each.name) for each in fields(self)}
+        return PrecutRack(**given | {"finishing": RackFinishing()})
+
+    @property
+    def undercut(self) -> bool:
+        """True if the flank begins at a corner, above a root that the tool has cut deeper."""
+        return self.root is not None and self.root.corner
+
+    @property
+    def greatest_undercut(self) -> float:
+        """Greatest distance (mm, along the rack) of the fillet inside the finished flank going on: s_pr/cos alpha."""
+        beyond = max(self.residual_undercut, 0.0) if self.undercut else 0.0
+        return beyond / math.cos(math.radians(self.rack.pressure_angle)) / self.helix_cosine
+
+    def with_stock(self, stock: float) -> Rack:
+        """Return the rack cut with another stock (mm) on its flanks. Its wheel runs free of the root where nothing stops it."""
+        pre = replace(self.premachining, tool_addendum=self.dedendum, stock=stock, stock_tolerance=0.0)
+        free = stock <= self.premachining.protuberance
+        return replace(self, premachining=pre, finishing=RackFinishing() if free else self.finishing)
+
+    def can_have_stock(self, stock: float) -> bool:
+        """Return whether the tools leave a root with a stock (mm)."""
+        try:
+            self.with_stock(stock)
+        except GeometryError:
+            return False
+        return True
+
+    def _premachining_document(self) -> JsonObject:
+        """Return the inputs of the pre-cutting tool and what it leaves (mm)."""
+        pre, before = self.premachining, self.precut
+        document = asdict(pre) | {
+            "stock": self.stock,
+            "residual_undercut": self.residual_undercut,
+            "greatest_undercut": self.greatest_undercut,
+            "root_depth": self.root_depth,
+            "root_form_depth": None if self.residual_undercut < 0 else self.with_stock(self.stock).form_depth,
+            "precut": {
+                "normal_tooth_thickness": before.normal_tooth_thickness,
+                "pin_diameter": before.pin_diameter,
+                "over_pin": before.over_pin,
+                "tip_thickness": before.tip_thickness,
+                "tip_height": before.tip_height,
+                "form_depth": before.form_depth,
+            },
+        }
+        for name, sign in (("least_stock", -1), ("most_stock", 1)):
+            if pre.stock_tolerance:
+                stock = self.stock + sign * pre.stock_tolerance
+                left = pre.protuberance - stock
+                form = None if left < 0 else self.with_stock(stock).form_depth
+                document[name] = {"stock": stock, "residual_undercut": left, "root_form_depth": form}
+        return document
 
     # ------------------------------------------------------------------ inspection
 
@@ -500,14 +375,44 @@ class Rack(RackData):
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
         """Notices about this rack that an engineer should read before making it."""
-        return (*tip_notices(self), *self.inspection.notices())
+        return (*tip_notices(self), *self._notices_of_premachining(), *self.inspection.notices())
+
+    def _notices_of_premachining(self) -> Iterator[Notice]:
+        begins = f"the finished flank begins {self.form_depth:.4f} mm below the reference line"
+        if self.undercut:
+            reach = f"{self.greatest_undercut:.4f} mm deep (protuberance less stock {self.residual_undercut:.4f} mm)"
+            yield Notice("residual-undercut", f"residual undercut: {begins}, above an undercut {reach}")
+        elif self.residual_undercut < 0:
+            left = -self.residual_undercut
+            yield Notice("grinding-notch", f"grinding notch: {begins}, where the wheel leaves a step of {left:.4f} mm")
 
     def _repr_html_(self) -> str:
         return rack_html(self, self.profile)
 
     def to_dict(self) -> JsonObject:
         """Return the inputs and derived properties under their field names, for JSON."""
-        inputs = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "rack"}
-        rack = {f.name: getattr(self.rack, f.name) for f in fields(self.rack)}
+        parts = {"rack", "premachining", "finishing"}
+        inputs = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in parts}
+        rack: JsonObject = {"rack": {f.name: getattr(self.rack, f.name) for f in fields(self.rack)}}
+        if self.premachining.present:
+            rack |= {"premachining": self._premachining_document(), "finishing": asdict(self.finishing)}
         warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}
-        return {**inputs, "rack": rack, **{name: getattr(self, name) for name in _DERIVED}, **warnings}
+        return {**inputs, **rack, **{name: getattr(self, name) for name in _DERIVED}, **warnings}
+
+
+class PrecutRack(Rack):
+    """A rack as its pre-cutting tool leaves it: thicker by the stock on each flank.
+
+    Obtained as `rack.precut`.
+    """
+
+    @property
+    def stock(self) -> float:
+        """0 mm: nothing of these teeth is finished yet."""
+        return 0.0
+
+    @property
+    def normal_tooth_thickness(self) -> float:
+        """Normal tooth thickness s_n (mm) on the reference line, with the stock."""
+        stock = self.premachining.stock_of(self.normal_module)
+        return super().normal_tooth_thickness + 2 * stock / math.cos(math.radians(self.rack.pressure_angle))

@@ -274,7 +274,7 @@ def cut_by_pinion(pinion: ToothProfile, rack: RackProfile, place: RackPlace) -> 
 
 def _rack_edges(rack: RackProfile) -> list[tuple[float, float]]:
     """Return the height and half thickness (mm) at the ends of the flank and of the tip land."""
-    end, tip = rack.tip_height - rack.tip_chamfer, rack.tip_height
+    end, tip = rack.tip_form_height, rack.tip_height
     return sorted({(end, rack.half_thickness_on_flank(end)), (tip, rack.half_thickness(tip))})
 
 

@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.core.records import Floats
-from gearcad.geometry.curves import CurveKind, Fillet, FilletChain, Involute, RootCurve, WheelArc
+from gearcad.geometry.curves import CurveKind, Fillet, FilletChain, FlankTrace, Involute, RootCurve, WheelArc
+from gearcad.geometry.cutter_flank import CutterFlank
 from gearcad.geometry.fillets import FilletTool, ShaperTip, ToolTip
 from gearcad.geometry.involute import involute_at_roll, root_between
 
@@ -76,11 +77,15 @@ class OutlineFault(Exception):
 
 @dataclass(frozen=True)
 class RootTools:
-    """A pre-cutting tool in the space of one gear: `tool`, half the pitch (rad), and whether the gear is a ring."""
+    """A pre-cutting tool in the space of one gear: `tool`, half the pitch (rad), and whether the gear is a ring.
+
+    `straight` is the straight flank of a cutter's protuberance.
+    """
 
     tool: FilletTool
     half_pitch: float
     internal: bool
+    straight: CutterFlank | None = None
 
     @property
     def _side(self) -> float:
@@ -97,6 +102,8 @@ class RootTools:
 
         Raises OutlineFault where the tip arc ends before it meets the flank, and nothing known goes on from there.
         """
+        if self.straight is not None:
+            return self._shaped(flank, bulge)
         if bulge <= ROUNDING:
             return self._plain(flank)
         crossing = self._crossing(flank)
@@ -183,6 +190,39 @@ class RootTools:
             return last
         return root_between(excess, first, last, xtol=1e-15, rtol=8.9e-16)
 
+    def _shaped(self, flank: FlankInvolute, bulge: float) -> RootOutline:
+        """Return the root that a cutter with a protuberance leaves, whose straight flank may cut further up than its corner."""
+        straight = self.straight
+        assert straight is not None
+        trace = FlankTrace(straight, straight.last, self.half_pitch, first=min(straight.first, straight.last))
+        radii, halves = trace.polar(np.linspace(0.0, 1.0, _SAMPLES))
+        deeper = np.flatnonzero((halves - flank.half_angle(radii)) * radii < -ROUNDING)
+        if not len(deeper):
+            if bulge <= ROUNDING:
+                return self._plain(flank)
+            if (crossing := self._crossing(flank)) is None:
+                raise OutlineFault("protuberance")
+            return self._crossed(crossing)
+        last = int(deeper[-1])
+        rising = self._side * np.diff(radii[: last + 2]) > 0
+        if straight.first > 0:
+            raise OutlineFault("protuberance")
+        if last == _SAMPLES - 1 or not bool(np.all(rising)):
+            raise OutlineFault("protuberance_angle")
+
+        def excess(s: float) -> float:
+            radius, half = trace.polar(s)
+            return float(half - flank.half_angle(radius))
+
+        low, s = last / (_SAMPLES - 1), (last + 1) / (_SAMPLES - 1)
+        if excess(s) > 0:  # else they meet there by less than rounding
+            s = root_between(excess, low, s, xtol=1e-15, rtol=8.9e-16)
+        radius = float(trace.polar(s)[0])
+        if not self.internal and radius < flank.base_radius:
+            raise OutlineFault("protuberance_angle")
+        end = replace(trace, last=s * straight.last)
+        return RootOutline((Fillet(self.tool, self.tool.last_angle, self.half_pitch), end), radius, corner=True)
+
     # ------------------------------------------------------------------ a wheel that ends above the root
 
     def finished(
@@ -210,7 +250,7 @@ class RootTools:
         """Return the half angle (rad) of the pre-cut tooth at a radius (mm); infinite inside its root circle."""
         root = self._half_angle(0.0)[0]
         if self._side * radius < self._side * root:
-            return -math.inf
+            return math.inf
         if self._side * radius <= self._side * cut.form_radius:
             curve = cut.curve
             return float(curve.half_angle(np.array([radius]))[0])
@@ -252,6 +292,8 @@ class RootTools:
     def _ended(self, piece: RootCurve, radius: float) -> RootCurve:
         if isinstance(piece, Fillet):
             return replace(piece, last=float(self.tool.theta_at(radius, piece.last)[0]))
+        if isinstance(piece, FlankTrace):
+            return replace(piece, last=float(piece.flank.way_at(radius, piece.first, piece.last)[0]))
         assert isinstance(piece, Involute)
         return replace(piece, last=math.sqrt((radius - piece.base_radius) * (radius + piece.base_radius)) / piece.base_radius)
 

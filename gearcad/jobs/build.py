@@ -14,23 +14,23 @@ from gearcad.core.runtime import Progress
 from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import DesignKind
-from gearcad.geometry import Gear
+from gearcad.geometry import Gear, Rack
 from gearcad.geometry.making import Making
 from gearcad.jobs.job import Data, Job, Subject, Writer, as_design
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.body_plan import require_rim
 from gearcad.solids.facets.tessellation import gear_chord_error
 from gearcad.solids.files.formats import formats_minding
-from gearcad.solids.files.products import GearProduct, MadeProduct, PairProduct
+from gearcad.solids.files.products import GearProduct, MadeProduct, PairProduct, RackProduct
 from gearcad.version import __version__
 
 if TYPE_CHECKING:
     from gearcad.designs import PairDesign, PlanetaryDesign, RackDesign, RackPairDesign
-    from gearcad.solids.files.products import RackPairProduct, RackProduct
+    from gearcad.solids.files.products import RackPairProduct
     from gearcad.solids.files.train_products import TrainProduct
 
 
-PartProduct: TypeAlias = "GearProduct | RackProduct"
+PartProduct: TypeAlias = GearProduct | RackProduct
 AssemblyProduct: TypeAlias = "PairProduct | RackPairProduct | TrainProduct"
 
 
@@ -57,7 +57,7 @@ def _with_rack(
     design: RackDesign | RackPairDesign, options: FileOptions
 ) -> tuple[Mapping[str, PartProduct], RackPairProduct | None]:
     from gearcad.designs import RackPairDesign
-    from gearcad.solids.files.products import RackPairProduct, RackProduct
+    from gearcad.solids.files.products import RackPairProduct
 
     if isinstance(design, RackPairDesign):
         pair = RackPairProduct(design.pair, options)
@@ -147,7 +147,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             alone = "a single gear has no assembly" if design.assembly is None else "it stands on the shafts of both"
             alone = "a planetary train has a carrier" if design.kind is DesignKind.PLANETARY else alone
             raise GeometryError("bracket", True, f"needs a pair of gears: {alone}")
-        if self.stage == "precut" and not any(gear.premachining.present for gear in design.gears.values()):
+        if self.stage == "precut" and not _precut(design):
             raise GeometryError("stage", self.stage, "needs a gear with a table premachining, such as [pinion.premachining]")
         if self.as_made:
             self._require_made(design)
@@ -224,11 +224,12 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         """Return the parts at this stage and, of finished ones, what they make in mesh."""
         if self.stage == "finished":
             return products_of(design, self.options)
-        parts = {
-            name: GearProduct(gear=gear.precut, name=design.name, options=self.options)
-            for name, gear in design.gears.items()
-            if gear.premachining.present
-        }
+        parts: dict[str, PartProduct] = {}
+        for name, part in _precut(design).items():
+            if isinstance(part, Rack):
+                parts[name] = RackProduct(rack=part, name=design.name, options=self.options)
+            else:
+                parts[name] = GearProduct(gear=part, name=design.name, options=self.options)
         return parts, None
 
     @property
@@ -270,6 +271,12 @@ def _printed_as_one(makings: Sequence[Making]) -> bool:
 
 def _scales(making: Making) -> tuple[float, float]:
     return making.radial_scale, making.axial_scale
+
+
+def _precut(design: ToothedDesign) -> dict[str, Gear | Rack]:
+    """Return the parts of a design as they are before their flanks are finished, those that are cut before."""
+    toothed = {name: part for name, part in design.described.items() if isinstance(part, Rack)} | design.gears
+    return {name: part.precut for name, part in toothed.items() if part.premachining.present}
 
 
 def _formats(given: object) -> tuple[Format, ...]:

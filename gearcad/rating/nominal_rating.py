@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import Notice, PerGear, Role, texts
-from gearcad.geometry import Gear, GearPair, RackPair
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.gear import refuse_halves
 from gearcad.load import Load
 from gearcad.material import Material, Materials, elastic_constants, of_both
@@ -36,9 +36,11 @@ from gearcad.rating.editions import RECALLED, Edition, edition_notices, relieved
 from gearcad.rating.options import RatingOptions, RootShift
 from gearcad.rating.root_section import rack_load_point, rack_section, virtual_rack
 from gearcad.rating.root_stress import (
+    GrindingNotch,
     RootMesh,
     RootRating,
     deep_notices,
+    finishing_notices,
     loaded_width,
     notch_notices,
     root_notices,
@@ -264,6 +266,7 @@ def rate_rack(pair: RackPair, material: Materials, load: Load, options: RatingOp
             *blank_notices(pair.pinion, "pinion"),
             *load_notices(specific, pair.transverse_contact_ratio),
             *root_notices(pair.pinion, Role.PINION, roots.pinion, mesh),
+            *finishing_notices(pair.rack, roots.wheel, "rack root"),
             *_rack_root_notices(roots.wheel, mesh),
         ),
     )
@@ -298,9 +301,20 @@ def _loaded_width(pair: RackPair, face_width: float) -> float:
 
 
 def _rack_root(pair: RackPair, mesh: RootMesh[float]) -> RootRating[float]:
-    load = rack_load_point(pair.rack, mesh.virtual_contact_ratio)
-    section, width = rack_section(pair.rack, load), _loaded_width(pair, pair.rack.face_width)
-    return mesh.rating(section, load, virtual_rack(pair.rack), width=width, rim_thickness_factor=1.0)
+    """Root stress of a rack; with a tolerance of its stock, the one with the greater stress."""
+    width = _loaded_width(pair, pair.rack.face_width)
+
+    def rated(rack: Rack) -> RootRating[float]:
+        load = rack_load_point(rack, mesh.virtual_contact_ratio)
+        section, notch = rack_section(rack, load), GrindingNotch.of(rack)
+        return mesh.rating(section, load, virtual_rack(rack), width=width, rim_thickness_factor=1.0, notch=notch)
+
+    rack = pair.rack
+    if not (tolerance := rack.premachining.stock_tolerance):
+        return rated(rack)
+    stocks = [rack.stock + sign * tolerance for sign in (-1, 1)]
+    ends = [rated(rack.with_stock(stock)) for stock in stocks if rack.can_have_stock(stock)]
+    return max([*ends, rated(rack)], key=lambda rating: rating.nominal_stress)
 
 
 def _stiffness(pair: RackPair, materials: PerGear[Material], specific_load: float) -> MeshStiffness[float]:

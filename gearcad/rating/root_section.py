@@ -492,14 +492,14 @@ def rack_load_point(rack: Rack, virtual_contact_ratio: float) -> RackLoadPoint:
 def rack_section(rack: Rack, load: RackLoadPoint) -> RootSection[float]:
     """Return the section at the 30-degree tangents, and the arm at which the load bends it.
 
-    The middle of the fillet's arc is u = s_n/2 + (h_f - rho) tan alpha_n + rho/cos alpha_n from the middle of the tooth. Raises
-    GeometryError for a rack without fillets, or whose load passes below the section.
+    The middle of the arc is u = s_n/2 + (h_f - rho) tan alpha_n + (rho - s_pr)/cos alpha_n from that of the tooth, with the
+    residual undercut s_pr. Raises GeometryError for a rack without fillets, or whose load passes below the section.
     """
     angle, rho = math.radians(rack.rack.pressure_angle), rack.root_radius * rack.normal_module
     if rho <= 0:
         raise GeometryError("rack.rack.root_radius", 0.0, "must be above 0 for a rating: stress has no limit in a sharp corner")
     depth = rack.root_depth - rho
-    u = rack.normal_tooth_thickness / 2 + depth * math.tan(angle) + rho / math.cos(angle)
+    u = rack.normal_tooth_thickness / 2 + depth * math.tan(angle) + (rho - rack.residual_undercut) / math.cos(angle)
     half_chord, foot = u - rho * math.cos(_RACK_ROOT_LEAN), -depth - rho * math.sin(_RACK_ROOT_LEAN)
     half_thickness = rack.normal_tooth_thickness / 2 - load.height * math.tan(angle)
     arm = load.height - half_thickness * math.tan(angle) - foot

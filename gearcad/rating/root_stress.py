@@ -18,7 +18,7 @@ from typing import Any, Generic, NamedTuple
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Notice, Role
 from gearcad.core.values import Values, chosen, cos, magnitude, radians, smaller
-from gearcad.geometry import Gear, GearPair, RackPair
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.gear_tools import shaped, wheel_tip_radius
 from gearcad.rating.editions import Edition, helix_angle_divisor, load_distribution_factor
 from gearcad.rating.root_section import (
@@ -78,16 +78,16 @@ class GrindingNotch(NamedTuple):
     radius: float
 
     @classmethod
-    def of(cls, gear: Gear) -> GrindingNotch | None:
-        """Return the notch of a gear whose wheel ends in stock that the tool has left; None without one.
+    def of(cls, part: Gear | Rack) -> GrindingNotch | None:
+        """Return the notch of a gear or a rack whose wheel ends in stock that the tool has left; None without one.
 
         Raises GeometryError for one that is too sharp for the standard's factor.
         """
-        outline, finishing = gear.profile.root, gear.finishing
-        if outline is None or not outline.wheel or gear.residual_undercut >= 0:
+        outline, given = part.profile.root, part.finishing.notch_depth
+        if outline is None or not outline.wheel or part.residual_undercut >= 0:
             return None
-        depth = -gear.residual_undercut if finishing.notch_depth is None else finishing.notch_depth
-        notch = cls(depth, wheel_tip_radius(gear))
+        depth = -part.residual_undercut if given is None else given
+        notch = cls(depth, part.wheel_tip_radius if isinstance(part, Rack) else wheel_tip_radius(part))
         if math.sqrt(notch.depth / notch.radius) >= _MOST_NOTCH:
             permitted = (
                 f"must be above {notch.depth / _MOST_NOTCH**2:.6g} mm for a rating: Y_Sg holds for sqrt(t_g/rho_g) below 2"
@@ -305,16 +305,21 @@ def root_notices(gear: Gear, role: Role, rating: RootRating[float], mesh: RootMe
     """Yield a notice for each way in which one gear leaves the range that ISO 6336-3 states for its formulas."""
     root = f"{role.value} root"
     yield from _section_notices(gear, rating, root)
-    if rating.notch is not None:
-        size = f"{rating.notch.depth:.4g} mm deep with a radius of {rating.notch.radius:.4g} mm"
-        yield Notice("notch-in-root", f"Y_S is Y_Sg of a grinding notch {size}", root)
-    if gear.premachining.stock_tolerance:
-        yield Notice(
-            "stock-tolerance", "of both ends of the tolerance of the stock, the root with the greater stress is rated", root
-        )
+    yield from finishing_notices(gear, rating, root)
     yield from notch_notices(rating, root)
     yield from rim_of(gear).notices(mesh.edition, f"{role.value} rim")
     yield from deep_notices(mesh, root)
+
+
+def finishing_notices(part: Gear | Rack, rating: RootRating[float], root: str) -> Iterator[Notice]:
+    """Yield notices of a grinding notch, and of a stock with a tolerance."""
+    if rating.notch is not None:
+        size = f"{rating.notch.depth:.4g} mm deep with a radius of {rating.notch.radius:.4g} mm"
+        yield Notice("notch-in-root", f"Y_S is Y_Sg of a grinding notch {size}", root)
+    if part.premachining.stock_tolerance:
+        yield Notice(
+            "stock-tolerance", "of both ends of the tolerance of the stock, the root with the greater stress is rated", root
+        )
 
 
 def notch_notices(rating: RootRating[float], root: str) -> Iterator[Notice]:

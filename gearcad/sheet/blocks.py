@@ -156,6 +156,7 @@ _RACK_BLOCKS = {
     "Rack": "teeth length normal_module normal_diametral_pitch helix_angle face_width height total_height tip_alteration"
     " tooth_thinning tip_chamfer",
     "Basic rack": " ".join(key for key in _OF_RACK if key.startswith("rack.")),
+    "Cut before finishing": " ".join(key for key in _OF_RACK if key.startswith(("premachining.", "finishing."))),
     "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle normal_pitch transverse_pitch"
     " transverse_base_pitch",
     "Height of teeth": "tip_height tip_form_height form_depth root_depth",
@@ -194,10 +195,13 @@ def gear_section(gears: Mapping[str, Gear], document: Mapping[str, Any], pair: M
 
 def rack_section(rack: Rack) -> Section:
     """Return the blocks of a rack."""
-    values = flattened(rack.to_dict() | _given_pitch(rack))
+    values = flattened(rack.to_dict() | _given_pitch(rack) | _without_root(rack))
+    values["finishing.end_diameter"] = values.get("finishing.end_depth")  # what belongs to the end of a gear's flank
     blocks: list[Block] = []
     for title, keys in _RACK_BLOCKS.items():
-        rows = (_row(f"rack.{key}", _OF_RACK[key], [values[key]]) for key in keys.split())
+        rows = (
+            _row(f"rack.{key}", _OF_RACK[key], [values.get(key) if _is_there(values, key) else None]) for key in keys.split()
+        )
         blocks += block(title, (row for row in rows if row.texts != (ABSENT,)))
     return Section(("rack",), tuple(blocks))
 
@@ -256,10 +260,15 @@ def _in_use(gear: Gear) -> dict[str, Any]:
     They are modifications that do something, a diametral pitch that was given, and a note that some gauges are for spur rings.
     """
     shown = {"modification": gear.flank_form.in_use} | _given_pitch(gear)
-    if gear.premachining.present:  # its tool replaces these of the rack
-        rack = {name: value for name, value in asdict(gear.rack).items() if name not in ("dedendum", "root_radius")}
-        shown |= {"rack": rack}
+    shown |= _without_root(gear)
     return shown | (_OF_SPUR_RINGS if gear.internal and gear.helix_angle else {})
+
+
+def _without_root(part: Gear | Rack) -> dict[str, Any]:
+    """Return the basic rack without what the tool of `premachining` replaces; nothing where there is none."""
+    if not part.premachining.present:
+        return {}
+    return {"rack": {name: value for name, value in asdict(part.rack).items() if name not in ("dedendum", "root_radius")}}
 
 
 def _given_pitch(part: Gear | Rack) -> dict[str, Any]:

@@ -20,7 +20,8 @@ from gearcad.core.errors import GeometryError, at_least
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Body, Gear
 from gearcad.geometry.gear_data import least_rim_diameter
-from gearcad.geometry.rack import FilletArc, Rack, RackCurveKind
+from gearcad.geometry.rack import Rack
+from gearcad.geometry.rack_root import FilletArc, RackCurveKind
 
 Colour = tuple[float, float, float]
 

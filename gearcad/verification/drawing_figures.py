@@ -260,6 +260,8 @@ class _PartRows:
             yield from self._modifications()
             yield from self._premachining()
             yield from self._cutter(part)
+        else:
+            yield from self._rack_premachining()
         height = data["tip_chamfer"] if isinstance(part, Rack) else data["body"]["tip_chamfer"]
         if height:
             yield self.named("tip_chamfer", "h_K", (height, LENGTH), (45, 0))
@@ -282,11 +284,7 @@ class _PartRows:
             return
         module = data["normal_module"]
         depth = (data["reference_diameter"] - data["root_diameter"]) / 2 / module + data["profile_shift"]
-        yield self.named("tool_addendum", "h_aP0*", (depth, _SHORTEST))
-        yield self.named("tool_tip_radius", "ρ_aP0*", (pre["tool_tip_radius"], _SHORTEST))
-        if pre["protuberance_angle"] is not None:
-            values = (pre["protuberance"], _COEFFICIENT), (pre["protuberance_angle"], _COEFFICIENT)
-            yield self.named("protuberance", "p_rP0", *values)
+        yield from self._tool(pre, depth)
         if pre["tool_pressure_angle"] is not None:
             angles = (math.radians(data["rack"]["pressure_angle"]), math.radians(pre["tool_pressure_angle"]))
             own = module * math.cos(angles[0]) / math.cos(angles[1])
@@ -297,8 +295,7 @@ class _PartRows:
             yield self.named(
                 "short_lead_tool", "m_0 / α_n0", (pre["tool_module"], _SHORTEST), (math.degrees(angle), _COEFFICIENT)
             )
-        tolerance = [(pre["stock_tolerance"], _COEFFICIENT)] if pre["stock_tolerance"] else []
-        yield self.named("stock", "q", (pre["stock"], _COEFFICIENT), *tolerance)
+        yield self._stock(pre)
         before = pre["precut"]
         if before["span_measurement"] is not None:
             within = {"k": str(before["span_teeth"])}
@@ -307,6 +304,28 @@ class _PartRows:
             if before.get(key) is not None:
                 values = (before[key], self.decimals), (before["ball_diameter"], _SHORTEST)
                 yield self.named(f"precut_{key}", "M_dK / D_M", *values)
+
+    def _tool(self, pre: Mapping[str, Any], addendum: float) -> Iterator[TableFigure]:
+        yield self.named("tool_addendum", "h_aP0*", (addendum, _SHORTEST))
+        yield self.named("tool_tip_radius", "ρ_aP0*", (pre["tool_tip_radius"], _SHORTEST))
+        if pre["protuberance_angle"] is not None:
+            values = (pre["protuberance"], _COEFFICIENT), (pre["protuberance_angle"], _COEFFICIENT)
+            yield self.named("protuberance", "p_rP0", *values)
+
+    def _stock(self, pre: Mapping[str, Any]) -> TableFigure:
+        tolerance = [(pre["stock_tolerance"], _COEFFICIENT)] if pre["stock_tolerance"] else []
+        return self.named("stock", "q", (pre["stock"], _COEFFICIENT), *tolerance)
+
+    def _rack_premachining(self) -> Iterator[TableFigure]:
+        """Yield the rows of the tool that cuts a rack before finishing, and of the height over a pin then."""
+        if (pre := self.data.get("premachining")) is None:
+            return
+        yield from self._tool(pre, self.data["root_depth"] / self.data["normal_module"])
+        yield self._stock(pre)
+        before = pre["precut"]
+        if before["over_pin"] is not None:
+            values = (before["over_pin"], self.decimals), (before["pin_diameter"], _SHORTEST)
+            yield self.named("precut_over_pin", "M / D_M", *values)
 
     def _cutter(self, gear: Gear) -> Iterator[TableFigure]:
         cutter, diameter = self.data["cutter"], self.data["cutter_tip_diameter"]

@@ -20,8 +20,8 @@ from gearcad.geometry.gear_data import section_turn
 from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.outline_gauges import OutlineGauges, fine_chord
 from gearcad.verification.rolled_outlines import RolledPair, rack_points
-from gearcad.verification.tool_sweep import Hob, Shaper, finishing_rack, root_radius, swept_distance, tool_of
-from gearcad.verification.tool_teeth import Complexes, RackTooth, peak_of, rolled_half_angle
+from gearcad.verification.tool_sweep import Hob, Shaper, counterpart_of, finishing_rack, root_radius, swept_distance, tool_of
+from gearcad.verification.tool_teeth import Complexes, peak_of, rolled_half_angle
 
 _CHORD = 5e-4
 """Chord error of the outline that the tool sweeps, in normal modules; its points are on the curves themselves."""
@@ -45,6 +45,10 @@ _CONTACT_RATIO = 1e-4
 """Difference of contact ratios that is permitted."""
 
 _SWEEP, _ROLLED, _GAUGED = "sweep of the tool", "rolled outlines", "gauges on the outline"
+
+
+_TWO_TOOLS = "tool that cuts before finishing, and finishing"
+"""Name of the judge of teeth that two tools make."""
 
 
 def _judge(where: str, name: str) -> Judge:
@@ -224,7 +228,7 @@ def _from_rolled_flank(gear: Gear, points: Complexes) -> Floats:
 
 def _tool_name(gear: Gear) -> str:
     if gear.premachining.present:
-        return "tool that cuts before finishing, and finishing"
+        return _TWO_TOOLS
     if gear.cutter.teeth is not None:
         return f"shaper cutter of {gear.cutter.teeth} teeth"
     return "counterpart of the ring" if gear.internal else "basic rack"
@@ -289,23 +293,21 @@ def _judge_balls(judge: Judge, gear: Gear, gauges: OutlineGauges, permitted: flo
 
 def judge_rack(rack: Rack, where: str) -> Iterator[Claim]:
     """Judge the outline of a rack against its basic rack, and the height over a pin that rests in the outline."""
-    judge = _judge(where, "basic rack")
+    judge = _judge(where, _TWO_TOOLS if rack.premachining.present else "basic rack")
     profile, m = rack.profile, rack.normal_module
     points = rack_points(profile, fine_chord(m))
-    cosine, angle = math.cos(math.radians(rack.helix_angle)), math.radians(rack.rack.pressure_angle)
+    cosine = math.cos(math.radians(rack.helix_angle))
     pitch, tip = math.pi * m, m * (rack.rack.addendum + rack.tip_alteration)
-    space = math.pi * m / 4 + rack.tooth_thinning / 2
-    at_root = space - rack.rack.dedendum * m * math.tan(angle)
-    full = rack.rack.root_radius == "full"
-    radius = at_root / (1 / math.cos(angle) - math.tan(angle)) if full else float(rack.rack.root_radius) * m
-    counterpart = RackTooth(
-        half_thickness=space, line=0.0, tip=-rack.rack.dedendum * m, radius=radius, angle=angle, cosine=cosine, pitch=pitch
-    )
+    counterpart = counterpart_of(rack)
+    name = "tools" if rack.premachining.present else "basic rack"
     permitted = _CIRCLE + _ROUNDING * pitch
     distances = counterpart.distance(points + pitch / cosine / 2)
-    made = points.imag < tip - rack.tip_chamfer - 1e-9 * m
+    if rack.premachining.topping is not None:
+        tip = rack.premachining.topping
+    chamfered = rack.premachining.semi_topping.present  # the ramp of the tool makes the chamfer
+    made = points.imag < tip - (0.0 if chamfered else rack.tip_chamfer) - 1e-9 * m
     off = np.where(made, np.abs(distances), np.maximum(-distances, 0.0))
-    yield judge.below("distance of the outline from the basic rack", 1e3 * float(off.max()), 1e3 * permitted, "µm")
+    yield judge.below(f"distance of the outline from the {name}", 1e3 * float(off.max()), 1e3 * permitted, "µm")
     yield judge.near("tip height of the outline", rack.tip_height, float(points.imag.max()), permitted, "mm")
     yield judge.near("tip height by the inputs", rack.tip_height, tip, permitted, "mm")
     pin = rack.pin_diameter

@@ -69,7 +69,7 @@ class ToothOutline:
     def of_rack(cls, profile: RackProfile, chord_error: float) -> ToothOutline:
         """Return the chart of a rack."""
         points = rack_points(profile, chord_error)
-        ends = (-profile.form_depth, profile.tip_height - profile.tip_chamfer)
+        ends = (-profile.form_depth, profile.tip_form_height)
         return cls._of(points.imag, -points.real, ends, profile.pitch, 1.0)
 
     @classmethod

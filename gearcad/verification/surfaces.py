@@ -15,7 +15,7 @@ from gearcad.geometry import Gear, Rack
 from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Involute, PlaneCurve, parameter_at
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
-from gearcad.geometry.rack import RackCurveKind
+from gearcad.geometry.rack_root import RackCurveKind
 from gearcad.solids.body_plan import EndCone
 
 _STEPS = 4

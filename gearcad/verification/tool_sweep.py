@@ -18,7 +18,7 @@ import numpy as np
 
 from gearcad.core.quantities import is_given
 from gearcad.core.records import Floats
-from gearcad.geometry import Gear
+from gearcad.geometry import Gear, Rack
 from gearcad.verification.tool_teeth import (
     Complexes,
     CutterBlank,
@@ -173,12 +173,48 @@ def _premachining_hob(gear: Gear) -> Hob:
     return Hob(tooth=JoinedTeeth(tuple(teeth)), reference=reference, tip_circle=reference + tip, helix=helix)
 
 
+def counterpart_of(rack: Rack) -> ToolTooth:
+    """Return the space of a rack by the inputs, its middle at 0: the basic rack, or the tools that cut and finish it."""
+    m, angle, pre = rack.normal_module, math.radians(rack.rack.pressure_angle), rack.premachining
+    space = math.pi * m / 4 + rack.tooth_thinning / 2
+
+    def tooth(half: float, tip: float, radius: float, lean: float = angle) -> RackTooth:
+        cosine = math.cos(math.radians(rack.helix_angle))
+        return RackTooth(half_thickness=half, line=0.0, tip=tip, radius=radius, angle=lean, cosine=cosine, pitch=math.pi * m)
+
+    if not pre.present:
+        tip = -rack.rack.dedendum * m
+        full = rack.rack.root_radius == "full"
+        at_root = space + tip * math.tan(angle)
+        return tooth(space, tip, _full_radius(at_root, angle) if full else float(rack.rack.root_radius) * m)
+    tip, radius, half = -_addendum(rack), (pre.tool_tip_radius or 0.0) * m, space - _stock(rack) / math.cos(angle)
+    teeth = [tooth(half, tip, radius)]
+    if pre.protuberance_angle is not None:
+        steep, height = math.radians(pre.protuberance_angle), tip + radius
+        centre = half + height * math.tan(angle) + (pre.protuberance - radius) / math.cos(angle)
+        teeth.append(tooth(centre - height * math.tan(steep) + radius / math.cos(steep), tip, radius, steep))
+    if pre.semi_topping.angle is not None and pre.semi_topping.height is not None:
+        ramp = math.tan(math.radians(pre.semi_topping.angle))
+        at_line = half + pre.semi_topping.height * (math.tan(angle) - ramp)
+        teeth.append(tooth(at_line, max(tip, -at_line / ramp), 0.0, math.atan(ramp)))
+    end, wheel = rack.finishing.end_depth, rack.finishing.wheel_tip_radius or 0.2 * m
+    if end is None:  # the wheel runs free: its sharp tip is where the flank begins
+        end, wheel = rack.profile.form_depth, 0.0
+    teeth.append(tooth(space, -end - wheel * (1 - math.sin(angle)), wheel))
+    return JoinedTeeth(tuple(teeth))
+
+
+def _full_radius(half: float, angle: float) -> float:
+    """Radius that touches both flanks and the tip: half the width at its centre is radius/cos(angle)."""
+    return half / (1 / math.cos(angle) - math.tan(angle))
+
+
 def cosine_of(gear: Gear) -> float:
     """Return the cosine of the helix angle."""
     return math.cos(math.radians(gear.helix_angle))
 
 
-def _stock(gear: Gear) -> float:
+def _stock(gear: Gear | Rack) -> float:
     """Return the stock (mm) by the inputs; that of DIN 3972 is .25 or .6 of the third root of the module, times sin 20."""
     factor = {"din3972-III": 0.25, "din3972-IV": 0.6}.get(str(gear.premachining.stock))
     if factor is not None:
@@ -186,7 +222,7 @@ def _stock(gear: Gear) -> float:
     return float(gear.premachining.stock)
 
 
-def _addendum(gear: Gear) -> float:
+def _addendum(gear: Gear | Rack) -> float:
     """Return the addendum (mm) of the tool that makes the root, by the inputs."""
     pre, m = gear.premachining, gear.normal_module
     if not pre.present:
@@ -205,8 +241,7 @@ def _hob(gear: Gear) -> Hob:
     half = math.pi * m / 4 + gear.tooth_thinning / 2
     at_tip = half + (tip - line) * math.tan(angle)
     full = gear.rack.root_radius == "full"
-    # The full radius touches both flanks and the tip: half the width at its centre is radius/cos(angle).
-    radius = at_tip / (1 / math.cos(angle) - math.tan(angle)) if full else float(gear.rack.root_radius) * m
+    radius = _full_radius(at_tip, angle) if full else float(gear.rack.root_radius) * m
     tooth = RackTooth(
         half_thickness=half, line=line, tip=tip, radius=radius, angle=angle, cosine=math.cos(helix), pitch=math.pi * m
     )

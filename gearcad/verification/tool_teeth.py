@@ -26,6 +26,9 @@ _ROUNDS = 11
 _CUTTER_POINTS = 500
 """Points of the flank of a cutter with a module of 1 mm; their number grows with the root of the module."""
 
+_LAND_POINTS = 400
+"""Points of half the tip land of a cutter."""
+
 
 def least_of(function: Callable[[Floats], Floats], low: Floats, high: Floats, steps: int = _FINE) -> tuple[Floats, Floats]:
     """Return where between `low` and `high` (n,) a function is least, and the values there, each (n,).
@@ -224,7 +227,7 @@ class CutterBlank:
         From there it goes on in a straight line to where that meets the flank of the cutter's `own` teeth.
         """
         _, middle = self.join(tip, radius)
-        land = tip * np.exp(1j * np.linspace(0.0, max(middle, 0.0), 40))
+        land = tip * np.exp(1j * np.linspace(0.0, max(middle, 0.0), _LAND_POINTS))
         count = 20 + int(_CUTTER_POINTS * math.sqrt(max(radius, 0.1)))
         corner = self.corner(np.linspace(0.0, last, count), tip, radius) * np.exp(1j * middle)
         heading = (-math.sin(last) + 1j * math.cos(last) / self.cosine) * np.exp(1j * middle)
@@ -241,7 +244,7 @@ class CutterBlank:
         Below the flank it goes on towards the axis in a straight line.
         """
         share, middle = self.join(tip, radius) if radius else (0.0, float(self.half_angle(np.array([tip]))[0]))
-        land = tip * np.exp(1j * np.linspace(0.0, max(middle, 0.0), 40))
+        land = tip * np.exp(1j * np.linspace(0.0, max(middle, 0.0), _LAND_POINTS))
         count = 20 + int(_CUTTER_POINTS * math.sqrt(max(radius, 0.1)))
         corner = self.corner(np.linspace(0.0, share, count), tip, radius) * np.exp(1j * middle)
         flank = self.flank(float(np.abs(corner[-1])))

@@ -11,6 +11,7 @@ import pytest
 from gearcad import BasicRack, Gear
 from gearcad.core.errors import InputError
 from gearcad.core.records import Floats
+from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.premachining import Finishing, Premachining, SemiTopping
 from gearcad.verification import geometry, tool_sweep, tool_teeth
 
@@ -117,6 +118,102 @@ def test_outlines_touch_many_shaper_cutters(kind: str, monkeypatch: pytest.Monke
     monkeypatch.setattr(tool_sweep, "_BEARINGS", 6001)
     for gear in gears_of(kind, 10, seed=2):
         judge(gear)
+
+
+def steep_cutter(rng: random.Random, *, ring: bool, **changes: Any) -> Gear:
+    """A gear of a shaper cutter whose protuberance has any angle; an InputError where it cannot be cut."""
+    m, angle = rng.choice([1.0, 3.0, 8.0]), rng.choice([14.5, 20.0, 25.0])
+    stock = rng.uniform(0.01, 0.05) * m**0.6
+    pre: dict[str, Any] = {
+        "tool_addendum": rng.uniform(1.2, 1.5),
+        "tool_tip_radius": rng.choice([0.02, 0.1, 0.2]),
+        "stock": stock,
+        "protuberance": stock + rng.uniform(0.002, 0.05) * m,
+        "protuberance_angle": rng.uniform(1.0, 14.4),
+        "cutter_teeth": rng.choice([12, 17, 25, 40, 80]),
+        "cutter_profile_shift": rng.uniform(-0.3, 0.5),
+    }
+    for name, change in changes.items():
+        pre[name] = change(pre)
+    return Gear(
+        teeth=rng.choice([-60, -90, -150] if ring else [12, 25, 60, 200]),
+        normal_module=m,
+        face_width=10.0,
+        profile_shift=rng.uniform(-0.3, 0.5),
+        helix_angle=rng.choice([0.0, 0.0, 15.0, -28.0]),
+        rack=BasicRack(pressure_angle=angle),
+        premachining=Premachining(**pre),
+    )
+
+
+def _trimmed(gear: Gear) -> bool:
+    """Whether the cutter, as a notice says, cuts the tips of a ring, which are not in its outline."""
+    return any(notice.code == "cutter-trims-tips" for notice in gear.notices)
+
+
+def test_the_straight_flank_of_a_cutters_protuberance_is_a_piece_of_the_root(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tool_teeth, "_CUTTER_POINTS", 6000)
+    monkeypatch.setattr(tool_sweep, "_BEARINGS", 6001)
+    gear = Gear(
+        teeth=-150,
+        normal_module=1.0,
+        helix_angle=15.0,
+        face_width=10.0,
+        profile_shift=-0.125,
+        rack=BasicRack(pressure_angle=25.0),
+        premachining=Premachining(
+            tool_addendum=1.236,
+            tool_tip_radius=0.1,
+            stock=0.0155,
+            protuberance=0.062,
+            protuberance_angle=11.3,
+            cutter_teeth=80,
+            cutter_profile_shift=-0.135,
+        ),
+    )
+    assert len([curve for curve in gear.profile.curves if curve.kind is CurveKind.FILLET]) == 2
+    judge(gear)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("ring", [False, True])
+def test_outlines_touch_cutters_with_any_protuberance(ring: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tool_teeth, "_CUTTER_POINTS", 12000)
+    monkeypatch.setattr(tool_sweep, "_BEARINGS", 6001)
+    rng, made = random.Random(17), {1: 0, 2: 0}
+    while made[1] < 15 or (ring and made[2] < 8):
+        try:
+            gear = steep_cutter(rng, ring=ring)
+        except InputError:
+            continue
+        pieces = len(gear.profile.root.pieces) if gear.profile.root else 0
+        if made[pieces] < 15 and not _trimmed(gear):
+            judge(gear)
+            made[pieces] += 1
+
+
+def test_a_refused_protuberance_is_cured_by_what_the_message_says() -> None:
+    """Of tools that are refused for their protuberance those with less of what the message names cut the gear."""
+    refused, rng = 0, random.Random(23)
+    for number in range(700):
+        state = rng.getstate()
+        try:
+            steep_cutter(rng, ring=bool(number % 2))
+        except InputError as error:
+            name = error.parameter.rpartition(".")[2]
+            if name not in ("protuberance", "protuberance_angle") or "pressure angle" in error.permitted:
+                continue
+            refused += 1
+            less = {
+                "protuberance": lambda pre: 1.001 * pre["stock"],
+                "protuberance_angle": lambda pre: pre["protuberance_angle"] / 3,
+            }
+            rng.setstate(state)
+            try:
+                steep_cutter(rng, ring=bool(number % 2), **{name: less[name]})
+            except InputError as again:  # another key, which this one hid
+                assert again.parameter != error.parameter
+    assert 5 < refused < 40
 
 
 def test_a_tool_that_is_off_by_a_micrometre_is_noticed() -> None:

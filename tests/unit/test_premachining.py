@@ -217,6 +217,14 @@ _FAULTS: list[tuple[dict[str, Any], str]] = [
     ({"cutter_profile_shift": 0.1}, "cutter_profile_shift"),
     ({"root_diameter": 67.0}, "root_diameter"),
     ({"finishing": Finishing(end_diameter=68.5)}, "finishing.end_diameter"),
+    (
+        {"protuberance": 0.0, "protuberance_angle": None, "finishing": Finishing(end_diameter=74.0, wheel_tip_radius=0.1)},
+        "finishing.wheel_tip_radius",
+    ),
+    (
+        {"teeth": 60, "tool_addendum": 1.0, "finishing": Finishing(end_diameter=177.0, wheel_tip_radius=1.4)},
+        "finishing.end_diameter",
+    ),
     ({"finishing": Finishing(end_diameter=-72.0)}, "finishing.end_diameter"),
     ({"finishing": Finishing(end_diameter=82.5)}, "finishing.end_diameter"),
     ({"finishing": Finishing(end_diameter=72.0, wheel_tip_radius=2.5)}, "finishing.wheel_tip_radius"),

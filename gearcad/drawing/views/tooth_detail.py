@@ -26,7 +26,7 @@ from gearcad.drawing.words import Draughting
 from gearcad.geometry import Gear, Rack
 from gearcad.geometry.curves import PlaneCurve
 from gearcad.geometry.gear_data import outer_diameter
-from gearcad.geometry.rack import FilletArc
+from gearcad.geometry.rack_root import FilletArc
 from gearcad.solids.files.dxf import Arcs, arcs_of, joined
 
 ACCURACY = 0.0005
@@ -137,7 +137,7 @@ def _rack_levels(rack: Rack) -> list[Level]:
         Level("h_Ff", -rack.form_depth, rack.form_depth, decimals=_FORM_DECIMALS),
         Level("h_f", -rack.root_depth, rack.root_depth, reference=True),
     ]
-    if not rack.tip_chamfer:
+    if not rack.profile.chamfered:
         del lines[1]
     return [Level("H_0", 0.0, rack.height, Pen.CENTRE, True), *lines]
 

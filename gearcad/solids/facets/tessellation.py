@@ -363,7 +363,7 @@ def _lines(rack: Rack, chord_error: float) -> tuple[Floats, set[int]]:
     for piece in outline_pieces(rack):
         (c, y), (to_c, to_y) = piece.start, piece.end
         if piece.fillet is not None:
-            if not (piece.mirrored or rack.profile.root_land):
+            if not (piece.mirrored or piece.fillet.first or rack.profile.root_land):
                 middles.add(len(points))
             points += _along_arc(piece, chord_error)
         elif y == to_y < rack.tip_height:
@@ -377,7 +377,9 @@ def _lines(rack: Rack, chord_error: float) -> tuple[Floats, set[int]]:
 def _along_arc(piece: OutlinePiece, chord_error: float) -> list[tuple[float, float]]:
     """Return the points of a fillet from its start, without its end; the chord error is kept in the end faces, too."""
     assert piece.fillet is not None
-    steps = math.ceil(piece.fillet.last / arc_step(piece.fillet.radius, chord_error / piece.fillet.stretch))
+    steps = math.ceil(
+        (piece.fillet.last - piece.fillet.first) / arc_step(piece.fillet.radius, chord_error / piece.fillet.stretch)
+    )
     points = piece.fillet.points(np.linspace(0.0, 1.0, steps + 1))
     if piece.mirrored:
         points = points[::-1] * [-1, 1]

@@ -17,7 +17,8 @@ from gearcad.core.records import Floats
 from gearcad.geometry import Body, Gear
 from gearcad.geometry.curves import Chamfer, Curve, CurveKind, PlaneCurve
 from gearcad.geometry.gear import middle_section
-from gearcad.geometry.rack import Rack, RackCurveKind
+from gearcad.geometry.rack import Rack
+from gearcad.geometry.rack_root import RackCurveKind
 from gearcad.solids.body_plan import SNAP, OutlinePiece, keyway_half_angle, outline_pieces
 
 if TYPE_CHECKING:
