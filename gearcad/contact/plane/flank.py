@@ -406,18 +406,8 @@ class Fillets:
     @cached_property
     def _geometry(self) -> dict[OutlineSide, tuple[Floats, Floats, SurfaceStresses]]:
         """Radius and tangent angle of the points of each side, and their stresses by displacements."""
-        found = {}
-        points, places = self.body.ring.sector.mesh.points, quadrature("line3", _AT_STRAINS).places
-        shape, slope = shape_values("line3", places), shape_slopes("line3", places)[:, 0]
-        for side in self._sides:
-            edges = edges_of_chain(self.body.ring.sector.mesh.sides[side])
-            where = np.einsum("qa,eac->eqc", shape, points[edges]).reshape(-1, 2)
-            along = np.einsum("qa,eac->eqc", slope, points[edges]).reshape(-1, 2)
-            angle = np.degrees(np.arctan2(along[:, 1], np.abs(along[:, 0])))
-            strain = np.tile(slope, (len(edges), 1))[:, :, None] * (along / (along**2).sum(-1, keepdims=True))[:, None]
-            dofs = node_dofs(np.repeat(edges, len(slope), axis=0))
-            stresses = SurfaceStresses(dofs, strain.reshape(len(where), -1) * self.body.elasticity.modulus)
-            found[side] = (np.hypot(*where.T), angle, stresses)
+        mesh, modulus = self.body.ring.sector.mesh, self.body.elasticity.modulus
+        found = {side: surface_rows(mesh, side, modulus) for side in self._sides}
         return found
 
     def _response(self, side: OutlineSide, tooth: int) -> CubicSpline | None:
@@ -468,6 +458,22 @@ class Fillets:
             found += far_responses(self.body.ring, rows, moved, hub_forces)
         ends = np.cumsum([len(self.places(side)[0]) for side in self._sides])
         return dict(zip(self._sides, np.split(np.stack(found), ends[:-1], axis=1), strict=True))
+
+
+def surface_rows(mesh: SectorMesh, side: OutlineSide, modulus: float) -> tuple[Floats, Floats, SurfaceStresses]:
+    """Return the radius (mm) and tangent angle (deg) of places (n,) on a side of a mesh, and their stresses by displacements.
+
+    `modulus` (MPa) is that of the plane state. The places are those where quadratic elements have the most accurate strains.
+    """
+    places = quadrature("line3", _AT_STRAINS).places
+    shape, slope = shape_values("line3", places), shape_slopes("line3", places)[:, 0]
+    edges = edges_of_chain(mesh.sides[side])
+    where = np.einsum("qa,eac->eqc", shape, mesh.points[edges]).reshape(-1, 2)
+    along = np.einsum("qa,eac->eqc", slope, mesh.points[edges]).reshape(-1, 2)
+    angle = np.degrees(np.arctan2(along[:, 1], np.abs(along[:, 0])))
+    strain = np.tile(slope, (len(edges), 1))[:, :, None] * (along / (along**2).sum(-1, keepdims=True))[:, None]
+    dofs = node_dofs(np.repeat(edges, len(slope), axis=0))
+    return np.hypot(*where.T), angle, SurfaceStresses(dofs, strain.reshape(len(where), -1) * modulus)
 
 
 def seen_from(own: int, loads: list[ToothLoad]) -> list[ToothLoad]:
