@@ -21,6 +21,7 @@ from gearcad.version import __version__
 
 if TYPE_CHECKING:
     from gearcad.check.result import CheckResult
+    from gearcad.check.spline import SplineCheck
     from gearcad.dynamics.planetary.planetary_strength import TrainStrength
     from gearcad.jobs.modify import Proposal
     from gearcad.rating.strength import StrengthRating
@@ -156,15 +157,32 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     gate is not passed or cannot be evaluated, or if the strength that is asked for is not passed or cannot be judged, as in
     `gearcad rate`: contact_limit and root_limit are further gates and replace none.
 
-    [check] in SPEC sets model, body, torques and bands.
+    [check] in SPEC sets model, body, torques and bands. Of a spline joint the contact of all its teeth, and mean stresses.
     """
+    from gearcad.designs.design import read_tables
     from gearcad.jobs.strength import Check
+
+    if "spline" in read_tables(spec)[0]:
+        from gearcad.jobs.spline import CheckSpline
+
+        if not perform(CheckSpline(), spec, output, print_spline, as_json=as_json, quiet=quiet).passed:
+            click.get_current_context().exit(1)
+        return
 
     result = perform(Check(model=model), spec, output, print_verdict, as_json=as_json, quiet=quiet)
     if as_json and not quiet:
         say(verdict_line(result.pair.name, result), err=True)
     if not result.passed:
         click.get_current_context().exit(1)
+
+
+def print_spline(name: str, result: SplineCheck) -> None:
+    """Print the figures of a spline joint, its notices, and the verdict."""
+    from gearcad.jobs.spline import CheckSpline, spline_lines
+
+    say("\n".join(spline_lines(result)))
+    echo_warnings(result.notices)
+    say(CheckSpline().conclusion(name, result), bold=True)
 
 
 _WIDTH = 110

@@ -222,10 +222,11 @@ class SplineDesign(ToothedDesign):
     """A spline joint: a shaft, a hub, or both, and their material. Its gears are the outlines of both."""
 
     kind: ClassVar[DesignKind] = DesignKind.SPLINE
-    elsewhere: ClassVar[str] = "a spline is for `gearcad data` and `gearcad build`"
+    elsewhere: ClassVar[str] = "a spline is for `gearcad data`, `gearcad build` and `gearcad check`"
 
     spline: SplineJoint
     material: Material | None = None
+    load: Load | None = None
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
@@ -241,7 +242,7 @@ class SplineDesign(ToothedDesign):
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
-        """Return the values of a spec of [spline], [material], [drawing] and [mesh]. Raises SpecError."""
+        """Return the values of a spec of [spline] and of the tables beside it. Raises SpecError."""
         require_known_tables(tables, where)
         for table in tables:
             if table not in ("spline", *OF_SPLINES):
@@ -260,7 +261,7 @@ class SplineDesign(ToothedDesign):
         return {**self.spline.parts, "joint": self.spline}
 
 
-OF_SPLINES = ("material", "drawing", "mesh", "verify")
+OF_SPLINES = ("material", "load", "drawing", "mesh", "verify")
 """Tables that may stand beside [spline]."""
 
 

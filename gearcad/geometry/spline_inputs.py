@@ -14,6 +14,7 @@ from typing import Annotated
 from gearcad.core.errors import GeometryError, at_least, at_most, require_name
 from gearcad.core.quantities import (
     NOT_GIVEN,
+    AssumedNumber,
     Choice,
     Range,
     Whole,
@@ -98,7 +99,8 @@ class SplineInputs:
 
     A `designation` says standard, size and classes; else `standard`, `teeth`, and `module` (mm) or `diametral_pitch` (1/inch)
     are given, in DIN 5480 with the `nominal_diameter` d_B (mm). `centring` is by the flanks, or by the major diameter.
-    `length` (mm) is that of the engagement; without one it is the nominal diameter.
+    `length` (mm) is that of the engagement; without one it is the nominal diameter. A check has a `radial_force` (N) on the
+    shaft beside its torque; `carrying_share` is that of the flanks that carry in its mean stresses.
     Raises ParameterError for one value out of range, GeometryError for a combination that makes no spline.
     """
 
@@ -112,6 +114,8 @@ class SplineInputs:
     pressure_angle: Annotated[float, Range("deg", 30, 45), Words("pressure angle", "α")] = NOT_GIVEN
     centring: Annotated[str, Choice(("flank", "major")), Words("centring")] = "flank"
     length: Annotated[float, _MM, Words("length of the engagement", "b")] = NOT_GIVEN
+    radial_force: Annotated[float, Range("N", 0, 1e9), Words("radial force on the shaft", "F_r")] = 0.0
+    carrying_share: Annotated[float, Range("", 0.01, 1), Words("share of the flanks that carry", "φ")] = AssumedNumber(0.75)
     shaft: ShaftInputs = field(default=ShaftInputs())
     hub: HubInputs = field(default=HubInputs())
 

@@ -1,8 +1,8 @@
-"""Contact of a spline joint in the plane: all teeth of shaft and hub at once, through the play, centred or under a radial force.
+"""Contact of a spline joint in the plane: all teeth of shaft and hub, through the play, centred or under a radial force.
 
-Shaft and hub are rings of equal tooth sectors, so that their responses follow from one sector by a Fourier sum round the axis:
-tooth k answers tooth 0 by C_k = sum over n of (W + P_n^H S_n^-1 P_n) exp(2 pi i n k/z)/z, where W is the answer of a sector with
-held cuts, P_n the loads that arrive at its cuts and S_n the stiffness of the cuts for the phase 2 pi n/z between sectors.
+Shaft and hub are rings of equal tooth sectors, so their responses follow from one sector by a Fourier sum round the axis: tooth
+k answers tooth 0 by C_k = sum over n of (W + P_n^H S_n^-1 P_n) exp(2 pi i n k/z)/z, where W is the answer of a sector with held
+cuts, P_n the loads that arrive at its cuts, and S_n the stiffness of the cuts for the phase 2 pi n/z between sectors.
 Flanks of a joint are the same involute, so pressure spreads over all of their common height, in cells of constant pressure.
 Everything is per mm of length.
 """
@@ -14,12 +14,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gearcad.contact.plane.flank import surface_rows
 from gearcad.contact.plane.sector import Plane, PlaneElasticity, Sector, make_sector, node_dofs
 from gearcad.contact.shared.bodies import Support
 from gearcad.core.errors import GeometryError, SolverError
-from gearcad.core.records import Bools, Floats
+from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.geometry.spline import Spline, SplineJoint
 from gearcad.geometry.spline_standards import HUB, SHAFT
 from gearcad.material import Material
@@ -28,8 +29,11 @@ from gearcad.meshing.outline import MeshSizes, OutlineSide, edge_lengths, held_r
 from gearcad.meshing.quads import edges_of_chain
 from gearcad.meshing.sector import mesh_sector
 
-_MOST_CELLS, _CELLS, _FEWEST_CELLS = 6000, 12, 4
-"""Most cells of a joint, cells of a flank, and the fewest where teeth are many."""
+CELLS, _MOST_CELLS, _FEWEST_CELLS = 12, 6000, 4
+"""Cells of a flank, the most of a joint, and the fewest of a flank where teeth are many."""
+
+Waves = NDArray[np.complex128]
+"""Amplitudes of waves round the axis."""
 
 _PARTS = 12
 """Parts of an edge for the loads of a cell that ends inside it."""
@@ -98,9 +102,10 @@ class SplineBody:
         return self.part.joint.count
 
     @cached_property
-    def _cut_places(self) -> tuple[Floats, int]:
+    def _cut_places(self) -> tuple[Wholes, int]:
         cuts = np.r_[self.sector.behind, self.sector.ahead]
-        return np.searchsorted(self.sector.condensed.kept, cuts), len(self.sector.behind)
+        places: Wholes = np.searchsorted(self.sector.condensed.kept, cuts).astype(int)
+        return places, len(self.sector.behind)
 
     @cached_property
     def _phases(self) -> Floats:
@@ -108,23 +113,25 @@ class SplineBody:
         return 2 * np.pi * np.arange(self.teeth) / self.teeth
 
     @cached_property
-    def _stiffness(self) -> Floats:
+    def _stiffness(self) -> Waves:
         """Stiffness (z, c, c) of the cuts, one for each harmonic."""
         places, count = self._cut_places
         matrix = self.sector.cut_matrix[np.ix_(places, places)]
         here, ahead = matrix[:count, :count] + matrix[count:, count:], matrix[:count, count:]
         turn = np.exp(1j * self._phases)[:, None, None]
-        return here + ahead * turn + ahead.T * turn.conj()
+        result: Waves = here + ahead * turn + ahead.T * turn.conj()
+        return result
 
-    def _arriving(self, at_cuts: Floats) -> Floats:
+    def _arriving(self, at_cuts: Floats) -> Waves:
         """Loads (z, c, m) of each harmonic by loads (kept, m) that arrive at the cuts of a sector."""
         places, count = self._cut_places
         polar = self.sector.at_cuts.polar(at_cuts)[places]
-        return polar[:count] + np.exp(-1j * self._phases)[:, None, None] * polar[count:]
+        result: Waves = polar[:count] + np.exp(-1j * self._phases)[:, None, None] * polar[count:]
+        return result
 
     @cached_property
     def responses(self) -> Floats:
-        """Mean displacement times width (z, 2 n, 2 n) of the cells of tooth k by unit pressure on those of tooth 0 (mm²/MPa)."""
+        """Mean displacement times width (z, 2 n, 2 n) of the cells of tooth k by unit pressure on those of 0 (mm²/MPa)."""
         arrived = self.sector.condensed.forward(self.loads)
         loads = self._arriving(arrived.loads)
         moved = np.linalg.solve(self._stiffness, loads)
@@ -196,9 +203,7 @@ def outward_normals(base_radius: float, radius: Floats, angle: Floats, *, left: 
     cosine = base_radius / radius
     sine = np.sqrt(np.maximum(1 - cosine**2, 0.0)) * (-1 if hub else 1)
     around = cosine * (1 if left else -1)
-    return np.stack(
-        [sine * np.cos(angle) - around * np.sin(angle), sine * np.sin(angle) + around * np.cos(angle)], axis=-1
-    )
+    return np.stack([sine * np.cos(angle) - around * np.sin(angle), sine * np.sin(angle) + around * np.cos(angle)], axis=-1)
 
 
 @dataclass(frozen=True)
@@ -239,7 +244,8 @@ class SplineContact:
     @property
     def mean_pressures(self) -> Floats:
         """Mean pressure (z, 2) over the height of each flank (MPa)."""
-        return self.pressures.reshape(len(self.pressures), 2, -1).mean(axis=2)
+        result: Floats = self.pressures.reshape(len(self.pressures), 2, -1).mean(axis=2)
+        return result
 
     @cached_property
     def root_stresses(self) -> tuple[Floats, Floats]:
@@ -266,10 +272,10 @@ def joint_contact(
     play: float,
     radial_force: float = 0.0,
     plane: Plane = Plane.STRAIN,
-    cells: int = _CELLS,
+    cells: int = CELLS,
     refinement: float = 1.0,
 ) -> SplineContact:
-    """Return the contact of a shaft and its hub under a torque (N mm per mm) and a radial force on the shaft (N per mm, along x).
+    """Return the contact of a shaft and its hub under a torque (N mm per mm) and a force along x on the shaft (N per mm).
 
     `play` (mm, on the reference circle) is that between the flanks; without a radial force the parts are centred. Raises
     GeometryError, and SolverError where the contact does not settle.
@@ -296,7 +302,8 @@ def _full(responses: Floats) -> Floats:
     """Return the matrix (z m, z m) of all teeth from the responses (z, m, m) of each to tooth 0."""
     teeth, m, _ = responses.shape
     apart = (np.arange(teeth)[:, None] - np.arange(teeth)) % teeth
-    return responses[apart].transpose(0, 2, 1, 3).reshape(teeth * m, teeth * m)
+    result: Floats = responses[apart].transpose(0, 2, 1, 3).reshape(teeth * m, teeth * m)
+    return result
 
 
 def _as_of_shaft(matrix: Floats, teeth: int, count: int) -> Floats:
@@ -327,9 +334,7 @@ def _motions(joint: SplineJoint, cells: FlankCells) -> Floats:
     return np.concatenate(found, axis=1).reshape(-1, 3).T
 
 
-def _pressed(
-    matrix: Floats, gap: Floats, motions: Floats, loads: Floats, width: Floats
-) -> tuple[Floats, Floats, float]:
+def _pressed(matrix: Floats, gap: Floats, motions: Floats, loads: Floats, width: Floats) -> tuple[Floats, Floats, float]:
     """Return pressures p >= 0 with C p + g - A^T q >= 0, complementary, and A p = loads; the motions q; the worst overlap (mm).
 
     By an active set that begins with the cells that the loads press, and changes all that are wrong at once. Raises
