@@ -337,3 +337,25 @@ def test_wrong_input_is_one_line(modify_here: Path, text: str, arguments: tuple[
     assert message in result.stderr
     assert result.stderr.count("\n") == 1
     assert [path.name for path in modify_here.iterdir()] == ["pair.toml"]
+
+
+SPLINE = """
+[spline]
+designation = "N 15 x 1.25 x 10 x 9H / W 15 x 1.25 x 10 x 9g"
+length = 20.0
+shaft = {tolerance_actual = 20.0, tolerance_effective = 10.0}
+hub = {tolerance_actual = 20.0, tolerance_effective = 10.0}
+[load]
+torque = 80.0
+"""
+
+
+def test_a_spline_is_checked_tooth_by_tooth_and_says_what_was_not_judged(here: Path) -> None:
+    result = run("check", spec_file(SPLINE), "-o", here / "out")
+    assert "numerics passed; strength not judged: flank pressure, root stress, torsion" in result.stdout
+    document = read_json(here / "out" / "check.json")
+    assert (document["passed"], document["strength"]) == (True, None) and document["not_judged"]
+    assert document["contact"]["shares"] == pytest.approx([0.1] * 10, abs=1e-9)
+    assert sum(document["contact"]["torques"]) == pytest.approx(80.0, rel=1e-9)
+    refused = invoke("check", spec_file(SPLINE.partition("[load]")[0]))
+    assert refused.exit_code != 0 and "load.torque" in refused.output and "Traceback" not in refused.output

@@ -13,7 +13,8 @@ from gearcad.contact.plane.sector import Plane
 from gearcad.contact.plane.spline_contact import FlankCells, SplineContact, joint_contact, of_hub, spline_body
 from gearcad.contact.shared.bodies import Cuts, Support
 from gearcad.core.errors import GeometryError
-from gearcad.geometry.spline import HubInputs, ShaftInputs, SplineJoint
+from gearcad.geometry.spline import SplineJoint
+from gearcad.geometry.spline_inputs import HubInputs, ShaftInputs
 from gearcad.load import Load
 from gearcad.material import Material
 
@@ -60,13 +61,13 @@ def test_centred_teeth_carry_alike_with_the_mean_pressure_of_the_closed_form() -
 
 
 def test_the_other_direction_is_the_mirror_image() -> None:
-    """Seen in the mirror y -> -y, tooth t is tooth -t and left flanks are right ones; gmsh's triangles are no mirror images."""
+    """In the mirror y -> -y tooth t is tooth -t, and left flanks are right ones. gmsh's triangles are no mirror images."""
     one, other = contact(force=300.0), contact(torque=-TORQUE, force=300.0)
     count = one.cells.count
     seen = np.roll(other.pressures[::-1], 1, axis=0)
     assert one.pressures[:, :count] == pytest.approx(seen[:, count:], abs=2e-3 * one.pressures.max())
     for mine, theirs in zip(one.root_stresses, other.root_stresses, strict=True):
-        assert mine.max() == pytest.approx(theirs.max(), rel=2e-3)
+        assert mine.max() == pytest.approx(theirs.max(), rel=3e-3)
 
 
 def test_a_hub_has_the_flanks_that_face_those_of_the_shaft() -> None:

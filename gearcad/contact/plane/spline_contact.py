@@ -21,7 +21,8 @@ from gearcad.contact.plane.sector import Plane, PlaneElasticity, Sector, make_se
 from gearcad.contact.shared.bodies import Support
 from gearcad.core.errors import GeometryError, SolverError
 from gearcad.core.records import Bools, Floats, Wholes
-from gearcad.geometry.spline import Spline, SplineJoint
+from gearcad.geometry.spline import SplineJoint
+from gearcad.geometry.spline_part import Spline
 from gearcad.geometry.spline_standards import HUB, SHAFT
 from gearcad.material import Material
 from gearcad.meshing.fem import quadrature, shape_slopes, shape_values
@@ -38,7 +39,7 @@ Waves = NDArray[np.complex128]
 _PARTS = 12
 """Parts of an edge for the loads of a cell that ends inside it."""
 
-_SIZES = MeshSizes(flank=0.07, corner=0.02, fillet=0.04)
+_SIZES = MeshSizes(flank=0.07, corner=0.02, fillet=0.02)
 """Edge lengths in modules: even along the flanks, for contact is all over them."""
 
 _ROUNDS = 200
