@@ -22,6 +22,9 @@ _MARGIN, _MASS = "margin", "mass"
 FOUND, FRONT, CELLS = "found", "front", "cells"
 """Names of the series whose points can be taken."""
 
+CURSOR = "cursor"
+"""Name of the series that marks the cell which was reached by keys."""
+
 _PLAIN: dict[str, Any] = {"color": INK, "fontSize": _SIZE}
 
 
@@ -137,6 +140,15 @@ def map_chart(found: Mapping[str, Any], present: tuple[Any, Any], words: Mapping
                 "symbolSize": 14,
                 "data": [list(place) for place in marked],
                 "itemStyle": {"color": "transparent", "borderColor": _TAKEN, "borderWidth": 3},
+            },
+            {
+                "type": "scatter",
+                "name": CURSOR,
+                "silent": True,
+                "symbol": "rect",
+                "symbolSize": 18,
+                "data": [],
+                "itemStyle": {"color": "transparent", "borderColor": "#ffffff", "borderWidth": 3, "shadowBlur": 3},
             },
         ],
     }

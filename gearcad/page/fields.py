@@ -59,6 +59,9 @@ _DIGITS, _USED_DIGITS = 15, 7
 _INTERNAL, _EXTERNAL = ("ring",), ("pinion", "sun", "planet")
 """Gears that have internal, or external teeth in every spec."""
 
+_OWN_PARTS = tuple(role.value for role in Role)
+"""Parts of a family that are seen before any of it is given: the gears of a pair."""
+
 _MEMBERS = ("planetary.input", "planetary.output", "planetary.fixed")
 
 
@@ -137,7 +140,7 @@ def _tables(kind: DesignKind, tables: Mapping[str, Any], members: tuple[str, ...
 def _groups(table: str, fields: Mapping[str, FieldSchema], members: tuple[str, ...]) -> Iterator[dict[str, Any]]:
     """The fields of a table, those of its parts together, each with the titles of its part.
 
-    A part that has parts of its own is a family with them.
+    A part that has parts of its own is a family with them, of which those inside others are `inner`.
     """
     groups: dict[str, list[dict[str, Any]]] = {"": []}
     for key, field in fields.items():
@@ -147,7 +150,8 @@ def _groups(table: str, fields: Mapping[str, FieldSchema], members: tuple[str, .
         names = part.split(".") if part else []
         family = names.pop(0) if names and firsts[names[0]] > 1 else ""
         titles = [part_title(each) for each in names]
-        yield {"part": part, "family": family and part_title(family), "titles": titles, "fields": of_part}
+        inner = bool(family and names) and not (len(names) == 1 and names[0] in _OWN_PARTS)
+        yield {"part": part, "family": family and part_title(family), "titles": titles, "inner": inner, "fields": of_part}
 
 
 def _field(key: str, field: FieldSchema, members: tuple[str, ...]) -> dict[str, Any]:

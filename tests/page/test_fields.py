@@ -423,3 +423,11 @@ def test_a_design_of_a_link_is_saved_if_its_file_has_its_text(bench: Workbench) 
     for linked, is_saved in ((text, True), (f"# new\n{text}", False), (NOTHING, False)):
         assert linked_bench(pack("other", linked), bench.text, "trial", bench.folder).is_saved is is_saved
     assert linked_bench(pack("nowhere", text), bench.text, "trial", bench.folder).is_saved
+
+
+def test_parts_of_a_pair_that_a_train_does_not_have_are_inner() -> None:
+    bench = Workbench(starter_text("planetary-24-21-66")[1], "x", Path())
+    tables = {table["table"]: table["groups"] for table in fields_of(bench.design, bench.tables)}
+    stage = [group for group in tables["planetary"] if group["family"] == "Pre stage"]
+    assert [group["titles"] for group in stage if not group["inner"]] == [[], ["Pinion"], ["Wheel"]]
+    assert len(stage) > 20 and not any(group["inner"] for group in tables["sun"] if not group["family"])

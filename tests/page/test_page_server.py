@@ -17,8 +17,10 @@ from gearcad.designs.reader import starter_text
 from gearcad.page import session
 from gearcad.page.runs import Runs, runs_of
 from gearcad.page.server import _PREFIX, LOCAL, LogLimiter, _bury_the_dead, _hold, _listening_socket
-from gearcad.page.session import SessionHandover, hand_over, take_over
+from gearcad.page.session import SessionHandover, hand_over, note_link, remember, resumed, take_over
 from gearcad.page.workbench import BesideDesign, Workbench
+
+SPUR = "[gear]\nteeth = 24\nnormal_module = 2.5\nface_width = 10\n"
 
 PROGRAM = """
 import tempfile, time
@@ -91,6 +93,23 @@ def test_runs_that_nobody_takes_over_end(monkeypatch: pytest.MonkeyPatch) -> Non
     while runs_of(left.runs.key) is not None and time.monotonic() < end:
         time.sleep(0.01)
     assert runs_of(left.runs.key) is None and take_over(key) is None
+
+
+def test_a_page_loaded_again_before_its_address_follows_has_the_last_keystroke(tmp_path: Path) -> None:
+    bench = Workbench(SPUR, "spur", tmp_path)
+    remember("tab", BesideDesign(bench))
+    before = BesideDesign(Workbench(SPUR, "spur", tmp_path))
+    bench.change({"gear.teeth": "25"}, 1)
+    found = resumed("tab", before)
+    assert found is not None and found.bench.text == bench.text
+    assert found.bench.can_undo and resumed("tab", None) is not None
+    note_link("tab", bench.text)
+    bench.change({"gear.teeth": "26"}, 2)
+    for linked in (before, BesideDesign(Workbench(found.bench.text, "spur", tmp_path))):
+        latest = resumed("tab", linked)
+        assert latest is not None and latest.bench.text == bench.text
+    other = BesideDesign(Workbench(SPUR.replace("24", "31"), "spur", tmp_path))
+    assert resumed("tab", other) is None and resumed("another", before) is None
 
 
 def test_who_looks_at_the_same_time_finds_another_port() -> None:

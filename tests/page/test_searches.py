@@ -23,7 +23,7 @@ from gearcad.designs.table import open_table
 from gearcad.identify.measurements import Measurements
 from gearcad.jobs.size_options import SIZE_OPTIONS, option_fields
 from gearcad.jobs.strength import Rate
-from gearcad.page.charts import FOUND, map_chart, nearest, pairs_chart
+from gearcad.page.charts import CURSOR, FOUND, map_chart, nearest, pairs_chart
 from gearcad.page.forms import fields_in, form_fields, missing_keys, options_of, usual_text
 from gearcad.page.panels.table import read_results
 from gearcad.page.run_process import design_of
@@ -381,7 +381,8 @@ def test_points_of_pairs_can_be_taken_and_the_cloud_cannot() -> None:
 def test_the_present_design_is_marked_in_the_nearest_cell_of_a_map() -> None:
     found = {"xs": [1.0, 2.0, 3.0], "ys": [10, 20], "cells": [[0, 0, 5.0, ""], [1, 1, None, "why"]], "result": "r"}
     chart = map_chart(found, (2.2, 20.0), {"across": "a", "up": "b"}, comma=False)
-    cells, present = chart["series"]
+    cells, present, cursor = chart["series"]
+    assert (cursor["name"], cursor["data"]) == (CURSOR, [])
     assert cells["data"] == [[0, 0, 5.0], [1, 1, "-"]] and present["data"] == [[1, 1]]
     assert nearest([1.0, 2.0], 9.0) is None and nearest(["a", "b"], 1.0) is None and nearest([1.0, 2.0], float("nan")) is None
 

@@ -47,6 +47,9 @@ export default {
     };
   },
   mounted() {
+    const query = new URLSearchParams(window.location.search);
+    query.set("tab", this.tab); // a page that is loaded again before anything was typed is the same one, too
+    window.history.replaceState(window.history.state, "", `${window.location.pathname}?${query}`);
     this.listening = new AbortController();
     const { signal } = this.listening;
     window.addEventListener("keydown", this.key, { signal });

@@ -217,8 +217,10 @@ export default {
       return group.fields.filter((field) => field.key in this.given).length;
     },
     // Groups of a part and of its own parts stand together.
-    families({ groups }) {
+    families({ groups: all }) {
       const found = [];
+      const begun = new Set(all.filter((group) => this.countIn(group)).map((group) => group.family));
+      const groups = all.filter((group) => !group.inner || this.wanted || begun.has(group.family)); // parts of what is not there are found by search
       for (const group of groups)
         if (group.family && found.at(-1)?.title === group.family) found.at(-1).groups.push(group);
         else found.push({ part: group.part, title: group.family, groups: [group] });

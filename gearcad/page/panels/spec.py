@@ -226,11 +226,18 @@ Opened = Callable[[str, str], None]
 class FilesPanel:
     """Follows the workbench. `opened` takes a spec's text and name, `tabled` the name and text of a table of results.
 
-    `saved` is called after the design was saved.
+    `saved` is called after the design was saved, `linked` with the key of the page and the text that its address has.
     """
 
     def __init__(
-        self, key: str, bench: Workbench, words: PageWords, opened: Opened, tabled: Opened, saved: Callable[[], None]
+        self,
+        key: str,
+        bench: Workbench,
+        words: PageWords,
+        opened: Opened,
+        tabled: Opened,
+        saved: Callable[[], None],
+        linked: Callable[[str, str], None],
     ) -> None:
         self._key, self._bench, self._words, self._opened, self._tabled = key, bench, words, opened, tabled
         self._saved, self._state = saved, ("", False)
@@ -240,7 +247,7 @@ class FilesPanel:
         self._run: Run | None = None
         self._timer = ui.timer(_LOOK, self._look, active=False)
         self._task: asyncio.Task[None] | None = None
-        self._linked = ""
+        self._linked, self._note_link = "", linked
         self._client = ui.context.client
         await_files(key, {"spec": (LARGEST_SPEC, self._given_spec), "table": (LARGEST_TABLE, self._given_table)})
 
@@ -280,6 +287,7 @@ class FilesPanel:
         except GearcadError as error:
             self._view.follow("")
             self._view.show(line=self._words.message(str(error)))
+        self._note_link(self._key, text)
 
     def _asked(self, what: str, told: Mapping[str, Any]) -> None:
         """Do the action chosen in the menu. A fault is shown as a line there."""

@@ -15,7 +15,7 @@ from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
 from gearcad.designs.train_keys import UNITS
 from gearcad.designs.variations import column_of_train, column_symbol
-from gearcad.page.charts import CELLS, map_chart, nearest
+from gearcad.page.charts import CELLS, CURSOR, map_chart, nearest
 from gearcad.page.components.elements import CHART
 from gearcad.page.fields import fields_of, given_texts, used_texts
 from gearcad.page.forms import number_of
@@ -44,6 +44,16 @@ _FIRST_KEYS = (
 _FIRST_RESULTS = ("rate.S_H_min", "rate.S_F_min", "pair.total_contact_ratio", "gear.tip_diameter")
 """Keys and results that are proposed at first."""
 
+_ARROWS = {"ArrowLeft": (-1, 0), "ArrowRight": (1, 0), "ArrowUp": (0, 1), "ArrowDown": (0, -1)}
+"""Steps across and up in a map, by keys."""
+
+_KEYS = f"""event => {{
+  if (![{", ".join(f"'{key}'" for key in (*_ARROWS, "Enter"))}].includes(event.key)) return;
+  event.preventDefault();
+  emit(event);
+}}"""
+"""Script that tells the server of these keys only."""
+
 _LONGEST = 40
 """Largest number of characters of a number."""
 
@@ -67,6 +77,7 @@ class StudyPanel(SearchPanel):
         self._design: Design | None = None
         self._axes: list[_Axis] = []
         self._place_marked: tuple[int | None, int | None] = (None, None)
+        self._cursor: tuple[int, int] | None = None
         super().__init__(place, place.words["draw the map"])
 
     def _build_form(self) -> None:
@@ -177,6 +188,10 @@ class StudyPanel(SearchPanel):
             with self._results:
                 ui.label(self._words["click a cell: the design takes its values"]).classes("task-hint")
                 self._chart = CHART({"series": []}, on_point_click=self._click).classes("task-chart")
+                self._chart.props["tabindex"], self._chart.props["role"] = 0, "application"
+                self._chart.props["aria-label"] = self._words["map: arrow keys go from cell to cell, Enter takes one"]
+                self._chart.on("keydown", self._press, ["key"], js_handler=_KEYS)
+                self._at = ui.label().classes("task-hint").props("role=status")
                 self._told = ui.label().classes("task-hint")
         words = {"across": self._key_words(found["across"]), "up": self._key_words(found["up"])}
         self._place_marked = self._marked(found)
@@ -246,6 +261,32 @@ class StudyPanel(SearchPanel):
             and 0 <= line < len(found["ys"])
         ):
             self.take(column, line)
+
+    def _press(self, event: Any) -> None:
+        """Go to a neighbouring cell by an arrow key, or take the cell by Enter."""
+        key, found = str(event.args.get("key")), self._shown
+        if not found:
+            return
+        if key == "Enter":
+            if self._cursor is not None:
+                self.take(*self._cursor)
+            return
+        across, up = _ARROWS.get(key, (0, 0))
+        column, line = self._cursor or tuple(0 if each is None else each for each in self._place_marked)
+        moved = (column, line) if self._cursor is None else (column + across, line + up)
+        self._cursor = min(max(moved[0], 0), len(found["xs"]) - 1), min(max(moved[1], 0), len(found["ys"]) - 1)
+        self._chart.run_chart_method("setOption", {"series": [{"name": CURSOR, "data": [list(self._cursor)]}]})
+        self._at.set_text(self._told_of(*self._cursor))
+
+    def _told_of(self, column: int, line: int) -> str:
+        """Return the values of a cell in words."""
+        found = self._in_units(self._shown)
+        value = next((value for x, y, value, _ in found["cells"] if (x, y) == (column, line)), None)
+        numbers = (found["xs"][column], found["ys"][line], value)
+        keys = (self._key_words(found["across"]), self._key_words(found["up"]))
+        names = (*keys, str(self._result.options.get(found["result"], found["result"])))
+        said = ("-" if number is None else self._words.number(f"{number:.5g}") for number in numbers)
+        return " · ".join(f"{name} = {each}" for name, each in zip(names, said, strict=True))
 
     def take(self, column: int, line: int) -> None:
         """Write the values of a cell into the design, as one step."""

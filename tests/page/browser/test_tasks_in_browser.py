@@ -124,6 +124,11 @@ def test_the_keyboard_alone_takes_a_pair_and_nothing_is_lost(begun: Tab) -> None
     page.click(".question >> text=keep it")
     page.wait_for_selector(".question", state="detached")
     assert page.input_value(shift) == "0.31"
+    page.click(".files > summary")
+    page.click(".files-menu >> text=new design")
+    page.click(".question >> text=keep it")
+    page.wait_for_selector(".question", state="detached")
+    assert page.input_value(shift) == "0.31"
     page.click(".found-table .take >> nth=1")
     page.click(".question >> text=replace it")
     page.wait_for_function("() => document.querySelector('[data-key=\"pinion.profile_shift\"] input').value !== '0.31'")
@@ -186,6 +191,13 @@ def test_a_chart_is_fetched_when_it_is_drawn_and_a_cell_of_a_map_is_taken(tab: T
     page.click(".bar button[aria-label=undo]")
     page.wait_for_function("() => document.querySelector('[data-key=\"pinion.profile_shift\"] input').value === '0.2'")
     assert page.input_value('[data-key="pair.face_width"] input >> nth=0') == "25"
+    page.focus(".task-chart:visible")
+    for key in ("ArrowLeft", "ArrowRight", "ArrowUp"):  # the first only goes to the cell of the design, in the middle
+        page.keyboard.press(key)
+    page.wait_for_selector(".task-hint:has-text('= 0.26 ·'):has-text('= 33 ·')")
+    page.keyboard.press("Enter")
+    page.wait_for_function("() => document.querySelector('[data-key=\"pinion.profile_shift\"] input').value === '0.26'")
+    assert page.input_value('[data-key="pair.face_width"] input >> nth=0') == "33"
 
 
 @pytest.mark.parametrize("language", ["en", "de"])

@@ -5,11 +5,16 @@ const PATIENCE = 3000; // ms after which a change without an answer is sent agai
 export const PAUSE = 1000; // ms without a key after which typing is another step to undo
 
 // What a tab has typed and the server has not heard when the page is loaded again: it is sent then, to the same design.
+function asked() {
+  const query = new URLSearchParams(window.location.search);
+  query.delete("tab"); // each page that is loaded has another one
+  return query.toString();
+}
 const place = (name) => `gearcad-unheard-${name}`;
 
 export function keepUnheard(name, unheard) {
   try {
-    if (unheard) sessionStorage.setItem(place(name), JSON.stringify({ search: window.location.search, unheard }));
+    if (unheard) sessionStorage.setItem(place(name), JSON.stringify({ search: asked(), unheard }));
     else sessionStorage.removeItem(place(name));
   } catch {
     // A browser that keeps nothing loses it.
@@ -20,7 +25,7 @@ export function takeUnheard(name) {
   try {
     const { search, unheard } = JSON.parse(sessionStorage.getItem(place(name))) ?? {};
     sessionStorage.removeItem(place(name));
-    return search === window.location.search ? (unheard ?? null) : null;
+    return search === asked() ? (unheard ?? null) : null;
   } catch {
     return null;
   }
