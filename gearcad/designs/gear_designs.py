@@ -222,7 +222,7 @@ class SplineDesign(ToothedDesign):
     """A spline joint: a shaft, a hub, or both, and their material. Its gears are the outlines of both."""
 
     kind: ClassVar[DesignKind] = DesignKind.SPLINE
-    elsewhere: ClassVar[str] = "a spline is for `gearcad data`, `gearcad build` and `gearcad check`"
+    elsewhere: ClassVar[str] = "a spline is for `gearcad data`, `gearcad build`, `gearcad check` and `gearcad verify`"
 
     spline: SplineJoint
     material: Material | None = None

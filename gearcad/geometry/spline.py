@@ -42,6 +42,11 @@ class SplineJoint(SplineInputs):
         """The shaft and the hub, as far as they are asked for."""
         return {part: Spline(joint=self, part=part) for part in self.named_parts}
 
+    @property
+    def hub_rotation(self) -> float:
+        """Angle (degrees) by which the hub is turned so that a tooth of the shaft is in the middle of a space of the hub."""
+        return 180 / self.count
+
     # ------------------------------------------------------------------ the fit
 
     @property
@@ -71,12 +76,16 @@ class SplineJoint(SplineInputs):
         return None if space is None or thickness is None else space - thickness
 
     @property
-    def backlash_angle(self) -> float | None:
-        """Angle (degrees) by which hubs of the middle of the actual tolerances turn on such shafts: 2 (e - s)/d."""
+    def built_play(self) -> float | None:
+        """Play (mm, along the reference circle) of the solids, which have the middle of the actual tolerances."""
         if len(self.parts) < 2:
             return None
-        play = self.parts[HUB].built_size - self.parts[SHAFT].built_size
-        return math.degrees(2 * play / self.reference_diameter)
+        return self.parts[HUB].built_size - self.parts[SHAFT].built_size
+
+    @property
+    def backlash_angle(self) -> float | None:
+        """Angle (degrees) by which hubs of the middle of the actual tolerances turn on such shafts: 2 (e - s)/d."""
+        return None if (play := self.built_play) is None else math.degrees(2 * play / self.reference_diameter)
 
     @cached_property
     def notices(self) -> tuple[Notice, ...]:

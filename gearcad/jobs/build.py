@@ -21,17 +21,17 @@ from gearcad.solids import FileOptions, Format
 from gearcad.solids.body_plan import require_rim
 from gearcad.solids.facets.tessellation import gear_chord_error
 from gearcad.solids.files.formats import formats_minding
-from gearcad.solids.files.products import GearProduct, MadeProduct, PairProduct, RackProduct
+from gearcad.solids.files.products import GearProduct, MadeProduct, PairProduct, RackProduct, SplineProduct
 from gearcad.version import __version__
 
 if TYPE_CHECKING:
-    from gearcad.designs import PairDesign, PlanetaryDesign, RackDesign, RackPairDesign
+    from gearcad.designs import PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, SplineDesign
     from gearcad.solids.files.products import RackPairProduct
     from gearcad.solids.files.train_products import TrainProduct
 
 
 PartProduct: TypeAlias = GearProduct | RackProduct
-AssemblyProduct: TypeAlias = "PairProduct | RackPairProduct | TrainProduct"
+AssemblyProduct: TypeAlias = "PairProduct | RackPairProduct | SplineProduct | TrainProduct"
 
 
 def products_of(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[str, PartProduct], AssemblyProduct | None]:
@@ -42,6 +42,9 @@ def products_of(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[st
     if design.kind is DesignKind.PAIR:
         pair = PairProduct(cast("PairDesign", design).pair, options)
         return pair.parts, pair
+    if design.kind is DesignKind.SPLINE:
+        spline = SplineProduct(cast("SplineDesign", design).spline, options)
+        return spline.parts, spline if len(spline.parts) > 1 else None
     if design.kind in (DesignKind.RACK, DesignKind.RACK_PAIR):
         return _with_rack(cast("RackDesign | RackPairDesign", design), options)
     return {name: GearProduct(gear=gear, name=design.name, options=options) for name, gear in design.gears.items()}, None
@@ -146,6 +149,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         if self.options.bracket and design.kind is not DesignKind.PAIR:
             alone = "a single gear has no assembly" if design.assembly is None else "it stands on the shafts of both"
             alone = "a planetary train has a carrier" if design.kind is DesignKind.PLANETARY else alone
+            alone = "shaft and hub have one axis" if design.kind is DesignKind.SPLINE else alone
             raise GeometryError("bracket", True, f"needs a pair of gears: {alone}")
         if self.stage == "precut" and not _precut(design):
             raise GeometryError("stage", self.stage, "needs a gear with a table premachining, such as [pinion.premachining]")

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, fields, replace
 from enum import Enum
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, Unpack
+from typing import TYPE_CHECKING, Any, TypeVar, Unpack, cast
 
 from gearcad.core.dxf import write_document as write_dxf
 from gearcad.core.errors import GeometryError, InputError, ParameterError, as_choice, as_path, require_switch, require_whole
@@ -48,6 +48,8 @@ from gearcad.version import __version__
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
+
+    from gearcad.solids.files.shot import Product
 
 
 def drawn_gears(design: ToothedDesign) -> tuple[DrawnGear, ...]:
@@ -383,7 +385,7 @@ class Picture(Job[ToothedDesign, PictureShot]):
         options = FileOptions(chord_error=_FINE * module, exploded=self.explode and isinstance(design, PlanetaryDesign))
         require_bodies(design, options)
         parts, assembly = products_of(design, options)
-        product = assembly or next(iter(parts.values()))
+        product = cast("Product", assembly or next(iter(parts.values())))  # a spline is not accepted
         loop = loop_of(product, self.view) if self.turning else None
         self._require_memory(loop.frames if loop else 1)
         shot = Shot(

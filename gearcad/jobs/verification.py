@@ -18,7 +18,7 @@ from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import DesignKind
 from gearcad.drawing.options import DrawingOptions
-from gearcad.geometry import Gear, GearPair, Rack
+from gearcad.geometry import Gear, GearPair, Rack, RackPair, SplineJoint
 from gearcad.jobs.build import AssemblyProduct, Build, PartProduct, products_of
 from gearcad.jobs.job import Data, Job, Subject, Writer, as_design
 from gearcad.jobs.strength import Check, Rate
@@ -28,7 +28,7 @@ from gearcad.report.document import heading
 from gearcad.report.verification import verification_html
 from gearcad.report.verification_pdf import write_verification_pdf
 from gearcad.solids import FileOptions, Format
-from gearcad.verification.assemblies import PlacedMesh
+from gearcad.verification.assemblies import PlacedMesh, judge_joint
 from gearcad.verification.calculix import calculix_version
 from gearcad.verification.claims import Claim, Judge, VerificationLevel, VerificationOptions, timed
 from gearcad.verification.claims import ClaimSubject as About
@@ -43,7 +43,7 @@ from gearcad.verification.strength import judge_check, judge_rating
 from gearcad.version import __version__
 
 if TYPE_CHECKING:
-    from gearcad.designs import Inputs, PairDesign, PlanetaryDesign, RackPairDesign
+    from gearcad.designs import Inputs, PairDesign, PlanetaryDesign, RackPairDesign, SplineDesign
     from gearcad.load import Load
     from gearcad.planetary import TrainLoad
 
@@ -61,7 +61,7 @@ class Verify(Job[ToothedDesign, Verification]):
     """
 
     verb = "verify"
-    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE)
     why = "there are no teeth"
 
     level: VerificationLevel | None = None
@@ -125,7 +125,7 @@ class Verify(Job[ToothedDesign, Verification]):
             yield _Stage(f"geometry of {name}", 0.3, partial(_of_geometry, _part(product), name, sections))
         for mesh in _meshes(design, parts):
             where = f"{mesh.pinion} and {mesh.mate}"
-            yield _Stage(f"geometry of {where}", 0.2, partial(judge_pair, mesh.pair, where))
+            yield _Stage(f"geometry of {where}", 0.2, partial(_of_pair, mesh.pair, where))
         if level.includes(VerificationLevel.STRENGTH):
             yield _Stage("contact and strength", 20.0, partial(_of_strength, design))
         if level.includes(VerificationLevel.FULL):
@@ -249,6 +249,10 @@ def _of_geometry(part: Gear | Rack, name: str, sections: int) -> Iterator[Claim]
     yield from judge_rack(part, name) if isinstance(part, Rack) else judge_gear(part, name, sections)
 
 
+def _of_pair(pair: GearPair | RackPair | SplineJoint, where: str) -> Iterator[Claim]:
+    yield from judge_joint(pair, where) if isinstance(pair, SplineJoint) else judge_pair(pair, where)
+
+
 def _assembled(design: ToothedDesign, kind: Format) -> bool:
     """Whether a format has a file of the parts in mesh."""
     of_kind = kind.entry.write_train if design.kind is DesignKind.PLANETARY else kind.entry.write_pair
@@ -341,6 +345,8 @@ def _meshes(design: ToothedDesign, parts: Mapping[str, PartProduct]) -> list[Pla
         return [PlacedMesh(cast("PairDesign", design).pair, parts["pinion"].name, parts["wheel"].name)]
     if design.kind is DesignKind.RACK_PAIR:
         return [PlacedMesh(cast("RackPairDesign", design).pair, parts["pinion"].name, parts["rack"].name)]
+    if design.kind is DesignKind.SPLINE and len(parts) > 1:
+        return [PlacedMesh(cast("SplineDesign", design).spline, parts["shaft"].name, parts["hub"].name)]
     return []
 
 

@@ -43,12 +43,15 @@ def judge_sheets(
 
     `reason` says why there are none. A folder without any sheet is not judged; a single missing sheet has failed.
     """
+    if reason:
+        yield Judge(ClaimSubject.DRAWING, VerificationLevel.FILES, design.name, "ezdxf").not_judged("drawings", reason)
+        return
     gears, assembly = drawn_gears(design), drawn_assembly(design)
     names = [*([] if assembly is None else [ASSEMBLY]), *(gear.role for gear in gears)]
     paths = {name: folder / ("drawing.dxf" if len(names) == 1 else f"drawing-{name}.dxf") for name in names}
-    if reason or not any(path.is_file() for path in paths.values()):
+    if not any(path.is_file() for path in paths.values()):
         judge = Judge(ClaimSubject.DRAWING, VerificationLevel.FILES, design.name, "ezdxf")
-        yield judge.not_judged("drawings", reason or f"no file {next(iter(paths.values())).name} in the folder")
+        yield judge.not_judged("drawings", f"no file {next(iter(paths.values())).name} in the folder")
         return
     for name, path in paths.items():
         if not path.is_file():

@@ -35,6 +35,8 @@ PART_COLOURS: dict[str, Colour] = {
     "pinion": (0.80, 0.55, 0.20),
     "wheel": (0.45, 0.58, 0.72),
     "rack": (0.45, 0.58, 0.72),
+    "shaft": (0.80, 0.55, 0.20),
+    "hub": (0.45, 0.58, 0.72),
     "bracket": (0.55, 0.55, 0.55),
 }
 """Colours of the parts of an assembly."""

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.core.records import Bools, Floats
-from gearcad.geometry import Gear, GearPair, RackPair
+from gearcad.geometry import Gear, GearPair, Rack, RackPair, SplineJoint
 from gearcad.geometry.curves import Involute
 from gearcad.geometry.gear_data import section_turn
-from gearcad.verification.claims import Claim, Judge
+from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 
 OUTLINES = "exact outlines"
 """Name of the judge."""
@@ -54,9 +54,9 @@ class PlacedPart:
 
 @dataclass(frozen=True)
 class PlacedMesh:
-    """Two parts in mesh, by their names as products."""
+    """Two parts in mesh, or a shaft and the hub on it, by their names as products."""
 
-    pair: GearPair | RackPair
+    pair: GearPair | RackPair | SplineJoint
     pinion: str
     mate: str
 
@@ -75,7 +75,7 @@ def judge_places(
         yield of_mesh.equal("gears in mesh", max(len(pinions), len(mates)), len(found))
         if not found:
             continue
-        told = mesh.pair.circumferential_backlash
+        told = _play(mesh.pair)
         every = np.array([_gaps(mesh.pair, one, two, sections) for one, two in found])
         overlap = -float(every[..., 0, :].min())
         permitted = _OVERLAP + rounding + max(-told / 2, 0.0)
@@ -85,31 +85,51 @@ def judge_places(
         yield of_mesh.near("circumferential backlash", told, worst, _BACKLASH + 2 * rounding, "mm")
 
 
-def _in_mesh(pair: GearPair, one: PlacedPart, two: PlacedPart) -> bool:
+def _in_mesh(pair: GearPair | SplineJoint, one: PlacedPart, two: PlacedPart) -> bool:
     """Return whether the axes of two gears are as far apart as those of the pair, and their teeth at the same height."""
     apart = math.dist(one.offset[:2], two.offset[:2])
+    first, mate = _parts(pair)
     low = max(float(one.offset[2]), float(two.offset[2]))
-    high = min(float(one.offset[2]) + pair.pinion.face_width, float(two.offset[2]) + pair.wheel.face_width)
-    return abs(apart - abs(pair.centre_distance)) < _APART and low < high
+    high = min(float(one.offset[2]) + first.face_width, float(two.offset[2]) + mate.face_width)
+    axes = 0.0 if isinstance(pair, SplineJoint) else abs(pair.centre_distance)
+    return abs(apart - axes) < _APART and low < high
 
 
-def _gaps(pair: GearPair | RackPair, one: PlacedPart, two: PlacedPart, sections: int) -> Floats:
+def _parts(pair: GearPair | RackPair | SplineJoint) -> tuple[Gear, Gear | Rack]:
+    """Return pinion and mate, or shaft and hub."""
+    if isinstance(pair, SplineJoint):
+        return pair.parts["shaft"].gear, pair.parts["hub"].gear
+    return pair.pinion, pair.wheel if isinstance(pair, GearPair) else pair.rack
+
+
+def _play(pair: GearPair | RackPair | SplineJoint) -> float:
+    """Return the circumferential backlash, or the play of the solids of a spline (mm)."""
+    return pair.built_play or 0.0 if isinstance(pair, SplineJoint) else pair.circumferential_backlash
+
+
+def _circle(pair: GearPair | SplineJoint) -> float:
+    """Return the diameter (mm) of the mate's working circle, of a hub that of the reference circle."""
+    return pair.reference_diameter if isinstance(pair, SplineJoint) else abs(pair.working_pitch_diameters.wheel)
+
+
+def _gaps(pair: GearPair | RackPair | SplineJoint, one: PlacedPart, two: PlacedPart, sections: int) -> Floats:
     """Gaps (sections, 2, 2) in mm at the working circle, at heights of the common width, on both sides of the mate's teeth.
 
-    First those of the whole outlines, then those of the flanks alone.
+    First those of the whole outlines, then those of the flanks alone. The circle of a spline is its reference circle.
     """
-    mate = pair.wheel if isinstance(pair, GearPair) else pair.rack
+    first, mate = _parts(pair)
     low = max(float(one.offset[2]), float(two.offset[2]))
-    high = min(float(one.offset[2]) + pair.pinion.face_width, float(two.offset[2]) + mate.face_width)
+    high = min(float(one.offset[2]) + first.face_width, float(two.offset[2]) + mate.face_width)
     heights = low + (high - low) * (np.arange(sections) + 0.5) / sections
-    outline, flank = _outline(pair.pinion)
+    outline, flank = _outline(first)
     gaps = []
     for z in heights:
-        points = _section(pair.pinion, outline, one, float(z))
-        if isinstance(pair, GearPair):
-            gaps.append(_gear_gaps(pair, points, flank, two, float(z)))
-        else:
+        points = _section(first, outline, one, float(z))
+        if isinstance(pair, RackPair):
             gaps.append(_rack_gaps(pair, points, flank, two, float(z)))
+        elif isinstance(mate, Gear):
+            circle = _circle(pair)
+            gaps.append(_gear_gaps(mate, points, flank, two, float(z)) * circle / 2)
     return np.array(gaps)
 
 
@@ -142,9 +162,8 @@ def _section(gear: Gear, outline: Floats, part: PlacedPart, z: float) -> Floats:
     return _turned(outline, turn) + part.offset[:2]
 
 
-def _gear_gaps(pair: GearPair, points: Floats, flank: Bools, mate: PlacedPart, z: float) -> Floats:
-    """Gaps (2, 2) in mm at the working circle on both sides of the mate's teeth, negative where teeth overlap."""
-    wheel = pair.wheel
+def _gear_gaps(wheel: Gear, points: Floats, flank: Bools, mate: PlacedPart, z: float) -> Floats:
+    """Gaps (2, 2) as angles (rad) on both sides of the teeth of a placed wheel or hub, negative where teeth overlap."""
     turn = mate.rotation + _helix(wheel, z - float(mate.offset[2]))
     own = _turned(points - mate.offset[:2], -turn)
     radius, angle = np.hypot(*own.T), np.arctan2(own[:, 1], own[:, 0])
@@ -156,7 +175,7 @@ def _gear_gaps(pair: GearPair, points: Floats, flank: Bools, mate: PlacedPart, z
     pitch = 2 * math.pi / wheel.tooth_count
     angle = angle - pitch * np.rint(angle / pitch)
     clear = np.abs(angle) - np.radians(wheel.profile.half_angle(radius))
-    return _least(clear, angle > 0, flank) * abs(pair.working_pitch_diameters.wheel) / 2
+    return _least(clear, angle > 0, flank)
 
 
 def _rack_gaps(pair: RackPair, points: Floats, flank: Bools, mate: PlacedPart, z: float) -> Floats:
@@ -176,3 +195,41 @@ def _least(clear: Floats, left: Bools, flank: Bools) -> Floats:
     """Least clearances (2, 2): of all points and of those on flanks, on the left and on the right side of teeth."""
     every = np.ones_like(flank)
     return np.array([[clear[of & side].min(initial=np.inf) for side in (left, ~left)] for of in (every, flank)])
+
+
+_PLAYS = {
+    "effective play, least": ("effective_play_min", "effective_limit"),
+    "effective play, greatest": ("effective_play_max", "effective_other"),
+    "actual play, least": ("actual_play_min", "actual_limit"),
+    "actual play, greatest": ("actual_play_max", "actual_other"),
+}
+"""Plays of a spline by their keys, and the limit of shaft and hub between which each of them is."""
+
+
+_ANGLE = 1e-5
+"""Difference of the backlash angle (degrees) that is permitted."""
+
+
+def judge_joint(joint: SplineJoint, where: str) -> Iterator[Claim]:
+    """Judge the plays of a spline: the outlines of shaft and hub at their limits are turned until they touch."""
+    judge = Judge(ClaimSubject.GEOMETRY, VerificationLevel.FILES, where, OUTLINES)
+    shaft, hub = joint.parts["shaft"], joint.parts["hub"]
+    turned = PlacedPart("hub", _turned_place(math.radians(joint.hub_rotation)))
+    for words, (key, limit) in _PLAYS.items():
+        told, thickness, space = getattr(joint, key), getattr(shaft, limit), getattr(hub, limit)
+        if told is None:
+            yield judge.not_judged(words, "the tolerances are not known")
+            continue
+        outline, flank = _outline(shaft.gear_of(thickness))
+        gaps = _gear_gaps(hub.gear_of(space), outline, flank, turned, 0.0) * joint.reference_diameter / 2
+        yield judge.near(words, told, float(gaps[1].sum()), _BACKLASH, "mm")
+    outline, flank = _outline(shaft.gear)
+    angle = math.degrees(float(_gear_gaps(hub.gear, outline, flank, turned, 0.0)[1].sum()))
+    yield judge.near("backlash angle", joint.backlash_angle or 0.0, angle, _ANGLE, "deg")
+    yield judge.not_judged("contact ratio, centre distance", "the parts of a spline do not roll on each other")
+
+
+def _turned_place(angle: float) -> Floats:
+    """Return the place (3, 4) of a part that is turned about z by an angle (rad)."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return np.array([[cosine, -sine, 0.0, 0.0], [sine, cosine, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]])

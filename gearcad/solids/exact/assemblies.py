@@ -1,4 +1,4 @@
-"""Assemblies posed in mesh: a pair, a pinion and a rack; the bracket of a pair."""
+"""Assemblies posed in mesh: a pair, a pinion and a rack, a splined shaft and hub; the bracket of a pair."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from gearcad.core.records import PerGear, Role
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.pair import GearPair
 from gearcad.geometry.rack_pair import RackPair
+from gearcad.geometry.spline import SplineJoint
 from gearcad.solids.body_plan import PART_COLOURS
 from gearcad.solids.exact.boundary import (
     Boundary,
@@ -182,3 +183,24 @@ def rack_product(pair: RackPair) -> AssembledProduct:
 def rack_assembly(pair: RackPair) -> cadquery.Assembly:
     """Return pinion and rack as a CadQuery assembly: see `rack_product`."""
     return cad_assembly(rack_product(pair))
+
+
+def spline_part_name(joint: SplineJoint, part: str) -> str:
+    """Return the name of the shaft or hub of a joint as a product: the joint's own where it is the only part."""
+    return joint.name if len(joint.parts) == 1 else f"{joint.name} {part}"
+
+
+def spline_product(joint: SplineJoint) -> AssembledProduct:
+    """Shaft and hub on one axis, a tooth of the shaft in the middle of a space of the hub."""
+    turns = {"shaft": 0.0, "hub": joint.hub_rotation}
+    parts = {
+        name: SolidProduct(spline_part_name(joint, name), gear_boundary(part.gear), PART_COLOURS[name])
+        for name, part in joint.parts.items()
+    }
+    occurrences = (Occurrence(part.name, part, placed((0.0, 0.0, 0.0), turns[name])) for name, part in parts.items())
+    return AssembledProduct(joint.name, tuple(occurrences))
+
+
+def spline_assembly(joint: SplineJoint) -> cadquery.Assembly:
+    """Return shaft and hub as a CadQuery assembly: see `spline_product`."""
+    return cad_assembly(spline_product(joint))

@@ -14,11 +14,11 @@ from gearcad.core.records import Floats
 from gearcad.solids.facets.tessellation import Facets
 
 if TYPE_CHECKING:
-    from gearcad.solids.files.products import FileOptions, GearProduct, PairProduct, RackPairProduct, RackProduct
+    from gearcad.solids.files.products import FileOptions, GearProduct, PairProduct, RackPairProduct, RackProduct, SplineProduct
     from gearcad.solids.files.train_products import CarrierProduct, TrainProduct
 
     PartProduct: TypeAlias = GearProduct | RackProduct
-    AssemblyProduct: TypeAlias = PairProduct | RackPairProduct | TrainProduct
+    AssemblyProduct: TypeAlias = PairProduct | RackPairProduct | SplineProduct | TrainProduct
 
 
 class Format(Enum):

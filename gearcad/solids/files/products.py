@@ -1,4 +1,4 @@
-"""Products of gears, pairs and racks: names, colours, solids and facets that files hold; the options of these files."""
+"""Products of gears, pairs, racks and splines: names, colours, solids and facets in files; the options of these files."""
 
 from __future__ import annotations
 
@@ -11,8 +11,16 @@ from gearcad.core.records import PerGear, Role
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.rack import Rack
 from gearcad.geometry.rack_pair import RackPair
+from gearcad.geometry.spline import SplineJoint
 from gearcad.solids.body_plan import BRIGHT_STEEL, PART_COLOURS, STEEL, Colour
-from gearcad.solids.exact.assemblies import pair_product, part_names, rack_part_names, rack_product
+from gearcad.solids.exact.assemblies import (
+    pair_product,
+    part_names,
+    rack_part_names,
+    rack_product,
+    spline_part_name,
+    spline_product,
+)
 from gearcad.solids.exact.kernel import kernel_solid
 from gearcad.solids.exact.kernel_mesh import kernel_facets
 from gearcad.solids.exact.rack_solid import rack_boundary
@@ -138,6 +146,40 @@ class PairProduct:
         pose = self.pair.wheel_pose(pinion_rotation)
         (pinion,), (wheel,) = self.gears.pinion.scene(pinion_rotation), self.gears.wheel.scene()
         return [pinion, replace(wheel, rotation=pose.rotation, offset=(pose.x, 0.0, pose.z))]
+
+
+@dataclass(frozen=True)
+class SplineProduct:
+    """A splined shaft and the hub on it."""
+
+    joint: SplineJoint
+    options: FileOptions
+
+    @property
+    def name(self) -> str:
+        return self.joint.name
+
+    @cached_property
+    def parts(self) -> dict[str, GearProduct]:
+        """Shaft and hub by the names of their files."""
+        return {
+            name: GearProduct(
+                gear=part.gear,
+                name=spline_part_name(self.joint, name),
+                options=self.options,
+                colour=STEEL if len(self.joint.parts) == 1 else PART_COLOURS[name],
+            )
+            for name, part in self.joint.parts.items()
+        }
+
+    def solid(self) -> AssembledProduct:
+        """Return both exact solids on one axis: see `spline_product`."""
+        return spline_product(self.joint)
+
+    def scene(self, rotation: float = 0.0) -> list[ScenePart]:
+        """Return both parts on one axis, turned together by an angle (degrees)."""
+        turns = {"shaft": 0.0, "hub": self.joint.hub_rotation}
+        return [scene for name, part in self.parts.items() for scene in part.scene(turns[name] + rotation)]
 
 
 @dataclass(frozen=True, kw_only=True)
