@@ -16,12 +16,13 @@ from gearcad.core.records import JsonObject, Notice, PerGear, texts
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
-from gearcad.geometry import Gear, GearPair, Rack, RackPair, SplineJoint
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.material import Material
 
 if TYPE_CHECKING:
     from gearcad.designs import Design, Inputs
     from gearcad.dynamics.trains.train import Train
+    from gearcad.geometry.spline import SplineJoint
     from gearcad.load import Load
     from gearcad.planetary import PlanetaryTrain, TrainLoad
 
@@ -196,6 +197,7 @@ def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: 
     """
     from gearcad.designs import Design, GearDesign, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, SplineDesign
     from gearcad.designs.keys import BESIDE
+    from gearcad.geometry import SplineJoint
     from gearcad.planetary import PlanetaryTrain, TrainLoad
 
     if isinstance(subject, Gear):
