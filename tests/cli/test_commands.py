@@ -14,7 +14,7 @@ from gearcad.designs import read_spec
 from gearcad.designs.reader import starters
 
 VOLVO = "volvo-13-44"
-PLANETARY = ["planetary-24-21-66", "planetary-alm", "planetary-alm-in-phase", "planetary-differential"]
+PLANETARY = ["planetary-24-21-66", "planetary-alm", "planetary-alm-in-phase", "planetary-differential", "printed-planetary"]
 PAIRS = [
     "ground-25-41",
     "alm-18-161",
@@ -26,7 +26,7 @@ PAIRS = [
     "uhlir-19-23-simple",
     VOLVO,
 ]
-STARTERS = [*PAIRS, *PLANETARY, "rack", "spur"]
+STARTERS = [*PAIRS, *PLANETARY, "rack", "spur", "wire-cut"]
 TRAINS = ["train-1-stage", "train-2-stage", "train-pairs"]
 TABLES = ["gears", "pairs", "planetary-sets", "rings"]
 NAMED = sorted([*STARTERS, *TRAINS, *TABLES, "drawing_title", "measured"])

@@ -52,6 +52,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "planetary-alm-in-phase",
         "planetary-differential",
         "planetary-sets",
+        "printed-planetary",
         "rack",
         "reducer-21-43",
         "ring-22-70",
@@ -63,6 +64,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "uhlir-19-23",
         "uhlir-19-23-simple",
         "volvo-13-44",
+        "wire-cut",
     ]
     assert [line for line in lines if line.startswith(("gears", "pairs"))] == [
         "gears                   A design table of single gears: each row below the heading is one gear",
