@@ -144,14 +144,20 @@ _USUAL_CHAMFER = 45.0
 
 
 def draw_gear(
-    drawn: DrawnGear, options: DrawingOptions, part: PartDrawing | None = None, *, alone: bool = True
+    drawn: DrawnGear,
+    options: DrawingOptions,
+    part: PartDrawing | None = None,
+    *,
+    alone: bool = True,
+    rows: tuple[GearDataRow, ...] | None = None,
 ) -> DrawingSheet:
     """Return the sheet of an external gear, a ring or a rack, with the options of [drawing] and of the gear's own table.
 
-    `alone` means that it is the only gear of its design: it then takes number, title and revisions from [drawing]. Raises
-    ParameterError for a sheet or a scale that has no room, and for a template that cannot be used.
+    `rows` replace those of the gear data, as of a mould, whose values are not assumed from the accuracy grade. `alone` means
+    that it is the only gear of its design: it then takes number, title and revisions from [drawing]. Raises ParameterError for
+    a sheet or a scale that has no room, and for a template that cannot be used.
     """
-    content = _Content.of(drawn, options.of_part(part, alone=alone))
+    content = _Content.of(drawn, options.of_part(part, alone=alone), rows)
     own = content.options
     found, notices = content.arranged()
     return DrawingSheet(
@@ -163,7 +169,11 @@ def draw_gear(
         language=own.language,
         figure=found.figure,
         shown=content.shown,
-        notices=(*content.furnished(found.sheet, found.scale).notices, *notices, *gear_notices(drawn, own)),
+        notices=(
+            *content.furnished(found.sheet, found.scale).notices,
+            *notices,
+            *(gear_notices(drawn, own) if rows is None else ()),
+        ),
     )
 
 
@@ -179,7 +189,7 @@ class _Content:
     rows: tuple[GearDataRow, ...]
 
     @classmethod
-    def of(cls, drawn: DrawnGear, options: DrawingOptions) -> _Content:
+    def of(cls, drawn: DrawnGear, options: DrawingOptions, rows: tuple[GearDataRow, ...] | None = None) -> _Content:
         template = SheetTemplate.of(options.template)
         words = template.words(options.language)
         return cls(
@@ -188,7 +198,7 @@ class _Content:
             template=template,
             words=words,
             requirements=Requirements.of(drawn, options),
-            rows=gear_rows(drawn, words, options),
+            rows=gear_rows(drawn, words, options) if rows is None else rows,
         )
 
     @property

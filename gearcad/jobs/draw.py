@@ -30,6 +30,7 @@ from gearcad.drawing.assembly_sheets import draw_pair, draw_train
 from gearcad.drawing.drawing_subjects import DrawnGear, DrawnPair, DrawnTrain, Mate
 from gearcad.drawing.dxf_export import sheet_document
 from gearcad.drawing.gear_sheet import Drawing, DrawingSheet, draw_gear
+from gearcad.drawing.mould_sheet import MOULD, draw_mould, is_moulded
 from gearcad.drawing.options import SCALES, DrawingOptions, PartDrawing, SheetSize
 from gearcad.drawing.page_export import unshown, write_pdf, write_svg
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
@@ -155,7 +156,8 @@ class Draw(Job[ToothedDesign, Drawing]):
     """The sheets of a design, in the `formats`; what is `given` of its options by their names wins over those in [drawing].
 
     The files of a single gear are `drawing.pdf` and so on; of a design with more gears `drawing-pinion.pdf` and its like, and
-    `drawing.pdf` has all sheets as pages. Raises ParameterError.
+    `drawing.pdf` has all sheets as pages. A gear that is moulded has a
+    second sheet, `drawing-gear-mould.pdf` and so on, of its cavity. Raises ParameterError.
     """
 
     verb = "draw"
@@ -190,6 +192,8 @@ class Draw(Job[ToothedDesign, Drawing]):
         for gear in gears:
             with _blaming("" if assembly is None else gear.role):
                 yield draw_gear(gear, options, own.get(gear.role), alone=assembly is None)
+                if is_moulded(gear):
+                    yield draw_mould(gear, options, own.get(gear.role), alone=assembly is None)
 
     def document(self, result: Drawing) -> JsonObject:
         """Return the content of draw.json: the files of each sheet, and the unrounded values of the numbers on it."""
@@ -218,9 +222,10 @@ class Draw(Job[ToothedDesign, Drawing]):
 
     def _pages(self, result: Drawing) -> dict[str, tuple[DrawingSheet, ...]]:
         """Return the names of files, and the sheets in each."""
-        alone = len(result.sheets) == 1
+        moulds = [sheet for sheet in result.sheets if sheet.name.endswith(f"-{MOULD}")]
+        alone = len(result.sheets) - len(moulds) == 1
         found = {
-            f"{_STEM if alone else f'{_STEM}-{sheet.name}'}.{kind.value}": (sheet,)
+            f"{_STEM if alone and sheet not in moulds else f'{_STEM}-{sheet.name}'}.{kind.value}": (sheet,)
             for sheet in result.sheets
             for kind in self.formats
         }
