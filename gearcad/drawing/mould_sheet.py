@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 from gearcad.drawing.drawing_subjects import DrawnGear
 from gearcad.drawing.gear_data_rows import GearDataRow, RowWriter, teeth_rows
@@ -43,7 +44,7 @@ def draw_mould(
     assert isinstance(gear, Gear)
     words = SheetTemplate.of(own.template).words(own.language)
     name = own.title or titled(words, kind_of(drawn.role, gear), "gear" if gear.name == drawn.role else gear.name)
-    plain = {f"{size}_tolerance": "" for size in ("bore", "tip", "face_width", "keyway", "rim")}
+    plain: dict[str, Any] = {f"{size}_tolerance": "" for size in ("bore", "tip", "face_width", "keyway", "rim")}
     of_mould = replace(own, **plain, title=f"{words['mould.title']}: {name}", number="", material="", heat_treatment="")
     made = replace(drawn, role=f"{drawn.role}-{MOULD}", gear=gear.as_made, material=None, mates=())
     rows = tuple(mould_rows(replace(drawn, mates=()), RowWriter(words)))
