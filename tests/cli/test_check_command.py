@@ -229,7 +229,7 @@ torque = 40.0
 application_factor = 1.25
 [check]
 model = "3d"
-positions = 16
+positions = 12
 refinement = 0.5
 body_teeth = 3
 convergence = "off"
@@ -245,10 +245,13 @@ def modify_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr("gearcad.contact.modification_search._GENERATIONS", 3)
     monkeypatch.setattr("gearcad.contact.modification_search._STARTS", 1)
     monkeypatch.setattr("gearcad.jobs.modify._ROUNDS", 2)
+    monkeypatch.setattr("gearcad.jobs.modify._NEARBY", 1)
+    monkeypatch.setattr("gearcad.contact.shared.loaded._MOST", 3)  # of checks too
     monkeypatch.setattr("gearcad.contact.modification_search._HELICAL", _Sampling(12, 16, 0))
     return tmp_path
 
 
+@pytest.mark.usefixtures("no_report")
 def test_the_written_spec_does_what_the_proposal_says(modify_here: Path) -> None:
     result = invoke("modify", spec_file(SPEC), "--json", "--quiet", "--shape", "parabolic")
     assert (result.exit_code, result.stderr) == (0, "")

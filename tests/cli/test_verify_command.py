@@ -115,19 +115,22 @@ def test_baseline_tells_what_moved_the_greatest_first(made: Path, tmp_path: Path
     assert sizes == sorted(sizes, reverse=True)
 
 
-def test_tolerance_of_the_spec_holds_and_the_option_wins(made: Path, tmp_path: Path) -> None:
+def test_tolerance_of_the_spec_holds_and_the_option_wins(tmp_path: Path) -> None:
     """A face width that is 0.001 % less: volumes move by as much, which 0.01 % permits and 0.0001 % does not."""
-    spec = tmp_path / "small.toml"
-    narrower = SPEC.replace("face_width = 10.0", "face_width = 9.9999")
+    spec = tmp_path / "gear.toml"
+    wide = "[gear]\nteeth = 12\nnormal_module = 2.0\nface_width = 10.0\n"
+    narrower = wide.replace("10.0", "9.9999")
+    spec.write_text(wide)
+    assert run(spec, "-o", tmp_path / "baseline", "--quiet").exit_code == 0
 
     def moved(text: str, *options: str) -> list[str]:
         spec.write_text(text)
-        told = run(spec, "-o", tmp_path / "out", "--baseline", made / "out", "--quiet", *options)
+        told = run(spec, "-o", tmp_path / "out", "--baseline", tmp_path / "baseline", "--quiet", *options)
         found = [line for line in told.output.splitlines() if line.startswith("Moved")]
         assert told.exit_code == bool(found), told.output
         return found
 
-    assert any("STEP: pinion.step: volume" in line for line in moved(narrower))
+    assert any("STEP: gear.step: volume" in line for line in moved(narrower))
     assert moved(f"{narrower}\n[verify]\ntolerance = 1e-4\n") == []
     assert moved(f"{narrower}\n[verify]\ntolerance = 1e-4\n", "--tolerance", "1e-6")
     assert moved(f"{narrower}\n[verify]\ntolerance = 1e-6\n", "--tolerance", "1e-4") == []
@@ -141,6 +144,7 @@ def test_level_of_the_spec_holds_and_the_option_wins(tmp_path: Path) -> None:
         assert json.loads((tmp_path / "out" / "verify.json").read_text())["level"] == level
 
 
+@pytest.mark.usefixtures("kept_workers")
 def test_each_row_has_the_tolerance_of_its_column(tmp_path: Path) -> None:
     heading, one, two = TABLE.splitlines()
     path = tmp_path / "gears.csv"
@@ -158,7 +162,7 @@ def test_each_row_has_the_tolerance_of_its_column(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def table(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def table(kept_workers: None, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("table")
     (folder / "gears.csv").write_text(TABLE)
     told = run(folder / "gears.csv", "-o", folder / "out", "-j", 1, "--quiet")
@@ -178,6 +182,7 @@ def test_a_table_has_an_index_and_a_page_for_each_row(table: Path) -> None:
     assert any(key.startswith("verify.STEP: gear.step: volume") for key in rows[0])
 
 
+@pytest.mark.usefixtures("kept_workers")
 def test_the_index_has_the_rows_of_the_table_alone(table: Path, tmp_path: Path) -> None:
     """A row that is gone, and one that is wrong now, have pages of a former run."""
     out = tmp_path / "out"
@@ -195,6 +200,7 @@ def test_the_index_has_the_rows_of_the_table_alone(table: Path, tmp_path: Path) 
     assert [suite.get("name") for suite in root] == ["three", "uno", "rows"]
 
 
+@pytest.mark.usefixtures("kept_workers")
 def test_results_of_a_table_are_a_baseline(table: Path) -> None:
     baseline = table / "baseline.csv"
     baseline.write_bytes((table / "out" / "results.csv").read_bytes())

@@ -31,10 +31,10 @@ PART = modified(
     Gear(
         teeth=12,
         normal_module=2,
-        face_width=7,
+        face_width=4,
         helix_angle=25,
-        profile_shift=0.2,
-        body=replace(_KEYED, end_chamfer=1, tip_chamfer=0.3),
+        profile_shift=0.5,
+        body=replace(_KEYED, end_chamfer=0.6, tip_chamfer=0.2),
     )
 )
 """Helical teeth with all modifications, both chamfers, two hubs, bore and keyway."""
@@ -48,7 +48,7 @@ THIN = replace(SPUR, teeth=12, normal_module=0.5, face_width=0.3, body=Body(bore
 
 @pytest.fixture(scope="module")
 def part() -> ElementMesh:
-    return mesh_tetrahedra(PART, size=2.0, grading=COARSE)
+    return mesh_tetrahedra(PART, size=2.0, grading=replace(COARSE, growth=0.5))
 
 
 @pytest.fixture(scope="module")
