@@ -30,6 +30,7 @@ face_width = 10.0
 tooth_thinning = 0.05
 modification.tip_relief = 12.0
 modification.tip_relief_length = 1.0
+modification.tip_relief_shape = "parabolic"
 modification.lead_crowning = 3.0
 [pinion]
 teeth = 20
@@ -54,7 +55,8 @@ _FORCES = 1e-6
 _NODAL = 0.06
 """A stress averaged at nodes against that at the points between them: 4 % on elements as coarse as these."""
 
-_FLICKER = 0.03
+_EXTREME = 0.002
+"""What a search between the positions may miss of an extreme: no relief begins so that pressures flicker there."""
 
 _BETWEEN = 0.03
 """What 12 positions miss of an extreme."""
@@ -165,10 +167,8 @@ def test_summary_is_that_of_the_lists(document: dict) -> None:
     assert most <= summary["line_load_max"] < (1 + 2 * _BETWEEN) * most
     for name in ("contact_pressure", "line_load_max", "root_tension_pinion", "root_tension_wheel"):
         found = document["extremes"][name]
-        # Where lines cross the start of a linear relief, pressures flicker from cell to cell.
-        exact = _FLICKER if name == "contact_pressure" else 0.002
-        assert found["value"] == summary[name] and found["error"] < exact
-        assert document["torque_sweep"][1].get(name, summary[name]) == pytest.approx(summary[name], rel=exact)
+        assert found["value"] == summary[name] and found["error"] < _EXTREME
+        assert document["torque_sweep"][1].get(name, summary[name]) == pytest.approx(summary[name], rel=_EXTREME)
 
 
 def test_misalignment_and_modifications_are_told(document: dict, folder: Path) -> None:

@@ -193,7 +193,7 @@ def test_folders_without_our_mark_stay(tmp_path: Path) -> None:
     assert [(folder / "chapter").read_text() for folder in mine] == ["mine"] * 3
 
 
-@pytest.mark.parametrize("trial", range(3))
+@pytest.mark.parametrize("trial", [0, *(pytest.param(trial, marks=pytest.mark.long) for trial in (1, 2))])
 def test_four_builds_of_two_specs_into_one_folder_leave_one_of_them(tmp_path: Path, trial: int) -> None:
     """One of the four is killed at some moment; the files that are there are of one of the two gears."""
     for teeth in (20, 30):

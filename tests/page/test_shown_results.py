@@ -33,6 +33,7 @@ profile_shift = 0.2
 [pinion.modification]
 tip_relief = 20
 tip_relief_length = 2
+tip_relief_shape = "parabolic"
 [wheel]
 teeth = 32
 [load]

@@ -201,7 +201,7 @@ def test_smooth_flanks_that_part_are_those_of_the_harmonic_balance() -> None:
     of = system(one_stage("modes"))
     excitation = Excitation(meshes=(MeshExcitation(stiffness=CosineStiffness(variation=0.7), backlash=math.inf),))
     teeth = (MeshTeeth(name="m", number=0, teeth=(18, 48), contact_ratio=1.6),)  # type: ignore[arg-type]
-    speeds = np.linspace(9500.0, 11500.0, 21)
+    speeds = np.linspace(9500.0, 11500.0, 9)
     found = Sampling(system=of, excitation=excitation, teeth=teeth, law=ToothLaw.SMOOTH).run(speeds * 18 / 60, [None], quiet)
     balance = over_speed(of, excitation, speeds * 18 / 60 * 2 * np.pi)
     assert balance.up.apart.any() and not balance.jumps[0].size
