@@ -104,12 +104,12 @@ def _named(role: Role, function: Callable[[V], U], argument: V) -> U:
 
 
 @contextmanager
-def naming(role: Role) -> Iterator[None]:
+def naming(role: Role | str) -> Iterator[None]:
     """Let errors about a value inside this context name the gear: `pinion.teeth`."""
     try:
         yield
     except InputError as error:
-        raise error.within(role.value) from None
+        raise error.within(role.value if isinstance(role, Role) else role) from None
 
 
 @dataclass(frozen=True)

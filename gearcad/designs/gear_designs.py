@@ -222,11 +222,12 @@ class SplineDesign(ToothedDesign):
     """A spline joint: a shaft, a hub, or both, and their material. Its gears are the outlines of both."""
 
     kind: ClassVar[DesignKind] = DesignKind.SPLINE
-    elsewhere: ClassVar[str] = "a spline is for `gearcad data`, `gearcad build`, `gearcad check` and `gearcad verify`"
+    elsewhere: ClassVar[str] = "a spline is for gearcad data, build, draw, mesh, check and verify"
 
     spline: SplineJoint
     material: Material | None = None
     load: Load | None = None
+    mesh: MeshOptions | None = None
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:

@@ -9,6 +9,7 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.words import SheetWords
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.gear_parts import HubSide
+from gearcad.geometry.spline_part import Spline
 from gearcad.material import Material, MaterialGroup, grade_of
 from gearcad.planetary import PlanetaryTrain
 from gearcad.rating.tolerances import Accuracy
@@ -37,6 +38,8 @@ class DrawnGear:
     accuracy: Accuracy = Accuracy.ISO_1995
     grade: int | None = None
     mates: tuple[Mate, ...] = ()
+    spline: Spline | None = None
+    """The splined shaft or hub whose outline the gear is; None for a gear."""
 
     @property
     def direction(self) -> int:

@@ -19,6 +19,7 @@ from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.shapes import Box, Figure
 from gearcad.drawing.sheet_frame import Furnished, Furniture, title_values
 from gearcad.drawing.sheet_template import SheetTemplate
+from gearcad.drawing.spline_rows import spline_notices, spline_rows
 from gearcad.drawing.views import gear_views, rack_views, ring_views
 from gearcad.drawing.views.modification_diagrams import modification_figures
 from gearcad.drawing.views.tooth_detail import detail_mark, detail_scale, tooth_figure
@@ -172,9 +173,19 @@ def draw_gear(
         notices=(
             *content.furnished(found.sheet, found.scale).notices,
             *notices,
-            *(gear_notices(drawn, own) if rows is None else ()),
+            *(_row_notices(drawn, own) if rows is None else ()),
         ),
     )
+
+
+def _rows(drawn: DrawnGear, words: SheetWords, options: DrawingOptions) -> tuple[GearDataRow, ...]:
+    """Return the rows of the data table of a gear, a rack, or a splined part."""
+    return gear_rows(drawn, words, options) if drawn.spline is None else spline_rows(drawn, drawn.spline, words, options)
+
+
+def _row_notices(drawn: DrawnGear, options: DrawingOptions) -> tuple[Notice, ...]:
+    """Return notices of assumed and missing values in the table."""
+    return gear_notices(drawn, options) if drawn.spline is None else tuple(spline_notices(drawn, drawn.spline, options))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -198,7 +209,7 @@ class _Content:
             template=template,
             words=words,
             requirements=Requirements.of(drawn, options),
-            rows=gear_rows(drawn, words, options) if rows is None else rows,
+            rows=_rows(drawn, words, options) if rows is None else rows,
         )
 
     @property
@@ -219,6 +230,8 @@ class _Content:
     def _sizes(self) -> str:
         """Teeth, module and helix angle as a text, for a sheet without a supplementary title."""
         gear, words = self.drawn.gear, self.words
+        if self.drawn.spline is not None:
+            return self.drawn.spline.designation
         assert gear.teeth is not None  # derived by now
         texts = [f"z = {words.number(gear.teeth, 0)}", f"mₙ = {words.shortest(gear.normal_module, 6)}"]
         return ", ".join([*texts, *([f"β = {words.shortest(abs(gear.helix_angle), 4)}°"] if gear.helix_angle else [])])
@@ -288,7 +301,7 @@ class _Content:
             template=self.template,
             words=self.words,
             rows=self.rows,
-            table_title=self.words["data.title"],
+            table_title=self.words["data.title" if self.drawn.spline is None else "splines.title"],
             notes=tuple(self._notes()),
         )
         treatment = self.requirements.heat_treatment(self.words)  # with the depth of the case

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Self
 
 from gearcad.core.errors import ParameterError
@@ -166,9 +166,22 @@ class Requirements:
         Raises ParameterError for the class of a hole at the tips of an external gear.
         """
         part = drawn.gear
+        if drawn.spline is not None:
+            options = _own_classes(options)
         own: dict[str, Any] = _rack(part) if isinstance(part, Rack) else _gear(part, options)
         of_part = _deviations(drawn, part, options) if isinstance(part, Gear) else _of_back(drawn, part, options)
         deviations: dict[str, Any] = dict(of_part)
+        if drawn.spline is not None:
+            return cls(
+                drawn=drawn,
+                options=options,
+                face_width=toleranced(part.face_width, options.face_width_tolerance),
+                flanks=Roughness("Ra", options.surface_roughness),
+                bore_roughness=options.bore_roughness or options.surface_roughness,
+                face_roughness=options.surface_roughness,
+                rest_roughness=options.surface_roughness,
+                **own,
+            )
         return cls(
             drawn=drawn,
             options=options,
@@ -196,8 +209,9 @@ class Requirements:
         accuracy grade alone.
         """
         part, options = self.drawn.gear, self.options
-        by_grade = not self.flanks.given or any(
-            getattr(self, name) is not None and getattr(options, name, None) is None for name in _PROPOSED
+        by_grade = self.drawn.spline is None and (
+            not self.flanks.given
+            or any(getattr(self, name) is not None and getattr(options, name, None) is None for name in _PROPOSED)
         )
         turned = isinstance(part, Gear) and abs(part.double_helix.offset) not in (0.0, HALF_PITCH)
         undercut = isinstance(part, Gear) and part.undercut
@@ -217,13 +231,26 @@ class Requirements:
             elif isinstance(size, Size) and size.value > LARGEST_SIZE:
                 text = f"{name}: {size.value:.6g} mm is beyond ISO 286; general tolerances hold"
                 yield Notice("beyond-fits", text)
-        if not isinstance(self.drawn.gear, Gear):
+        if not isinstance(self.drawn.gear, Gear) or self.drawn.spline is not None:
             return
         if _datum(self.drawn.gear) is None:
             name = "rim_diameter" if self.drawn.gear.internal else "bore"
             yield Notice("no-datum", f"run-out: not demanded, as there is no {name} that could be its datum")
         elif None in (self.tip_runout, self.face_runout):
             yield Notice("no-runout", "run-out: none is given, and ISO 1328 has no value for these teeth")
+
+
+def _own_classes(options: DrawingOptions) -> DrawingOptions:
+    """Return the options of a splined part, whose tips and rim have no tolerance class unless another than that of gears is
+    given.
+    """
+    usual = DrawingOptions()
+    tip, rim = options.tip_tolerance, options.rim_tolerance
+    return replace(
+        options,
+        tip_tolerance="" if tip == usual.tip_tolerance else tip,
+        rim_tolerance="" if rim == usual.rim_tolerance else rim,
+    )
 
 
 def _rack(rack: Rack) -> dict[str, Size]:

@@ -13,6 +13,7 @@ from gearcad.core.errors import ParameterError
 from gearcad.core.runtime import templates
 from gearcad.geometry import Gear, Rack
 from gearcad.geometry.fits import LARGEST_SIZE, limit_deviations
+from gearcad.geometry.spline_part import SplineTeeth
 
 
 class Language(StrEnum):
@@ -151,6 +152,8 @@ def kind_of(role: str, gear: Gear | Rack) -> str:
     """Return the kind of a gear, as assemblies name it: its role if that is a kind too, else its form."""
     if isinstance(gear, Rack):
         return "rack"
+    if isinstance(gear, SplineTeeth):
+        return "hub" if gear.internal else "shaft"
     if role in _NAMED_KINDS:
         return role
     return "ring" if gear.internal else "wheel"

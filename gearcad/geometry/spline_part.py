@@ -59,6 +59,20 @@ class Spline:
         """Whether this is the hub."""
         return self.part == HUB
 
+    @property
+    def designation(self) -> str:
+        """Designation of the part in the manner of its standard, such as "DIN 5480 - W 30 x 1.25 x 22 x 8f"."""
+        joint, fit = self.joint, "" if self.fit is None else f" x {self.fit}"
+        if joint.basis == DIN5480:
+            letter = "N" if self.is_hub else "W"
+            return f"{joint.basis} - {letter} {joint.nominal_diameter:g} x {joint.module:g} x {joint.count}{fit}"
+        word, root = "INT" if self.is_hub else "EXT", "P" if self.root == "flat" else "R"
+        flank = f"{joint.pressure_angle:g}{root}{fit}"
+        if joint.basis == ISO4156:
+            return f"{joint.basis} - {word} {joint.count}z x {joint.module:g}m x {flank}"
+        pitch = joint.diametral_pitch
+        return f"{joint.basis} - {word} {joint.count}T x {pitch:g}/{2 * pitch:g}P x {flank}"
+
     def _said(self, key: str) -> str | None:
         """Return what the designation says of this part under a key."""
         said = self.joint.designated
@@ -327,6 +341,7 @@ class Spline:
         pins = "between_pins" if self.is_hub else "over_pins"
         limit = "form_diameter_min" if self.is_hub else "form_diameter_max"
         return {
+            "designation": self.designation,
             "teeth": joint.teeth,
             "module": joint.module,
             "pressure_angle": joint.pressure_angle,

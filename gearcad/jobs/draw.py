@@ -24,6 +24,7 @@ from gearcad.designs import (
     PlanetaryDesign,
     RackDesign,
     RackPairDesign,
+    SplineDesign,
     ToothedDesign,
 )
 from gearcad.drawing.assembly_sheets import draw_pair, draw_train
@@ -65,6 +66,9 @@ def drawn_gears(design: ToothedDesign) -> tuple[DrawnGear, ...]:
         return _of_pair(design, ("pinion", "wheel"), design.pair)
     if isinstance(design, PlanetaryDesign):
         return tuple(_of_train(design))
+    if isinstance(design, SplineDesign):
+        parts = design.spline.parts.items()
+        return tuple(DrawnGear(role=name, gear=part.gear, material=design.material, spline=part) for name, part in parts)
     raise NotImplementedError(type(design))
 
 
@@ -161,7 +165,7 @@ class Draw(Job[ToothedDesign, Drawing]):
     """
 
     verb = "draw"
-    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE)
     why = "there are no teeth"
 
     formats: tuple[SheetFormat, ...] = _ALL
@@ -190,10 +194,11 @@ class Draw(Job[ToothedDesign, Drawing]):
             with _blaming(ASSEMBLY):
                 yield _assembled(assembly, options, own)
         for gear in gears:
-            with _blaming("" if assembly is None else gear.role):
-                yield draw_gear(gear, options, own.get(gear.role), alone=assembly is None)
+            alone = len(names) == 1
+            with _blaming("" if alone else gear.role):
+                yield draw_gear(gear, options, own.get(gear.role), alone=alone)
                 if is_moulded(gear):
-                    yield draw_mould(gear, options, own.get(gear.role), alone=assembly is None)
+                    yield draw_mould(gear, options, own.get(gear.role), alone=alone)
 
     def document(self, result: Drawing) -> JsonObject:
         """Return the content of draw.json: the files of each sheet, and the unrounded values of the numbers on it."""

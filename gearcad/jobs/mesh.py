@@ -9,12 +9,13 @@ from typing import Any, Unpack
 
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.task import CheckTask
+from gearcad.core.errors import ParameterError
 from gearcad.core.records import JsonObject, Notice, PerGear, Role
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.decks.pair import PairDecks
 from gearcad.decks.plane import PlaneDecks, plane_tooth_deck
 from gearcad.decks.solid import SolidDecks, solid_task, solid_tooth_deck
-from gearcad.designs import Design, DesignKind, GearedDesign, Inputs, PairDesign
+from gearcad.designs import Design, DesignKind, GearedDesign, Inputs, PairDesign, SplineDesign
 from gearcad.geometry import Gear, GearPair
 from gearcad.jobs.job import Job, Writer, as_design
 from gearcad.load import Load
@@ -110,14 +111,15 @@ def _task(design: PairDesign, model: Model) -> CheckTask:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Mesh(Job[GearedDesign, MeshResult]):
-    """Meshes of a design in the formats of its options: `gear.vtu`, or `pinion.vtu` and `wheel.vtu`, or `pair.vtu` in mesh.
+class Mesh(Job[GearedDesign | SplineDesign, MeshResult]):
+    """Meshes of a design in the formats of its options: `gear.vtu`, or `pinion.vtu` and `wheel.vtu`, or `pair.vtu` in mesh; of
+    a spline `shaft.vtu` and `hub.vtu`.
 
     What is `given` of the options by their names wins over those of the design's own [mesh]. Raises ParameterError.
     """
 
     verb = "mesh"
-    accepts = (DesignKind.GEAR, DesignKind.PAIR)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.SPLINE)
     why = "there are no teeth"
     writes_long = True
 
@@ -133,10 +135,14 @@ class Mesh(Job[GearedDesign, MeshResult]):
         decks = make_decks(design, plan, progress) if isinstance(design, PairDesign) else {}
         return replace(run_mesh(plan, design.name, progress), decks=decks)
 
-    def _plan(self, design: GearedDesign) -> MeshPlan:
+    def _plan(self, design: GearedDesign | SplineDesign) -> MeshPlan:
         options = replace(design.mesh or MeshOptions(), **self.given)
         for kind in options.formats:
             kind.require()
+        if isinstance(design, SplineDesign):
+            if "gear" in self.given:
+                raise ParameterError("gear", self.given["gear"], "must be left out: shaft and hub of a spline are both meshed")
+            return plan_mesh(options, design.gears, None).counted()
         pair = design.assembly
         if pair is not None and design.mounting is not None:
             pair = design.mounting.mounted(pair)

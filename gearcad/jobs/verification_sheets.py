@@ -18,6 +18,7 @@ from gearcad.verification.claims import Claim, ClaimSubject, Judge, Verification
 from gearcad.verification.drawing_figures import gear_figures, material_words, pair_figures, train_figures
 from gearcad.verification.drawing_sheets import ExpectedSheet, judge_sheet
 from gearcad.verification.exact_parts import ExactPart
+from gearcad.verification.spline_figures import spline_figures
 
 _PER_CUBIC_MILLIMETRE = 1e-9
 """Factor from kg/m³ to kg/mm³."""
@@ -83,14 +84,15 @@ def _expected(
     if assembly is not None and drawn is None:
         return _of_assembly(assembly, options, words, exact, data)
     assert drawn is not None  # of which the names are
-    own = options.of_part(design.drawings.get(name), alone=assembly is None)
+    own = options.of_part(design.drawings.get(name), alone=assembly is None and len(gears) == 1)
     words = SheetTemplate.of(own.template).words(own.language)
     part = drawn.gear
+    splined = drawn.spline is not None
     return ExpectedSheet(
-        heading=words["data.title"],
-        rows=gear_figures(drawn, data[name], words, own),
+        heading=words["splines.title" if splined else "data.title"],
+        rows=spline_figures(drawn, data, words, own) if splined else gear_figures(drawn, data[name], words, own),
         title=own.title or titled(words, kind_of(name, part), "gear" if part.name == name else part.name),
-        sizes=dict(_sizes(part, data[name])),
+        sizes=dict(_sizes_of_spline(data[name]) if splined else _sizes(part, data[name])),
         texts={key.replace("_", " "): text for key, text in material_words(drawn, words, own).items()},
         decimal_mark=own.language.decimal_mark,
         mass=_mass(drawn, exact),
@@ -127,6 +129,14 @@ def _mass(drawn: DrawnGear, exact: Mapping[str, ExactPart]) -> float | None:
     if drawn.material is None or (isinstance(part, Gear) and part.internal and part.body.rim_diameter is None):
         return None
     return exact[drawn.role].moments.volume * drawn.material.density * _PER_CUBIC_MILLIMETRE
+
+
+def _sizes_of_spline(data: dict[str, Any]) -> Iterator[tuple[str, float]]:
+    """Sizes (mm) of a splined part that its views must show, by their names."""
+    yield from (("face width", data["length"]), ("tip diameter", data["tip_diameter"]))
+    for name in ("bore", "outer_diameter"):
+        if data.get(name):
+            yield name.replace("_", " "), data[name]
 
 
 def _sizes(part: Gear | Rack, data: dict[str, Any]) -> Iterator[tuple[str, float]]:

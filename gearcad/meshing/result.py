@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
 
-from gearcad.core.records import JsonObject, Notice, PerGear, Pictured, Role, naming, texts
+from gearcad.core.records import JsonObject, Notice, PerGear, Pictured, naming, texts
 from gearcad.core.runtime import Agenda, Progress
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.body_mesh import posed
@@ -258,7 +258,7 @@ def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> Mes
     meshes, judged = dict[str, ElementMesh](), dict[str, JudgedMesh]()
     for role, each in plan.gears.items():
         agenda(f"{_MESHING} {role}")
-        with naming(Role(role)) if len(plan.gears) > 1 else nullcontext():
+        with naming(role) if len(plan.gears) > 1 else nullcontext():
             meshes[role] = each.mesh(agenda.within(f"{_MESHING} {role}"))
         agenda(f"{_JUDGING} {role}")
         judged[role] = _judged(meshes[role], each, plan)

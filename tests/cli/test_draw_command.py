@@ -73,7 +73,7 @@ def test_wrong_options_are_told(tmp_path: Path) -> None:
 
 def test_a_train_of_pairs_is_told_all_that_can_be_drawn(tmp_path: Path) -> None:
     result = _draw(_spec("train-pairs", tmp_path))
-    kinds = "a gear, a pair, a rack, a rack and pinion or a planetary train"
+    kinds = "a gear, a pair, a rack, a rack and pinion, a planetary train or a spline"
     assert result.exit_code == 2 and f"must be {kinds}: `gearcad dynamics` writes the specs of the pairs" in result.stderr
 
 

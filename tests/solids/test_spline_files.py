@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from gearcad import SplineJoint
+from gearcad.core.errors import ParameterError
 from gearcad.designs import SplineDesign
 from gearcad.geometry import HubInputs, ShaftInputs
 from gearcad.jobs.build import Build
+from gearcad.jobs.mesh import Mesh
 from gearcad.jobs.verification import Verify
 from gearcad.solids import Format, spline_assembly
 from gearcad.verification.assemblies import PlacedMesh, PlacedPart, judge_joint, judge_places
@@ -88,3 +90,13 @@ def test_a_single_part_is_no_assembly(tmp_path: Path) -> None:
     assert names == ["data.json", "shaft.step"]
     (root,) = read_step(tmp_path / "shaft.step")
     assert root.product == "end"
+
+
+def test_sections_of_both_parts_are_meshed(tmp_path: Path) -> None:
+    result = Mesh(given={"elements": 600}).run(DESIGN)
+    assert list(result.meshes) == ["shaft", "hub"]
+    assert result.passed
+    shaft, hub = result.meshes["shaft"], result.meshes["hub"]
+    assert "bore" in shaft.sides and "rim" in hub.sides
+    with pytest.raises(ParameterError, match="shaft and hub of a spline are both meshed"):
+        Mesh(given={"gear": "pinion"}).run(DESIGN)

@@ -304,7 +304,8 @@ class SectionMarks:
 
     def rim(self) -> Iterable[Figure]:
         """Return dimensions of the outside diameter, with datum A, which is its axis."""
-        return self._diameter(self.ring.rim, self._right, self.requirements.rim, datum_letter="A")
+        letter = "A" if self.requirements.drawn.spline is None else ""  # no tolerance of a spline refers to it
+        return self._diameter(self.ring.rim, self._right, self.requirements.rim, datum_letter=letter)
 
     def _diameter(self, radius: float, out: float, size: Size | None, datum_letter: str = "") -> Iterator[Figure]:
         """Yield dimensions of a diameter; `radius` is in mm of the part, `out` is the edges' distance from mid face width (mm
