@@ -112,6 +112,9 @@ def is_spec_name(path: Path) -> bool:
 _TEMPLATE = "drawing.template"
 """Key of the template that changes the title block of drawings."""
 
+_BLANK = "body.step"
+"""Key of a gear's blank of its own."""
+
 _fence: ContextVar[Path | None] = ContextVar("the folder in which files must be", default=None)
 
 
@@ -128,10 +131,12 @@ def files_only_in(folder: Path) -> Iterator[None]:
 
 
 def names_file(key: str) -> bool:
-    """Return whether a text under a key is a file: a template, or the pair of a mesh, `mesh.NAME.pair`."""
+    """Return whether a text under a key is a file: a template, a blank, or the pair of a mesh, `mesh.NAME.pair`."""
     table, _, rest = key.partition(".")
     name, _, field = rest.rpartition(".")
-    return key == _TEMPLATE or (table == "mesh" and bool(name) and field == "pair")
+    if key in (_TEMPLATE, _BLANK) or key.endswith(f".{_BLANK}"):
+        return True
+    return table == "mesh" and bool(name) and field == "pair"
 
 
 def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
@@ -147,6 +152,18 @@ def find_named_files(tables: Mapping[str, Any], folder: Path) -> None:
     for where, table, key in (*named, ("drawing", drawing, "template")):
         if isinstance(table, dict) and key in table:
             table[key] = _file_path(f"{where}.{key}", table[key], folder)
+    for where, body in _bodies(tables):
+        body["step"] = _file_path(f"{where}.step", body["step"], folder)
+
+
+def _bodies(tables: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield the tables body that name a blank, with their keys."""
+    waiting: list[tuple[str, Any]] = [(name, table) for name, table in tables.items() if isinstance(table, dict)]
+    while waiting:
+        where, table = waiting.pop()
+        if where.endswith(".body") and "step" in table:
+            yield where, table
+        waiting += [(f"{where}.{name}", inner) for name, inner in table.items() if isinstance(inner, dict)]
 
 
 def _file_path(key: str, name: Any, folder: Path) -> Any:

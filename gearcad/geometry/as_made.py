@@ -135,6 +135,8 @@ class MadeTeeth:
         if making.cuts and gear.helix_angle:
             permitted = f'must be 0 deg for process "{making.process}": a straight cut makes no helical teeth'
             raise GeometryError("helix_angle", gear.helix_angle, permitted, "deg")
+        if gear.body.step is not None:
+            raise GeometryError("body.step", gear.body.step, "must be left out beside making: the blank is not scaled")
         if self.root_radius <= LEAST_LAND or self.tip_radius <= LEAST_LAND:
             raise self._fault("no tooth is left")
         self.profile  # noqa: B018 - checks the outline

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
 from itertools import pairwise
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -231,6 +232,9 @@ class Gear(GearData):
         yield from tip_notices(self)
         yield from corner_notices(self)
         yield from trimming_notices(self, self.profile)
+        if self.body.step is not None:
+            text = f"blank {Path(self.body.step).name}: its body is in files of solids and facets alone"
+            yield Notice("own-blank", f"{text}; finite elements, masses and drawings have a plain disc")
         if self.body.web_thickness:
             text = "web: it counts in the rating alone (C_R, Y_B); the solid and its elements are a full disc"
             yield Notice("web-not-modelled", text)
@@ -363,6 +367,9 @@ class Gear(GearData):
         """Return the inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
         parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix", "body")}
         parts["body"]["hub_side"] = self.body.hub_side.value
+        step = parts["body"].pop("step")
+        if step is not None:
+            parts["body"]["step"] = Path(step).name
         parts["modification"] = self.flank_form.to_dict()
         two_steps = {"premachining", "finishing", "making"}
         inputs = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in parts.keys() | two_steps}

@@ -251,6 +251,8 @@ def _check_ring(gear: GearData) -> None:
     Checks rim, bolt holes and end chamfers, and that no parts for external gears are given.
     """
     body = gear.body
+    if body.step is not None:
+        raise GeometryError("body.step", body.step, "must be left out: it is for external gears")
     for name in ("bore", "keyway_width", "hub_diameter"):
         if getattr(body, name):
             raise GeometryError(f"body.{name}", getattr(body, name), "must be left out: it is for external gears", "mm")
@@ -301,6 +303,8 @@ def _check_disc(gear: GearData) -> None:
         if getattr(gear.body, name):
             raise GeometryError(f"body.{name}", getattr(gear.body, name), "must be left out: it is for internal gears", "mm")
     body, wall = gear.body, LEAST_RIM * gear.normal_module
+    if body.step is not None and gear.double_helix.present:
+        raise GeometryError("body.step", body.step, "must be left out for double helical teeth")
     root = gear.root_diameter - 2 * wall
     rim = f"a rim of {LEAST_RIM} m_n inside the root circle {gear.root_diameter:.6g} mm"
     for name, opening in (

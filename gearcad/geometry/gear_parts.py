@@ -255,6 +255,8 @@ class Body:
     A ring has no bore, hub or keyway; its `bolt_circle` (mm) has `bolt_holes` holes of `bolt_diameter`, the first on +x.
     `web_thickness` b_s and `rim_thickness` s_R (below the root circle) are those of a blank that is no solid disc: only the
     rating knows them (C_R, Y_B), the solid is a full disc.
+    `step` is a STEP file of a blank of one's own, an external gear's: the files of bodies have its teeth on that, and it has
+    bore, keyway and hub itself.
     Raises ParameterError, or GeometryError for a keyway that does not fit its bore, or is none of DIN 6885.
     """
 
@@ -272,6 +274,7 @@ class Body:
     end_chamfer: Annotated[float, FEATURE, Words("end chamfer, axial length")] = 0.0
     end_chamfer_angle: Annotated[float, Range("deg", 5, 85), Words("end chamfer, angle to the axis")] = 45.0
     tip_chamfer: Annotated[float, FEATURE, Words("tip chamfer, radial height", "h_K", "6.1")] = 0.0
+    step: Annotated[str | None, Words("blank of one's own, STEP file")] = None
     web_thickness: Annotated[float, FEATURE, Words("web of the blank, for the rating", "b_s", "ISO 6336-1")] = 0.0
     rim_thickness: Annotated[float, FEATURE, Words("rim of the blank, for the rating", "s_R", "ISO 6336-1")] = 0.0
 
@@ -282,12 +285,24 @@ class Body:
         for name in (name for name, field in schema_of(Body).items() if field.permitted is FEATURE):
             if 0 < (value := getattr(self, name)) < LEAST_FEATURE:
                 raise ParameterError(name, value, f"must be 0 or at least {LEAST_FEATURE} mm", "mm")
+        if self.step is not None:
+            self._check_step()
         self._derive_keyway()
         for pair in (("keyway_width", "keyway_depth"), ("hub_diameter", "hub_length"), ("web_thickness", "rim_thickness")):
             self._check_both(*pair)
         for pair in (("bolt_circle", "bolt_holes"), ("bolt_holes", "bolt_diameter"), ("bolt_diameter", "bolt_circle")):
             self._check_both(*pair)
         self._check_keyway()
+
+    def _check_step(self) -> None:
+        """Raise ParameterError for no name of a file, GeometryError for features that the blank has itself."""
+        if not isinstance(self.step, str) or not self.step.strip():
+            raise ParameterError("step", self.step, 'must be the name of a STEP file, such as "blank.step"')
+        for name in ("bore", "keyway_width", "hub_diameter", "rim_diameter", "bolt_circle"):
+            if (value := getattr(self, name)) and not getattr(value, "derived", False):
+                raise GeometryError(name, value, "must be left out where step is given: the blank has its own", "mm")
+        if self.keyway:
+            raise GeometryError("keyway", True, "must be left out where step is given: the blank has its own")
 
     def _derive_keyway(self) -> None:
         """Derive width and depth from the bore, if `keyway` asks for it; 0 without a keyway."""

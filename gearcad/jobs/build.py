@@ -91,6 +91,10 @@ def _require_body(name: str, gear: Gear) -> None:
     try:
         if gear.internal:
             require_rim(gear)
+        if gear.body.step is not None:
+            from gearcad.solids.exact.own_blank import toothed_blank
+
+            toothed_blank(gear)
     except GeometryError as error:
         raise error.within(name) from error
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Unpack, cast
 
-from gearcad.core.errors import as_choice
+from gearcad.core.errors import GeometryError, as_choice
 from gearcad.core.output import source_date
 from gearcad.core.records import Notice
 from gearcad.core.runtime import Agenda, Progress, one_thread
@@ -81,6 +81,10 @@ class Verify(Job[ToothedDesign, Verification]):
     def run(self, design: Design, progress: Progress | None = None) -> Verification:
         """Return the verification of a design."""
         design = self.accepted(design, progress)
+        for name, gear in design.gears.items():
+            if gear.body.step is not None:
+                permitted = "must be left out for gearcad verify: nothing here knows how the blank should be"
+                raise GeometryError(f"{name}.body.step", Path(gear.body.step).name, permitted)
         with TemporaryDirectory(prefix="gearcad-verify-") as made:
             folder = Path(self.folder or made)
             if not self.folder:

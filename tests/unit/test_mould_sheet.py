@@ -24,7 +24,7 @@ def test_a_moulded_gear_has_a_sheet_of_its_cavity_beside_its_own() -> None:
     assert mould.shown["making.as_made.face_width"] == pytest.approx(6.0 / 0.985, abs=1e-9)
     assert mould.shown["sizes.bore"] == pytest.approx(6.0 / 0.98 - 0.04, abs=1e-9)
     assert mould.shown["making.as_made.span_measurement"] > 1.02 * GEAR.span_measurement
-    assert not [notice for notice in mould.notices if notice.kind.startswith("no-")]
+    assert not [notice for notice in mould.notices if notice.code.startswith("no-")]
 
 
 def test_the_table_of_a_mould_has_sizes_of_cavity_and_part(tmp_path: Path) -> None:

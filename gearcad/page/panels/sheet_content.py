@@ -195,6 +195,7 @@ _ABOUT = {
     "narrow-for-span": "face_width",
     "narrow-for-pins": "face_width",
     "web-not-modelled": "body.web_thickness",
+    "own-blank": "body.step",
     "cutter-trims-tips": "cutter.teeth tip_alteration",
     "cutter-trims-on-infeed": "cutter.teeth",
     "rounded-shifts": "centre_distance tooth_thinning",

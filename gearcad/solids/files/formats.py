@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gearcad.core.records import Floats
+from gearcad.solids.exact.solid import AssembledProduct
 from gearcad.solids.facets.tessellation import Facets
 
 if TYPE_CHECKING:
@@ -64,8 +65,17 @@ def formats_minding(option: str) -> list[Format]:
 
 
 def _step(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
-    from gearcad.solids.files.step import write_product
+    from gearcad.solids.files.step import write_product, write_step
 
+    if blanks := product.blanks:
+        from gearcad.solids.exact.own_blank import assembly_with_blanks, toothed_blank
+
+        solid = product.solid()
+        if isinstance(solid, AssembledProduct):
+            write_step(assembly_with_blanks(solid, blanks), path, name=solid.name)
+        else:
+            write_step(toothed_blank(blanks[solid.name]), path, name=solid.name)
+        return
     write_product(product.solid(), path)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import ClassVar
 
 from gearcad.core.errors import require_number, require_switch
 from gearcad.core.records import PerGear, Role
@@ -65,9 +66,18 @@ class GearProduct:
 
     @cached_property
     def facets(self) -> Facets:
+        if self.gear.body.step is not None:
+            from gearcad.solids.exact.own_blank import toothed_blank
+
+            return kernel_facets(toothed_blank(self.gear).wrapped, self.options.chord_error)
         if self.gear.first_layer:  # a step at its end
             return kernel_facets(kernel_solid(gear_boundary(self.gear)), self.options.chord_error)
         return tessellate(self.gear, self.options.chord_error)
+
+    @property
+    def blanks(self) -> dict[str, Gear]:
+        """The gear by its name as a product, if it has a blank of its own."""
+        return {self.name: self.gear} if self.gear.body.step is not None else {}
 
     def solid(self) -> SolidProduct:
         """Return the gear as an exact solid: see `gear_boundary`."""
@@ -137,6 +147,11 @@ class PairProduct:
         """The gears by the names of their files."""
         return {role.value: product for role, product in self.gears.items()}
 
+    @property
+    def blanks(self) -> dict[str, Gear]:
+        """Gears with blanks of their own by their names as products."""
+        return {name: gear for part in self.parts.values() for name, gear in part.blanks.items()}
+
     def solid(self) -> AssembledProduct:
         """Return both exact solids posed in mesh: see `pair_product`."""
         return pair_product(self.pair, bracket=self.options.bracket)
@@ -172,6 +187,9 @@ class SplineProduct:
             for name, part in self.joint.parts.items()
         }
 
+    blanks: ClassVar[dict[str, Gear]] = {}
+    """A spline has no blanks of its own."""
+
     def solid(self) -> AssembledProduct:
         """Return both exact solids on one axis: see `spline_product`."""
         return spline_product(self.joint)
@@ -194,6 +212,9 @@ class RackProduct:
     @cached_property
     def facets(self) -> Facets:
         return tessellate_rack(self.rack, self.options.chord_error)
+
+    blanks: ClassVar[dict[str, Gear]] = {}
+    """A rack has no blank of its own."""
 
     def solid(self) -> SolidProduct:
         """Return the rack as an exact solid: see `rack_boundary`."""
@@ -239,6 +260,11 @@ class RackPairProduct:
     def parts(self) -> dict[str, GearProduct | RackProduct]:
         """Pinion and rack by the names of their files."""
         return {"pinion": self.pinion, "rack": self.rack}
+
+    @property
+    def blanks(self) -> dict[str, Gear]:
+        """The pinion by its name as a product, if it has a blank of its own."""
+        return self.pinion.blanks
 
     def solid(self) -> AssembledProduct:
         """Return both exact solids posed in mesh: see `rack_product`."""

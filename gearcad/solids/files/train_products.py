@@ -8,12 +8,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from gearcad.core.dxf import drawing
 from gearcad.core.records import Floats
+from gearcad.geometry import Gear
 from gearcad.geometry.gear_data import section_turn
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.train_data import shafts_of, speeds
@@ -272,6 +273,9 @@ class CarrierProduct:
     def facets(self) -> Facets:
         return carrier_facets(self.plan, self.options.chord_error)
 
+    blanks: ClassVar[dict[str, Gear]] = {}
+    """A carrier has no blank of its own."""
+
     def solid(self) -> SolidProduct:
         """Pins and plates: see `carrier_boundary`."""
         return SolidProduct(self.name, carrier_boundary(self.plan), BRIGHT_STEEL)
@@ -320,6 +324,11 @@ class TrainProduct:
             key: GearProduct(gear=body.gear, name=body.name, options=self.options, colour=body.colour)
             for key, body in self._layout.bodies.items()
         }
+
+    @property
+    def blanks(self) -> dict[str, Gear]:
+        """Gears with blanks of their own by their names as products."""
+        return {name: gear for part in self.parts.values() for name, gear in part.blanks.items()}
 
     def solid(self) -> AssembledProduct:
         """Return all exact solids in their places: see `train_product`."""
