@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from enum import Enum
+from functools import lru_cache
 from typing import NamedTuple
 
 __all__ = [
@@ -79,6 +80,7 @@ class Symbol(NamedTuple):
         return parts_of(self.symbol)
 
 
+@lru_cache(maxsize=2048)
 def parts_of(text: str) -> tuple[tuple[str, str], ...]:
     """Return words with symbols in them in pieces, each a text and the index behind it."""
     pieces = [*_INDEX.split(text), ""]

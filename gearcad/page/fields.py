@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields, replace
 from enum import Enum
-from functools import cache
+from functools import cache, lru_cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -72,7 +72,7 @@ def fields_of(design: Design | None, tables: Mapping[str, Any]) -> list[dict[str
     in its text only: of a train these are the keys that are of no part.
     """
     kind = kind_of(tables) if design is None else design.kind
-    members = tuple(design.train.members) if isinstance(design, PlanetaryDesign) else ()
+    members = members_of(design)
     return [
         {
             "table": table,
@@ -82,6 +82,17 @@ def fields_of(design: Design | None, tables: Mapping[str, Any]) -> list[dict[str
         }
         for table, fields in _tables(kind, tables, members).items()
     ]
+
+
+def members_of(design: Design | None) -> tuple[str, ...]:
+    """Return the members of a planetary train, each of which can have a speed; none for other designs."""
+    return tuple(design.train.members) if isinstance(design, PlanetaryDesign) else ()
+
+
+@lru_cache(maxsize=64)
+def field_keys(kind: DesignKind, members: tuple[str, ...]) -> frozenset[str]:
+    """Return the keys of all fields that the specs of a kind have, without gears of a set that only some have."""
+    return frozenset(f"{table}.{key}" for table, fields in _tables(kind, {}, members).items() for key in fields)
 
 
 def ranked_fields(design: Design | None, tables: Mapping[str, Any]) -> dict[str, Any]:

@@ -22,7 +22,7 @@ _FILE = "page_words.toml"
 _PARTS = "parts"
 """Table of the template that has, by languages, parts of words."""
 
-_LONG = 15
+_LONG = 11
 """Letters of a word that may have to go on in the next line."""
 
 _LONG_WORD = re.compile(rf"\w{{{_LONG},}}")

@@ -83,13 +83,21 @@ class HoldSwitches:
             gears = [words[table_title(key.partition(".")[0])] for key in unwritten_followers(mates, self._bench.tables)]
             note = [f"{words['The profile shift follows']}: {', '.join(gears)}"]
         elif held is HeldQuantity.PROFILE_SHIFTS:
-            note = [words["The centre distance follows."]]
+            of_rack = _is_of_rack(mates)
+            note = [words["The mounting distance follows."] if of_rack else words["The centre distance follows."]]
+        elif _is_of_rack(mates):
+            note = [words["Mounting distance and profile shift are given: the backlash follows."]]
         else:
             note = [words["Centre distance and profile shifts are given: the backlash follows."]]
         return note if self._ratio is None else [*note, f"{words['The teeth of the mate follow']}: {self._ratio_text()}"]
 
     def _ratio_text(self) -> str:
         return "" if self._ratio is None else self._words.number(f"{abs(self._ratio.ratio):.{_DIGITS}g}")
+
+
+def _is_of_rack(mates: Mates) -> bool:
+    """Return whether the mate is a rack, whose distance is the mounting distance of the pinion."""
+    return mates.distance.endswith(".mounting_distance")
 
 
 def _is_whole(text: str) -> bool:

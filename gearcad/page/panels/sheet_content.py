@@ -14,7 +14,7 @@ from gearcad.core.units import ShownUnit, UnitSystem, shown_unit
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
 from gearcad.designs.planetary_designs import PlanetaryDesign
-from gearcad.page.fields import fields_of
+from gearcad.page.fields import field_keys, members_of
 from gearcad.page.panels import Panel
 from gearcad.page.words import PageWords
 from gearcad.sheet import Row, Section
@@ -219,7 +219,7 @@ _MOST = 2
 
 def keys_of(design: Design) -> frozenset[str]:
     """Return the keys of all fields that the specs of this kind of design have."""
-    return frozenset(field["key"] for table in fields_of(design, {}) for group in table["groups"] for field in group["fields"])
+    return field_keys(design.kind, members_of(design))
 
 
 def shown_notices(notices: Collection[Notice], keys: Collection[str]) -> tuple[dict[str, Any], ...]:
