@@ -12,7 +12,7 @@ from gearcad.check.convergence import SweepPoint
 from gearcad.check.summary import PlaneSummary, SolidSummary, Summary, root_peaks, worst_place
 from gearcad.check.task import CheckTask, face_factors
 from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.shared.loaded import Cycle
+from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, Cycle
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.core.records import Floats, JsonObject, PerGear, Role
 from gearcad.meshing.outline import OutlineSide
@@ -177,12 +177,26 @@ def explain_stiffness(task: CheckTask, cycle: Cycle, summary: Summary, sweep: Se
 
 
 @dataclass(frozen=True, kw_only=True)
+class RootConcentration(Explanation):
+    """Stress over that of a beam, which is sigma_F0/Y_S (`beam_stress`, MPa), with all of the load on one pair of teeth.
+
+    `root` has that of finite elements beside Y_S. In a grinding notch the greatest tension is `notch_stress` (MPa), and `notch`
+    has its concentration beside Y_Sg; both are None without one.
+    """
+
+    beam_stress: float
+    root: Compared
+    notch_stress: float | None = None
+    notch: Compared | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class PlaneRootExplanation(Explanation):
     """Reasons of the root stress: `single_contact` (MPa) of finite elements with all of the load on one pair of teeth at its
     `outer_point`.
 
     There a pair carries the part `load_share` of the load. `rim_compression` (MPa) is that of a rim that bends, None of one
-    that does not; `rim_thickness_factor` is Y_B.
+    that does not; `rim_thickness_factor` is Y_B. `concentration` is that of teeth that are cut before they are finished.
     """
 
     compared: RootCompared
@@ -191,14 +205,51 @@ class PlaneRootExplanation(Explanation):
     load_share: float
     rim_thickness_factor: float
     rim_compression: float | None
+    concentration: RootConcentration | None = None
+
+    def to_dict(self) -> JsonObject:
+        """Return the figures as `check.json` has them; the concentration where there is one."""
+        return {name: value for name, value in super().to_dict().items() if name != "concentration" or value is not None}
+
+
+def _single_contact(cycle: PlaneCycle, role: Role) -> tuple[int, float, float]:
+    """Return all of the load on tooth 0 at the outer point of single contact of a gear, D or B."""
+    model, path = cycle.model, cycle.model.pair.path_of_contact
+    return 0, PerGear(path.D, model.line.whole - path.B).pick(role), model.force(cycle.torque)
 
 
 def root_at_single_contact(cycle: PlaneCycle, role: Role) -> float:
     """Return the root tension (MPa) of a gear with all of the load on one pair at its outer point, D or B."""
-    model, path = cycle.model, cycle.model.pair.path_of_contact
-    length = PerGear(path.D, model.line.whole - path.B).pick(role)
-    load = (0, length, model.force(cycle.torque))
-    return model.fillets.pick(role).extreme(OutlineSide.LEFT_FILLET, [load]).stress
+    return cycle.model.fillets.pick(role).extreme(OutlineSide.LEFT_FILLET, [_single_contact(cycle, role)]).stress
+
+
+def root_concentration(task: CheckTask, cycle: PlaneCycle, role: Role) -> RootConcentration | None:
+    """Return the concentration of stress in the root of a gear that is cut before it is finished; None for others.
+
+    Beside a notch the rest of the root has the stress of its own.
+    """
+    gear, rating = task.pair.gears.pick(role), task.rating.roots.pick(role)
+    outline = gear.profile.root
+    if outline is None:
+        return None
+    fillets, side = cycle.model.fillets.pick(role), OutlineSide.LEFT_FILLET
+    stresses, radii = fillets.stresses(side, [_single_contact(cycle, role)]), fillets.places(side)[0]
+    factor = rating.stress_correction_factor
+    beam = task.rating.root_stresses.pick(role) * rating.width / cycle.model.width / factor
+    notched = rating.notch is not None and outline.wheel
+    low, high = sorted((float(outline.pieces[-1].polar(0.0)[0]), outline.form_radius))
+    inside = (radii > low) & (radii < high) & notched
+    angles = fillets.places(side)[1]
+    root = float(stresses[~inside & (angles >= LEAST_TANGENT_ANGLE)].max())
+    if rating.notch is None or not notched:
+        return RootConcentration(beam_stress=beam, root=Compared(computed=root / beam, standard=factor))
+    notch = float(stresses[inside].max())
+    return RootConcentration(
+        beam_stress=beam,
+        root=Compared(computed=root / beam, standard=factor / rating.notch.factor(1.0)),
+        notch_stress=notch,
+        notch=Compared(computed=notch / beam, standard=factor),
+    )
 
 
 def explain_plane_roots(
@@ -219,6 +270,7 @@ def explain_plane_roots(
             load_share=load_share.at(place),
             rim_thickness_factor=task.rating.roots.pick(role).rim_thickness_factor,
             rim_compression=summary.root_compression.pick(role) if bends else None,
+            concentration=root_concentration(task, cycle, role),
         )
 
     return PerGear.each(explained)

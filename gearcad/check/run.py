@@ -24,7 +24,7 @@ from gearcad.core.errors import ParameterError
 from gearcad.core.records import Floats, JsonObject, Notice, freeze
 from gearcad.core.runtime import Agenda, Expected, Progress, Share, machine_memory, unheard
 from gearcad.load import Load
-from gearcad.meshing.outline import MeshSizes
+from gearcad.meshing.outline import MeshSizes, NotchPlace
 from gearcad.mounting import Mounting
 from gearcad.rating.load_factors import BodyLoad, LoadedMesh, Misalignment, dynamic_factor
 from gearcad.rating.nominal_rating import require_ratable
@@ -213,6 +213,15 @@ def _left_out(task: CheckTask) -> Iterator[Notice]:
         yield Notice("left-out", f"the plane model leaves out {' and '.join(left_out)}; --model 3d has them")
 
 
+def _unresolved_notches(task: CheckTask) -> Iterator[Notice]:
+    """Yield the gears with a grinding notch that is too sharp for the elements of bodies."""
+    for role, gear in task.pair.gears.items():
+        notch = NotchPlace.of(gear)
+        if notch is not None and notch.sharp(gear.normal_module):
+            text = f"grinding notch with a radius of {notch.radius:.3g} mm: elements of bodies do not resolve its stress"
+            yield Notice("notch-not-resolved", f"{text}; sections (--model 2d) do", role.value)
+
+
 _EDGE_RATIO = 1.5
 """Ratio of the pressure at an edge to the greatest away from edges from which a warning is given."""
 
@@ -239,6 +248,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     notices = (
         *common_notices(task, cycle, summary),
         *_edge_notices(task, cycle, summary),
+        *_unresolved_notches(task),
         *wide_solid_contacts(cycle),
         *start_notices(task, starts),
     )

@@ -105,6 +105,7 @@ def build(
 @click.option("--language", metavar="en", help="en, de or sv.  [default: en]")
 @click.option("--projection", metavar="first", help="first or third angle.  [default: first]")
 @click.option("--format", "formats", default="dxf,svg,pdf", show_default=True, help="Comma-separated list of dxf, svg, pdf.")
+@click.option("--what", default="parts", show_default=True, help="parts, or tool: the tools that cut and finish them.")
 @output_option
 @json_option
 @quiet_option
@@ -116,6 +117,7 @@ def draw(
     language: str | None,
     projection: str | None,
     formats: str,
+    what: str,
     output: Path | None,
     as_json: bool,
     quiet: bool,
@@ -137,7 +139,7 @@ def draw(
         "projection": projection and projection.lower(),
     }
     given = {name: value for name, value in asked.items() if value is not None}
-    job = Draw(formats=parse_choices("format", formats, SheetFormat), given=given)
+    job = Draw(formats=parse_choices("format", formats, SheetFormat), given=given, what=what)
     perform(job, spec, output, partial(_show, quiet=quiet), as_json=as_json, quiet=quiet)
 
 

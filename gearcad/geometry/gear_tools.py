@@ -169,6 +169,12 @@ def finishing_wheel(gear: GearData) -> Wheel | None:
     return Wheel(end, radius, rolling)
 
 
+def finished_flank(gear: GearData) -> FlankInvolute:
+    """Return the involute of the finished flanks."""
+    half = math.radians(-gear.base_half_angle if gear.internal else gear.base_half_angle)
+    return FlankInvolute(abs(gear.base_diameter) / 2, half, gear.internal)
+
+
 def root_outline(gear: GearData) -> RootOutline | None:
     """Return the root of teeth that are cut before they are finished; None where one tool makes all.
 
@@ -177,14 +183,13 @@ def root_outline(gear: GearData) -> RootOutline | None:
     pre = gear.premachining
     if not pre.present:
         return None
-    base = abs(gear.base_diameter) / 2
-    half = math.radians(-gear.base_half_angle if gear.internal else gear.base_half_angle)
+    after = finished_flank(gear)
     tool, straight = fillet_tool(gear), None
     if isinstance(tool, ShaperTip) and pre.protuberance:
         outside = pre.protuberance / (tool.base_radius * math.cos(math.radians(gear.base_helix_angle)))
         straight = CutterFlank(tool, outside)
     tools = RootTools(tool, math.pi / gear.tooth_count, gear.internal, straight)
-    before, after = FlankInvolute(base, half + gear.stock_angle, gear.internal), FlankInvolute(base, half, gear.internal)
+    before = after._replace(base_half_angle=after.base_half_angle + gear.stock_angle)
     bulges = pre.protuberance - gear.stock, pre.protuberance
     try:
         return tools.finished(before, after, bulges, finishing_wheel(gear))

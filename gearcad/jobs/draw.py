@@ -11,7 +11,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, Unpack, cast
 
 from gearcad.core.dxf import write_document as write_dxf
-from gearcad.core.errors import GeometryError, InputError, ParameterError, as_choice, as_path, require_switch, require_whole
+from gearcad.core.errors import (
+    GeometryError,
+    InputError,
+    ParameterError,
+    as_choice,
+    as_path,
+    require_one_of,
+    require_switch,
+    require_whole,
+)
 from gearcad.core.output import staged_files
 from gearcad.core.records import JsonObject, Notice, is_assumed
 from gearcad.core.runtime import Progress
@@ -34,6 +43,7 @@ from gearcad.drawing.gear_sheet import Drawing, DrawingSheet, draw_gear
 from gearcad.drawing.mould_sheet import MOULD, draw_mould, is_moulded
 from gearcad.drawing.options import SCALES, DrawingOptions, PartDrawing, SheetSize
 from gearcad.drawing.page_export import unshown, write_pdf, write_svg
+from gearcad.drawing.tool_sheet import draw_tool
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.jobs.build import products_of, require_bodies
 from gearcad.jobs.job import Job, Subject, Writer, as_design
@@ -160,8 +170,8 @@ class Draw(Job[ToothedDesign, Drawing]):
     """The sheets of a design, in the `formats`; what is `given` of its options by their names wins over those in [drawing].
 
     The files of a single gear are `drawing.pdf` and so on; of a design with more gears `drawing-pinion.pdf` and its like, and
-    `drawing.pdf` has all sheets as pages. A gear that is moulded has a
-    second sheet, `drawing-gear-mould.pdf` and so on, of its cavity. Raises ParameterError.
+    `drawing.pdf` has all sheets as pages. A gear that is moulded has a second sheet, `drawing-gear-mould.pdf` and so on, of its
+    cavity. `what` is "parts", or "tool" for the tools of gears and racks: `drawing-pinion-tool.pdf`. Raises ParameterError.
     """
 
     verb = "draw"
@@ -170,9 +180,11 @@ class Draw(Job[ToothedDesign, Drawing]):
 
     formats: tuple[SheetFormat, ...] = _ALL
     given: Mapping[str, Any] = field(default_factory=dict)
+    what: str = "parts"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "formats", _formats(self.formats))
+        require_one_of("what", self.what, ("parts", "tool"))
         overridden(DrawingOptions(), self.given)
 
     def run(self, design: Design, progress: Progress | None = None) -> Drawing:
@@ -186,6 +198,10 @@ class Draw(Job[ToothedDesign, Drawing]):
         """Yield the sheet of the assembly, then those of the gears. Raises InputError."""
         gears, assembly = drawn_gears(design), drawn_assembly(design)
         options = overridden(design.drawing or DrawingOptions(), self.given)
+        if self.what == "tool":
+            for gear in gears:
+                yield draw_tool(gear, options)
+            return
         own = {name: overridden(part, self.given) for name, part in design.drawings.items()}
         names = [*([] if assembly is None else [ASSEMBLY]), *(gear.role for gear in gears)]
         if len(set(names)) < len(names):
@@ -228,7 +244,7 @@ class Draw(Job[ToothedDesign, Drawing]):
     def _pages(self, result: Drawing) -> dict[str, tuple[DrawingSheet, ...]]:
         """Return the names of files, and the sheets in each."""
         moulds = [sheet for sheet in result.sheets if sheet.name.endswith(f"-{MOULD}")]
-        alone = len(result.sheets) - len(moulds) == 1
+        alone = len(result.sheets) - len(moulds) == 1 and self.what == "parts"
         found = {
             f"{_STEM if alone and sheet not in moulds else f'{_STEM}-{sheet.name}'}.{kind.value}": (sheet,)
             for sheet in result.sheets
@@ -245,7 +261,8 @@ class Draw(Job[ToothedDesign, Drawing]):
     @property
     def parts(self) -> dict[str, dict[str, Any]]:
         """All files together."""
-        return {self.verb: {"formats": [kind.value for kind in self.formats], **self.given}}
+        what = {} if self.what == "parts" else {"what": self.what}
+        return {self.verb: {"formats": [kind.value for kind in self.formats], **what, **self.given}}
 
     def part_of(self, file: str) -> str:
         """Every file is of the drawing."""

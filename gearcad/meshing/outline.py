@@ -272,19 +272,61 @@ _SIDES = {
 }
 
 
-def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> HalfLengths:
-    """Return the wanted edge lengths on the curves of half a tooth."""
+@dataclass(frozen=True)
+class NotchPlace:
+    """Where the finishing wheel leaves a notch: from `start` to `end` (mm along the fillet), and its least radius (mm)."""
+
+    start: float
+    end: float
+    radius: float
+
+    @classmethod
+    def of(cls, gear: Gear) -> NotchPlace | None:
+        """Return the place of the notch of a gear; None without one."""
+        outline = gear.profile.root
+        if outline is None or not outline.wheel:
+            return None
+        *below, notch = outline.pieces
+        start = sum(_measured(piece, 1.0) for piece in below)
+        s = np.linspace(0.0, 1.0, _FINE)
+        step = np.hypot(*np.diff(notch.points(s), axis=0).T)
+        turned = np.abs(np.diff(np.unwrap(notch.direction(s))))
+        return cls(start, start + float(step.sum()), float((step / np.maximum(turned, 1e-12)).min()))
+
+    def sharp(self, module: float) -> bool:
+        """Return whether edges of other fillets do not resolve it."""
+        return self.radius < _NOTCH_RADIUS * module
+
+    def shorter(self, size: float, module: float) -> float:
+        """Return the edge length (mm) in the notch beside that of other fillets: a twelfth of its radius at the usual size."""
+        return size * min(self.radius / (_NOTCH_RADIUS * module), 1.0)
+
+
+_NOTCH_RADIUS = 0.6
+"""Radius of a notch in normal modules from which on edges of other fillets resolve it."""
+
+
+def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool, notched: bool = True) -> HalfLengths:
+    """Return the wanted edge lengths on the curves of half a tooth; shorter in a grinding notch where it is `notched`."""
     module, grow = gear.normal_module, sizes.growth
     fillet, other = sizes.fillet * module, sizes.outline * module
     bent = min(fillet, max(_half_fillet(gear), _SHORTEST_HALF * module)) if gear.internal else fillet
     flank, corner = (sizes.flank * module, sizes.corner * module) if loaded else (other, other)
+    notch = NotchPlace.of(gear) if notched else None
+    first = fillet if notch is None else notch.shorter(fillet, module)
 
     def on_flank(run: Floats, whole: float) -> Floats:
-        return np.minimum(flank, np.minimum(fillet + grow * run, corner + grow * (whole - run)))
+        return np.minimum(flank, np.minimum(first + grow * run, corner + grow * (whole - run)))
+
+    def on_fillet(run: Floats, _whole: float) -> Floats:
+        if notch is None:
+            return np.full_like(run, bent)
+        outside = np.maximum(np.maximum(notch.start - run, run - notch.end), 0.0)
+        return np.minimum(bent, notch.shorter(bent, module) + grow * outside)
 
     curves: dict[CurveKind, EdgeLength] = {
         CurveKind.ROOT: lambda run, whole: np.minimum(sizes.cut * module, fillet + grow * (whole - run)),
-        CurveKind.FILLET: lambda run, _whole: np.full_like(run, bent),
+        CurveKind.FILLET: on_fillet,
         CurveKind.INVOLUTE: on_flank,
         CurveKind.CHAMFER: lambda run, _whole: np.minimum(other, corner + grow * run),
         CurveKind.TIP: lambda run, _whole: np.minimum(other, corner + grow * run),
@@ -375,10 +417,10 @@ def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None, 
     """
     plain, module = edge_lengths(gear, sizes, loaded=True).curves, gear.normal_module
     runs, lengths, breaks = list[Floats](), list[Floats](), list[float]()
-    for curve in gear.profile.curves:
+    for curve in gear.profile.joined_curves:
         s = np.linspace(0.0, 1.0, _EDGE_LENGTHS_FINE)
-        run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(curve.points(s), axis=0).T))]
-        wanted = np.minimum(plain[curve.kind](run, float(run[-1])), _by_bend(curve, s, run, sizes, module))
+        run, wanted = _bent(curve, s, sizes, module)
+        wanted = np.minimum(plain[curve.kind](run, float(run[-1])), wanted)
         if near and curve.kind in near.curves:
             wanted = np.minimum(wanted, near.curves[curve.kind](run, float(run[-1])))
         if isinstance(curve, Involute) and gear.modification.present:
@@ -393,9 +435,20 @@ def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None, 
         lengths.append(wanted)
     starts = np.cumsum([0.0, *(run[-1] for run in runs)])
     along = np.concatenate([run + start for run, start in zip(runs, starts[:-1], strict=True)])
-    gentle = np.split(_gentle(along, np.concatenate(lengths), sizes.growth), len(runs))
-    sampled = {curve.kind: _Sampled(run, own) for curve, run, own in zip(gear.profile.curves, runs, gentle, strict=True)}
+    gentle = np.split(_gentle(along, np.concatenate(lengths), sizes.growth), np.cumsum([len(run) for run in runs[:-1]]))
+    sampled = {curve.kind: _Sampled(run, own) for curve, run, own in zip(gear.profile.joined_curves, runs, gentle, strict=True)}
     return HalfLengths(sampled, tuple(breaks), halved=True)
+
+
+def _bent(curve: Curve, s: Floats, sizes: MeshSizes, module: float) -> tuple[Floats, Floats]:
+    """Return lengths run through (n,) on a curve, and the longest edges there (mm); of a chain for each of its pieces at s."""
+    runs, lengths, before = list[Floats](), list[Floats](), 0.0
+    for piece in curve.pieces if isinstance(curve, FilletChain) else (curve,):
+        run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(piece.points(s), axis=0).T))]
+        runs.append(before + run)
+        lengths.append(_by_bend(piece, s, run, sizes, module))
+        before += float(run[-1])
+    return np.concatenate(runs), np.concatenate(lengths)
 
 
 def _breaks(gear: Gear, s: Floats, run: Floats, wanted: Floats) -> list[float]:

@@ -299,7 +299,7 @@ class SectorLayout:
 
     @cached_property
     def _lengths(self) -> HalfLengths:
-        return self.lengths or edge_lengths(self.gear, self.sizes, loaded=True)
+        return self.lengths or edge_lengths(self.gear, self.sizes, loaded=True, notched=False)
 
     def _piece(
         self, lengths: HalfLengths, side: OutlineSide, kind: CurveKind, first: float = 0.0, last: float = 1.0
