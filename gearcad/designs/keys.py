@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from importlib import import_module
-from typing import TYPE_CHECKING, Annotated, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from gearcad.core.quantities import FieldSchema, Words, parts_of, schema_of
 from gearcad.core.records import Role
@@ -68,6 +68,32 @@ MAIN_TABLES = {
 OF_GEAR_PAIRS = ("centre_distance", "centre_distance_tolerance", "axial_offset", "profile_shift_split")
 OF_RACK_PAIRS = ("mounting_distance",)
 """Keys of [pair] that only two gears have, and those that only a pinion and a rack have."""
+
+SHAFTS = "shafts"
+"""The table of the options of shafts."""
+
+OF_SHAFTS = ("shaft", "bearing", "force")
+"""Lists of tables that describe a shaft: its segments, its bearings, and forces on it."""
+
+_OF_SHAFTED_GEARS = (*OF_SHAFTS, "mesh_position", "coupling")
+"""Keys of a gear of a pair that belong to its shaft."""
+
+
+def has_shafts(tables: Mapping[str, Any]) -> bool:
+    """Return whether the tables of a pair's spec describe a shaft."""
+    return any("shaft" in content for role in Role if isinstance(content := tables.get(role.value), Mapping))
+
+
+def without_shafts(tables: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return the tables of a pair's spec without what is of shafts; as they are where none is described."""
+    if not has_shafts(tables):
+        return tables
+    found = {name: content for name, content in tables.items() if name != SHAFTS}
+    for role in Role:
+        if isinstance(content := found.get(role.value), Mapping):
+            found[role.value] = {key: each for key, each in content.items() if key not in _OF_SHAFTED_GEARS}
+    return found
+
 
 OF_SETS = ("sun", "planet", "ring", "planet_2", "sun_2", "ring_2")
 """Tables of the gears of a planetary set; `_2` marks the second of its kind."""

@@ -17,10 +17,19 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, as_choice, require_number
 from gearcad.core.quantities import NOT_GIVEN, is_given, schema_of
-from gearcad.core.records import JsonObject, PerGear, Role, naming
+from gearcad.core.records import JsonObject, Notice, PerGear, Role, naming
 from gearcad.designs.design import Described, Where
 from gearcad.designs.gear_designs import GearedDesign, ToothedDesign, beside_teeth, require_tables, require_tables_of_racks
-from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_GEAR_PAIRS, OF_RACK_PAIRS, SHARED, DesignKind
+from gearcad.designs.keys import (
+    FIELDS,
+    MAIN_TABLES,
+    OF_GEAR_PAIRS,
+    OF_RACK_PAIRS,
+    SHARED,
+    DesignKind,
+    has_shafts,
+    without_shafts,
+)
 from gearcad.designs.spec import (
     AUTO,
     CLEAR,
@@ -52,20 +61,32 @@ class PairDesign(GearedDesign):
 
     pair: GearPair
     material: Materials | None = None
+    shafts_described: bool = False
+    """Whether its spec describes shafts, which `gearcad shafts` alone takes into account."""
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
         """Return the design that [pair], [pinion] and [wheel] describe. Raises SpecError."""
+        described, tables = has_shafts(tables), without_shafts(tables)
         spec = cls.spec(tables, where)
         beside = beside_teeth(spec, tables, PerGear._fields)
         name = spec.name("pair", default_name)
         pair = spec.pair(name)
         with spec.blame("pair"):
-            return cls(name=name, pair=pair, **beside)
+            return cls(name=name, pair=pair, shafts_described=described, **beside)
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """Notices of gears and pair, and that shafts are not taken into account here."""
+        if not self.shafts_described:
+            return super().notices
+        text = "shafts are described: they count in `gearcad shafts` alone, here the gears are held on rigid ones"
+        return (*super().notices, Notice("rigid-shafts", text))
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> PairSpec:
-        """Return the values of a spec that has all tables of a pair. Raises SpecError."""
+        """Return the values of a spec that has all tables of a pair, without those of shafts. Raises SpecError."""
+        tables = without_shafts(tables)
         require_tables(tables, where)
         _require_pair(tables, where)
         spec = PairSpec.of(tables, where)

@@ -1,0 +1,65 @@
+"""Command `shafts`: deflection, reactions and bearing life of shafts, and the load over the face of their mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gearcad.cli.group import debug_option, spec_argument
+from gearcad.cli.job import echo_warnings, folder_of, json_option, output_option, quiet_option
+from gearcad.cli.language import say
+
+if TYPE_CHECKING:
+    from gearcad.jobs.shafts import ShaftsDone
+
+
+@click.command(short_help="Deflection, reactions and bearing life of SPEC's shafts.")
+@spec_argument
+@output_option
+@json_option
+@quiet_option
+@debug_option
+def shafts(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
+    """Show how the shafts of SPEC bend under their loads: reactions, deflection, stresses, bearing life, critical speeds.
+
+    SPEC has [[shaft]] segments, [[bearing]] and [[force]] of one shaft, or a pair with [[pinion.shaft]], [[pinion.bearing]] and
+    pinion.mesh_position, and the same of the wheel: then the load over the face and K_Hbeta on these shafts follow too. Writes
+    shafts.json.
+    """
+    from gearcad.jobs.shafts import done_shafts
+
+    done = done_shafts(spec)
+    files = done.write(folder_of(output, done.name))
+    if as_json:
+        click.echo(files[0].read_text(encoding="utf-8"), nl=False)
+        return
+    if not quiet:
+        say("\n".join(_lines(done)))
+        echo_warnings(done.result.notices)
+    click.echo("".join(f"{file}\n" for file in files), nl=False)
+
+
+def _lines(done: ShaftsDone) -> Iterator[str]:
+    for name, shaft in done.result.shafts.items():
+        state = shaft.state
+        yield f"{name}: length {state.shaft.length:g} mm, torque of the coupling {state.coupling_torque:.5g} N·m"
+        for life, force in zip(shaft.lives, state.reactions, strict=True):
+            forces = ", ".join(f"{each:.5g}" for each in force[:3])
+            hours = "-" if life.hours is None else f"{life.hours:.5g} h"
+            modified = "" if life.modified_hours is None else f", L_nmh {life.modified_hours:.5g} h"
+            yield f"  {life.name}: reaction {forces} N, L_10h {hours}{modified}"
+        stations = state.stations()
+        bent = max(stations, key=lambda each: each["deflection"][0] ** 2 + each["deflection"][1] ** 2)
+        stressed = [each[side] for each in stations for side in ("left", "right") if side in each]
+        across = (bent["deflection"][0] ** 2 + bent["deflection"][1] ** 2) ** 0.5
+        yield f"  greatest deflection {across:.4g} µm at {bent['position']:g} mm"
+        yield f"  greatest equivalent stress {max(each['equivalent_stress'] for each in stressed):.4g} MPa (nominal)"
+        speeds = ", ".join(f"{each:.4g}" for each in shaft.state.shaft.critical_speeds())
+        yield f"  critical speeds {speeds} rpm"
+    if done.result.mesh is not None:
+        mesh = done.result.mesh
+        yield f"mesh: f_sh {mesh['f_sh']:.4g} µm, K_Hbeta {mesh['K_Hbeta_end_of_face']:.4g} at the end of the face"
+    yield f"not judged: {'; '.join(done.result.not_judged)}"

@@ -1,0 +1,230 @@
+"""Arrangement of shafts: their options, the life of their bearings under what the shafts put on them, and their document."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Annotated, Any
+
+import numpy as np
+
+from gearcad.core.errors import InputError
+from gearcad.core.quantities import SPEED, Range, Whole, Words, require_fields
+from gearcad.core.records import JsonObject, Notice, concise
+from gearcad.shafts.beam import Shaft, ShaftBearing, ShaftState
+from gearcad.shafts.bearing_life import (
+    BALL_KINDS,
+    RECALLED,
+    EquivalentLoad,
+    basic_life,
+    deep_groove_load,
+    fatigue_limit_load,
+    life_factor,
+    life_in_hours,
+    reference_viscosity,
+    reliability_factor,
+    two_factor_load,
+)
+
+_FEWEST_STATIONS = 100
+_STEPS = (1.0, 2.0, 5.0, 10.0)
+"""Parts of a power of ten that a step between stations may be."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftOptions:
+    """Options of shafts: `coupling` (mm) of a shaft by itself, `gravity` (m/s², along x, y, z), and what bearing life takes.
+
+    `speed` (rpm) of a shaft by itself, the `viscosity` (mm²/s) of the oil at its temperature, `contamination_factor` e_C and
+    `life_reliability` (%). `mesh_angle` (degrees) is where the wheel's axis lies from the pinion's, from x; `slices` are those
+    of the face, `face_mesh_stiffness` c_gammabeta (N/(mm·µm); None: that of ISO 6336-1), `misalignment` (µm over the face) is a
+    gap beside that of the shafts. `stations` (mm) are further places whose state is wanted. Raises ParameterError.
+    """
+
+    coupling: Annotated[float, Range("mm", 0, 1e7), Words("position of the coupling")] = 0.0
+    gravity: Annotated[tuple[float, float, float], Words("gravity", "g")] = (0.0, 0.0, 0.0)
+    speed: Annotated[float, SPEED, Words("speed of the shaft", "n")] = 0.0
+    mesh_angle: Annotated[float, Range("deg", -360, 360), Words("angle of the wheel's axis")] = 0.0
+    slices: Annotated[int, Whole(2, 400), Words("slices of the face")] = 40
+    face_mesh_stiffness: Annotated[
+        float | None, Range("N/(mm·µm)", 0.01, 1000), Words("mesh stiffness over the face", "c_γβ", "ISO 6336-1")
+    ] = None
+    misalignment: Annotated[float, Range("µm", -1e4, 1e4), Words("misalignment over the face", "f_ma")] = 0.0
+    stations: Annotated[tuple[float, ...], Words("further stations")] = ()
+    viscosity: Annotated[float | None, Range("mm²/s", 0.1, 1e5), Words("viscosity of the oil", "ν")] = None
+    contamination_factor: Annotated[float | None, Range("", 0, 1), Words("contamination factor", "e_C", "ISO 281")] = None
+    life_reliability: Annotated[float, Range("%", 90, 99), Words("reliability of bearing life", "", "ISO 281")] = 90.0
+
+    __repr__ = concise
+
+    def __post_init__(self) -> None:
+        require_fields(self)
+        reliability_factor(self.life_reliability)
+
+
+@dataclass(frozen=True)
+class BearingLife:
+    """Life of a bearing under its radial and axial force (N), in million revolutions and hours; None with a reason."""
+
+    name: str
+    radial: float
+    axial: float
+    equivalent: EquivalentLoad | None = None
+    revolutions: float | None = None
+    hours: float | None = None
+    modified_hours: float | None = None
+    reasons: tuple[str, ...] = ()
+
+    def to_dict(self) -> JsonObject:
+        """Return the figures under the names of ISO 281: L10 in million revolutions, L10h and Lnmh in hours."""
+        return {
+            "name": self.name,
+            "radial_force": self.radial,
+            "axial_force": self.axial,
+            "equivalent_load": None if self.equivalent is None else self.equivalent.load,
+            "L10": _finite(self.revolutions),
+            "L10h": _finite(self.hours),
+            "Lnmh": _finite(self.modified_hours),
+            "not_judged": list(self.reasons),
+        }
+
+
+def _finite(value: float | None) -> float | None:
+    return None if value is None or math.isinf(value) else value
+
+
+def bearing_life(bearing: ShaftBearing, radial: float, axial: float, speed: float, options: ShaftOptions) -> BearingLife:
+    """Return the life of a bearing under its radial and axial force (N) at a speed (rpm; 0 without hours)."""
+    found = BearingLife(bearing.name, radial, axial)
+    load = _equivalent(bearing, radial, axial)
+    if isinstance(load, str):
+        return replace(found, reasons=(load,))
+    assert bearing.C is not None
+    ball = bearing.kind in BALL_KINDS
+    revolutions = basic_life(bearing.C, load.load, ball=ball)
+    if not speed:
+        return replace(found, equivalent=load, revolutions=revolutions, reasons=("hours: no speed is given",))
+    hours = life_in_hours(revolutions, speed)
+    made = replace(found, equivalent=load, revolutions=revolutions, hours=hours)
+    factor = _modification(bearing, load.load, speed, options, ball=ball)
+    if isinstance(factor, str):
+        return replace(made, reasons=(factor,))
+    return replace(made, modified_hours=reliability_factor(options.life_reliability) * factor * hours)
+
+
+def _equivalent(bearing: ShaftBearing, radial: float, axial: float) -> EquivalentLoad | str:
+    """Return the equivalent load, or why there is none."""
+    if bearing.kind is None or bearing.C is None:
+        return "life: kind and C are not given"
+    if bearing.kind == "deep groove":
+        if axial and (bearing.f0 is None or bearing.C0 is None):
+            if bearing.Y is not None and bearing.e is not None:
+                return two_factor_load(radial, axial, limit=bearing.e, below=(1.0, 0.0), beyond=(0.56, bearing.Y))
+            return "life: f0 and C0, or e and Y, are not given, and there is an axial force"
+        return deep_groove_load(radial, axial, f0=bearing.f0 or 0.0, static_rating=bearing.C0 or 1.0)
+    if bearing.kind == "cylindrical":
+        return EquivalentLoad(radial, 0.0, 0.0) if not axial else "life: a cylindrical roller bearing bears no axial force"
+    if bearing.kind == "spherical":
+        if bearing.e is None or bearing.Y1 is None or bearing.Y2 is None:
+            return "life: e, Y1 and Y2 are not given"
+        return two_factor_load(radial, axial, limit=bearing.e, below=(1.0, bearing.Y1), beyond=(0.67, bearing.Y2))
+    return f"life: thrust that {bearing.kind} bearings make of radial forces is not in the model"
+
+
+def _modification(bearing: ShaftBearing, load: float, speed: float, options: ShaftOptions, *, ball: bool) -> float | str:
+    """Return a_ISO, or why there is none."""
+    if options.viscosity is None or options.contamination_factor is None:
+        return "modified life: viscosity and contamination_factor are not given"
+    if bearing.pitch_diameter is None:
+        return "modified life: pitch_diameter is not given"
+    limit = bearing.C_u
+    if limit is None and bearing.C0 is not None:
+        limit = fatigue_limit_load(bearing.C0, bearing.pitch_diameter, ball=ball)
+    if limit is None:
+        return "modified life: neither C_u nor C0 is given"
+    try:
+        ratio = options.viscosity / reference_viscosity(speed, bearing.pitch_diameter)
+        return life_factor(ratio, options.contamination_factor * limit / load, ball=ball) if load else 1.0
+    except InputError:
+        return "modified life: the oil is thinner than ISO 281 covers (kappa below 0.1)"
+
+
+def with_stations(shaft: Shaft) -> Shaft:
+    """Return the shaft with further stations at whole steps, so that its lines can be drawn."""
+    wanted = shaft.length / _FEWEST_STATIONS
+    power = 10.0 ** math.floor(math.log10(wanted))
+    step = next(power * each for each in _STEPS if power * each >= wanted * (1 - 1e-9))
+    return replace(shaft, places=(*shaft.places, *np.arange(0.0, shaft.length, step).tolist()))
+
+
+@dataclass(frozen=True)
+class ShaftResult:
+    """A shaft under its loads, and the lives of its bearings at a speed (rpm)."""
+
+    state: ShaftState
+    speed: float
+    options: ShaftOptions
+
+    @cached_property
+    def lives(self) -> tuple[BearingLife, ...]:
+        """Lives of the bearings."""
+        found = []
+        for number, (bearing, force) in enumerate(zip(self.state.shaft.bearings, self.state.reactions, strict=True), 1):
+            named = bearing if bearing.name else replace(bearing, name=f"bearing {number}")
+            radial, axial = float(np.hypot(*force[:2])), abs(float(force[2]))
+            axial = 0.0 if axial < _NO_FORCE * max(radial, 1.0) else axial
+            found.append(bearing_life(named, radial, axial, self.speed, self.options))
+        return tuple(found)
+
+    def to_dict(self) -> JsonObject:
+        """Return reactions, stations, bearings and critical speeds."""
+        return self.state.to_dict() | {
+            "bearings": [each.to_dict() for each in self.lives],
+            "critical_speeds": self.state.shaft.critical_speeds(),
+        }
+
+
+_NO_FORCE = 1e-9
+"""Axial force over the radial one that is rounding."""
+
+
+@dataclass(frozen=True)
+class ArrangementResult:
+    """Shafts by their names, and the load over the face of their mesh, where they have one."""
+
+    shafts: Mapping[str, ShaftResult]
+    mesh: JsonObject | None = None
+
+    @cached_property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know of the result."""
+        return tuple(self._found())
+
+    def _found(self) -> Iterator[Notice]:
+        yield Notice("no-clearance", "bearings have neither clearance nor preload")
+        for name, shaft in self.shafts.items():
+            speeds = shaft.state.shaft.critical_speeds(1)
+            if speeds and abs(shaft.speed) > _NEAR * speeds[0]:
+                text = f"{name}: its speed of {abs(shaft.speed):.0f} rpm is near or above its first critical speed,"
+                yield Notice("critical-speed", f"{text} {speeds[0]:.0f} rpm")
+
+    @property
+    def not_judged(self) -> list[str]:
+        """What was not judged, and why."""
+        found = [
+            f"{name}: {life.name}: {why}" for name, shaft in self.shafts.items() for life in shaft.lives for why in life.reasons
+        ]
+        return [*found, "static and fatigue strength of the shafts (DIN 743)"]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the content of shafts.json."""
+        found: dict[str, Any] = {"shafts": {name: shaft.to_dict() for name, shaft in self.shafts.items()}}
+        lives = any(life.revolutions is not None for shaft in self.shafts.values() for life in shaft.lives)
+        unconfirmed = {"unconfirmed": [RECALLED] if lives else []}
+        return found | ({} if self.mesh is None else {"mesh": self.mesh}) | unconfirmed
+
+
+_NEAR = 0.8
+"""Share of the first critical speed from which a speed is told."""

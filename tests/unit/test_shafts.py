@@ -1,0 +1,328 @@
+"""Shafts on bearings: given cases, closed forms, balance, bearing life, and the load over the face of a mesh on its shafts."""
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gearcad.contact.shared.face_load import MeshOnShafts
+from gearcad.core.errors import GeometryError, InputError, SpecError
+from gearcad.core.records import PerGear, Role
+from gearcad.designs.shaft_spec import read_arrangement
+from gearcad.geometry import Gear, GearPair, profile_shift_sum
+from gearcad.jobs.shafts import done_shafts
+from gearcad.shafts.arrangement import ShaftOptions, bearing_life
+from gearcad.shafts.beam import Shaft, ShaftBearing, ShaftForce, ShaftSegment
+from gearcad.shafts.bearing_life import (
+    ball_deflection,
+    basic_life,
+    deep_groove_load,
+    life_factor,
+    life_in_hours,
+    opposed_axial_loads,
+    reference_viscosity,
+)
+
+REFERENCE = json.loads((Path(__file__).parents[1] / "data" / "shafts.json").read_text(encoding="utf-8"))
+SHAFTS, MESHES = REFERENCE["shafts"], REFERENCE["meshes"]
+
+
+def shaft_of(inputs: dict[str, Any], stations: list[float] | None = None) -> Shaft:
+    def plain(value: Any) -> Any:
+        return tuple(map(float, value)) if isinstance(value, list) else value if isinstance(value, str) else float(value)
+
+    parts: dict[str, list[Any]] = {
+        key: [kind(**{name: plain(value) for name, value in each.items()}) for each in inputs.get(key, [])]
+        for key, kind in (("segments", ShaftSegment), ("bearings", ShaftBearing), ("forces", ShaftForce))
+    }
+    return Shaft(
+        **{key: tuple(each) for key, each in parts.items()},
+        coupling=float(inputs["coupling"]),
+        gravity=tuple(inputs.get("gravity", (0.0, 0.0, 0.0))),
+        places=tuple(stations or ()),
+    )
+
+
+def flat(document: Any) -> list[float]:
+    if isinstance(document, dict):
+        return [value for key in sorted(document) for value in flat(document[key])]
+    return [value for each in document for value in flat(each)] if isinstance(document, list) else [document]
+
+
+@pytest.mark.parametrize("case", SHAFTS, ids=lambda case: case["name"])
+def test_given_shafts(case: dict[str, Any]) -> None:
+    """To 1e-5 of the greatest value of its kind; inclinations are printed to 1e-6 µm/mm."""
+    expected = case["expected"]
+    found = shaft_of(case["inputs"], [each["position"] for each in expected["stations"]]).solve().to_dict()
+    stations = {round(each["position"], 6): each for each in found["stations"]}
+    pairs: dict[str, list[tuple[float, float]]] = {"reactions": []}
+    for mine, theirs in zip(found["reactions"], expected["reactions"], strict=True):
+        pairs["reactions"] += zip(flat(mine), flat(theirs), strict=True)
+    for theirs in expected["stations"]:
+        mine = stations[round(theirs["position"], 6)]
+        for key in ("deflection", "inclination", "twist"):
+            pairs.setdefault(key, []).extend(zip(flat([mine[key]]), flat([theirs[key]]), strict=True))
+        for side in {"left", "right"} & set(theirs):
+            for key, value in theirs[side].items():
+                pairs.setdefault(key, []).extend(zip(flat([mine[side][key]]), flat([value]), strict=True))
+    for key, values in pairs.items():
+        greatest = max(abs(theirs) for _, theirs in values)
+        worst = max(abs(mine - theirs) for mine, theirs in values)
+        assert worst <= max(1e-5 * greatest, 1e-6), key
+    assert found["coupling_torque"] == pytest.approx(expected["coupling_torque"], abs=1e-4)
+
+
+def beam(length: float = 400.0, position: float = 150.0, force: float = 1000.0) -> tuple[Shaft, ShaftSegment]:
+    part = ShaftSegment(length=length, outer_diameter=40.0)
+    rigid = (ShaftBearing(position=0.0, axial_stiffness="rigid"), ShaftBearing(position=length))
+    return Shaft(segments=(part,), bearings=rigid, forces=(ShaftForce(position=position, force=(0.0, -force, 0.0)),)), part
+
+
+def test_a_force_between_two_supports_by_the_closed_form() -> None:
+    """w = F a^2 b^2/(3 E I l) + F a b/(l kappa G A), slope F a b (b - a)/(3 E I l) under the force."""
+    length, a, force = 400.0, 150.0, 1000.0
+    shaft, part = beam(length, a, force)
+    b, bending = length - a, part.youngs_modulus * part.second_moment
+    at = shaft.solve().at(a)
+    shear = part.shear_coefficient * part.shear_modulus * part.area
+    assert at[1] == pytest.approx(-(force * a**2 * b**2 / (3 * bending * length) + force * a * b / (length * shear)), rel=1e-9)
+    assert -at[3] == pytest.approx(-force * a * b * (b - a) / (3 * bending * length), rel=1e-9)
+    assert part.shear_coefficient == pytest.approx(6 * 1.3 / (7 + 6 * 0.3), rel=1e-12)  # solid: 0.886
+
+
+def test_weight_bends_a_beam_as_a_line_load() -> None:
+    """5 q l^4/(384 E I) + q l^2/(8 kappa G A) in the middle, exact at a node whatever the elements."""
+    shaft, part = beam(force=0.0)
+    heavy = replace(shaft, gravity=(0.0, -9.80665, 0.0), places=(200.0, 77.0))
+    line = part.density * 1e-9 * part.area * 9.80665
+    bending = part.youngs_modulus * part.second_moment
+    shear = part.shear_coefficient * part.shear_modulus * part.area
+    expected = 5 * line * 400**4 / (384 * bending) + line * 400**2 / (8 * shear)
+    assert heavy.solve().at(200.0)[1] == pytest.approx(-expected, rel=1e-9)
+
+
+def test_the_first_critical_speed_of_a_slender_beam() -> None:
+    """omega = pi^2 sqrt(E I/(rho A))/l^2; shear and rotary inertia take 0.4 % of it here."""
+    part = ShaftSegment(length=1000.0, outer_diameter=30.0)
+    rigid = (ShaftBearing(position=0.0, axial_stiffness="rigid"), ShaftBearing(position=1000.0))
+    shaft = Shaft(segments=(part,), bearings=rigid, places=tuple(np.linspace(0.0, 1000.0, 101)))
+    slender = math.pi**2 * math.sqrt(part.youngs_modulus * part.second_moment / (part.density * 1e-12 * part.area)) / 1e6
+    assert shaft.critical_speeds(1)[0] == pytest.approx(30 / math.pi * slender, rel=5e-3)
+
+
+def test_reactions_balance_forces_and_weight_and_energy_is_half_the_work() -> None:
+    for case in SHAFTS:
+        shaft = shaft_of(case["inputs"])
+        state = shaft.solve()
+        forces = sum((each.load() for each in shaft.forces), np.zeros(6))[:3]
+        weight = math.fsum(
+            part.density * 1e-9 * part.area * length for part, length in zip(shaft.parts, np.diff(shaft.nodes), strict=True)
+        )
+        total = forces + weight * np.array(shaft.gravity) + sum(each[:3] for each in state.reactions)
+        assert np.abs(total).max() < 1e-9 * max(np.abs(forces).max(), 1.0)
+        energy = state.moved @ np.linalg.pinv(shaft.compliance) @ state.moved / 2
+        assert energy == pytest.approx(shaft.loads @ state.moved / 2, rel=1e-8)
+        assert np.abs(shaft.compliance - shaft.compliance.T).max() < 1e-12 * np.abs(shaft.compliance).max()
+
+
+def test_loose_shafts_and_places_beside_them_are_refused() -> None:
+    shaft, _ = beam()
+    one = shaft.bearings[0]
+    with pytest.raises(GeometryError, match="must hold the shaft"):
+        replace(shaft, bearings=(one,)).solve()
+    with pytest.raises(GeometryError, match="must hold the shaft"):
+        replace(shaft, bearings=(replace(one, axial_stiffness=0.0), shaft.bearings[1])).solve()
+    with pytest.raises(GeometryError, match="from 0 to 400 mm"):
+        replace(shaft, bearings=(one, ShaftBearing(position=401.0)))
+    with pytest.raises(InputError, match="at least 0 mm"):
+        ShaftForce(position=-1.0)
+    with pytest.raises(GeometryError, match="must be below 20 mm"):
+        ShaftSegment(length=1.0, outer_diameter=20.0, inner_diameter=20.0)
+
+
+# ---------------------------------------------------------------------- life of bearings
+
+
+@pytest.mark.parametrize("row", REFERENCE["bearing_life"], ids=lambda row: row["name"])
+def test_given_lives(row: dict[str, Any]) -> None:
+    expected, tolerance = row["expected"], row["tolerance"] if isinstance(row["tolerance"], float) else 5e-3
+    if "X" in row:
+        radial = row["X"] * row["F_r"] + row["Y"] * row["F_a"]
+        load = max(radial, row["F_r"])
+    else:
+        load = deep_groove_load(row["F_r"], row["F_a"], f0=row.get("f0", 13.0), static_rating=row.get("C0", 30000.0)).load
+    if "P" in expected:
+        assert load == pytest.approx(expected["P"], rel=max(tolerance, 2e-3))
+    if "C_required" in expected:
+        required = load * (row["life"] * 60 * row["speed"] / 1e6) ** (1 / 3)
+        assert required == pytest.approx(expected["C_required"], rel=tolerance)
+    if "L10" in expected:
+        assert basic_life(row["C"], load, ball=True) == pytest.approx(expected["L10"], rel=tolerance)
+    if "L10h" in expected:
+        hours = life_in_hours(basic_life(row["C"], load, ball=True), row["speed"])
+        assert hours == pytest.approx(expected["L10h"], rel=max(tolerance, 3e-3))
+
+
+def test_given_factors_of_lives() -> None:
+    for row in REFERENCE["life_modification"]:
+        found = life_factor(row["kappa"], row["e_C_C_u_over_P"], ball=row["kind"] == "ball")
+        assert found == pytest.approx(row["a_ISO"], rel=1e-7), row
+    for row in REFERENCE["reference_viscosity"]:
+        assert reference_viscosity(row["speed"], row["pitch_diameter"]) == pytest.approx(row["nu_1"], rel=1e-7), row
+    for row in REFERENCE["deep_groove"]:
+        found_load = deep_groove_load(row["F_r"], row["F_a"], f0=row["f0"], static_rating=row["C0"])
+        assert found_load == pytest.approx((row["P"], row["e"], row["Y"]), rel=1e-7), row
+    (row,) = REFERENCE["ball_bearing_deflection"]
+    deflection = 1000 * ball_deflection(row["radial_force"], balls=row["balls"], ball_diameter=row["ball_diameter"])
+    assert deflection == pytest.approx(row["deflection"], rel=0.03)
+
+
+def test_opposed_bearings_share_thrust_in_balance() -> None:
+    """The difference of both axial loads is the outer thrust, and neither is below its own."""
+    for outer in (-3000.0, 0.0, 500.0, 4000.0):
+        a, b = opposed_axial_loads((2000.0, 5000.0), (1.6, 1.8), outer)
+        assert a - b == pytest.approx(outer)
+        assert a >= 2000 / 3.2 and b >= 5000 / 3.6
+
+
+def test_a_life_says_what_it_lacks() -> None:
+    bearing = ShaftBearing(position=0.0, name="A", kind="deep groove", C=55300.0, C0=31500.0, f0=13.0)
+    made = bearing_life(bearing, 4000.0, 500.0, 1800.0, ShaftOptions())
+    assert made.hours == pytest.approx(24500, rel=5e-3)
+    assert made.modified_hours is None and "viscosity" in made.reasons[0]
+    full = ShaftOptions(viscosity=20.0, contamination_factor=0.5, life_reliability=99.0)
+    known = bearing_life(replace(bearing, pitch_diameter=72.5), 4000.0, 500.0, 1800.0, full)
+    factor = life_factor(20.0 / reference_viscosity(1800.0, 72.5), 0.5 * 31500 / 22 / 4000, ball=True)
+    assert known.modified_hours == pytest.approx(0.25 * factor * made.hours)
+    assert "kind and C" in bearing_life(ShaftBearing(position=0.0), 1.0, 0.0, 1.0, full).reasons[0]
+    assert "tapered" in bearing_life(replace(bearing, kind="tapered"), 1.0, 0.0, 1.0, full).reasons[0]
+
+
+# ---------------------------------------------------------------------- the mesh
+
+
+def mesh_of(inputs: dict[str, Any], **changed: Any) -> MeshOnShafts:
+    module, teeth, helix = inputs["normal_module"], inputs["teeth"], inputs["helix_angle"]
+    distance = inputs.get("centre_distance")
+    shift = 0.0
+    if distance is not None:
+        shift = profile_shift_sum(
+            normal_module=module, teeth=PerGear(*teeth), helix_angle=helix, pressure_angle=20.0, centre_distance=distance
+        )
+    gears = [
+        Gear(teeth=z, normal_module=module, helix_angle=sign * helix, face_width=inputs["width"], profile_shift=shift / 2)
+        for z, sign in zip(teeth, (1, -1), strict=True)
+    ]
+    pair = GearPair(pinion=gears[0], wheel=gears[1], **({} if distance is None else {"centre_distance": distance}))
+    given = {
+        "torque": inputs["torque"],
+        "shafts": PerGear(shaft_of(inputs["pinion"]), shaft_of(inputs["wheel"])),
+        "positions": PerGear(inputs["pinion"]["mesh_position"], inputs["wheel"]["mesh_position"]),
+        "mesh_angle": inputs["mesh_angle"],
+        "stiffness": inputs["stiffness"],
+        "slices": inputs["slices"],
+        "crowning": inputs.get("crowning", 0.0),
+        "slope": inputs.get("misalignment", 0.0),
+    }
+    return MeshOnShafts(pair=pair, **{**given, **changed})
+
+
+@pytest.mark.parametrize("case", MESHES, ids=lambda case: case["name"])
+def test_given_meshes(case: dict[str, Any]) -> None:
+    expected, mesh = case["expected"], mesh_of(case["inputs"])
+    found = mesh.to_dict()
+    for key in ("F_bt", "mean_line_load", "f_sh", "K_Hbeta_slices", "approach"):
+        assert found[key] == pytest.approx(expected[key], rel=1e-6), key
+    assert found["K_Hbeta_end_of_face"] == pytest.approx(expected["K_Hbeta_end_of_face"], rel=2e-3)
+    assert found["line_load"] == pytest.approx(expected["line_load"], rel=1e-5, abs=1e-3)
+    for name, gap in expected["gap_at_even_load_at_slices"].items():
+        assert found["gap_at_even_load_at_slices"][name] == pytest.approx(gap, rel=1e-5, abs=1e-4), name
+    for role, reactions in expected["reactions"].items():
+        state = mesh.state(Role(role))
+        assert state is not None
+        for mine, theirs in zip(state.to_dict()["reactions"], reactions, strict=True):
+            assert mine["force"] == pytest.approx(theirs["force"], rel=1e-5, abs=1e-2)
+
+
+def test_rigid_shafts_give_the_closed_form_of_method_c() -> None:
+    """1 + F c/(2 w) while the whole face carries, and sqrt(2 F c/w) where part of it does (ISO 6336-1, Method C)."""
+    inputs = MESHES[0]["inputs"]
+    rigid = {"shafts": PerGear(None, None), "slices": 400}
+    for slope in (5.0, 60.0):
+        mesh = mesh_of(inputs, slope=slope, **rigid)
+        ratio = slope * inputs["stiffness"] / mesh.mean_load
+        closed = 1 + ratio / 2 if ratio <= 2 else math.sqrt(2 * ratio)
+        assert mesh.face_load_factor == pytest.approx(closed, rel=3e-3)
+
+
+def test_load_and_stiffness_doubled_give_the_same_factor_and_so_does_a_turned_mesh() -> None:
+    inputs = MESHES[0]["inputs"]
+    one = mesh_of(inputs)
+    assert mesh_of(inputs, mesh_angle=73.0).face_load_factor == pytest.approx(one.face_load_factor, rel=1e-12)
+    assert mesh_of(inputs, torque=-inputs["torque"]).face_load_factor == pytest.approx(one.face_load_factor, rel=1e-12)
+    assert mesh_of(inputs, torque=2 * inputs["torque"]).face_load_factor == pytest.approx(one.face_load_factor, rel=1e-9)
+    for matrix in one.influence:
+        assert np.abs(matrix - matrix.T).max() < 1e-12 * np.abs(matrix).max()
+
+
+# ---------------------------------------------------------------------- specs
+
+ALONE = """
+[shafts]
+speed = 1800.0
+[[shaft]]
+length = 200.0
+outer_diameter = 30
+[[bearing]]
+name = "left"
+position = 10.0
+axial_stiffness = "rigid"
+kind = "deep groove"
+C = 29100
+C0 = 17900
+f0 = 14
+[[bearing]]
+position = 190.0
+[[force]]
+position = 100.0
+force = [0.0, -2000.0, 300.0]
+"""
+
+
+def test_a_shaft_by_itself_is_read_and_told(tmp_path: Path) -> None:
+    spec = tmp_path / "alone.toml"
+    spec.write_text(ALONE, encoding="utf-8")
+    document = done_shafts(spec).document()
+    (shaft,) = document["shafts"].values()
+    assert [each["name"] for each in shaft["bearings"]] == ["left", "bearing 2"]
+    assert shaft["reactions"][0]["force"] == pytest.approx([0.0, 1000.0, -300.0])
+    assert shaft["bearings"][0]["L10"] == pytest.approx(
+        (29100 / deep_groove_load(1000.0, 300.0, f0=14.0, static_rating=17900.0).load) ** 3
+    )
+    assert any("bearing 2: life: kind and C are not given" in each for each in document["not_judged"])
+    assert len(shaft["stations"]) > 90 and document["warnings"]
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (("length = 200.0", "length = -1.0"), "line 5: shaft[0].length = -1 mm: must be"),
+        (("position = 190.0", "position = 290.0"), "line 16: bearing[1].position = 290 mm: must be from 0 to 200 mm"),
+        (("position = 190.0", "posiion = 190.0"), "bearing[1].posiion: unknown key"),
+        (("position = 190.0", ""), "bearing[1].position is missing"),
+        (('kind = "deep groove"', 'kind = "ball"'), "bearing[0].kind = 'ball': must be \"deep groove\""),
+        (('axial_stiffness = "rigid"', ""), "must hold the shaft"),
+        (("[shafts]", "[load]\ntorque = 1.0\n[shafts]"), "cannot stand beside [[shaft]]"),
+        (("speed = 1800.0", "life_reliability = 93.0"), "must be one of 90, 95, 96, 97, 98, 99 %"),
+    ],
+)
+def test_faults_of_specs_are_one_line(tmp_path: Path, change: tuple[str, str], words: str) -> None:
+    spec = tmp_path / "alone.toml"
+    spec.write_text(ALONE.replace(*change), encoding="utf-8")
+    with pytest.raises(SpecError) as caught:
+        read_arrangement(spec)
+    assert words in str(caught.value) and "\n" not in str(caught.value)
