@@ -47,7 +47,7 @@ def _lines(done: ShaftsDone) -> Iterator[str]:
         state = shaft.state
         yield f"{name}: length {state.shaft.length:g} mm, torque of the coupling {state.coupling_torque:.5g} N·m"
         for life, force in zip(shaft.lives, state.reactions, strict=True):
-            forces = ", ".join(f"{each:.5g}" for each in force[:3])
+            forces = ", ".join(f"{each + 0.0:.5g}" for each in force[:3].round(6))
             hours = "-" if life.hours is None else f"{life.hours:.5g} h"
             modified = "" if life.modified_hours is None else f", L_nmh {life.modified_hours:.5g} h"
             yield f"  {life.name}: reaction {forces} N, L_10h {hours}{modified}"
