@@ -93,7 +93,7 @@ __getattr__, _, _names = lazy_loader.attach(
                 "ShaperCutter",
                 "ShiftSplit",
             ),
-            *("SplineJoint", "ToothProfile"),
+            *("SplineJoint", "SplinedBore", "ToothProfile"),
         ],
         "jobs.build": ["build"],
         "jobs.draw": ["draw", "picture"],

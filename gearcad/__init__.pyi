@@ -39,6 +39,7 @@ from .geometry import ReliefShape as ReliefShape
 from .geometry import ShaftInputs as ShaftInputs
 from .geometry import ShaperCutter as ShaperCutter
 from .geometry import ShiftSplit as ShiftSplit
+from .geometry import SplinedBore as SplinedBore
 from .geometry import SplineJoint as SplineJoint
 from .geometry import ToothProfile as ToothProfile
 from .jobs.build import build as build

@@ -11,6 +11,7 @@ from gearcad.contact.shared.loaded import Cycle
 from gearcad.core.records import Notice
 from gearcad.geometry import Gear
 from gearcad.geometry.gear_data import RING_RIM_LIMIT
+from gearcad.meshing.outline import round_bore_notice
 
 __all__ = ["common_notices", "elastic_end"]
 
@@ -102,6 +103,8 @@ def _bodies(task: CheckTask, cycle: Cycle) -> Iterator[Notice]:
             yield Notice("full-disc", text)
         if gear.internal:
             yield from _rim_of(gear, cycle.model.bodies.pick(role).hub_radius)
+        elif gear.body.bore_spline:
+            yield round_bore_notice(gear).within(role.value)
         elif not gear.body.bore and task.body.inner_diameters.pick(role) is None:
             diameter = 2 * cycle.model.bodies.pick(role).hub_radius
             yield Notice("no-bore", f"the {role.value} has no bore: its body is taken as held on diameter {diameter:.6g} mm")

@@ -209,7 +209,8 @@ def _usual_lines(sheet: Sheet, *, with_source: bool) -> Iterator[_Line]:
 
 def _columns(symbol: Symbol, values: Iterable[str], width: int, *, with_source: bool = False) -> str:
     """One line of 76 characters, or some more with the source behind."""
-    numbers = "".join(f"{value:>{width}}" for value in values)
+    first, *others = (f"{value:>{width}}" for value in values)
+    numbers = "".join([first, *(each if len(each) <= width else f"  {each}" for each in others)])
     line = f"  {symbol.words:<37}{symbol.symbol:<6} {symbol.unit:<6}{numbers}"
     return f"{line:<{max(80, len(line) + 2)}}{symbol.source}".rstrip() if with_source else line.rstrip()
 

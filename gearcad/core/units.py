@@ -15,7 +15,10 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
 
-__all__ = ["ShownUnit", "UnitSystem", "inch_units", "shown_unit"]
+__all__ = ["MM_PER_INCH", "ShownUnit", "UnitSystem", "inch_units", "module_of_pitch", "shown_unit"]
+
+MM_PER_INCH = 25.4
+"""Millimetres of an inch, exact (ISO 80000-3)."""
 
 _INCH = Fraction("25.4")
 """mm, exact (ISO 80000-3)."""
@@ -29,6 +32,11 @@ _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,3})?")
 
 _DIGITS, _SHORT_DIGITS = 12, 7
 """Significant digits of numbers that somebody may have typed, and of all others."""
+
+
+def module_of_pitch(pitch: float) -> float:
+    """m_n = 25.4 mm/P_nd (mm)."""
+    return MM_PER_INCH / pitch
 
 
 class UnitSystem(StrEnum):
@@ -62,7 +70,10 @@ class ShownUnit(NamedTuple):
 
         What was typed in this unit has its digits again; all other numbers have seven digits.
         """
-        return " ".join(_shown(each, self.size) for each in stored.split(" "))
+        numbers = stored.split(" ")
+        if not all(map(_NUMBER.fullmatch, numbers)):
+            return stored
+        return " ".join(_shown(each, self.size) for each in numbers)
 
     def stored(self, shown: str, former: tuple[str, ...] = ()) -> str:
         """Return what was typed in this unit as text in the unit of the documents; what is no number as it is.
@@ -81,8 +92,6 @@ class ShownUnit(NamedTuple):
 
 @lru_cache(maxsize=4096)
 def _shown(stored: str, size: Fraction) -> str:
-    if not _NUMBER.fullmatch(stored):
-        return stored
     exact = Fraction(stored) / size
     text = f"{float(exact):.{_DIGITS}g}"
     if float(Fraction(text) * size) != float(stored):

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeVar
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, format_number, shown
 from gearcad.core.quantities import FieldSchema, parts_of, schema_of
 from gearcad.core.records import PerGear, Role, naming
+from gearcad.core.units import module_of_pitch
 from gearcad.designs.design import Where, require_plain_name, require_sane_tables
 from gearcad.designs.keys import (
     ALTERNATIVES,
@@ -41,7 +42,6 @@ from gearcad.geometry import (
 )
 from gearcad.geometry.feasibility import check_given
 from gearcad.geometry.gear_data import GearData
-from gearcad.geometry.gear_parts import module_of_pitch
 from gearcad.geometry.mating import tip_on_form_circle
 from gearcad.material import Grade, Material, MaterialGroup, MaterialQuality, grade_of
 

@@ -17,6 +17,7 @@ from gearcad.drawing.drawing_subjects import DrawnGear, material_text, treatment
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.words import SheetWords, Size, as_hole, diameter, half_tolerance, toleranced
 from gearcad.geometry import Body, Gear, Rack
+from gearcad.geometry.bore_teeth import free_bore
 from gearcad.geometry.fits import LARGEST_SIZE, grade_of_class, require_shaft, standard_tolerance
 from gearcad.geometry.gear_parts import HALF_PITCH, depth_allowance
 from gearcad.rating.options import RatingOptions
@@ -294,7 +295,9 @@ def _disc(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
     if options.tip_tolerance:
         require_shaft("drawing.tip_tolerance", options.tip_tolerance)
     found = {"tip": diameter(gear.tip_diameter, options.tip_tolerance)}
-    if body.bore:
+    if body.bore_spline:
+        found["bore"] = _splined_bore(gear, body.bore_spline, options.language.decimal_mark)
+    elif body.bore:
         found["bore"] = diameter(body.bore, options.bore_tolerance, envelope=bool(options.bore_tolerance))
     if body.keyway_width:
         found["keyway_width"] = toleranced(body.keyway_width, options.keyway_tolerance)
@@ -303,6 +306,17 @@ def _disc(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
         found["hub_diameter"] = diameter(body.hub_diameter)
         found["hub_width"] = Size(value=gear.face_width + sum(body.hub_ends))
     return found
+
+
+def _splined_bore(gear: Gear, designation: str, mark: str) -> Size:
+    """Return the size of a splined bore: its designation, and the diameters of its roots and tips (mm)."""
+    tips = f"{free_bore(gear):.3f}".rstrip("0").rstrip(".")
+    from gearcad.geometry.spline_standards import read_designation
+
+    standard = read_designation(designation).standard
+    said = designation if designation.startswith(standard[:3]) else f"{standard} {designation}"
+    said, tips = said.replace(".", mark), tips.replace(".", mark)
+    return Size(value=float(gear.body.bore), prefix=f"{said} (⌀", suffix=f" / ⌀{tips})")
 
 
 def _keyway_depth(body: Body) -> Size:
@@ -329,7 +343,9 @@ def _datum(gear: Gear) -> float | None:
 
 
 def _seat_fit(part: Gear | Rack, options: DrawingOptions) -> str:
-    """Return the tolerance class of the datum surface."""
+    """Return the tolerance class of the datum surface; "" of a splined bore, whose own class is in its designation."""
+    if isinstance(part, Gear) and part.body.bore_spline:
+        return ""
     return options.rim_tolerance if isinstance(part, Gear) and part.internal else options.bore_tolerance
 
 

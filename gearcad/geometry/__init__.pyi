@@ -37,3 +37,4 @@ from .rack_pair import RackPair as RackPair
 from .spline import SplineJoint as SplineJoint
 from .spline_inputs import HubInputs as HubInputs
 from .spline_inputs import ShaftInputs as ShaftInputs
+from .splined_bore import SplinedBore as SplinedBore

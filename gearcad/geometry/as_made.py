@@ -401,6 +401,9 @@ class MadeTeeth:
     def body(self) -> Body:
         """The body, scaled; outer walls moved out, those of bore and holes in. Raises GeometryError for one that vanishes."""
         given, radial, axial = self.gear.body, self.making.radial_scale, self.making.axial_scale
+        if given.bore_spline:
+            permitted = "must be a number beside a table making: the teeth of a splined bore have no correction"
+            raise GeometryError("body.bore", given.bore_spline, permitted)
         if self.rounded and given.keyway_width and self.offset >= self._keyway_wall:
             raise self._fault(f"the keyway's walls are {self._keyway_wall:.6g} mm high")
         step, growth = 2 * self.offset, 0.0 if self.rounded else self.making.hole_growth

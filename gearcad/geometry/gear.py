@@ -235,6 +235,9 @@ class Gear(GearData):
         if self.body.step is not None:
             text = f"blank {Path(self.body.step).name}: its body is in files of solids and facets alone"
             yield Notice("own-blank", f"{text}; finite elements, masses and drawings have a plain disc")
+        if self.body.bore_spline:
+            text = f"the bore is a spline ({self.body.bore_spline}): the strength of this seat is not judged"
+            yield Notice("spline-not-judged", text)
         if self.body.web_thickness:
             text = "web: it counts in the rating alone (C_R, Y_B); the solid and its elements are a full disc"
             yield Notice("web-not-modelled", text)
@@ -365,11 +368,8 @@ class Gear(GearData):
 
     def to_dict(self) -> JsonObject:
         """Return the inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
-        parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix", "body")}
-        parts["body"]["hub_side"] = self.body.hub_side.value
-        step = parts["body"].pop("step")
-        if step is not None:
-            parts["body"]["step"] = Path(step).name
+        parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix")}
+        parts["body"] = self.body.to_dict()
         parts["modification"] = self.flank_form.to_dict()
         two_steps = {"premachining", "finishing", "making"}
         inputs = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in parts.keys() | two_steps}

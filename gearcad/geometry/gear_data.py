@@ -314,6 +314,8 @@ def _check_disc(gear: GearData) -> None:
     ):
         if opening > root:
             spare = f"must be at most {at_most(max(root, 0))} mm ({rim})"
+            if name == "bore" and body.bore_spline:
+                spare += f"; it is the root circle of {body.bore_spline}"
             if name == "keyway_depth":
                 spare = f"must leave {rim}: bore and keyway reach out to diameter {opening:.6g} mm"
             raise GeometryError(f"body.{name}", getattr(body, name), spare, "mm")

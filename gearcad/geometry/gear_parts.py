@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from enum import Enum
+from pathlib import Path
 from typing import Annotated, Literal, NamedTuple, Protocol
 
 from gearcad.core.errors import GeometryError, ParameterError, at_most
 from gearcad.core.quantities import Derived, InPlaceOf, Range, Whole, Words, derive, is_given, require_fields, schema_of
-from gearcad.core.records import concise
+from gearcad.core.records import JsonObject, concise
+from gearcad.core.units import MM_PER_INCH, module_of_pitch
 from gearcad.core.values import Values
 
 ISO_54_I = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50)
@@ -119,8 +121,6 @@ NormalDiametralPitch = Annotated[float, _PITCH, Words("normal diametral pitch", 
 MODULE_OR_PITCH = ("normal_module", "normal_diametral_pitch")
 """Fields one of which is to be given."""
 
-_MM_PER_INCH = 25.4
-
 
 class _Sized(Protocol):
     @property
@@ -129,20 +129,15 @@ class _Sized(Protocol):
     def normal_diametral_pitch(self) -> float: ...
 
 
-def module_of_pitch(pitch: float) -> float:
-    """m_n = 25.4 mm/P_nd (mm)."""
-    return _MM_PER_INCH / pitch
-
-
 def derive_module(instance: _Sized) -> None:
     """Let the normal module follow from the diametral pitch that was given, or that from it. Raises GeometryError for both."""
     module, pitch = instance.normal_module, instance.normal_diametral_pitch
     if not is_given(pitch):
-        derive(instance, "normal_diametral_pitch", _MM_PER_INCH / module)
+        derive(instance, "normal_diametral_pitch", MM_PER_INCH / module)
     elif not is_given(module):
         derive(instance, "normal_module", module_of_pitch(pitch))
     else:
-        permitted = f"must be left out where normal_module is given ({module:g} mm is {_MM_PER_INCH / module:.6g}/inch)"
+        permitted = f"must be left out where normal_module is given ({module:g} mm is {MM_PER_INCH / module:.6g}/inch)"
         raise GeometryError("normal_diametral_pitch", pitch, permitted, "1/inch")
 
 
@@ -246,6 +241,8 @@ class HubSide(Enum):
 class Body:
     """The gear's body. Lengths in mm, angles in degrees; 0 leaves a feature out.
 
+    A `bore` given as the designation of a splined hub ("N 30 x 1.25 x 22 x 9H") becomes a `SplinedBore`: it counts as the round
+    bore of its root circle, tooth 0 on +x, and has no keyway.
     `keyway_depth` is measured from the bore outwards (t2 of DIN 6885), the keyway lies on +x, under tooth 0. With `keyway` its
     width and depth are those of DIN 6885-1 for the bore, and read as numbers (see `Derived`).
     `hub_length` is how far the hub stands out on each `hub_side`. `rim_diameter` is the outside of an internal gear.
@@ -281,12 +278,17 @@ class Body:
     __repr__ = concise
 
     def __post_init__(self) -> None:
+        if isinstance(self.bore, str):
+            from gearcad.geometry.splined_bore import SplinedBore  # only here: a spline costs those who have one
+
+            object.__setattr__(self, "bore", SplinedBore(self.bore))
         require_fields(self)
         for name in (name for name, field in schema_of(Body).items() if field.permitted is FEATURE):
             if 0 < (value := getattr(self, name)) < LEAST_FEATURE:
                 raise ParameterError(name, value, f"must be 0 or at least {LEAST_FEATURE} mm", "mm")
         if self.step is not None:
             self._check_step()
+        self._refuse_keyway()
         self._derive_keyway()
         for pair in (("keyway_width", "keyway_depth"), ("hub_diameter", "hub_length"), ("web_thickness", "rim_thickness")):
             self._check_both(*pair)
@@ -303,6 +305,18 @@ class Body:
                 raise GeometryError(name, value, "must be left out where step is given: the blank has its own", "mm")
         if self.keyway:
             raise GeometryError("keyway", True, "must be left out where step is given: the blank has its own")
+
+    @property
+    def bore_spline(self) -> str | None:
+        """Designation of the splined hub that the bore is; None of a round bore."""
+        designation: str | None = getattr(self.bore, "designation", None)
+        return designation
+
+    def _refuse_keyway(self) -> None:
+        """Raise GeometryError for a keyway in a splined bore."""
+        for name in ("keyway", "keyway_width", "keyway_depth"):
+            if self.bore_spline and (value := getattr(self, name)) and (isinstance(value, bool) or is_given(value)):
+                raise GeometryError(name, value, f"must be left out: the bore is a spline ({self.bore_spline})")
 
     def _derive_keyway(self) -> None:
         """Derive width and depth from the bore, if `keyway` asks for it; 0 without a keyway."""
@@ -345,3 +359,15 @@ class Body:
         back = self.hub_length if self.hub_side in (HubSide.BACK, HubSide.BOTH) else 0.0
         front = self.hub_length if self.hub_side in (HubSide.FRONT, HubSide.BOTH) else 0.0
         return back, front
+
+    def to_dict(self) -> JsonObject:
+        """Return the inputs for JSON: of a splined bore also its designation, behind the diameter of its root circle (mm); of a
+        blank of one's own the name of its file.
+        """
+        found: JsonObject = {}
+        for name, value in asdict(self).items():
+            found[name] = value
+            if name == "bore" and self.bore_spline:
+                found |= {"bore": float(self.bore), "bore_spline": self.bore_spline}
+        step = found.pop("step")
+        return found | {"hub_side": self.hub_side.value} | ({} if step is None else {"step": Path(step).name})

@@ -25,7 +25,7 @@ from gearcad.core.quantities import (
     require_fields,
 )
 from gearcad.core.records import concise
-from gearcad.geometry.gear_parts import module_of_pitch
+from gearcad.core.units import module_of_pitch
 from gearcad.geometry.spline_standards import (
     ANGLES,
     DIN5480,

@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from gearcad.core.errors import GeometryError, ParameterError, format_number
+from gearcad.core.units import module_of_pitch
 from gearcad.geometry.fits import limit_deviations
-from gearcad.geometry.gear_parts import module_of_pitch
 
 DIN5480, ISO4156, B92_1 = "DIN 5480", "ISO 4156", "ANSI B92.1"
 STANDARDS = (DIN5480, ISO4156, B92_1)

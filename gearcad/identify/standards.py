@@ -18,7 +18,8 @@ from itertools import product
 import numpy as np
 
 from gearcad.core.records import Floats
-from gearcad.geometry.gear_parts import ISO_54_I, ISO_54_II, module_of_pitch
+from gearcad.core.units import module_of_pitch
+from gearcad.geometry.gear_parts import ISO_54_I, ISO_54_II
 
 
 class Unknown(IntEnum):

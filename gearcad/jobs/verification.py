@@ -331,12 +331,15 @@ def _of_assembly(
 
 
 def _counts(design: ToothedDesign, parts: Mapping[str, PartProduct]) -> dict[str, int]:
-    """Return how often the assembly of a planetary train contains each part, by the part's key."""
+    """Return the number of contours of the parts of a planetary train, by their keys: a bore that is not round is one more."""
     from gearcad.solids.train_plan import TrainLayout
 
     train = cast("PlanetaryDesign", design).train
-    keys = [standing.body.key for standing in TrainLayout(train, train.pose()).standing]
-    return {key: keys.count(key) for key in parts}
+    found = dict.fromkeys(parts, 0)
+    for standing in TrainLayout(train, train.pose()).standing:
+        body = standing.body.gear.body
+        found[standing.body.key] += 2 if body.keyway_width or body.bore_spline else 1
+    return found
 
 
 def _meshes(design: ToothedDesign, parts: Mapping[str, PartProduct]) -> list[PlacedMesh]:

@@ -13,6 +13,7 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.sheet_template import SheetTemplate
 from gearcad.drawing.words import SheetWords, kind_of, titled
 from gearcad.geometry import Gear, Rack
+from gearcad.geometry.bore_teeth import free_bore
 from gearcad.jobs.draw import ASSEMBLY, Draw, SheetFormat, drawn_assembly, drawn_gears
 from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.drawing_figures import gear_figures, material_words, pair_figures, train_figures
@@ -150,6 +151,8 @@ def _sizes(part: Gear | Rack, data: dict[str, Any]) -> Iterator[tuple[str, float
     for name in ("bore", "hub_diameter", "rim_diameter", "bolt_circle", "keyway_width"):
         if body[name]:
             yield name.replace("_", " "), body[name]
+    if body.get("bore_spline"):
+        yield "tip diameter of the splined bore", free_bore(part)
     if body["bolt_holes"]:
         yield "bolt diameter", body["bolt_diameter"]
     if data["double_helix"]["gap_width"]:

@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from gearcad.core.errors import GeometryError, require_number
-from gearcad.core.records import Floats, Wholes
+from gearcad.core.records import Floats, Notice, Wholes
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind, FilletChain, Involute
 from gearcad.geometry.gear import flank_curves
@@ -546,6 +546,12 @@ def held_radius(gear: Gear) -> float:
     if gear.internal:
         return outer_diameter(gear) / 2
     return gear.body.bore / 2 if gear.body.bore else rim_radius(gear)
+
+
+def round_bore_notice(gear: Gear) -> Notice:
+    """Return the notice of a splined bore: elements have a round one in its place, where they are held."""
+    text = f"the elements have a round bore of {gear.body.bore:.6g} mm, the root circle of {gear.body.bore_spline}"
+    return Notice("round-bore", text)
 
 
 def rim_radius(gear: Gear) -> float:

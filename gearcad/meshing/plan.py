@@ -13,6 +13,7 @@ from gearcad.core.errors import GeometryError, InputError, ParameterError
 from gearcad.core.records import Notice, PerGear, grouped
 from gearcad.core.runtime import Expected, Share, machine_memory
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.bore_teeth import with_round_bore
 from gearcad.meshing.bodies.body_mesh import Amount, body_sizes, expected_amount, factor_for, mesh_body, swept_notices
 from gearcad.meshing.bodies.element_mesh import ElementMesh
 from gearcad.meshing.bodies.exactness import exact_area, exact_volume
@@ -22,7 +23,7 @@ from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.bodies.tetrahedra import mesh_tetrahedra
 from gearcad.meshing.fem import Element
 from gearcad.meshing.options import AUTO, Extent, MeshOptions, What
-from gearcad.meshing.outline import MeshSizes, held_radius
+from gearcad.meshing.outline import MeshSizes, held_radius, round_bore_notice
 from gearcad.solids.exact.inertia import mass_properties
 
 _OF_VOLUME = 1e9
@@ -121,6 +122,8 @@ class SectorsPlan(GearPlan):
         elif self.held_radius and not self.gear.body.bore:
             text = f"has no bore: its teeth are meshed down to a diameter of {2 * self.held_radius:.4g} mm"
             yield Notice("no-bore", text)
+        elif self.gear.body.bore_spline:
+            yield round_bore_notice(self.gear)
         if self._solid:
             yield from swept_notices(self.gear)
         elif self.gear.body.bolt_holes:
@@ -148,12 +151,12 @@ class PartPlan(GearPlan):
 
     @property
     def exact(self) -> float:
-        return mass_properties(self.gear, _OF_VOLUME).mass
+        return mass_properties(with_round_bore(self.gear), _OF_VOLUME).mass
 
     def mesh(self, share: Share) -> ElementMesh:
         begins = {stage: number / len(Stage) for number, stage in enumerate(Stage)}
         return mesh_tetrahedra(
-            self.gear,
+            with_round_bore(self.gear),
             size=self.size,
             elements=self.elements,
             grading=self.grading,

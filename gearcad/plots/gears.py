@@ -12,6 +12,7 @@ import numpy as np
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear, GearPair, RackPair
+from gearcad.geometry.bore_teeth import bore_teeth
 from gearcad.geometry.gear_data import outer_diameter, twist
 from gearcad.geometry.gear_tools import shaped
 from gearcad.geometry.involute import involute, root_between
@@ -54,9 +55,10 @@ def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
 
     axes = new_figure(pair_inches(pair)).subplots() if ax is None else ax
     turn = _helix_turn(pair)
-    gears = ((pair.pinion, 0.0, 0.0), (pair.wheel, pair.centre_distance, pair.wheel_pose(-turn).rotation))
-    for (gear, x, rotation), (_, colour, _), pitch in zip(gears, GEARS, pair.working_pitch_diameters, strict=True):
-        fill_gear(axes, gear, (x, 0.0), math.radians(rotation), colour)
+    turned = pair.wheel_pose(-turn).rotation
+    gears = ((pair.pinion, 0.0, 0.0, -turn), (pair.wheel, pair.centre_distance, turned, turned))
+    for (gear, x, rotation, rest), (_, colour, _), pitch in zip(gears, GEARS, pair.working_pitch_diameters, strict=True):
+        fill_gear(axes, gear, (x, 0.0), math.radians(rotation), colour, rest=math.radians(rest))
         axes.add_patch(Circle((x, 0), abs(pitch) / 2, fill=False, edgecolor=DARK, linestyle="-.", linewidth=0.7))
         axes.plot(x, 0, "+", color=DARK, markersize=9, markeredgewidth=0.8)
     line = _line_of_action(pair)
@@ -121,17 +123,24 @@ def _helix_turn(pair: GearPair) -> float:
 
 
 def fill_gear(
-    axes: Axes, gear: Gear, place: tuple[float, float], rotation: float, colour: str, chord: float | None = None
+    axes: Axes,
+    gear: Gear,
+    place: tuple[float, float],
+    rotation: float,
+    colour: str,
+    chord: float | None = None,
+    *,
+    rest: float = 0.0,
 ) -> None:
     """A section about a place, turned by `rotation` (rad), its bore left out; that of a ring out to its rim.
 
-    `chord` (mm) is the greatest error of the outline; none: what nobody sees where a pair fills the picture.
+    The teeth of a splined bore, which are straight, are turned by `rest` (rad). `chord` (mm) is the greatest error of the
+    outline; none: what nobody sees where a pair fills the picture.
     """
     from matplotlib.patches import Circle, PathPatch
     from matplotlib.path import Path
 
-    cosine, sine = math.cos(rotation), math.sin(rotation)
-    outline = gear.profile.contour(chord or _CHORD * gear.normal_module) @ np.array([[cosine, sine], [-sine, cosine]]) + place
+    outline = _turned_outline(gear, place, rotation, chord)
     if gear.internal:
         rim = Path.circle(place, outer_diameter(gear) / 2)
         opening = Path(np.r_[outline[::-1], outline[-1:]], closed=True)
@@ -140,8 +149,19 @@ def fill_gear(
         )
         return
     axes.fill(*outline.T, facecolor=f"{colour}40", edgecolor=colour, linewidth=0.9)
-    if gear.body.bore:
+    if (teeth := bore_teeth(gear)) is not None:
+        in_bore = _turned_outline(teeth, place, rest, chord)
+        axes.fill(*in_bore.T, facecolor="white", edgecolor=colour, linewidth=0.9)
+    elif gear.body.bore:
         axes.add_patch(Circle(place, gear.body.bore / 2, facecolor="white", edgecolor=colour, linewidth=0.9))
+
+
+def _turned_outline(gear: Gear, place: tuple[float, float], rotation: float, chord: float | None) -> Floats:
+    """Return the outline (n, 2) in mm of a gear about a place, turned by `rotation` (rad)."""
+    cosine, sine = math.cos(rotation), math.sin(rotation)
+    turn = np.array([[cosine, sine], [-sine, cosine]])
+    outline: Floats = gear.profile.contour(chord or _CHORD * gear.normal_module) @ turn + place
+    return outline
 
 
 def _line_of_action(pair: GearPair) -> Floats:

@@ -194,11 +194,14 @@ def _draw_gears(axes: Axes, train: PlanetaryTrain, pose: TrainPose, rim: Rim, ch
     height = pose.heights[rim.name] + rim.gear.face_width / 2
     for central in train.centrals:
         if central.meshes == rim.name:
-            turn = pose.rotations[central.name] + _section(central.gear, height - pose.heights[central.name])
-            fill_gear(axes, central.gear, (0.0, 0.0), math.radians(turn), colour_of(train, central.name), chord)
+            rest = pose.rotations[central.name]
+            turn = math.radians(rest + _section(central.gear, height - pose.heights[central.name]))
+            colour = colour_of(train, central.name)
+            fill_gear(axes, central.gear, (0.0, 0.0), turn, colour, chord, rest=math.radians(rest))
     for planet in pose.planets:
-        turn = planet.rotations[rim.name] + _section(rim.gear, rim.gear.face_width / 2)
-        fill_gear(axes, rim.gear, (planet.x, planet.y), math.radians(turn), PLANETS, chord)
+        rest = planet.rotations[rim.name]
+        turn = math.radians(rest + _section(rim.gear, rim.gear.face_width / 2))
+        fill_gear(axes, rim.gear, (planet.x, planet.y), turn, PLANETS, chord, rest=math.radians(rest))
 
 
 def _section(gear: Gear, height: float) -> float:

@@ -238,9 +238,12 @@ def _spline_blocks(owner: str, titles: Mapping[str, str], documents: list[Mappin
 
 
 def _gear_row(key: str, gears: Mapping[str, Mapping[str, Any]]) -> Row:
-    return _row(
-        f"gear.{key}", _OF_GEAR[key], [values.get(key) if _is_there(values, key) else None for values in gears.values()]
-    )
+    row = _row(f"gear.{key}", _OF_GEAR[key], [values.get(key) if _is_there(values, key) else None for values in gears.values()])
+    if key != "body.bore":
+        return row
+    splines = [values.get("body.bore_spline") for values in gears.values()]
+    texts = [f"{text} ({spline})" if spline else text for text, spline in zip(row.texts, splines, strict=True)]
+    return row._replace(texts=tuple(texts))
 
 
 def _row(key: str, symbol: symbols.Symbol, values: Any) -> Row:

@@ -15,6 +15,7 @@ from itertools import chain
 from gearcad.core.errors import GeometryError, at_least, at_most
 from gearcad.core.records import PerGear, Role
 from gearcad.geometry import Gear
+from gearcad.geometry.bore_teeth import free_bore
 from gearcad.planetary import PairStage, PlanetaryTrain
 from gearcad.planetary.poses import PlanetPose, TrainPose
 from gearcad.solids.body_plan import STAGE_COLOURS, TRAIN_COLOURS, Axle, Colour, require_rim
@@ -242,7 +243,7 @@ def sweeps(standing: Standing) -> Iterator[SweptSpace]:
     """Yield the teeth of a gear down to its bore, or out to its rim, and its hubs."""
     gear, body = standing.body.gear, standing.body.gear.body
     bottom, top = standing.z, standing.z + gear.face_width
-    tip, bore = abs(gear.tip_diameter) / 2, body.bore / 2
+    tip, bore = abs(gear.tip_diameter) / 2, free_bore(gear) / 2
     yield SweptSpace(standing, (tip, require_rim(gear) / 2) if gear.internal else (bore, tip), (bottom, top))
     back, front = body.hub_ends
     for low, high in ((bottom - back, bottom), (top, top + front)):
@@ -304,7 +305,7 @@ def carrier_plan(layout: TrainLayout) -> CarrierPlan:
         if not rim.body.gear.body.bore:
             permitted = "must be above 0 mm: the pins of the carrier go through it"
             raise GeometryError(f"{rim.body.key}.body.bore", 0.0, permitted, "mm")
-    bore, given = min(rim.body.gear.body.bore for rim in rims), layout.train.carrier.pin_diameter
+    bore, given = min(free_bore(rim.body.gear) for rim in rims), layout.train.carrier.pin_diameter
     if given is not None and given > bore:
         raise GeometryError("carrier.pin_diameter", given, f"must be at most {bore:g} mm, the bore of the planets", "mm")
     diameter = bore if given is None else given

@@ -21,8 +21,8 @@ _ACCURACY = 0.0005
 _SLACK = 1e-6
 """Distance (mm) that is permitted beside it, for the digits of the file."""
 
-_PROFILE = "PROFILE"
-"""Layer of the toothed contour."""
+_PROFILE, _BORE = "PROFILE", "BORE"
+"""Layers of the toothed contour, and of that of a splined bore."""
 
 _ON_ARC = (np.arange(6) + 0.5) / 6
 """Places on each arc that are looked at, as shares of it."""
@@ -53,10 +53,16 @@ def judge_section(path: Path, part: ExactPart) -> Iterator[Claim]:
     yield judge.equal("toothed contours", 1, len(contours))
     for contour in contours[:1]:
         yield from _judge_contour(judge, contour, part)
+    if part.bore is not None:
+        bores = [each for each in document.modelspace().query("LWPOLYLINE") if each.dxf.layer == _BORE]
+        of_bore = Judge(judge.subject, judge.level, f"{path.name}: {_BORE}", judge.name)
+        yield of_bore.equal("toothed contours", 1, len(bores))
+        for contour in bores[:1]:
+            yield from _judge_contour(of_bore, contour, part.bore)
 
 
 def judge_sections(path: Path, counts: Mapping[str, int]) -> Iterator[Claim]:
-    """Judge the sections of parts in mesh: closed contours on each layer, as many as there are parts of its name."""
+    """Judge the sections of parts in mesh: closed contours on each layer, as many as those of its name have."""
     judge = Judge(ClaimSubject.DXF, VerificationLevel.FILES, path.name, "ezdxf")
     document, claims = read_dxf(path, judge)
     yield from claims

@@ -12,6 +12,7 @@ from numpy.polynomial.legendre import leggauss
 
 from gearcad.core.records import Floats
 from gearcad.geometry import Gear, Rack
+from gearcad.geometry.bore_teeth import bore_teeth
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.gear_data import twist
 from gearcad.solids.body_plan import keyway_half_angle
@@ -47,6 +48,12 @@ class ExactPart:
     def surface(self) -> ExactSurface:
         """The exact surface."""
         return surface_of(self.part)
+
+    @cached_property
+    def bore(self) -> ExactPart | None:
+        """The teeth of a splined bore, which begin at z = 0 of their own; None of another part."""
+        teeth = None if self.gear is None else bore_teeth(self.gear)
+        return None if teeth is None else ExactPart(teeth)
 
     @cached_property
     def moments(self) -> Moments:
@@ -174,8 +181,10 @@ def _gear_area(gear: Gear) -> float:
 
 
 def _opening(gear: Gear) -> tuple[float, float]:
-    """Length (mm) around bore and keyway, and their area (mm²)."""
+    """Length (mm) around the bore with its keyway or its teeth, and its area (mm²)."""
     body, radius = gear.body, gear.body.bore / 2
+    if (teeth := bore_teeth(gear)) is not None:
+        return teeth.tooth_count * _tooth_area(teeth, 0.0, teeth.face_width) / teeth.face_width, _section(teeth, 0.0)
     if not body.keyway_width:
         return 2 * math.pi * radius, math.pi * radius**2
     half, angle = body.keyway_width / 2, keyway_half_angle(body)

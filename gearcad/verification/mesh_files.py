@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from gearcad.core.records import Floats
+from gearcad.geometry.bore_teeth import with_round_bore
 from gearcad.geometry.gear_data import section_turn
 from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
 from gearcad.verification.exact_parts import ExactPart, toothed_size
@@ -182,7 +183,7 @@ def _sized(judge: Judge, size: float, stated: StatedMesh) -> Claim:
     part, document = stated.part, stated.document
     assert part.gear is not None  # racks have no meshes
     if stated.whole:
-        exact = part.moments.volume
+        exact = ExactPart(with_round_bore(part.gear)).moments.volume if part.bore is not None else part.moments.volume
     else:
         end = document["end_radius"]
         exact = toothed_size(part.gear, document["teeth"], end, solid=stated.solid)

@@ -328,6 +328,11 @@ def _judge_faces(judge: Judge, shape: Any, part: ExactPart) -> Iterator[Claim]:
         place=_place(surface, corners, off),
     )
     on_teeth = np.concatenate(points) if points else corners[surface.tooth_distances(corners) <= _LEAST]
+    if part.bore is not None:
+        assert part.gear is not None
+        in_bore = np.hypot(on_teeth[:, 0], on_teeth[:, 1]) <= part.gear.body.bore / 2 + _LEAST
+        yield from _judge_bore(judge, on_teeth[in_bore], part.bore)
+        on_teeth = on_teeth[~in_bore]
     if points:
         away, permitted = (
             surface.tooth_distances(on_teeth),
@@ -338,6 +343,15 @@ def _judge_faces(judge: Judge, shape: Any, part: ExactPart) -> Iterator[Claim]:
             "distance of tooth faces from the exact surface", 1e3 * away.max(), 1e3 * permitted, "µm", place=place
         )
     yield judge.equal("number of teeth", part.teeth, len(set(surface.teeth(on_teeth).tolist()).intersection(range(part.teeth))))
+
+
+def _judge_bore(judge: Judge, points: Floats, bore: ExactPart) -> Iterator[Claim]:
+    """Judge points (n, 3) of the faces of a splined bore: on its exact surface, and on all its teeth."""
+    away = bore.surface.tooth_distances(points)
+    permitted, place = _FITS * accuracy_for(bore.gear) if bore.gear is not None else _LEAST, _place(bore.surface, points, away)
+    quantity = "distance of the faces of the splined bore from the exact surface"
+    yield judge.below(quantity, 1e3 * away.max(), 1e3 * permitted, "µm", place=place)
+    yield judge.equal("number of teeth of the splined bore", bore.teeth, len(set(bore.surface.teeth(points).tolist())))
 
 
 def _on_edge(edge: Any) -> Floats:

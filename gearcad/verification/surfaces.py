@@ -12,6 +12,7 @@ import numpy as np
 
 from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.geometry import Gear, Rack
+from gearcad.geometry.bore_teeth import bore_teeth
 from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Involute, PlaneCurve, parameter_at
 from gearcad.geometry.gear import FlankCurve, flank_curves
 from gearcad.geometry.gear_data import height_in_half, section_turn, twist
@@ -180,6 +181,7 @@ class GearSurface:
     def _body_surfaces(self) -> Iterator[Distances]:
         gear, body = self.gear, self.gear.body
         back, front = body.hub_ends
+        spline = bore_teeth(gear)
         radii = [gear.profile.tip_diameter / 2, gear.profile.root_diameter / 2]
         radii += [size / 2 for size in (body.bore, body.hub_diameter, body.rim_diameter or 0.0) if size]
         heights = [0.0, gear.face_width]
@@ -187,6 +189,9 @@ class GearSurface:
         if gear.double_helix.gap_width:
             radii.append(gear.gap_diameter / 2)
             heights += [gear.half_width, gear.face_width - gear.half_width]
+        if spline is not None:
+            radii.append(spline.profile.tip_diameter / 2)
+            yield GearSurface(spline).tooth_distances
         for radius in radii:
             yield partial(_from_radius, radius)
         for height in heights:

@@ -95,6 +95,7 @@ def test_a_typed_value_stays_the_same_number_without_what_it_was() -> None:
 def test_words_lists_and_half_typed_numbers() -> None:
     inch = _inch("mm")
     assert inch.shown("auto") == inch.stored("auto") == "auto"
+    assert inch.shown("N 30 x 1.25 x 22 x 9H") == inch.stored("N 30 x 1.25 x 22 x 9H") == "N 30 x 1.25 x 22 x 9H"
     assert inch.shown("25.4 50.8") == "1 2"
     assert inch.stored("1 2") == "25.4 50.8"
     assert inch.stored("1.234,5") == "1.234,5"

@@ -20,6 +20,7 @@ from gearcad.drawing.views.gear_figures import Corner, along_strip, contour, ope
 from gearcad.drawing.views.ring_views import Meridian, hole_places
 from gearcad.drawing.words import Draughting, Size
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
+from gearcad.geometry.bore_teeth import free_bore
 
 Polygon = tuple[Point, ...]
 """Corners of a polygon in turn, the last joined to the first."""
@@ -178,6 +179,8 @@ def _cut_disc(gear: Gear) -> Cut:
         half = contour(gear, root, 0.0)[1:-1]
         return Cut(((*half, *_mirrored(half)[::-1]),), teeth)
     bore, opening = body.bore / 2, opening_radius(gear)
+    if body.bore_spline:
+        return _cut_splined(gear, teeth)
     edges: list[Segment] = [((z, -bore), (z, opening)) for z in (left, right)]
     if body.keyway_width:
         side = math.sqrt(bore**2 - (body.keyway_width / 2) ** 2)
@@ -185,6 +188,16 @@ def _cut_disc(gear: Gear) -> Cut:
     through = ((left, -bore), (right, -bore), (right, opening), (left, opening))
     areas = (tuple(contour(gear, root, opening)), _mirrored(contour(gear, root, bore)))
     return Cut(areas, teeth, tuple(edges), opening=(through,))
+
+
+def _cut_splined(gear: Gear, teeth: tuple[Polygon, ...]) -> Cut:
+    """Return the section of a gear with a splined bore, whose teeth are not hatched."""
+    (left, right), roots, tips = overall(gear), gear.body.bore / 2, free_bore(gear) / 2
+    upper = tuple(contour(gear, gear.root_diameter / 2, roots))
+    of_bore = ((left, tips), (right, tips), (right, roots), (left, roots))
+    through = ((left, -tips), (right, -tips), (right, tips), (left, tips))
+    edges = tuple(((z, -tips), (z, tips)) for z in (left, right))
+    return Cut((upper, _mirrored(upper)), (*teeth, of_bore, _mirrored(of_bore)), edges, opening=(through,))
 
 
 def _cut_ring(gear: Gear) -> Cut:
@@ -411,7 +424,7 @@ def _disc_front(gear: Gear, scale: float) -> Iterator[Shape]:
     body = gear.body
     if body.hub_ends[1]:
         yield Circle((0.0, 0.0), scale * body.hub_diameter / 2)
-    yield from opening(body, scale)
+    yield from opening(gear, scale)
 
 
 def _rim_front(gear: Gear, scale: float) -> Iterator[Shape]:

@@ -15,7 +15,8 @@ import numpy as np
 
 from gearcad.drawing.drawing_symbols import centre_cross
 from gearcad.drawing.shapes import Circle, Figure, Hatching, Line, Pen, Point, Polyline, Shape, Vertex
-from gearcad.geometry import Body, Gear
+from gearcad.geometry import Gear
+from gearcad.geometry.bore_teeth import bore_teeth, free_bore
 from gearcad.geometry.gear_data import section_turn
 from gearcad.solids.body_plan import EndCone, keyway_half_angle
 
@@ -273,6 +274,8 @@ def cut_lines(gear: Gear, along: Along) -> Iterator[Line]:
     for start, end in root_lines(gear):
         yield along.line((start, gear.root_diameter / 2), (end, gear.root_diameter / 2))
     radii = [opening_radius(gear)] if gear.body.bore else []
+    if gear.body.bore_spline:
+        radii.append(free_bore(gear) / 2)
     if gear.body.keyway_width:
         radii.append(math.sqrt((gear.body.bore / 2) ** 2 - (gear.body.keyway_width / 2) ** 2))
     for radius in radii:
@@ -299,14 +302,25 @@ def end_face(gear: Gear, scale: float, *, front: bool = True) -> Figure:
         *(Circle((0.0, 0.0), scale * chamfered, each) for each in (pen,) if each is not None),
         *(Circle((0.0, 0.0), scale * radius) for radius in seen),
         Circle((0.0, 0.0), scale * gear.reference_diameter / 2, Pen.CENTRE),
-        *opening(body, scale),
+        *opening(gear, scale),
         *centre_cross((0.0, 0.0), reach).shapes,
     ]
     return Figure(tuple(shapes))
 
 
-def opening(body: Body, scale: float) -> Iterator[Shape]:
-    """Yield the bore as a circle, or with its keyway as one closed line."""
+_LEAST_DEPTH = 2.0
+"""Least depth of the teeth of a spline (mm of paper) at which their reference circle is drawn."""
+
+
+def opening(gear: Gear, scale: float) -> Iterator[Shape]:
+    """Yield the bore as a circle, or with its keyway as one closed line; of a spline tips, roots and reference (ISO 6413)."""
+    body = gear.body
+    if (teeth := bore_teeth(gear)) is not None:
+        for diameter, pen in ((teeth.tip_diameter, Pen.OUTLINE), (teeth.root_diameter, Pen.THIN)):
+            yield Circle((0.0, 0.0), scale * abs(diameter) / 2, pen)
+        if scale * abs(teeth.root_diameter - teeth.tip_diameter) / 2 >= _LEAST_DEPTH:
+            yield Circle((0.0, 0.0), scale * abs(teeth.reference_diameter) / 2, Pen.CENTRE)
+        return
     if not body.keyway_width:
         if body.bore:
             yield Circle((0.0, 0.0), scale * body.bore / 2)

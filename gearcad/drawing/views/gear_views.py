@@ -27,6 +27,7 @@ from gearcad.drawing.shapes import Box, Circle, Figure, Line, Pen, Point, Text
 from gearcad.drawing.views.gear_figures import BEYOND_AXIS, Along, Corner, Silhouette, end_face, half_section, overall, strips
 from gearcad.drawing.words import Draughting, Size
 from gearcad.geometry import Gear
+from gearcad.geometry.bore_teeth import free_bore
 from gearcad.geometry.gear_parts import HubSide
 from gearcad.solids.body_plan import EndCone, keyway_half_angle
 
@@ -318,7 +319,7 @@ class FaceMarks:
         size = self.requirements.bore
         if size is None:
             return
-        radius, body = self.draughting.paper(self.gear.body.bore / 2), self.gear.body
+        radius, body = self.draughting.paper(free_bore(self.gear) / 2), self.gear.body
         open_at = math.degrees(keyway_half_angle(body)) + _OFF_KEYWAY if body.keyway_width else 0.0
         ways = [way for way in _WAYS if abs(way - 90.0) >= open_at]
         within = circle_dimension((0.0, 0.0), radius, size, self.draughting, ways)

@@ -213,7 +213,8 @@ export default {
       const [diameter, keyway] = body.teeth > 0 ? [body.bore, body.keyway] : [body.rim ?? 0, [0, 0]];
       const [from, to] = this.whole ? [rest + Math.PI, rest - Math.PI] : [this.ends[1], this.ends[0]];
       if (this.whole) pen.closePath();
-      if (diameter) this.hole(pen, place, diameter / 2, keyway, rest, from, to);
+      if (body.spline) this.splined(pen, place, body.spline, rest, from, to);
+      else if (diameter) this.hole(pen, place, diameter / 2, keyway, rest, from, to);
       else if (!this.whole && body.teeth > 0) pen.lineTo(...this.to(place));
       const [circle, count, bolt] = body.bolts;
       for (let n = 0; n < count; n += 1) {
@@ -236,6 +237,20 @@ export default {
         arc(from, at + half);
         for (const side of [1, -1]) on(radius + depth, (side * width) / 2);
         arc(at - half, to);
+      }
+      pen.closePath();
+    },
+    // Clockwise along the teeth of a splined bore, from one near an angle down to one near another.
+    splined(pen, place, [count, tooth], rest, from, to) {
+      const pitch = (2 * Math.PI) / count;
+      const [first, last] = this.whole ? [count - 1, 0] : [from, to].map((angle) => Math.round((angle - rest) / pitch));
+      for (let n = first; n >= last; n -= 1) {
+        for (let k = tooth.length - 2; k >= 0; k -= 2) {
+          const [x, y] = turned([tooth[k], tooth[k + 1]], rest + n * pitch);
+          const point = this.to([place[0] + x, place[1] + y]);
+          if (this.whole && n === first && k === tooth.length - 2) pen.moveTo(...point);
+          else pen.lineTo(...point);
+        }
       }
       pen.closePath();
     },

@@ -18,6 +18,7 @@ from gearcad.designs.gear_designs import RackDesign, ToothedDesign
 from gearcad.designs.pair_designs import PairDesign, RackPairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.geometry import Gear, Rack
+from gearcad.geometry.bore_teeth import bore_teeth
 from gearcad.geometry.curves import parameters_within
 from gearcad.geometry.gear_data import first_touch, section_turn
 from gearcad.geometry.path_of_contact import PathOfContact
@@ -116,7 +117,8 @@ def body_of(
     of the first body touch.
     """
     body = gear.body
-    return {
+    splined = {} if (spline := bore_teeth(gear)) is None else {"spline": _spline(spline)}
+    return splined | {
         "name": name,
         "colour": colour_of(colour),
         "place": list(place),
@@ -165,6 +167,11 @@ def rack_of(
         "tooth": _listed(tooth),
         "circles": {"tip": rack.tip_height, "reference": 0.0, "form": -rack.form_depth, "root": -rack.root_depth},
     }
+
+
+def _spline(teeth: Gear) -> list[Any]:
+    """Return the number of teeth of a splined bore, and the outline of tooth 0 (mm)."""
+    return [teeth.tooth_count, _listed(teeth.profile.points(CHORD * teeth.normal_module))]
 
 
 def colour_of(colour: Colour) -> str:

@@ -297,12 +297,16 @@ def _row_in(row: Row, system: UnitSystem) -> Row:
 
 
 _PLAIN_NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+_BRACKET = " ("
+"""What stands behind it is a word, or the designation of a splined bore."""
+
 _FIXED_DECIMALS = 4
 """Decimals of numbers of a data sheet, which are all in line; other numbers have as many significant digits."""
 
 
 def _text_in(text: str, unit: ShownUnit) -> str:
     """Return the text of numbers in another unit: in line where they were, and no finer than they were."""
+    text, bracket, designation = text.partition(_BRACKET)  # of a splined bore
     finer = max(round(math.log10(unit.size)), -_FIXED_DECIMALS)
 
     def other(found: re.Match[str]) -> str:
@@ -311,7 +315,7 @@ def _text_in(text: str, unit: ShownUnit) -> str:
             return f"{round(number, _FIXED_DECIMALS + finer) + 0.0:.{_FIXED_DECIMALS + finer}f}"
         return format_number(float(f"{number:.{_FIXED_DECIMALS}g}"))
 
-    return _PLAIN_NUMBER.sub(other, text)
+    return _PLAIN_NUMBER.sub(other, text) + bracket + designation
 
 
 def _is_number(value: Any) -> bool:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import PerGear, Role
+from gearcad.geometry.bore_teeth import free_bore
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.pair import GearPair
 from gearcad.geometry.rack_pair import RackPair
@@ -63,7 +64,7 @@ def bracket_boundary(pair: GearPair) -> Boundary:
 def _bore(gear: Gear) -> float:
     if not gear.body.bore:
         raise GeometryError("body.bore", gear.body.bore, "must be above 0 mm for a shaft with a bracket", "mm")
-    return gear.body.bore
+    return free_bore(gear)
 
 
 def _arm(recorder: Recorder, length: float, radius: float, heights: tuple[float, float]) -> tuple[Chain, Chain]:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+from gearcad.geometry.bore_teeth import bore_teeth
 from gearcad.geometry.gear import AsMadeGear, Gear
 from gearcad.geometry.gear_data import twist
 from gearcad.solids.body_plan import Colour, keyway_half_angle, require_rim
@@ -184,12 +185,10 @@ def add_blank(gear: Gear, recorder: Recorder, lower: Chain, upper: Chain) -> Non
     body = gear.body
     back, front = body.hub_ends
     heights = (-back, gear.face_width + front)
-    opening = [_opening(gear, recorder, z) for z in heights] if body.bore else None
-    if opening:
-        _add_opening(gear, recorder, opening[0], opening[1], heights)
+    opening = _holes(gear, recorder, heights)
     for which, (loop, hub) in enumerate(((lower, back), (upper, front))):
         face_z = gear.face_width * which
-        hole = opening[which].loop(along=False) if opening else None
+        hole = opening[which] if opening else None
         if hub:
             low, high = sorted((face_z, heights[which]))
             rings = tube(recorder, body.hub_diameter / 2, (low, high), outward=True)
@@ -198,6 +197,18 @@ def add_blank(gear: Gear, recorder: Recorder, lower: Chain, upper: Chain) -> Non
             loop = outer.loop(along=True)
         loops = [loop, hole] if hole else [loop]
         recorder.face(level_plane(heights[which]), loops, outward=which == 1)
+
+
+def _holes(gear: Gear, recorder: Recorder, heights: tuple[float, float]) -> tuple[Chain, Chain] | None:
+    """Add the wall of the bore. Return its loops in both end faces, clockwise seen from +z; None without a bore."""
+    if (teeth := bore_teeth(gear)) is not None:
+        below, above = add_teeth(teeth, recorder.moved(heights[0], 0.0))
+        return backward(below), backward(above)
+    if not gear.body.bore:
+        return None
+    low, high = (_opening(gear, recorder, z) for z in heights)
+    _add_opening(gear, recorder, low, high, heights)
+    return low.loop(along=False), high.loop(along=False)
 
 
 def _keyway_corners(gear: Gear) -> list[tuple[float, float]]:

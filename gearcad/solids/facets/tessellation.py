@@ -13,6 +13,7 @@ import numpy as np
 from gearcad.core.errors import ParameterError, SolverError, at_least, require_number
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Body, Gear
+from gearcad.geometry.bore_teeth import bore_teeth
 from gearcad.geometry.gear import halves
 from gearcad.geometry.rack import Rack
 from gearcad.solids.body_plan import OutlinePiece, RackPlan, RackSide, keyway_half_angle, outline_pieces, require_rim
@@ -43,21 +44,45 @@ class DiscBuilder(Builder):
         super().__init__(gear, grid, chord_error)
         self.faces.append(self.side())
         back, front = gear.body.hub_ends
-        self.opening = self._opening(-back, gear.face_width + front)
+        self.opening = self._opening(-back, gear.face_width + front, bore_teeth(gear))
         self._end(top=False, hub=back)
         self._end(top=True, hub=front)
 
-    def _opening(self, bottom: float, top: float) -> tuple[Floats, Wholes, Wholes] | None:
-        """Wall of bore and keyway; angles of its points, and their numbers at the bottom and at the top."""
+    def _opening(
+        self, bottom: float, top: float, teeth: Gear | None, *, open_top: bool = False
+    ) -> tuple[Floats, Wholes, Wholes] | None:
+        """Add the wall of the bore, with its keyway or its `teeth`, and a circle about these at the ends that are not open.
+
+        Return the angles of the points at the ends, and their numbers at the bottom and at the top. None without a bore.
+        """
         body = self.gear.body
+        self.opening_radius = body.opening_diameter / 2
         if not body.bore:
             return None
+        if teeth is not None:
+            self.opening_radius += _COLLAR * (self._least_outside - self.opening_radius)
+            bore = _BoreBuilder(
+                replace(teeth, face_width=top - bottom), self.opening_radius, self.chord_error, open_top=open_top
+            )
+            first = self.count
+            self.add(np.concatenate(bore.vertices) + np.array([0.0, 0.0, bottom]))
+            self.faces += [faces + first for faces in bore.faces]
+            return bore.around, bore.low + first, bore.high + first
         loop = self.circle(body.bore / 2)
         if body.keyway_width:
             loop = _keyed_bore(body, 2 * np.pi / len(loop))
         low, high = (self.add(np.column_stack([loop, np.full(len(loop), z)])) for z in (bottom, top))
         self.faces.append(wall(low, high)[:, ::-1])
         return np.arctan2(loop[:, 1], loop[:, 0]), low, high
+
+    @property
+    def _least_outside(self) -> float:
+        """Least radius (mm) of what surrounds the bore on an end: roots, cone, hub, or the ground of a gap."""
+        gear, cone = self.gear, self.grid.cone
+        radii = [gear.root_diameter / 2, *([cone.face_radius] if cone.present else [])]
+        if gear.double_helix.gap_width:
+            radii.append(gear.gap_diameter / 2)
+        return min([*radii, *([gear.body.hub_diameter / 2] if gear.body.hub_diameter else [])])
 
     def _tooth_end(self, inner_radius: float, *, top: bool) -> GearEnd:
         """Return one end of the teeth around something of a radius (mm)."""
@@ -69,7 +94,7 @@ class DiscBuilder(Builder):
         """End faces of teeth, cone, hub of a length (mm) and bore. Built as seen from outside at the top, turned over below."""
         body, faces = self.gear.body, list[Wholes]()
         z = self.gear.face_width if top else 0.0
-        inner = (body.hub_diameter if hub else body.opening_diameter) / 2
+        inner = body.hub_diameter / 2 if hub else self.opening_radius
         cap = cap_teeth(self.grid, self._tooth_end(inner, top=top), self.count)
         self.add(cap.vertices)
         faces.append(cap.faces)
@@ -106,6 +131,9 @@ def _keyed_bore(body: Body, step: float) -> Floats:
     return np.concatenate([(upper * [1, -1])[::-1], floor, upper[:-1]])
 
 
+_COLLAR = 0.3
+"""Share of the wall about the teeth of a splined bore up to which its own triangles reach."""
+
 _Made = TypeVar("_Made")
 
 _PARTS = tuple(2**n for n in range(11))
@@ -130,9 +158,13 @@ class RingBuilder(Builder):
         self.ends = {top: self._teeth(top=top) for top in (False, True)}
         if gear.body.bolt_holes:
             self._add_plate(self._plate())
-        circle = self._fitted(lambda parts: self.circle(self.rim, parts), lambda circle: circle)
+        circle = self._rim_circle()
         low, high = (self._surround(circle, top=top).numbers for top in (False, True))
         self.faces.append(wall(low, high))
+
+    def _rim_circle(self) -> Floats:
+        """Return the points (n, 2) in mm of the circle that closes both ends."""
+        return self._fitted(lambda parts: self.circle(self.rim, parts), lambda circle: circle)
 
     def _height(self, *, top: bool) -> float:
         return self.gear.face_width if top else 0.0
@@ -213,6 +245,27 @@ class RingBuilder(Builder):
             self.faces.append(wall(low, high)[:, ::-1])
 
 
+class _BoreBuilder(RingBuilder):
+    """Builds the teeth of a splined bore, and both ends up to a circle of a radius (mm); the upper one may be left open.
+
+    `around` are the angles (rad) of the points on the circle, `low` and `high` their numbers on both ends; of an open end
+    those of the teeth.
+    """
+
+    def __init__(self, teeth: Gear, radius: float, chord_error: float, *, open_top: bool) -> None:
+        error = min(chord_error, _MOST_CHORD_ERROR * teeth.normal_module)
+        Builder.__init__(self, teeth, tooth_grid(teeth, error), error)
+        self.rim = radius
+        self.faces.append(self.side()[:, ::-1])
+        each_layer = self.grid.teeth * self.grid.period
+        self.ends = {top: self._teeth(top=top) for top in ((False,) if open_top else (False, True))}
+        circle = self._rim_circle()
+        self.around: Floats = np.arctan2(circle[:, 1], circle[:, 0])
+        self.low = self._surround(circle, top=False).numbers
+        last = self.grid.layers.count * each_layer
+        self.high = last + np.arange(each_layer) if open_top else self._surround(circle, top=True).numbers
+
+
 def _between(inner: _Loop, angle: Floats) -> Wholes:
     """Return the triangles between a chain and a circle around it with points at these angles; they number the chain's points
     first.
@@ -248,7 +301,7 @@ class _HalfBuilder(DiscBuilder):
         Builder.__init__(self, half, grid, chord_error)
         middle = whole.face_width / 2
         self.faces.append(self.side())
-        self.opening = self._opening(-hub, middle)
+        self.opening = self._opening(-hub, middle, bore_teeth(whole), open_top=True)
         self._end(top=False, hub=hub)
         rings = [self._gap(whole.gap_diameter / 2, middle)] if whole.double_helix.gap_width else [self._apex()]
         if self.opening is not None:

@@ -15,6 +15,7 @@ from gearcad.core.dxf import CUT, NOT_CUT, add_layers, drawing
 from gearcad.core.errors import SolverError, require_number
 from gearcad.core.records import Floats
 from gearcad.geometry import Body, Gear
+from gearcad.geometry.bore_teeth import bore_teeth
 from gearcad.geometry.curves import Chamfer, Curve, CurveKind, PlaneCurve
 from gearcad.geometry.gear import middle_section
 from gearcad.geometry.rack import Rack
@@ -179,15 +180,16 @@ def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005, circles
 
     The flanks are as modified at mid face width, where modifications along the face are nothing (see `middle_section`).
     Layer PROFILE holds the contour, one closed polyline of arcs (see `gear_contour`); BORE the bore, a circle, or with a
-    keyway a closed polyline; CIRCLES, with `circles`, the tip, reference, base and root circles, which are not to be cut.
-    A ring's contour is that of its opening; it has no BORE but RIM, the circle outside if it has one, and BOLTS, its holes.
+    keyway or the teeth of a spline a closed polyline; CIRCLES, with `circles`, the tip, reference, base and root circles, which
+    are not to be cut. A ring's contour is that of its opening; it has no BORE but RIM, the circle outside if it has one, and
+    BOLTS, its holes.
     The header states how far the drawing reaches. Equal input gives equal bytes.
     Raises ParameterError for an `accuracy` (mm) below 1e-7.
     """
     contour = gear_contour(gear, accuracy)
     with drawing(path, _RING_LAYERS if gear.internal else _LAYERS) as document:
         space = document.modelspace()
-        draw_section(space, gear, contour)
+        draw_section(space, gear, contour, accuracy)
         low, high = extent_of(contour)
         if circles:
             low, high = draw_circles(document, gear)
@@ -197,9 +199,15 @@ def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005, circles
         space.reset_extents((*low, 0.0), (*high, 0.0))
 
 
-def draw_section(space: Modelspace, gear: Gear, contour: Floats) -> None:
-    """The contour of the teeth, and what else of a gear is cut, about the origin."""
+def draw_section(space: Modelspace, gear: Gear, contour: Floats, accuracy: float = 0.0005) -> None:
+    """Draw the contour of the teeth, and what else of a gear is cut, about the origin; a splined bore within `accuracy`
+    (mm).
+    """
     space.add_lwpolyline(contour.tolist(), format="xyb", close=True, dxfattribs={"layer": "PROFILE"})
+    if (teeth := bore_teeth(gear)) is not None:
+        opening = gear_contour(teeth, accuracy).tolist()
+        space.add_lwpolyline(opening, format="xyb", close=True, dxfattribs={"layer": "BORE"})
+        return
     (_draw_rim if gear.internal else _draw_bore)(space, gear.body)
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats, Notice
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.bore_teeth import bore_teeth, with_round_bore
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.train_data import shafts_of
 from gearcad.solids.files.cutaway import Camera, Cutaway, CutPlanes, SceneView, ViewDirection, close_up, framed, points_of
@@ -26,13 +27,16 @@ from gearcad.solids.train_plan import Standing, TrainLayout
 
 
 def looks_alike_after(gear: Gear) -> int:
-    """Return the number of equal parts in a turn of the gear: its teeth, fewer with bolt holes, one with a keyway."""
-    body = gear.body
-    return 1 if body.keyway_width else math.gcd(gear.tooth_count, body.bolt_holes)
+    """Return the number of equal parts in a turn of the gear: its teeth, fewer with bolt holes or a splined bore, one with a
+    keyway.
+    """
+    body, spline = gear.body, bore_teeth(gear)
+    return 1 if body.keyway_width else math.gcd(gear.tooth_count, body.bolt_holes, spline.tooth_count if spline else 0)
 
 
 def plain_gear(gear: Gear) -> Gear:
-    """Return the gear without keyway and bolt holes."""
+    """Return the gear without keyway, bolt holes and teeth in its bore."""
+    gear = with_round_bore(gear)
     plain = replace(gear.body, keyway=False, keyway_width=0.0, keyway_depth=0.0)
     return replace(gear, body=replace(plain, bolt_circle=0.0, bolt_holes=0, bolt_diameter=0.0))
 
@@ -111,7 +115,7 @@ def gear_loop(product: GearProduct) -> Loop:
     gear = product.gear
     pitches = gear.tooth_count // looks_alike_after(gear)
     if (frames := frames_for(pitches)) is None:
-        return simpler(gear_loop(replace(product, gear=plain_gear(gear))))
+        return simpler(gear_loop(replace(product, gear=plain_gear(gear))), [gear])
     return Loop(lambda share: product.scene(360 * share * pitches / gear.tooth_count), frames, pitches)
 
 
@@ -120,7 +124,7 @@ def pair_loop(product: PairProduct) -> Loop:
     gears = list(product.pair.gears)
     pitches = int(come_round(Fraction(looks_alike_after(gear), gear.tooth_count) for gear in gears))
     if (frames := frames_for(pitches)) is None:
-        return simpler(pair_loop(replace(product, pair=plain_pair(product.pair))))
+        return simpler(pair_loop(replace(product, pair=plain_pair(product.pair))), gears)
     return Loop(lambda share: product.scene(360 * share * pitches / gears[0].tooth_count), frames, pitches)
 
 
@@ -132,9 +136,11 @@ def rack_loop(product: RackPairProduct) -> Loop:
     return Loop(lambda share: product.scene(turn * math.sin(math.tau * share)), _SHORT, 4 * pitches)
 
 
-def simpler(loop: Loop) -> Loop:
-    """Return a loop of gears without keyways and bolt holes, which says so."""
-    text = f"keyways and bolt holes are left out: with them it would come round in more than {MOST_FRAMES} frames only"
+def simpler(loop: Loop, gears: Iterable[Gear]) -> Loop:
+    """Return a loop of gears without keyways, bolt holes and teeth in their bores, which says so."""
+    splined = any(gear.body.bore_spline for gear in gears)
+    left_out = "keyways, bolt holes and the teeth of splined bores" if splined else "keyways and bolt holes"
+    text = f"{left_out} are left out: with them it would come round in more than {MOST_FRAMES} frames only"
     return replace(loop, notices=(Notice("features-left-out", text, where="turning"), *loop.notices))
 
 
@@ -156,7 +162,10 @@ def train_loop(product: TrainProduct, *, carrier_held: bool = False) -> Loop:
     """
     simple = plain_train(product.train)
     if simple != product.train:
-        return simpler(train_loop(replace(product, train=simple), carrier_held=carrier_held))
+        train = product.train
+        gears = [each.gear for each in train.centrals] + [each.gear for each in train.rims]
+        gears += [gear for stage in train.stages for gear in stage.pair.gears]
+        return simpler(train_loop(replace(product, train=simple), carrier_held=carrier_held), gears)
     carrier, central = _driven(product)
     held = _closed(product, 0.0, central - carrier)
     if carrier_held and held is not None:

@@ -220,7 +220,8 @@ def write_train_dxf(layout: TrainLayout, path: Path | str, *, accuracy: float = 
     with drawing(path, colours) as document:
         for standing in layout.standing:
             key = standing.body.key
-            placed = _draw(document, standing, contours[key], section_angle(layout, standing), layers[key], circles=circles)
+            turn = section_angle(layout, standing)
+            placed = _draw(document, standing, contours[key], turn, layers[key], accuracy=accuracy, circles=circles)
             least, most = extent_of(placed)
             rim = standing.body.gear.body.rim_diameter or 0.0
             place = np.array(standing.offset[:2])
@@ -241,15 +242,21 @@ def section_angle(layout: TrainLayout, standing: Standing) -> float:
     return math.radians(standing.rotation) + float(section_turn(gear, np.array([height]))[0])
 
 
-def _draw(document: Drawing, standing: Standing, contour: Floats, turn: float, layer: str, *, circles: bool) -> Floats:
-    """Draw a gear in its place; its contour there."""
+def _draw(
+    document: Drawing, standing: Standing, contour: Floats, turn: float, layer: str, *, accuracy: float, circles: bool
+) -> Floats:
+    """Draw a gear in its place; its contour there. The teeth of a splined bore are straight: they turn with the body."""
     from ezdxf.math import Matrix44
 
     space = document.modelspace()
     x, y, _ = standing.offset
     place = Matrix44.z_rotate(turn) @ Matrix44.translate(x, y, 0.0)
     before = len(space)
-    draw_section(space, standing.body.gear, contour)
+    draw_section(space, standing.body.gear, contour, accuracy)
+    if standing.body.gear.body.bore_spline:
+        for entity in space[before:]:
+            if entity.dxf.layer == "BORE":
+                entity.transform(Matrix44.z_rotate(math.radians(standing.rotation) - turn))
     for entity in space[before:]:
         entity.dxf.layer = layer
     if circles:
