@@ -64,6 +64,9 @@ _IN_VIEW = """key => {
   return !!within && find.top >= pane.top - 1 && hint.bottom <= pane.bottom + 1;
 }"""
 
+_FRAMES = """async () => { for (let n = 0; n < 4; n += 1) await new Promise((seen) => requestAnimationFrame(seen)); }"""
+"""Frames in which a page of another size is laid out: observers of sizes are told in one, what they change is in the next."""
+
 STARTERS = [each.stem for each in starter_specs()]
 
 WRONG = {
@@ -109,7 +112,7 @@ def _cut(tab: Any) -> dict[int, list[str]]:
     cut = {}
     for width, height in SIZES:
         tab.page.set_viewport_size({"width": width, "height": height})
-        tab.page.wait_for_timeout(200)
+        tab.page.evaluate(_FRAMES)
         cut[width] = tab.page.evaluate(_CUT, SLACK)
     tab.page.set_viewport_size(DESK)
     return cut

@@ -193,9 +193,10 @@ def _restarted(own: Tab, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("where", ["field", "text"])
 def test_what_is_typed_while_the_server_is_away_is_sent_when_it_is_back(own: Tab, tmp_path: Path, where: str) -> None:
-    own.field("pair.face_width").fill("26")
     own.page.wait_for_function("window.location.search.includes('design=')")
-    own.page.wait_for_timeout(1000)  # until the address has the design
+    before = own.page.evaluate("window.location.search")
+    own.field("pair.face_width").fill("26")
+    own.page.wait_for_function("before => window.location.search !== before", arg=before)  # the address has the design
     if where == "text":
         own.page.click(".left .q-tab:nth-child(2)")
         own.page.wait_for_selector(".cm-line")
