@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 _TITLES = {
     "rack": "Basic rack",
+    "shaft": "Splined shaft",
+    "hub": "Splined hub",
     "cutter": "Shaper cutter",
     "premachining": "Cut before finishing",
     "finishing": "Finishing of the flanks",

@@ -26,7 +26,7 @@ PAIRS = [
     "uhlir-19-23-simple",
     VOLVO,
 ]
-STARTERS = [*PAIRS, *PLANETARY, "rack", "spur", "wire-cut"]
+STARTERS = [*PAIRS, *PLANETARY, "rack", "spline", "spur", "wire-cut"]
 TRAINS = ["train-1-stage", "train-2-stage", "train-pairs"]
 TABLES = ["gears", "pairs", "planetary-sets", "rings"]
 NAMED = sorted([*STARTERS, *TRAINS, *TABLES, "drawing_title", "measured"])

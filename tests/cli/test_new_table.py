@@ -57,6 +57,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "reducer-21-43",
         "ring-22-70",
         "rings",
+        "spline",
         "spur",
         "train-1-stage",
         "train-2-stage",

@@ -12,7 +12,7 @@ from gearcad.core.records import Floats
 from gearcad.core.runtime import templates
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
-from gearcad.designs.reader import read_spec
+from gearcad.designs.reader import design_from_tables, read_spec
 from gearcad.page.panels.drawn_data import bodies_of, plain, section_of, surface_of
 from gearcad.page.panels.views import section_in, shares_of
 from gearcad.page.words import PageLanguage, PageWords
@@ -176,3 +176,16 @@ def test_why_there_are_no_bodies() -> None:
     found = bodies_of(read_spec(templates() / "train-1-stage.toml"))
     assert not found.bodies
     assert "has no bodies" in found.why_not
+
+
+def test_a_hub_is_cut_where_it_stands_on_its_shaft() -> None:
+    """The middle of a space of the hub is at the middle of a tooth of the shaft, and they turn together."""
+    tables = {"spline": {"designation": "N 30 x 1.25 x 22 x 9H / W 30 x 1.25 x 22 x 8f", "length": 20.0}}
+    found = section_of(design_from_tables(tables, where=lambda key: key, default_name="seat"))
+    assert found is not None
+    shaft, hub = found["bodies"]
+    assert [body["name"] for body in found["bodies"]] == ["shaft", "hub"]
+    assert (shaft["teeth"], hub["teeth"], shaft["ratio"], hub["ratio"]) == (22, -22, 1.0, 1.0)
+    assert hub["rest"] == pytest.approx(math.pi / 22) and shaft["rest"] == 0.0
+    assert hub["slack"] == pytest.approx(0.022 / 27.5)  # 8f at 30 mm: 22 µm, without known tolerances
+    assert found["pitch"] == pytest.approx(2 * math.pi / 22)

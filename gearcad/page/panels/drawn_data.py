@@ -14,7 +14,7 @@ from gearcad.core.errors import GearcadError
 from gearcad.core.quantities import assumed_values
 from gearcad.core.records import Floats, Role
 from gearcad.designs.design import Design
-from gearcad.designs.gear_designs import RackDesign, ToothedDesign
+from gearcad.designs.gear_designs import RackDesign, SplineDesign, ToothedDesign
 from gearcad.designs.pair_designs import PairDesign, RackPairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.geometry import Gear, Rack
@@ -22,6 +22,7 @@ from gearcad.geometry.bore_teeth import bore_teeth
 from gearcad.geometry.curves import parameters_within
 from gearcad.geometry.gear_data import first_touch, section_turn
 from gearcad.geometry.path_of_contact import PathOfContact
+from gearcad.geometry.spline_standards import HUB
 from gearcad.jobs.build import given_speeds, require_bodies
 from gearcad.jobs.planetary import planetary
 from gearcad.planetary.members import SetMesh
@@ -283,10 +284,30 @@ def section_of(design: Design) -> dict[str, Any] | None:
         )
     if isinstance(design, PlanetaryDesign):
         return train_section(design)
+    if isinstance(design, SplineDesign):
+        return _of_spline(design)
     if isinstance(design, ToothedDesign) and (gear := design.gears.get("gear")) is not None:
         body = body_of("gear", gear, STEEL, (0.0, 0.0), turns(gear, 0.0, 0.0), 1.0)
         return _content([body], [], _heights(gear), 2 * math.pi / gear.tooth_count)
     return None
+
+
+def _of_spline(design: SplineDesign) -> dict[str, Any]:
+    """Return the section of a shaft and the hub on it, which turn together."""
+    joint, bodies = design.spline, []
+    slack = (joint.built_play or 0.0) / joint.reference_diameter
+    for name, (gear, body) in zip(design.gears, _splined(design), strict=True):
+        turned = turns(gear, body.rotation, 0.0)
+        own = slack if name == HUB else 0.0
+        bodies.append(body_of(name, gear, body.colour, (0.0, 0.0), turned, 1.0, rest=body.rotation, slack=own))
+    return _content(bodies, [], (0.0, joint.length), 2 * math.pi / joint.count)
+
+
+def _splined(design: SplineDesign) -> Iterator[tuple[Gear, DrawnBody]]:
+    """Yield the shaft and the hub on it with their bodies, the hub turned by half a pitch."""
+    for name, gear in design.gears.items():
+        rotation = math.radians(design.spline.hub_rotation) if name == HUB else 0.0
+        yield gear, DrawnBody(name, "", PART_COLOURS[name], rotation=rotation)
 
 
 def _of_pair(design: PairDesign) -> dict[str, Any]:
@@ -412,6 +433,8 @@ def _standing(design: ToothedDesign) -> Iterator[tuple[Gear | Rack, DrawnBody]]:
         yield design.rack, DrawnBody("rack", "", STEEL, ratio=0.0)
     elif isinstance(design, PlanetaryDesign):
         yield from _of_train(design)
+    elif isinstance(design, SplineDesign):
+        yield from _splined(design)
     else:
         for name, gear in design.gears.items():
             yield gear, DrawnBody(name, "", STEEL)

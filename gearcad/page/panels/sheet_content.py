@@ -59,8 +59,14 @@ def value_in(words: PageWords, text: str) -> str:
     return words[text] if text in _VALUES else words.number(text)
 
 
+_SPLINED = {"shaft": "Splined shaft", "hub": "Splined hub"}
+"""Words for the parts of a spline; a shaft of a train is called by its name."""
+
+
 def called(words: PageWords, name: str) -> str:
     """Return the name of gears, or of gears in mesh, in the language of the page if it is the name of spec tables."""
+    if name in _SPLINED:
+        return words.table.get(_SPLINED[name], name)
     parts = [words.table.get(part.replace("_", " ").capitalize()) for part in name.split("-")]
     return "-".join(part for part in parts if part) if all(parts) else name
 
