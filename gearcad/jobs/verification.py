@@ -28,6 +28,8 @@ from gearcad.report.document import heading
 from gearcad.report.verification import verification_html
 from gearcad.report.verification_pdf import write_verification_pdf
 from gearcad.solids import FileOptions, Format
+from gearcad.solids.files.products import GearProduct, MadeProduct
+from gearcad.verification.as_made_files import judge_made
 from gearcad.verification.assemblies import PlacedMesh, judge_joint
 from gearcad.verification.calculix import calculix_version
 from gearcad.verification.claims import Claim, Judge, VerificationLevel, VerificationOptions, timed
@@ -121,6 +123,7 @@ class Verify(Job[ToothedDesign, Verification]):
         parts, assembly = products_of(design, FileOptions())
         exact = {product.name: ExactPart(_part(product)) for product in parts.values()}
         yield from _of_files(design, folder, parts, assembly, exact)
+        yield from _of_made(parts, folder, made=not self.folder)
         of_parts = {name: exact[product.name] for name, product in parts.items()}
         yield _Stage("drawings", 1.0, partial(_of_sheets, design, folder, of_parts, drawn=not self.folder))
         level = self.level_of(design)
@@ -241,6 +244,21 @@ def _of_files(
                 judged=judged,
             )
             yield _Stage(path.name, 2 * effort, partial(_of_file, path, kind, claims))
+
+
+def _of_made(parts: Mapping[str, PartProduct], folder: Path, *, made: bool) -> Iterator[_Stage]:
+    """What is judged of gears as they are made, whose files are to be `made` or are there: solids, and paths that cut."""
+    for name, product in parts.items():
+        if not isinstance(product, GearProduct) or not product.gear.making.present or product.gear.modification.present:
+            continue
+        kind = Format.DXF if product.gear.making.cuts else Format.STEP
+        path = folder / f"{name}-as-made.{kind.value}"
+        if product.gear.internal and product.gear.body.rim_diameter is None and kind is Format.STEP:
+            continue
+        if made:
+            kind.entry.write(MadeProduct.of(product), path)
+        if path.is_file():
+            yield _Stage(path.name, 1.0, partial(_of_file, path, kind, partial(judge_made, gear=product.gear)))
 
 
 def _of_sheets(design: ToothedDesign, folder: Path, parts: Mapping[str, ExactPart], *, drawn: bool) -> Iterator[Claim]:

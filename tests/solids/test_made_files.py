@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from gearcad.solids.exact.solid import gear_solid
 from gearcad.solids.files.cut_path import write_path_dxf
 from gearcad.solids.files.products import FileOptions, GearProduct
 from gearcad.solids.train_plan import Standing, TrainLayout
+from gearcad.verification.as_made_files import judge_made
 
 WIRE = Making(process="wire", kerf=0.25, spark_gap=0.02, path_tolerance=0.0002, lead_in=1.5)
 OFFSET = 0.145
@@ -149,7 +151,7 @@ def test_volumes_of_a_mould_and_its_part_are_as_the_shrinkage_says(teeth: int) -
     assert mould.Volume() * 0.98**2 * 0.99 == pytest.approx(part.Volume(), rel=1e-9)
 
 
-@pytest.mark.parametrize("teeth", [13, -40])
+@pytest.mark.parametrize("teeth", [13, pytest.param(-40, marks=pytest.mark.long)])
 def test_the_first_layer_of_a_print_is_set_back(teeth: int) -> None:
     """Below the step the section is that of a print whose outline is smaller by as much; facets agree with the solid."""
     making = {"process": "print", "offset": -0.05}
@@ -213,6 +215,20 @@ def test_a_set_that_is_printed_assembled_has_the_gap_all_round(tmp_path: Path) -
     assert min(gaps.values()) > 0.1595
     files = {file.name for file in build(design, tmp_path / "files", ["3mf", "dxf"], as_made=True)}
     assert {"sun-as-made.3mf", "assembly.3mf", "assembly-as-made.3mf", "assembly-as-made.dxf"} <= files
+
+
+def test_verify_notices_files_that_are_not_as_made(tmp_path: Path) -> None:
+    """A path and a print are as they should be; the path of another tolerance, and the nominal solid in its place, are not."""
+    path, wire = tmp_path / "path.dxf", GEARS["spur"][0]
+    write_path_dxf(wire, path)
+    assert all(claim.passed for claim in judge_made(path, wire))
+    write_path_dxf(replace(wire, making=replace(WIRE, kerf=0.26)), path)
+    assert [claim.quantity for claim in judge_made(path, wire) if not claim.passed] == ["area inside"]
+    gear = Gear(teeth=13, normal_module=1.0, face_width=5.0, body=Body(bore=6.0, keyway_width=2.0, keyway_depth=1.0))
+    printed = replace(gear, making=Making(process="print", offset=-0.05, first_layer=0.2))
+    build(printed, tmp_path, ["step"], as_made=True)
+    assert all(claim.passed for claim in judge_made(tmp_path / "gear-as-made.step", printed))
+    assert [claim.quantity for claim in judge_made(tmp_path / "gear.step", printed) if not claim.passed] == ["volume"]
 
 
 @pytest.mark.parametrize(
