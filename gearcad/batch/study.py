@@ -22,6 +22,7 @@ from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, names_fi
 from gearcad.designs.keys import Cell, DesignKind
 from gearcad.designs.table import open_table
 from gearcad.designs.variations import MOST_ROWS, Choices, KeyRange, read_variations, spec_values, without_varied
+from gearcad.geometry.tool_shelf import ToolName
 
 if TYPE_CHECKING:
     import numpy as np
@@ -109,10 +110,10 @@ class Study:
         """The cells of every row, its name first; files as they are found from the `folder` of the table."""
         width = len(str(self.rows))
         stem = self.name.encode()[: LONGEST_NAME_IN_BYTES - width - 1].decode(errors="ignore")[: LONGEST_NAME - width - 1]
-        cells = {key: _cell_text(self.base[key]) if key in self.base else "" for key in self.keys}
+        cells = {key: _cell_text(_seen(self.base[key], folder)) if key in self.base else "" for key in self.keys}
         varied, files = [variation.key for variation in self.variations], [key for key in self.keys if names_file(key)]
         for number, point in enumerate(self.points(), 1):
-            cells.update(zip(varied, map(_cell_text, point), strict=True))
+            cells.update((key, _cell_text(_seen(each, folder))) for key, each in zip(varied, point, strict=True))
             seen = {key: _cell_text(os.path.relpath(cells[key], folder)) for key in files if cells[key]}
             yield [_cell_text(f"{stem}-{number:0{width}}"), *(cells | seen).values()]
 
@@ -173,6 +174,11 @@ def check_table(path: Path) -> TableCheck:
     """Try every row of a design table; that takes about 1 ms for each."""
     faults = [found[0] for row in open_table(path).rows() if (found := row.all_faults())]
     return TableCheck(len(faults), faults[0] if faults else "")
+
+
+def _seen(value: Cell, folder: Path) -> Cell:
+    """Return a value for a table in a folder: the name of a tool with the way to the table that has it."""
+    return value.seen_from(folder) if isinstance(value, ToolName) else value
 
 
 def _cell_text(value: Cell) -> str:

@@ -93,6 +93,7 @@ GEAR = {
     "transverse_pressure_angle": Symbol("α_t", "deg", "4.3", "transverse pressure angle"),
     "base_helix_angle": Symbol("β_b", "deg", "4.3", "base helix angle"),
     "lead": Symbol("p_z", "mm", "4.2", "lead"),
+    "tool_file": Symbol("", "", "", "table of the tool"),
     "cutter_tip_diameter": Symbol("d_a0", "mm", "", "cutter, tip diameter for this root"),
     "virtual_teeth": Symbol("z_n", "", "4.7", "virtual number of teeth"),
     "reference_diameter": Symbol("d", "mm", "4.2", "reference diameter"),

@@ -18,6 +18,8 @@ from gearcad.core.output import file_bytes
 from gearcad.core.records import JsonObject, Notice, concise, texts
 from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear
+from gearcad.geometry.tool_shelf import FILE as TOOLS
+from gearcad.geometry.tool_shelf import ToolName
 from gearcad.version import __version__
 
 _PART = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
@@ -141,11 +143,48 @@ def names_file(key: str) -> bool:
 
 def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Return the values with files, which are seen from `folder`, as they are found from here."""
-    return {key: _file_path(key, each, folder) if names_file(key) else each for key, each in values.items()}
+    return {
+        key: _file_path(key, each, folder) if names_file(key) else _tool_name(key, each, folder) if names_tool(key) else each
+        for key, each in values.items()
+    }
+
+
+def names_tool(key: str) -> bool:
+    """Return whether a text under a key is the name of a tool, which the folder of the design may have."""
+    return key.rpartition(".")[2] == "tool"
+
+
+def _tool_name(key: str, name: Any, folder: Path) -> Any:
+    """Return the name of a tool with the folder of its design. What is no text stays as it is."""
+    if not isinstance(name, str) or "\0" in name:
+        return name
+    beside = folder / name.rpartition("/")[0]
+    for table in (folder / TOOLS, beside / TOOLS):
+        if (fence := _fence.get()) is not None and not _resolved(table).is_relative_to(fence):
+            raise ParameterError(key, name, "must be of a table in the folder of the page")
+    return ToolName.of(name, folder)
+
+
+def _find_tools(tables: Any, folder: Path, before: str = "") -> None:
+    """Let the names of tools in the tables of a spec, in place, know the folder of the design."""
+    if isinstance(tables, list):
+        for at, each in enumerate(tables):
+            _find_tools(each, folder, f"{before}[{at}]")
+    elif isinstance(tables, dict):
+        for key, each in tables.items():
+            full = f"{before}.{key}" if before else key
+            if key == "tool":
+                tables[key] = _tool_name(full, each, folder)
+            else:
+                _find_tools(each, folder, full)
 
 
 def find_named_files(tables: Mapping[str, Any], folder: Path) -> None:
-    """Replace the file names in the tables of a spec in `folder`, in place, by names that are valid from here."""
+    """Replace the file names in the tables of a spec in `folder`, in place, by names that are valid from here.
+
+    The names of tools remember the folder, which may have a table of them.
+    """
+    _find_tools(tables, folder)
     train, drawing = tables.get("train"), tables.get("drawing")
     meshes = train.get("mesh") if isinstance(train, Mapping) else None
     named = [(f"train.mesh[{at}]", mesh, "pair") for at, mesh in enumerate(meshes)] if isinstance(meshes, list) else []

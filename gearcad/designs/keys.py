@@ -218,7 +218,7 @@ def fields_of_mates() -> dict[str, FieldSchema]:
 
 
 _OF_DRAWINGS = ("accuracy_grade", "flank_roughness", "root_roughness")
-_PLAIN_SHARED = (*MODULE_OR_PITCH, "helix_angle", "face_width", "tip_alteration", *THINNING_OR_ALLOWANCE, *_OF_DRAWINGS)
+_PLAIN_SHARED = (*MODULE_OR_PITCH, "helix_angle", "face_width", "tip_alteration", *THINNING_OR_ALLOWANCE, *_OF_DRAWINGS, "tool")
 _OF_ONE = ("cutter",)
 SHARED = (*_PLAIN_SHARED, *(key for key in GEAR_FIELDS if (part := key.partition(".")[0]) in PARTS and part not in _OF_ONE))
 """Keys of a gear that may stand in [pair] for both; the helix angle there is the pinion's, and no cutter makes both."""

@@ -43,6 +43,8 @@ from gearcad.geometry import (
 from gearcad.geometry.feasibility import check_given
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.mating import tip_on_form_circle
+from gearcad.geometry.tool_shelf import PARTS as TOOL_PARTS
+from gearcad.geometry.tool_shelf import find_tool, module_given
 from gearcad.material import Grade, Material, MaterialGroup, MaterialQuality, grade_of
 
 if TYPE_CHECKING:
@@ -387,6 +389,9 @@ class Spec:
         named = self.values.get(f"{owner}.rack")
         if named and field.startswith("rack."):
             return named._replace(key=self._written(owner, field), note=f"of {named.value}")
+        tool = self.values.get(f"{owner}.tool")
+        if tool and field.partition(".")[0] in TOOL_PARTS:
+            return tool._replace(key=self._written(owner, field), note=f"of the tool {shown(str(tool.value))}")
         note = "derived" if field in _DERIVED else "from the file's name" if field == "name" else "by default"
         return Given(None, self._written(owner, field), note)
 
@@ -404,6 +409,10 @@ class Spec:
         ]
         if any(key.startswith(f"{owner}.premachining.") for key in self.values):
             given.append(_OTHER_TOOLS)
+        if f"{owner}.tool" in self.values:
+            given.append(tuple(field for field in SHARED if field.partition(".")[0] in TOOL_PARTS))
+        elif any(key.startswith(tuple(f"{owner}.{part}" for part in TOOL_PARTS)) for key in self.values):
+            given.append(("tool",))
         return {field for each in given for field in each}
 
     def fields_of(self, owner: str) -> dict[str, Any]:
@@ -444,6 +453,8 @@ class Spec:
                 parts[part][field] = value
             elif key != "rack":
                 inputs[key] = value
+        if "tool" in given and "tool" in fields:
+            inputs |= _tool_inputs(given)
         if "rack" in given:
             rack = _named_rack(given["rack"])
             with _within("rack"):
@@ -466,6 +477,17 @@ def _refuse_other_tools(given: Mapping[str, Any]) -> None:
         for key in _OTHER_TOOLS:
             if key in given:
                 raise GeometryError(key, given[key], "must be left out: the tool of premachining makes the root")
+
+
+def _tool_inputs(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tool that a gear names, and the parts that it fills. Raises InputError, also for keys of another tool."""
+    name = given["tool"]
+    for key, value in given.items():
+        if key.partition(".")[0] in TOOL_PARTS:
+            raise GeometryError(key, value, f"must be left out: the tool is given (tool = {format_number(name)})")
+    tool = find_tool(name, module_given(given.get("normal_module"), given.get("normal_diametral_pitch")))
+    assert tool.tool is not None
+    return {"tool": tool} | tool.tool.parts
 
 
 @contextmanager

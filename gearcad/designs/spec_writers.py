@@ -6,7 +6,7 @@ import csv
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import Enum
 from functools import cached_property, reduce
@@ -20,7 +20,7 @@ from gearcad.core.quantities import is_given, schema_of
 from gearcad.core.records import PerGear, Role, is_assumed, is_usual
 from gearcad.designs.cells import cell_text, write_found_rows
 from gearcad.designs.design import LONGEST_NAME, Where, read_tables
-from gearcad.designs.keys import BESIDE, FIELDS, nearest_key, permitted_words
+from gearcad.designs.keys import BESIDE, FIELDS, GEAR_FIELDS, nearest_key, permitted_words
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.designs.spec import AUTO
@@ -31,6 +31,8 @@ from gearcad.dynamics.planetary.planetary_strength import ALTERNATING
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.trains.train import EngagedMesh, Train
 from gearcad.geometry import ISO53_A, Gear, GearPair
+from gearcad.geometry.tool_shelf import PARTS as TOOL_PARTS
+from gearcad.geometry.tool_shelf import Place, ToolName
 from gearcad.identify.candidates import Candidate as GearCandidate
 from gearcad.identify.candidates import Identification
 from gearcad.identify.measurements import Gauge, Measurements
@@ -90,8 +92,11 @@ def _materials(design: PairDesign) -> dict[str, Material]:
 
 def _pair_text_values(instance: Any, keys: Any, always: Sequence[str] = ()) -> Iterator[tuple[str, Any]]:
     """Yield the fields under flattened keys, without those that are derived, or that say no more than their default."""
+    left_out = _of_the_tool(instance)
     for key in keys:
         *parts, name = key.split(".")
+        if key in left_out:
+            continue
         owner = reduce(lambda of, part: getattr(of, part, None), parts, instance)
         if owner is None:  # a part that is not given
             continue
@@ -101,6 +106,15 @@ def _pair_text_values(instance: Any, keys: Any, always: Sequence[str] = ()) -> I
         opposed = key == "double_helix.offset" and isinstance(instance, Gear) and instance.double_helix.present
         if key in always or opposed or not is_usual(value, _default(owner, name)):
             yield key, value
+
+
+def _of_the_tool(instance: Any) -> Collection[str]:
+    """Return the keys of a gear that its tool says, or that of the tool where no other folder may have its table."""
+    if not isinstance(instance, Gear) or not isinstance(name := instance.tool, ToolName) or name.tool is None:
+        return ()
+    if name.tool.place is Place.DESIGN:
+        return ("tool",)
+    return [key for key in GEAR_FIELDS if key.partition(".")[0] in TOOL_PARTS]
 
 
 def _default(owner: Any, name: str) -> Any:

@@ -25,13 +25,14 @@ from gearcad.designs.cells import (
     plain_text,
     read_headings,
 )
-from gearcad.designs.design import Design, names_file, require_plain_name, with_files_found
+from gearcad.designs.design import Design, names_file, names_tool, require_plain_name, with_files_found
 from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_SETS, SHARED, Cell, DesignKind
 from gearcad.designs.reader import design_from_values
 from gearcad.designs.table_files import Record, RecordFile, open_sheet
 from gearcad.designs.train_designs import missing_fault, missing_keys
 from gearcad.designs.train_keys import ALL, TrainKey, general_key
 from gearcad.geometry.gear_parts import MODULE_OR_PITCH
+from gearcad.geometry.tool_shelf import Shelf
 
 Where = Callable[[str], str]
 
@@ -228,7 +229,10 @@ class DesignRow:
         """Everything that decides what the row makes: its name and values, and the contents of the files that they name."""
         files = {key: each for key, each in self.values.items() if names_file(key)}
         found = with_files_found(files, Path(self.table).parent)
-        return {"name": self.name, **self.values, **{f"{key}: text": _text_of(Path(str(file))) for key, file in found.items()}}
+        texts = {key: _text_of(Path(str(file))) for key, file in found.items()}
+        shelf = Shelf(Path(self.table).parent)
+        texts |= {key: shelf.text_of(str(each)) for key, each in self.values.items() if names_tool(key)}
+        return {"name": self.name, **self.values, **{f"{key}: text": text for key, text in texts.items()}}
 
     def all_faults(self) -> list[str]:
         """Return every fault of the row that does not depend on another, from left to right; [] for a good row."""
@@ -262,6 +266,8 @@ class DesignRow:
         kinds = kinds_of(self.columns)
         of = next((kind for kind in (DesignKind.TRAIN, DesignKind.PLANETARY) if kind in kinds), None)
         for key, value in self.values.items():
+            if names_tool(key):  # which depends on the folder and the module
+                continue
             if not permitted_alone(key, value, of=of) and (fault := fault_alone(key, value, self.where, of=of)):
                 yield fault
         try:

@@ -17,6 +17,7 @@ from gearcad.geometry import NAMED_RACKS, FlankModification, Gear, Rack, RackPai
 from gearcad.geometry.gear_parts import HALF_PITCH
 from gearcad.geometry.gear_tools import corner_radius, shaped, tool_pressure_angle
 from gearcad.geometry.modification import TransitionSource
+from gearcad.geometry.tool_shelf import ToolName
 from gearcad.rating.tolerances import Accuracy, covered, gear_tolerances
 
 
@@ -89,6 +90,8 @@ def teeth_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[GearDataRow]:
     assert part.teeth is not None  # derived by now
     yield write.text("teeth", write.words.number(part.teeth, 0), "z", {"teeth": part.teeth})
     yield from rack_rows(part, write)
+    if isinstance(part, Gear) and isinstance(part.tool, ToolName) and part.tool.tool is not None:
+        yield write.text("tool", f"{part.tool.tool.name} ({part.tool.tool.file})")
     yield write.plain("pressure_angle", part.rack.pressure_angle, "α_n", "°", "rack.pressure_angle")
     angle = abs(part.helix_angle)
     shown = write.words.number(angle, 4) if angle else "0"

@@ -28,6 +28,7 @@ from gearcad.geometry.inspection import Inspection, ThicknessLimits, inspection_
 from gearcad.geometry.modification import FlankForm, FlankModification, check_flanks
 from gearcad.geometry.premachining import Finishing
 from gearcad.geometry.profile import LEAST_LAND, InternalProfile, ToothProfile
+from gearcad.geometry.tool_shelf import ToolName, equip
 from gearcad.geometry.toothed import tip_notices
 
 _DERIVED = (
@@ -68,7 +69,8 @@ class Gear(GearData):
     circle wins over k, a given root circle prescribes the depth of the tool, which then follows from the gear.
     An internal gear has the signs of ISO 21771: teeth and all diameters are negative, and x > 0 makes its teeth thicker (KHK
     and others give x the opposite sign, `profile_shift_khk`); its `profile` and everything along a flank are magnitudes.
-    `cutter` is the shaper cutter that makes the roots; without one those of a ring are form roots.
+    `cutter` is the shaper cutter that makes the roots; without one those of a ring are form roots. `tool` names a tool of the
+    shelf (`gearcad tools`), which fills `rack`, `cutter` or `premachining`.
     `modification` of the flanks leaves all of that as it is: diameters and thicknesses are those of the exact involute.
     Raises ParameterError for one value out of range, GeometryError for a combination that makes no gear.
     """
@@ -76,6 +78,7 @@ class Gear(GearData):
     __repr__ = concise
 
     def __post_init__(self) -> None:
+        equip(self)
         check_given(self)
         derive(self, "tip_diameter", self.standard_tip_diameter)
         derive(self, "root_diameter", self.standard_root_diameter)
@@ -371,8 +374,10 @@ class Gear(GearData):
         parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix")}
         parts["body"] = self.body.to_dict()
         parts["modification"] = self.flank_form.to_dict()
-        two_steps = {"premachining", "finishing", "making"}
+        two_steps = {"premachining", "finishing", "making", "tool"}
         inputs = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in parts.keys() | two_steps}
+        if isinstance(self.tool, ToolName) and self.tool.tool is not None:
+            inputs |= {"tool": str(self.tool), "tool_file": self.tool.tool.file}
         if self.premachining.present:
             parts |= {"premachining": self._premachining_document(), "finishing": asdict(self.finishing)}
         if self.making.present:

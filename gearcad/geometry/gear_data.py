@@ -59,6 +59,7 @@ class GearData(GearSizes[float], ToothedPart):
     accuracy_grade: Annotated[int | None, Whole(0, 12), Words("accuracy grade", "", "ISO 1328-1")] = None
     flank_roughness: Annotated[float | None, _ROUGHNESS, Words("roughness of the flanks", "Rz")] = None
     root_roughness: Annotated[float | None, _ROUGHNESS, Words("roughness of the roots", "Rz")] = None
+    tool: Annotated[str | None, Words("tool of the shelf")] = None
     rack: BasicRack = field(default=ISO53_A)
     cutter: ShaperCutter = field(default=ShaperCutter())
     premachining: Premachining = field(default=Premachining())

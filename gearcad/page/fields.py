@@ -8,12 +8,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields, replace
 from enum import Enum
 from functools import cache, lru_cache
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearcad.core.errors import GearcadError
+from gearcad.core.errors import GearcadError, SpecError
 from gearcad.core.quantities import Choice, FieldSchema, Member, Range, Whole, is_given, schema_of
 from gearcad.core.records import Floats, Role
 from gearcad.core.symbols import Symbol
@@ -28,6 +29,7 @@ from gearcad.designs.reader import kind_of, type_of
 from gearcad.designs.spec import AUTO, CLEAR
 from gearcad.geometry import Gear
 from gearcad.geometry.gear_parts import NAMED_RACKS
+from gearcad.geometry.tool_shelf import Shelf
 from gearcad.load import Load
 from gearcad.material import MaterialGroup, MaterialQuality
 from gearcad.sizing.geometry import Axis, Free, ShiftMap, gear_map, pair_map
@@ -53,7 +55,7 @@ _LATER = ("mounting", "mesh", "dynamics", "drawing", "check", "rating", "verify"
 
 _GRADES = tuple(f"{group} {quality}" for group in MaterialGroup for quality in MaterialQuality)
 _OFFERED = {"rack": tuple(NAMED_RACKS), "material": _GRADES, "profile_shift": (AUTO,), "tip_alteration": (AUTO, CLEAR)}
-"""Words that specs take at keys of these names, beside numbers or names of one's own."""
+"""Words that specs take at keys of these names, beside numbers or names of one's own; tools have names of their own."""
 
 _DIGITS, _USED_DIGITS = 15, 7
 """Significant digits of numbers: all that were typed, and of those that follow what one reads."""
@@ -209,11 +211,22 @@ def _bounds(key: str, field: FieldSchema) -> tuple[float | None, float | None, i
 
 def _offered(key: str) -> tuple[str, ...]:
     table, _, name = key.rpartition(".")
+    if name == "tool":
+        return tool_names()
     if table in ("gear", "rack"):
         return () if name in ("profile_shift", "tip_alteration") else _OFFERED.get(name, ())
     if table == "material" or table.endswith(".material"):
         return _GRADES if name == "name" or name in (*OF_SETS, "pinion", "wheel", "rack") else ()
     return _OFFERED.get(name, ())
+
+
+@cache
+def tool_names() -> tuple[str, ...]:
+    """Return the names of the tools of the user's table, if it can be read, and of that of gearcad."""
+    try:
+        return tuple(dict.fromkeys(row.name for row in Shelf(Path("/")).rows()))
+    except SpecError:
+        return tuple(dict.fromkeys(row.name for row in Shelf.own()))
 
 
 def _choices(field: FieldSchema) -> list[str]:

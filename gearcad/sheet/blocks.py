@@ -135,6 +135,7 @@ def _of_part(part: str) -> str:
 _GEAR_BLOCKS = {
     "Teeth": "teeth normal_module normal_diametral_pitch helix_angle profile_shift profile_shift_khk"
     " tip_alteration tooth_thinning face_width virtual_teeth lead",
+    "Tool of the shelf": "tool tool_file",
     "Basic rack": _of_part("rack"),
     "Shaper cutter": _of_part("cutter") + " cutter_tip_diameter",
     "Cut before finishing": _of_part("premachining") + " " + _of_part("finishing"),

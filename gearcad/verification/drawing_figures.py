@@ -128,6 +128,8 @@ class _PartRows:
         yield self.named("normal_module", "m_n", (data["normal_module"], _SHORTEST))
         yield self.named("teeth", "z", (data["teeth"], 0))
         yield from self._basic_rack()
+        if "tool" in data:
+            yield self.named("tool", text=f"{data['tool'].rpartition('/')[2]} ({data['tool_file']})")
         yield self.named("pressure_angle", "α_n", (data["rack"]["pressure_angle"], _SHORTEST))
         yield self.named("helix_angle", "β", (abs(helix), _COEFFICIENT))
         if helix:

@@ -41,8 +41,8 @@ def test_every_field_of_a_gear_has_a_symbol_and_every_symbol_a_field() -> None:
     spur = {"shrinkage_radial": 1.0}
     makings = [Making(process="mould", **spur), Making(process="print", **spur), Making(process="wire", kerf=0.1)]
     as_made = [replace(each, making=making) for each in (gear, ring) for making in makings]
-    blank = replace(gear, body=Body(step="blank.step"))
-    every = set().union(*(_keys(each.to_dict()) for each in (gear, ring, *made_twice, *as_made, blank)))
+    others = replace(gear, body=Body(step="blank.step")), replace(gear, tool="ISO 53 A")
+    every = set().union(*(_keys(each.to_dict()) for each in (gear, ring, *made_twice, *as_made, *others)))
     assert every == {*symbols_of(Gear), *symbols.GEAR}
     of_rings = {"profile_shift_khk", "span_spaces", "between_balls", "between_pins"}
     of_rings |= {f"thickness_limits.between_{gauge}_{side}" for gauge in ("balls", "pins") for side in ("least", "greatest")}
