@@ -299,7 +299,7 @@ def test_a_gear_that_is_wrong_at_any_centre_distance_is_named_itself() -> None:
             "<pinion.root_radius>: pinion.root_radius: unknown key; did you mean rack.root_radius?",
         ),
         ({"pinion": {"body": {"boer": 3}}}, "<pinion.body.boer>: pinion.body.boer: unknown key; did you mean body.bore?"),
-        ({"pinion": {"qqq": 3}}, "<pinion.qqq>: pinion.qqq: unknown key; the nearest of the 124 permitted are "),
+        ({"pinion": {"qqq": 3}}, "<pinion.qqq>: pinion.qqq: unknown key; the nearest of the 125 permitted are "),
         (
             {"pinion": {"centre_distance": 3}},
             "<pinion.centre_distance>: pinion.centre_distance: unknown key here; it belongs in [pair]",
@@ -407,7 +407,7 @@ def test_name_is_the_stem_of_the_file_by_default(tmp_path: Path) -> None:
         ),
         ("[gear]\nbody.bore = 3\nbody . 'bor' = 2", " line 3: gear.body.bor: unknown key"),
         ("[gear]\nteeth = 20\n", " line 1: gear.normal_module is missing: "),
-        ('[gear]\n"a\\nb" = 2\n', r"gear.a\nb: unknown key; the nearest of the 110 permitted are "),
+        ('[gear]\n"a\\nb" = 2\n', r"gear.a\nb: unknown key; the nearest of the 111 permitted are "),
         ("gear.teeth = 2\n", " line 1: gear.teeth = 2: "),
         ("[gear]\nteeth = 20\nteeth = 21\n", " line 3, column 11: is not valid TOML: Cannot overwrite a value"),
         ("[gear]\nface_width = 18,3\n", "; write 18.3 with a point"),
