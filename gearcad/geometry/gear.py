@@ -255,6 +255,7 @@ class Gear(GearData):
             yield Notice("grinding-notch", f"grinding notch: {begins}, where the wheel leaves a step of {left:.4f} mm")
         elif self.undercut:
             yield Notice("undercut", f"undercut: the involute begins at diameter {self.form_diameter:.4f} mm")
+        yield from self.premachining.notices(self.normal_module, ends=self.finishing.end_diameter is not None)
 
     def _repr_html_(self) -> str:
         return gear_html(self, self.profile)
@@ -327,6 +328,7 @@ class Gear(GearData):
         pre, before = self.premachining, self.precut
         size = "between_balls" if self.internal else "over_balls"
         document = asdict(pre) | {
+            "tool_addendum": self.tool_addendum,
             "stock": self.stock,
             "residual_undercut": self.residual_undercut,
             "greatest_undercut": self.greatest_undercut,

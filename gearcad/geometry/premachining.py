@@ -7,12 +7,13 @@ Equations: ISO 6336-3 (E with a residual undercut), DIN 3972 (tools III and IV);
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from typing import Annotated, Literal
 
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.quantities import Choice, Range, Whole, Words, require_fields
-from gearcad.core.records import concise
+from gearcad.core.records import Notice, concise
 
 _TALL = Range("", 0, 5, ends="(]")
 _ROUND = Range("", 0, 5)
@@ -111,9 +112,12 @@ class RackPremachining:
         assert isinstance(self.stock, str)
         return 1.25 + _DIN3972[self.stock] * math.cbrt(normal_module) / normal_module
 
-    def residual_of(self, normal_module: float, stock: float | None = None) -> float:
-        """Return s_pr = p_r - q (mm): how far the tool's tip reaches into the finished flank; negative where stock is left."""
-        return self.protuberance - (self.stock_of(normal_module) if stock is None else stock)
+    def notices(self, normal_module: float, *, ends: bool) -> Iterator[Notice]:
+        """Yield a notice if the greatest stock is more than the protuberance, and no wheel `ends` above the root."""
+        most = self.stock_of(normal_module) + self.stock_tolerance if self.present else 0.0
+        if self.stock_tolerance and not ends and most > self.protuberance:
+            beyond = f"the greatest stock {most:.4g} mm is {most - self.protuberance:.4g} mm more than the protuberance"
+            yield Notice("stock-beyond-protuberance", f"stock: {beyond}: the wheel then reaches the root")
 
 
 @dataclass(frozen=True, kw_only=True)

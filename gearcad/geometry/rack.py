@@ -319,6 +319,7 @@ class Rack(RackData):
         """Return the inputs of the pre-cutting tool and what it leaves (mm)."""
         pre, before = self.premachining, self.precut
         document = asdict(pre) | {
+            "tool_addendum": self.dedendum,
             "stock": self.stock,
             "residual_undercut": self.residual_undercut,
             "greatest_undercut": self.greatest_undercut,
@@ -385,6 +386,7 @@ class Rack(RackData):
         elif self.residual_undercut < 0:
             left = -self.residual_undercut
             yield Notice("grinding-notch", f"grinding notch: {begins}, where the wheel leaves a step of {left:.4f} mm")
+        yield from self.premachining.notices(self.normal_module, ends=self.finishing.end_depth is not None)
 
     def _repr_html_(self) -> str:
         return rack_html(self, self.profile)

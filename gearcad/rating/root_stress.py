@@ -315,7 +315,8 @@ def finishing_notices(part: Gear | Rack, rating: RootRating[float], root: str) -
     """Yield notices of a grinding notch, and of a stock with a tolerance."""
     if rating.notch is not None:
         size = f"{rating.notch.depth:.4g} mm deep with a radius of {rating.notch.radius:.4g} mm"
-        yield Notice("notch-in-root", f"Y_S is Y_Sg of a grinding notch {size}", root)
+        plain = rating.stress_correction_factor / rating.notch.factor(1.0)
+        yield Notice("notch-in-root", f"Y_S is Y_Sg of a grinding notch {size}; without it Y_S is {plain:.3f}", root)
     if part.premachining.stock_tolerance:
         yield Notice(
             "stock-tolerance", "of both ends of the tolerance of the stock, the root with the greater stress is rated", root

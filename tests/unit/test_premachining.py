@@ -11,6 +11,8 @@ import pytest
 from support.cases import read_cases
 
 from gearcad import BasicRack, Gear, GearPair
+from gearcad.batch.row import flat_document
+from gearcad.core import symbols
 from gearcad.core.errors import GeometryError, InputError, SpecError
 from gearcad.core.records import Role
 from gearcad.designs.reader import read_spec, starter_text
@@ -275,6 +277,87 @@ def test_another_tool_of_the_root_is_refused(tmp_path: Path, other: str) -> None
     (tmp_path / "twice.toml").write_text(_SPEC.replace("face_width", f"{other}\nface_width"), encoding="utf-8")
     with pytest.raises(SpecError, match=other.split(" ")[0].replace(".", r"\.")):
         read_spec(tmp_path / "twice.toml")
+
+
+_OUT_OF_RANGE = [
+    ("premachining.tool_addendum", "5.1"),
+    ("premachining.tool_addendum", "0.0"),
+    ("premachining.tool_tip_radius", "-0.1"),
+    ("premachining.tool_tip_radius", "5.5"),
+    ("premachining.protuberance", "101.0"),
+    ("premachining.protuberance_angle", "46.0"),
+    ("premachining.protuberance_angle", "-1.0"),
+    ("premachining.stock", "101.0"),
+    ("premachining.stock", '"din3972-II"'),
+    ("premachining.stock_tolerance", "-0.01"),
+    ("premachining.topping", "-1.0"),
+    ("premachining.semi_topping.angle", "19.0"),
+    ("premachining.semi_topping.angle", "81.0"),
+    ("premachining.semi_topping.height", "0.0"),
+    ("premachining.tool_pressure_angle", "0.5"),
+    ("premachining.tool_pressure_angle", "46.0"),
+    ("premachining.tool_module", "0.001"),
+    ("premachining.cutter_teeth", "2"),
+    ("premachining.cutter_teeth", "25.5"),
+    ("premachining.cutter_profile_shift", "5.1"),
+    ("finishing.kind", '"honing"'),
+    ("finishing.end_diameter", "3e6"),
+    ("finishing.wheel_tip_radius", "0.0"),
+    ("finishing.notch_depth", "-0.1"),
+]
+"""Keys and values that no gear can have."""
+
+_OF_GEARS_ALONE = ("premachining.tool_p", "premachining.tool_m", "premachining.cutter", "finishing.")
+_OF_RACKS = [
+    *(each for each in _OUT_OF_RANGE if not each[0].startswith(_OF_GEARS_ALONE)),
+    ("finishing.end_depth", "1001.0"),
+    ("finishing.wheel_tip_radius", "101.0"),
+    ("finishing.notch_depth", "101.0"),
+]
+
+_PLAIN_GEAR = "[gear]\nteeth = 25\nnormal_module = 3.0\nface_width = 20.0\n"
+_PLAIN_RACK = "[rack]\nteeth = 8\nnormal_module = 3.0\nface_width = 20.0\nheight = 20.0\n"
+_OF_TOOL = {
+    "tool_addendum": "1.4",
+    "tool_tip_radius": "0.3",
+    "protuberance": "0.14",
+    "protuberance_angle": "8.0",
+    "stock": "0.1",
+}
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "value"),
+    [("gear", *each) for each in _OUT_OF_RANGE] + [("rack", *each) for each in _OF_RACKS],
+    ids=lambda each: each.replace("premachining", "pre"),
+)
+def test_a_value_out_of_range_is_refused_in_one_line(part: str, key: str, value: str, tmp_path: Path) -> None:
+    """The line has the key, the value, and what is permitted."""
+    keys = {f"premachining.{name}": text for name, text in _OF_TOOL.items()} | {key: value}
+    lines = "".join(f"{name} = {text}\n" for name, text in keys.items())
+    (tmp_path / "out.toml").write_text((_PLAIN_GEAR if part == "gear" else _PLAIN_RACK) + lines, encoding="utf-8")
+    with pytest.raises(SpecError) as caught:
+        read_spec(tmp_path / "out.toml")
+    text = str(caught.value)
+    assert "\n" not in text
+    assert f"{part}.{key} = " in text
+    assert "must be" in text
+
+
+def test_data_tell_the_addendum_of_din_3972_and_a_stock_beyond_the_protuberance() -> None:
+    third = cut_before(stock="din3972-III", tool_addendum=None, normal_module=8.0, protuberance=0.2)
+    assert third.to_dict()["premachining"]["tool_addendum"] == pytest.approx(1.25 + 0.25 * 2 / 8)
+    codes = [notice.code for notice in cut_before(stock=0.13, stock_tolerance=0.02).notices]
+    assert "stock-beyond-protuberance" in codes
+    assert "stock-beyond-protuberance" not in [notice.code for notice in cut_before(stock_tolerance=0.02).notices]
+
+
+def test_columns_of_tables_have_the_stock_and_the_sizes_before_finishing() -> None:
+    columns = dict(flat_document({"gear": cut_before(stock_tolerance=0.02).to_dict()}))
+    named = ("residual_undercut", "root_form_diameter", "precut.span_measurement", "precut.over_balls", "least_stock.stock")
+    assert {f"gear.premachining.{name}" for name in named} < columns.keys()
+    assert columns["gear.form_diameter"] == columns["gear.premachining.root_form_diameter"]
+    assert {symbols.GEAR[f"premachining.{name}"].symbol for name in named} == {"s_pr", "d_Ff", "W_k", "M_dK", "q"}
 
 
 def test_plain_gears_say_nothing_of_it() -> None:
