@@ -25,6 +25,7 @@ from gearcad.geometry.gear_parts import DoubleHelix
 from gearcad.geometry.gear_pictures import gear_html
 from gearcad.geometry.gear_tools import chamfering_ramp, corner_notices, fillet_tool, root_outline, shaper_tip
 from gearcad.geometry.inspection import Inspection, ThicknessLimits, inspection_of
+from gearcad.geometry.making import Making
 from gearcad.geometry.modification import FlankForm, FlankModification, check_flanks
 from gearcad.geometry.premachining import Finishing
 from gearcad.geometry.profile import LEAST_LAND, InternalProfile, ToothProfile
@@ -305,7 +306,7 @@ class Gear(GearData):
         if not self.premachining.present:
             return self
         given = {each.name: getattr(self, each.name) for each in fields(self)}
-        before = {"tooth_allowance": None, "modification": FlankModification(), "finishing": Finishing()}
+        before = {"tooth_allowance": None, "modification": FlankModification(), "finishing": Finishing(), "making": Making()}
         return PrecutGear(**given | before | {"tooth_thinning": float(self.tooth_thinning)})
 
     @property
