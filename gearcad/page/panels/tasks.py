@@ -58,7 +58,9 @@ class TasksPanel:
                 form.set_visibility(key == chosen)
 
         titles = {SizePanel.kind: words["pair"], SetSizePanel.kind: words["planetary set"]}
-        choice = ui.toggle(titles, on_change=lambda event: show(str(event.value))).props("dense no-caps unelevated")
+        choice = ui.toggle(titles, on_change=lambda event: show(str(event.value))).props(
+            "dense no-caps unelevated toggle-color=none toggle-text-color=none"
+        )
         choice.classes("task-choice")
         for panel in (SizePanel, SetSizePanel):
             with ui.element("div") as forms[panel.kind]:
