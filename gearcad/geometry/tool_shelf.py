@@ -30,7 +30,8 @@ from gearcad.core.errors import (
 )
 from gearcad.core.quantities import FieldSchema, is_given, schema_of
 from gearcad.core.runtime import templates
-from gearcad.geometry.gear_parts import BasicRack, NormalModule, ShaperCutter, module_of_pitch
+from gearcad.core.units import module_of_pitch
+from gearcad.geometry.gear_parts import BasicRack, NormalModule, ShaperCutter
 from gearcad.geometry.premachining import Premachining
 
 if TYPE_CHECKING:
