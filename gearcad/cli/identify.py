@@ -16,7 +16,7 @@ from gearcad.core.quantities import FieldSchema, schema_of
 from gearcad.identify.measurements import Gauge, Measurements
 
 if TYPE_CHECKING:
-    from gearcad.identify import Candidate, Identification
+    from gearcad.identify import Candidate, Identification, SplineIdentification
 
 
 _COLUMNS = 4
@@ -112,6 +112,7 @@ def _option(name: str, field: FieldSchema) -> dict[str, Any]:
 @click.command(short_help="The standard gear that was measured: module, pressure angle, shift.")
 @click.argument("file", required=False, type=click.Path(path_type=Path))
 @_reading_options
+@click.option("--spline", is_flag=True, help="It is a spline: which shaft, or hub with Z below 0.")
 @click.option("--count", type=int, default=5, show_default=True, metavar="N", help="Most candidates that are listed.")
 @click.option("--write", type=click.Path(path_type=Path), metavar="FILE", help="Write the spec of a candidate.")
 @click.option("--candidate", type=int, default=1, show_default=True, metavar="N", help="Which one.")
@@ -121,6 +122,7 @@ def _option(name: str, field: FieldSchema) -> dict[str, Any]:
 @debug_option
 def identify(
     file: Path | None,
+    spline: bool,
     count: int,
     write: Path | None,
     candidate: int,
@@ -141,6 +143,7 @@ def identify(
     gearcad identify measured.toml
     gearcad identify --teeth 24 --tip-diameter 52.02 --root-diameter 43.01 --span 3:15.40 --span 4:21.30
     gearcad identify --teeth 31 --tip-diameter 74.6 --over-pins 3.5:75.52 --tip-helix-angle 16
+    gearcad identify --spline --teeth 22 --tip-diameter 29.7 --span 4:13.53
     gearcad identify --teeth 30 --tip-diameter 81.2+-0.2 --centre-distance 101.6 --mate-teeth 50
     """
     from gearcad.core.output import json_text
@@ -151,6 +154,9 @@ def identify(
         require_new_file(write, force)
     if not 1 <= candidate <= count:
         raise ParameterError("candidate", candidate, f"must be a whole number from 1 to {count}, as many as are listed")
+    if spline:
+        _identify_spline(_measurements(file, given), count, candidate, write, as_json, quiet)
+        return
     found = identify_measured(_measurements(file, given), count)
     chosen = _chosen(found, candidate)
     if write is not None:
@@ -167,6 +173,59 @@ def identify(
             say(f"Next: gearcad data {write}", err=True)
     if not found.fits:
         click.get_current_context().exit(1)
+
+
+def _identify_spline(given: Measurements, count: int, number: int, write: Path | None, as_json: bool, quiet: bool) -> None:
+    """Show the splines that readings may be of, and write the spec of one of them."""
+    from gearcad.core.output import json_text, staged_files
+    from gearcad.designs.spec_writers import toml_text
+    from gearcad.identify.splines import identify_spline
+    from gearcad.jobs.job import with_summary
+
+    found = identify_spline(given.measured, count)
+    if number > len(found.candidates):
+        permitted = f"must be a whole number from 1 to {len(found.candidates)}, as many as there are"
+        raise ParameterError("candidate", number, permitted)
+    if write is not None:
+        keys = {"name": write.stem, "designation": found.candidates[number - 1].designation}
+        text = toml_text({"spline": keys}, ["identified from measurements, without a tolerance class"])
+        with staged_files(write.parent) as staging:
+            (staging / write.name).write_text(text, encoding="utf-8")
+    if as_json:
+        click.echo(json_text(with_summary(found.to_dict())), nl=False)
+    else:
+        say("\n".join(_spline_lines(found)))
+        if write is not None:
+            click.echo(write)
+    if write is not None and not quiet:
+        say(f"Next: gearcad data {write}", err=True)
+    if not found.fits:
+        click.get_current_context().exit(1)
+
+
+def _spline_lines(found: SplineIdentification) -> Iterator[str]:
+    """Yield the candidates with their misfit and residuals, and the verdict."""
+    labels = [found.measured.label(each) for each in found.measured.readings]
+    rows = [("", "designation", "root", "x", "size mm", "basic mm", "misfit")]
+    for number, each in enumerate(found.candidates, 1):
+        joint = each.spline.joint
+        sizes = (f"{joint.profile_shift:.3f}", f"{each.size:.3f}", f"{each.spline.basic_size:.3f}", f"{each.misfit:.2f}")
+        rows.append((f"{number}", each.designation, each.spline.root, *sizes))
+    yield from _aligned(rows, left=(1, 2))
+    yield ""
+    shown = found.candidates[:_COLUMNS]
+    off = [("off, in uncertainties", *(f"{number}" for number in range(1, len(shown) + 1)))]
+    off += [(label, *(f"{each.residuals[place]:+.1f}" for each in shown)) for place, label in enumerate(labels)]
+    yield from _aligned(off, left=(0,))
+    yield ""
+    if not found.fits:
+        yield "No spline of a standard fits: a reading is wrong, or it is another profile"
+    elif found.rivals:
+        others = ", ".join(each.designation for each in found.rivals)
+        yield f"Ambiguous: {found.best.designation}, or {others}"
+        yield "What would decide: a span, and a size over or between pins"
+    else:
+        yield f"Certain: {found.best.designation} fits, and no other size does"
 
 
 def _measurements(file: Path | None, given: dict[str, Any]) -> Measurements:

@@ -273,7 +273,7 @@ _DIN = re.compile(
 )
 _ISO_LIKE = re.compile(
     rf"(?:(?:ISO\s*4156|GB/T\s*3478(?:\.1)?|ANSI\s*B92\.1)\s*[-–:]?\s*)?(INT|EXT|INT/EXT)\s+(\d+)\s*[zT]?{_TIMES}"
-    rf"{_NUMBER}(m|P|/{_NUMBER}P?){_TIMES}{_NUMBER}\s*([PR]){_TIMES}([\w]+)(?:\s*/\s*([\w]+))?",
+    rf"{_NUMBER}(m|P|/{_NUMBER}P?){_TIMES}{_NUMBER}\s*([PR])(?:{_TIMES}([\w]+)(?:\s*/\s*([\w]+))?)?",
 )
 _ROOT_LETTERS = {"P": "flat", "R": "fillet"}
 _DIN_PARTS = {"W": SHAFT, "N": HUB}
@@ -367,10 +367,16 @@ def _iso_designation(whole: str, found: re.Match[str]) -> Designation:
         )
     parts = [part for part, name in ((HUB, "INT"), (SHAFT, "EXT")) if name in found[1].split("/")]
     fits = [each for each in (found[8], found[9]) if each is not None]
-    if len(fits) != len(parts):
+    if fits and len(fits) != len(parts):
         raise ParameterError("designation", whole, "must have a class for each part, as in 5H/5f behind INT/EXT")
     values = {**size, "teeth": int(found[2]), "pressure_angle": angle}
-    return Designation(standard, values, {part: {"fit": fit, "root": root} for part, fit in zip(parts, fits, strict=True)})
+    return Designation(standard, values, _classed(parts, fits, root))
+
+
+def _classed(parts: list[str], fits: list[str], root: str) -> dict[str, dict[str, str]]:
+    """Return root and tolerance class of each part, as far as they are said."""
+    classes = [{"fit": fit} for fit in fits] or [{} for _ in parts]
+    return {part: {"root": root, **each} for part, each in zip(parts, classes, strict=True)}
 
 
 def _number(text: str) -> float:
