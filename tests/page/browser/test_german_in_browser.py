@@ -100,7 +100,7 @@ def _open(tab: Any, name: str, text: str) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(each, marks=[] if each in ("reducer-21-43", "planetary-alm") else pytest.mark.long) for each in STARTERS],
+    [pytest.param(each, marks=[] if each == "reducer-21-43" else pytest.mark.long) for each in STARTERS],
 )
 def test_the_page_of_a_starter_is_german(tab: Any, name: str) -> None:
     _open(tab, name, STARTERS[name])

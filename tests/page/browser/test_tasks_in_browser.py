@@ -102,6 +102,7 @@ def test_from_an_empty_page_to_a_pair_that_holds_and_its_drawing(begun: Tab) -> 
     print(f"{clicks} clicks, {len(TASK) + 1} values, {time.monotonic() - began:.0f} s")
 
 
+@pytest.mark.long
 def test_the_keyboard_alone_takes_a_pair_and_nothing_is_lost(begun: Tab) -> None:
     """One candidate after the other is taken at once; work on one of them is asked about; undo brings the empty page back."""
     page = begun.page
@@ -200,7 +201,7 @@ def test_a_chart_is_fetched_when_it_is_drawn_and_a_cell_of_a_map_is_taken(tab: T
     assert page.input_value('[data-key="pair.face_width"] input >> nth=0') == "33"
 
 
-@pytest.mark.parametrize("language", ["en", "de"])
+@pytest.mark.parametrize("language", [pytest.param("en", marks=pytest.mark.long), "de"])
 def test_no_number_is_cut_and_nothing_is_small(begun: Tab, language: str) -> None:
     page = begun.page
     page.goto(f"{begun.address}?design={EMPTY}&lang={language}")

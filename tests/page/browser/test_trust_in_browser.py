@@ -191,7 +191,7 @@ def _restarted(own: Tab, tmp_path: Path) -> None:
     own.server = serve(tmp_path / "mine.toml", "--token", TOKEN, "--port", port)[0]  # type: ignore[attr-defined]
 
 
-@pytest.mark.parametrize("where", ["field", "text"])
+@pytest.mark.parametrize("where", [pytest.param("field", marks=pytest.mark.long), "text"])
 def test_what_is_typed_while_the_server_is_away_is_sent_when_it_is_back(own: Tab, tmp_path: Path, where: str) -> None:
     own.page.wait_for_function("window.location.search.includes('design=')")
     before = own.page.evaluate("window.location.search")
