@@ -39,6 +39,7 @@ gearcad.core.errors.ParameterError: load = 60: must be a Load
     planetary(train, load)         speeds, torques, assembly, load sharing, stiffness and modes of a planetary train
     modify(pair, load)             tip relief and crowning for the load
     identify(teeth, ...)           the standard gears that measured diameters, spans or pins may be of
+    tools(pair)                    the tools of the shelf that would cut the gears, with the root that each would leave
 
 `gearcad.plots` draws gears and results, a call for each picture; a notebook shows them without one.
 
@@ -101,6 +102,7 @@ __getattr__, _, _names = lazy_loader.attach(
         "jobs.mesh": ["mesh"],
         "jobs.modify": ["modify"],
         "jobs.strength": ["rate"],
+        "jobs.tools": ["tools"],
         "jobs.verification": ["verify"],
         "load": ["Load"],
         "material": ["Material"],

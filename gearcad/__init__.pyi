@@ -54,6 +54,7 @@ from .jobs.searches import identify as identify
 from .jobs.strength import check as check
 from .jobs.strength import rate as rate
 from .jobs.strength import stiffness as stiffness
+from .jobs.tools import tools as tools
 from .jobs.verification import verify as verify
 from .load import Load as Load
 from .material import Material as Material

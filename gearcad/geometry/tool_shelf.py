@@ -158,7 +158,7 @@ def _values_of(instance: Any, kind: type[DataclassInstance]) -> Iterator[tuple[s
         value = getattr(instance, name)
         if schema.part is not None:
             yield from ((f"{name}.{key}", inner) for key, inner in _values_of(value, schema.part))
-        elif value is not None:
+        elif value is not None and (kind is BasicRack or value != schema.default):
             yield name, value
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["VERBS", "WITHOUT_DESIGN", "job_of"]
 
 VERBS = ("data", "build", "draw", "picture", "verify", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")
-WITHOUT_DESIGN = ("identify",)
+WITHOUT_DESIGN = ("identify", "tools")
 """Verbs that begin without a design: functions, and no jobs."""
 
 _MODULES = {

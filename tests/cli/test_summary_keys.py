@@ -52,6 +52,8 @@ COMMANDS = {
     "planetary": "planetary planetary.toml",
     "planetary sets": "planetary --ratio 5 --module 2 --planets 3",
     "identify": "identify --teeth 24 --tip-diameter 52.02 --root-diameter 43.01",
+    "tools": "tools",
+    "tools of a design": "tools pair.toml -o output/tools",
     "size": f"size {SIZE}",
     "batch": "batch gears.csv --do data",
 }
