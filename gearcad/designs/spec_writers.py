@@ -304,7 +304,7 @@ def pair_keys(sized: SizedPair) -> dict[str, dict[str, Any]]:
             "normal_module": sized.normal_module,
             "helix_angle": sized.helix_angle,
             "face_width": sized.face_width,
-            **_changed_fields("rack.", task.rack, ISO53_A),
+            **(_changed_fields("rack.", task.rack, ISO53_A) if task.tool is None else {"tool": str(task.tool)}),
         },
         "pinion": {"teeth": sized.teeth.pinion, "profile_shift": sized.pinion_shift},
         "wheel": {"teeth": sized.teeth.wheel, "profile_shift": AUTO},

@@ -10,13 +10,16 @@ from gearcad.core.errors import require_whole
 from gearcad.core.output import json_text, staged_files
 from gearcad.core.records import JsonObject, grouped, texts
 from gearcad.designs.spec_writers import sized_pair_text, sized_set_text, write_front, write_pairs, write_sized_sets
+from gearcad.geometry.tool_shelf import FILE as TOOLS
+from gearcad.geometry.tool_shelf import Place, ShelfTool
 from gearcad.identify.candidates import Deciding, Identification
 from gearcad.identify.measurements import ANGLES, Gauge, Measurements, Reading, Value
 from gearcad.identify.search import identify_gear
 from gearcad.jobs.job import with_summary
+from gearcad.jobs.tools import write_tool_table
 from gearcad.plots.ratings import save_front
 from gearcad.rating.strength import RatedPart
-from gearcad.sizing import SizedPair, Sizing
+from gearcad.sizing import SizedPair, SizeTask, Sizing
 from gearcad.sizing.planetary_sets import SetSizeTask, SizedSet, SizedSets
 from gearcad.sizing.proposals import unjudged_scuffing
 
@@ -40,8 +43,17 @@ def write_sizing(result: Sizing, folder: Path) -> list[Path]:
             (staging / _BEST).write_text(pair_spec(best), encoding="utf-8")
             write_front(result, staging / _FRONT)
             save_front(result, staging / _PICTURE)
+            if own := _own_tools(result.task, folder):
+                names = [*names, TOOLS]
+                write_tool_table(own, staging / TOOLS)
         (staging / _DOCUMENT).write_text(json_text(size_document(result)), encoding="utf-8")
     return [folder / name for name in names]
+
+
+def _own_tools(task: SizeTask, folder: Path) -> list[ShelfTool]:
+    """Return the tools that the specs in a folder name and that only the table here has; none where one is there already."""
+    found = [name.tool for name in task.hobs.values() if name.tool is not None and name.tool.place is Place.DESIGN]
+    return [] if (folder / TOOLS).exists() else list(dict.fromkeys(found))
 
 
 def pair_spec(pair: SizedPair, place: int = 1) -> str:

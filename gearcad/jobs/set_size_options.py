@@ -42,7 +42,7 @@ SET_OPTIONS = (
 """The options that only a search for sets has, in the order of use."""
 
 OF_PAIRS = (
-    *("centre_distance", "max_mass", "shift", "shift_sum", "max_width", "contact_ratio", "tip_thickness", "rack", "by"),
+    *("centre_distance", "max_mass", "shift", "shift_sum", "max_width", "contact_ratio", "tip_thickness", "rack", "tool", "by"),
     "errors",
 )
 """Options of pairs that sets do not have."""

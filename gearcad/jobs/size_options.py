@@ -73,6 +73,7 @@ SIZE_OPTIONS = (
     SizeOption("contact_ratio", float, "EPS", "Least transverse.  [default: 1.2]", "task.least_contact_ratio"),
     SizeOption("tip_thickness", float, "S/M", "Least, in modules.  [default: 0.2; Eh 0.4]", "task.least_tip_thickness"),
     SizeOption("rack", str, "NAME", "A, B, C or D of ISO 53.  [default: A]", "task.rack"),
+    SizeOption("tool", str, "NAME", "A hob of the shelf in place of the rack (gearcad tools).", "task.tool"),
     SizeOption("by", str, "CRITERION", "mass, safety, quiet, sliding or scuffing.  [default: mass]", "task.criterion"),
 )
 """The options of a search for pairs, in the order of use."""
@@ -153,9 +154,23 @@ def _task(given: Mapping[str, Any]) -> SizeTask:
         if (rack := racks.get(given["rack"].upper())) is None:
             raise ParameterError("rack", given["rack"], "must be A, B, C or D, a basic rack of ISO 53")
         fields["rack"] = rack
+    if given["tool"] is not None:
+        if given["rack"] is not None:
+            raise ParameterError("tool", given["tool"], "must not stand beside --rack")
+        fields["tool"] = given["tool"]
+        if "modules" not in fields and (own := _modules_of_tool(given["tool"])):
+            fields["modules"] = own
     if given["by"] is not None:
         fields["criterion"] = given["by"]
     return SizeTask(load=load_of(given), materials=PerGear(pinion, wheel), rating=rating_of(given), **fields)
+
+
+def _modules_of_tool(name: str) -> tuple[float, ...]:
+    """Return the modules (mm) for which a tool is on the shelf; none for one that is there for every module."""
+    from gearcad.geometry.tool_shelf import Shelf
+
+    modules = [row.module for row in Shelf().named(name)]
+    return () if None in modules else tuple(module for module in modules if module is not None)
 
 
 def load_of(given: Mapping[str, Any]) -> Load:

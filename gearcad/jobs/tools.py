@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -256,7 +256,7 @@ def write_tools(result: ShelfTools | ToolChoices, folder: Path) -> list[Path]:
         raise ParameterError("output", str(folder), "must be left out: no tool of the shelf would cut these gears")
     with staged_files(folder) as staging:
         (staging / "tools.json").write_text(json_text(with_summary(result.to_dict())), encoding="utf-8")
-        _write_table(listed, staging / FILE)
+        write_tool_table(listed, staging / FILE)
     return [folder / "tools.json", folder / FILE]
 
 
@@ -264,7 +264,7 @@ def _found_tools(result: ToolChoices) -> tuple[ShelfTool, ...]:
     return tuple(dict.fromkeys(choice.tool for each in result.gears.values() for choice in each.choices))
 
 
-def _write_table(listed: tuple[ShelfTool, ...], path: Path) -> None:
+def write_tool_table(listed: Sequence[ShelfTool], path: Path) -> None:
     """Write a table of tools that a design can use."""
     keys = list(dict.fromkeys(key for tool in listed for key in tool.keys))
     rows = [

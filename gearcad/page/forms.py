@@ -17,6 +17,7 @@ from gearcad.jobs.modify import Modify
 from gearcad.jobs.set_size_options import SET_OPTIONS, set_option_fields, set_task_of, shared_options
 from gearcad.jobs.size_options import SIZE_OPTIONS, SizeOption, option_fields, task_of
 from gearcad.material import MaterialGroup, MaterialQuality
+from gearcad.page.fields import tool_names
 from gearcad.planetary.members import SetType
 from gearcad.sizing.task import Criterion
 
@@ -209,6 +210,8 @@ def _set_choices(name: str) -> tuple[str, ...]:
 def _size_choices(name: str) -> tuple[str, ...]:
     if name in ("material", "wheel_material"):
         return tuple(f"{group} {quality}" for group in MaterialGroup for quality in MaterialQuality)
+    if name == "tool":
+        return tool_names()
     if name == "by":
         return tuple(each.value for each in Criterion)
     return tuple(each.removeprefix("ISO53_") for each in NAMED_RACKS) if name == "rack" else ()
@@ -285,7 +288,7 @@ def _size_options(given: dict[str, str], comma: bool) -> dict[str, Any]:
     return options | {"count": count, "errors": errors}
 
 
-_TEXTS = ("material", "wheel_material", "rack", "by", "type", "fixed", "in", "out")
+_TEXTS = ("material", "wheel_material", "rack", "tool", "by", "type", "fixed", "in", "out")
 """Options whose texts are no numbers."""
 
 

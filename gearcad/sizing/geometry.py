@@ -129,6 +129,13 @@ class PairedTeeth(ManyTeeth):
     """Teeth of one gear of many pairs. Both gears have the section of the `pairs`, whose angles are found once."""
 
     pairs: Toothed[Numbers]
+    tip_radius: Numbers | None = None
+    """Tip radius of the tool (normal modules) where it goes with the module."""
+
+    @property
+    def root_radius(self) -> Numbers:
+        """Radius of the tool's tip in normal modules."""
+        return super().root_radius if self.tip_radius is None else self.tip_radius
 
     @property
     def helix_cosine(self) -> Numbers:
@@ -165,6 +172,7 @@ class ManyPairs(Columns, PairSizes[Numbers], Toothed[Numbers]):
     centre_distance: Floats
     shifts: PerGear[Floats]
     rack: BasicRack
+    tip_radius: Floats | None = None
 
     # ------------------------------------------------------------------ teeth
 
@@ -182,6 +190,7 @@ class ManyPairs(Columns, PairSizes[Numbers], Toothed[Numbers]):
             profile_shift=self.shifts.pick(role),
             rack=self.rack,
             tip_alteration=self.tip_alteration,
+            tip_radius=self.tip_radius,
         )
 
     @cached_property

@@ -143,6 +143,8 @@ class SizedPair:
         shifts = PerGear(self.pinion_shift, self.shift_sum - self.pinion_shift)
         hands = PerGear(self.helix_angle, -self.helix_angle + 0.0)
 
+        hob = self.task.hobs.get(self.normal_module)
+
         def gear(name: str, teeth: int, shift: float, helix: float) -> Gear:
             return Gear(
                 name=name,
@@ -152,7 +154,8 @@ class SizedPair:
                 helix_angle=helix,
                 profile_shift=shift,
                 tip_alteration=alteration,
-                rack=self.task.rack,
+                tool=hob,
+                rack=self.task.rack if hob is None or hob.tool is None else hob.tool.rack,
             )
 
         gears = PerGear(*map(gear, PerGear._fields, self.teeth, shifts, hands))
@@ -241,6 +244,7 @@ class Sizing(Pictured):
                 "materials": {role.value: asdict(material) for role, material in task.materials.items()},
                 "rating": asdict(task.rating),
                 "rack": asdict(task.rack),
+                **({} if task.tool is None else {"tool": str(task.tool)}),
             },
             "found": [each.to_dict() for each in self.found],
             "considered": self.considered,

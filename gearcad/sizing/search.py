@@ -45,6 +45,12 @@ class VariantGrid:
         pairs = np.array(self.task.teeth_pairs, float).reshape(-1, 2)
         return pairs[:, 0], pairs[:, 1]
 
+    @cached_property
+    def _radii(self) -> Floats | None:
+        """Tip radius of the tool by module (normal modules); None where it is the same for all."""
+        radii = self.task.root_radii
+        return None if radii is None else np.array(radii)
+
     @property
     def _shape(self) -> tuple[int, ...]:
         task = self.task
@@ -83,6 +89,7 @@ class VariantGrid:
             centre_distance=distance,
             shifts=PerGear(x_1, shift_sum_at(distance, z_1 + z_2, m_n, beta, angle) - x_1),
             rack=task.rack,
+            tip_radius=None if self._radii is None else self._radii[module],
         )
 
 

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import cached_property
 from typing import Annotated, Any
 
-from gearcad.core.errors import ParameterError, is_finite_number
+from gearcad.core.errors import GeometryError, ParameterError, is_finite_number
 from gearcad.core.quantities import LENGTH, Range, Whole, Words, require_fields
 from gearcad.core.records import PerGear, concise, naming
 from gearcad.geometry import ISO53_A, BasicRack
 from gearcad.geometry.gear_parts import ISO_54_I, ISO_54_II
+from gearcad.geometry.tool_shelf import ToolName, find_tool
 from gearcad.load import Load
 from gearcad.material import Material, MaterialGroup
 from gearcad.rating.material_limits import EnduranceLimits, endurance_limits
@@ -71,7 +73,8 @@ class SizeTask:
     The wheel has every number of teeth within `ratio_tolerance` (%). `max_diameter` is the most of any tip circle, `max_mass`
     (kg) of both gears, None REACH times that of the lightest where another criterion than mass comes first, and
     `max_width_in_modules` that of b/m_n; `least_tip_thickness` (normal modules) None is 0.4 where case-hardened, else 0.2. The
-    order of tuples has no say. Raises ParameterError.
+    order of tuples has no say. A `tool` of the shelf, a hob that makes all of the teeth, stands in place of the `rack`; its tip
+    radius may go with the module. Raises ParameterError, SpecError for a table of tools with a fault.
     """
 
     load: Load
@@ -79,6 +82,7 @@ class SizeTask:
     materials: PerGear[Material]
     rating: RatingOptions = field(default=RatingOptions())
     rack: Annotated[BasicRack, Words("basic rack of ISO 53")] = field(default=ISO53_A)
+    tool: Annotated[str | None, Words("tool of the shelf")] = None
     ratio_tolerance: Annotated[float, Range("%", 0.0, 50.0), Words("most deviation of the ratio")] = 2.0
     teeth: Annotated[tuple[int, int], Words("numbers of teeth of the pinion, least and most", "z_1")] = (14, 40)
     modules: Annotated[tuple[float, ...], Words("normal modules", "m_n")] = ISO_54_I[:11]
@@ -105,8 +109,42 @@ class SizeTask:
         self._check_teeth()
         for name, permitted in _RANGES.items():
             object.__setattr__(self, name, _sorted(name, getattr(self, name), permitted))
+        self._take_tool()
         self._check_variants()
         self._check_limits()
+
+    def _take_tool(self) -> None:
+        """Take the rack of the tool, if there is one. Raises ParameterError unless it cuts every module that is tried."""
+        if self.tool is None:
+            return
+        tools = {module: name.tool for module, name in self.hobs.items() if name.tool is not None}
+        rack = next(iter(tools.values())).rack
+        for module, tool in tools.items():
+            if tool.kind != "hob":
+                raise ParameterError("tool", tool.name, f"must be a hob that makes all of the teeth; this is a {tool.kind}")
+            if replace(tool.rack, root_radius=0.0) != replace(rack, root_radius=0.0):
+                raise ParameterError("tool", tool.name, f"must have one depth for all modules; that of {module:g} mm differs")
+        if self.rack not in (ISO53_A, rack):
+            raise ParameterError("tool", str(self.tool), "must be left out where a rack is given")
+        object.__setattr__(self, "rack", rack)
+
+    @cached_property
+    def hobs(self) -> dict[float, ToolName]:
+        """The tool by the modules that are tried; none without one. Raises ParameterError and SpecError."""
+        if self.tool is None:
+            return {}
+        try:
+            return {module: find_tool(self.tool, module) for module in self.modules}
+        except GeometryError as error:
+            raise ParameterError("tool", error.value, error.permitted) from None
+
+    @property
+    def root_radii(self) -> tuple[float, ...] | None:
+        """Tip radius of the tool by module (normal modules); None where it is the same for all."""
+        racks = [name.tool.rack for name in self.hobs.values() if name.tool is not None]
+        if len({rack.root_radius for rack in racks}) < 2:
+            return None
+        return tuple(rack.full_root_radius() if rack.root_radius == "full" else float(rack.root_radius) for rack in racks)
 
     def _check_variants(self) -> None:
         """Check that there are variants, and not too many to try all."""

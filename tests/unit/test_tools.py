@@ -3,6 +3,7 @@
 import json
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,14 +11,17 @@ import pytest
 from click.testing import CliRunner
 from scipy.spatial import cKDTree
 
-from gearcad import BasicRack, Gear, GearPair, tools
+from gearcad import ISO53_D, BasicRack, Gear, GearPair, Load, Material, PerGear, rate, tools
 from gearcad.cli import main
 from gearcad.core.errors import ParameterError, SpecError
 from gearcad.designs.reader import read_spec, starter_text
 from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.tool_outlines import fillet_distance, with_tool
 from gearcad.geometry.tool_shelf import Place, ShelfTool
+from gearcad.jobs.searches import pair_spec
 from gearcad.jobs.tools import ShelfTools, ToolChoice, ToolChoices
+from gearcad.rating import RatingOptions
+from gearcad.sizing import SizeTask, search_pairs
 
 HEADING = "name,normal_module,rack.pressure_angle,rack.dedendum,rack.root_radius,cutter.teeth,cutter.tip_radius\n"
 
@@ -164,6 +168,55 @@ def test_the_command_lists_within_a_hundred_columns_and_as_a_document(starter: s
             assert found["holds"] is (found["faults"] == [])
             if found["root_diameter"] is not None:
                 assert found["root_difference"] == pytest.approx(found["root_diameter"] - each["root_diameter"])
+
+
+def test_a_search_for_sizes_takes_a_hob_in_place_of_the_rack(here: Path) -> None:
+    """Its tip radius goes with the module; the figures of the search are those of the full rating."""
+    material = Material(name="Eh MQ")
+    task = SizeTask(
+        load=Load(torque=100.0, speed=1500.0),
+        ratio=2.0,
+        materials=PerGear(material, material),
+        rating=RatingOptions(life=10_000.0),
+        teeth=(18, 18),
+        modules=(1.75, 2.25, 3.0),
+        helix_angles=(15.0,),
+        shifts=(0.3,),
+        shift_sums=(0.5,),
+    )
+    rack = search_pairs(replace(task, rack=ISO53_D), count=3, errors=0)
+    hob = search_pairs(replace(task, tool="ISO 53 D"), count=3, errors=0)
+    assert [(each.name, each.root_safeties) for each in hob.found] == [(each.name, each.root_safeties) for each in rack.found]
+    found = search_pairs(replace(task, tool="DIN 3972 II"), count=3, errors=0).found
+    assert len({each.normal_module for each in found}) > 1
+    for each in found:
+        radius = {1.75: 0.25 / 1.75, 2.25: 0.4 / 2.25, 3.0: 0.2}[each.normal_module]
+        assert each.pair().wheel.root_radius == pytest.approx(radius, abs=1e-9)
+        rated = rate(each.pair(), task.load, material=material, rating=task.rating)
+        assert each.root_safeties == pytest.approx([part.safety for part in rated.root], rel=1e-9)
+    (here / "best.toml").write_text(pair_spec(found[0]), encoding="utf-8")
+    assert 'tool = "DIN 3972 II"' in (here / "best.toml").read_text(encoding="utf-8")
+    assert {str(each.tool) for each in read_spec("best.toml").gears.values()} == {"DIN 3972 II"}
+
+
+def test_a_hob_of_the_folder_goes_with_the_results_of_a_search(here: Path) -> None:
+    (here / "tools.csv").write_text(HEADING + "mine,2.5,20,1.3,0.3,,\n", encoding="utf-8")
+    words = "size --torque 100 --ratio 2 --speed 1500 --teeth 18 --helix-angle 15 --errors 0 --count 1 --quiet"
+    done = CliRunner().invoke(main, [*words.split(), "--material", "Eh MQ", "-o", "found", "--tool", "mine"])
+    assert done.exit_code == 0, done.output
+    for each in read_spec("found/best.toml").gears.values():
+        assert (str(each.tool), each.rack.dedendum, each.normal_module) == ("mine", 1.3, 2.5)
+
+
+@pytest.mark.parametrize(
+    ("tool", "told"),
+    [("DIN 3972 III", "must be a hob that makes all of the teeth; this is a hob before finishing"), ("X", "must be a tool of")],
+)
+def test_a_search_refuses_other_tools_in_a_line(tool: str, told: str) -> None:
+    words = "size --torque 100 --ratio 2 --speed 1500 --material".split()
+    done = CliRunner().invoke(main, [*words, "Eh MQ", "--tool", tool])
+    assert done.exit_code == 2
+    assert done.stderr.startswith(f"Error: tool = '{tool}': {told}") and done.stderr.count("\n") == 1
 
 
 def test_the_table_that_is_written_is_a_shelf(here: Path) -> None:
