@@ -25,12 +25,15 @@ _COLUMNS = 4
 
 def identification_lines(found: Identification) -> Iterator[str]:
     """Candidates, their residuals, the verdict, and what would decide."""
-    from gearcad.jobs.searches import identification_verdict
+    from gearcad.jobs.searches import identification_verdict, tool_lines
 
     yield from _aligned(_candidate_rows(found), left=(1, 10))
     yield ""
     yield from _aligned(_residual_rows(found), left=(0,))
     yield ""
+    if told := list(tool_lines(found)):
+        yield from told
+        yield ""
     yield from identification_verdict(found)
 
 
@@ -157,7 +160,7 @@ def identify(
     if spline:
         _identify_spline(_measurements(file, given), count, candidate, write, as_json, quiet)
         return
-    found = identify_measured(_measurements(file, given), count)
+    found = identify_measured(_measurements(file, given), count, None if file is None else file.parent)
     chosen = _chosen(found, candidate)
     if write is not None:
         _write(found, chosen, write)

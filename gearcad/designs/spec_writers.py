@@ -626,6 +626,8 @@ def _identified_comments(found: Identification, candidate: GearCandidate) -> Ite
     number = found.candidates.index(candidate) + 1
     share = f"{100 * candidate.probability:.3g} %"
     yield f"Candidate {number} of what was measured, probability {share}; rack: {candidate.rack.name}"
+    if candidate.tools:
+        yield f"its root is left by these tools of the shelf: {', '.join(candidate.tools)}"
     yield "certain" if number == 1 and found.certain else "not certain: see what else there is before this is made"
     yield ""
     yield f"{'':26}{'read':>12}{'uncertainty':>13}{'this gear':>12}"

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
-from gearcad.core.errors import InputError, SolverError
+from gearcad.core.errors import InputError, SolverError, SpecError
 from gearcad.core.quantities import NOT_GIVEN
 from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
 from gearcad.geometry import BasicRack, Gear
+from gearcad.geometry.tool_shelf import ShelfTool, ToolRow
 from gearcad.identify.fit import FittedHypothesis, read_off, touches
-from gearcad.identify.measurements import Measured, Reading
+from gearcad.identify.measurements import Gauge, Measured, Reading
 from gearcad.identify.standards import FREE, StandardRack, Unknown
 
 _DIGITS = 4
@@ -38,6 +41,8 @@ class Candidate:
     predicted: tuple[float, ...]
     residuals: tuple[float, ...]
     off_involute: tuple[Reading, ...]
+    tools: tuple[str, ...] = ()
+    """Names of the tools of the shelf that would leave the root diameter that was measured, the nearest first."""
 
     @property
     def series(self) -> str:
@@ -92,9 +97,32 @@ class Candidate:
             "thinning_uncertainty": self.thinning_uncertainty,
             "tip_alteration": gear.tip_alteration,
             "rack": {"name": self.rack.name, "addendum": gear.rack.addendum, "dedendum": gear.rack.dedendum},
+            "tools": list(self.tools),
             "predicted": list(self.predicted),
             "residuals": list(self.residuals),
         }
+
+    def tools_of(self, measured: Measured, shelf: Sequence[ToolRow]) -> tuple[str, ...]:
+        """Return the names of the tools of a shelf that are of this size and reach as deep as the root that was measured.
+
+        The root diameter d + 2 m_n (x - h_aP0) of each may differ from the reading by two uncertainties of the reading and of
+        making together, with the profile shift of the candidate. Without that reading there are none.
+        """
+        read = measured.find(Gauge.ROOT_DIAMETER)
+        if read is None:
+            return ()
+        gear, off = self.gear, dict[str, float]()
+        may = _ROOT_OFF * math.hypot(read.uncertainty, 2 * gear.normal_module * _DEPTH)
+        for row in shelf:
+            with suppress(SpecError):  # a row with a fault is told where it is used
+                if not _of_size(row.tool, gear):
+                    continue
+                tool = row.tool
+                pre = tool.premachining
+                reach = pre.addendum_of(gear.normal_module) if pre.present else tool.rack.dedendum
+                root = gear.reference_diameter + 2 * gear.normal_module * (gear.profile_shift - reach)
+                off.setdefault(tool.name, abs(abs(root) - read.value))
+        return tuple(sorted((name for name, each in off.items() if each <= may), key=off.__getitem__))
 
     @classmethod
     def of(cls, measured: Measured, fit: FittedHypothesis, probability: float) -> Candidate | None:
@@ -116,6 +144,23 @@ class Candidate:
             ),
             off_involute=tuple(each for each in measured.readings if not on_involute(gear, each)),
         )
+
+
+_DEPTH = 0.005
+"""Uncertainty of the depth to which teeth are cut, in normal modules."""
+
+_ROOT_OFF = 2.0
+"""Uncertainties by which the root of a tool may differ from the one that was measured."""
+
+
+def _of_size(tool: ShelfTool, gear: Gear) -> bool:
+    """Return whether a tool is of the module and pressure angle of a gear; rings are cut by cutters."""
+    if gear.internal and not tool.kind.startswith("cutter"):
+        return False
+    return tool.fits(gear.normal_module) and abs(tool.rack.pressure_angle - gear.rack.pressure_angle) < _SAME_ANGLE
+
+
+_SAME_ANGLE = 1e-9
 
 
 def on_involute(gear: Gear, place: Reading) -> bool:

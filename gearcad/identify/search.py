@@ -6,12 +6,14 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, pairwise
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats
+from gearcad.geometry.tool_shelf import Shelf
 from gearcad.identify.candidates import Candidate, Deciding, Identification, on_involute, variance
 from gearcad.identify.fit import FittedHypothesis, fitted, read_off, sensitivity
 from gearcad.identify.measurements import Gauge, Measured, Reading
@@ -291,9 +293,10 @@ _RUN_LEAST = 1e-4
 _USUAL_UNCERTAINTY = 0.02
 
 
-def identify_gear(measured: Measured, count: int = 10) -> Identification:
+def identify_gear(measured: Measured, count: int = 10, folder: Path | None = None) -> Identification:
     """Return the gears that readings may be of, at most `count`, the most probable first.
 
+    Each names the tools of the shelf that would leave its root; `folder` is that of a table of tools, None the current one.
     Raises GeometryError where no gear of any size comes near them.
     """
     made = [
@@ -307,7 +310,12 @@ def identify_gear(measured: Measured, count: int = 10) -> Identification:
     whole = float(np.logaddexp.reduce([weight for _, weight in made]))
     made.sort(key=lambda each: -each[1])
     likely = [(each, math.exp(weight - whole)) for each, weight in made[:count]]
-    found = tuple(replace(each, probability=share) for each, share in likely if share >= _RUN_LEAST or share == likely[0][1])
+    shelf = list(Shelf(folder or Path()).rows())
+    found = tuple(
+        replace(each, probability=share, tools=each.tools_of(measured, shelf))
+        for each, share in likely
+        if share >= _RUN_LEAST or share == likely[0][1]
+    )
     result = Identification(
         measured=measured, candidates=found, deciding=(), alike=(), chance=_chance(measured, found[0].chi_square)
     )

@@ -217,13 +217,13 @@ def identify(
     return identify_measured(measurements, count)
 
 
-def identify_measured(measurements: Measurements, count: int = 10) -> Identification:
+def identify_measured(measurements: Measurements, count: int = 10, folder: Path | None = None) -> Identification:
     """Return the standard gears that the readings of a file may be of, as `identify` does.
 
-    `read_measurements` reads such a file.
+    `read_measurements` reads such a file; tools of the shelf may be in a table in its `folder`.
     """
     require_whole("count", count, at_least=1, at_most=_MOST)
-    return identify_gear(measurements.measured, count)
+    return identify_gear(measurements.measured, count, folder)
 
 
 _REST = 0.01
@@ -239,6 +239,13 @@ _CLEAR = 2.0
 def reading_text(place: Reading, value: float) -> str:
     """Return a reading as text: degrees with their sign, lengths in mm."""
     return f"{value:.2f}°" if place.gauge in ANGLES else f"{value:.3f}"
+
+
+def tool_lines(found: Identification) -> Iterator[str]:
+    """Yield a line for each candidate that is left and whose root tools of the shelf would leave."""
+    for number, each in enumerate(found.candidates, 1):
+        if each.tools and each in (found.best, *found.rivals):
+            yield f"{number}: its root is left by {', '.join(each.tools)}"
 
 
 def identification_verdict(found: Identification) -> Iterator[str]:

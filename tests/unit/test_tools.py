@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 from scipy.spatial import cKDTree
 
-from gearcad import ISO53_D, BasicRack, Gear, GearPair, Load, Material, PerGear, rate, tools
+from gearcad import ISO53_D, BasicRack, Gear, GearPair, Load, Material, PerGear, identify, rate, tools
 from gearcad.cli import main
 from gearcad.core.errors import ParameterError, SpecError
 from gearcad.designs.reader import read_spec, starter_text
@@ -168,6 +168,19 @@ def test_the_command_lists_within_a_hundred_columns_and_as_a_document(starter: s
             assert found["holds"] is (found["faults"] == [])
             if found["root_diameter"] is not None:
                 assert found["root_difference"] == pytest.approx(found["root_diameter"] - each["root_diameter"])
+
+
+def test_a_measured_root_names_the_tools_that_leave_it(here: Path) -> None:
+    (here / "tools.csv").write_text(HEADING + "shop,2,20,1.31,0.3,,\nother,3,20,1.31,0.3,,\nbad,,20,9,1,,\n", encoding="utf-8")
+    made = Gear(teeth=24, normal_module=2.0, face_width=20.0, profile_shift=0.2, tooth_thinning=0.04, tool="shop")
+    spans = {count: round(made.inspection.span_measurement(count), 3) for count in (3, 4)}
+    read = {"tip_diameter": round(made.tip_diameter, 2), "span": spans, "helix_angle": 0.0}
+    assert identify(24, root_diameter=round(made.root_diameter, 2), **read).best.tools == ("shop",)
+    assert identify(24, **read).best.tools == ()
+    standard = replace(made, tool=None, rack=BasicRack())
+    found = identify(24, root_diameter=round(standard.root_diameter, 2), **read).best
+    assert set(found.tools) == {f"ISO 53 {each}" for each in "ABC"} | {f"DIN 3972 {each}" for each in ("II", "III", "IV")}
+    assert found.to_dict()["tools"] == list(found.tools)
 
 
 def test_a_search_for_sizes_takes_a_hob_in_place_of_the_rack(here: Path) -> None:
