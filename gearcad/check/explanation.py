@@ -12,6 +12,7 @@ from gearcad.check.convergence import SweepPoint
 from gearcad.check.summary import PlaneSummary, SolidSummary, Summary, root_peaks, worst_place
 from gearcad.check.task import CheckTask, face_factors
 from gearcad.contact.plane.cycle import PlaneCycle
+from gearcad.contact.plane.flank import ToothLoad
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, Cycle
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.core.records import Floats, JsonObject, PerGear, Role
@@ -212,10 +213,10 @@ class PlaneRootExplanation(Explanation):
         return {name: value for name, value in super().to_dict().items() if name != "concentration" or value is not None}
 
 
-def _single_contact(cycle: PlaneCycle, role: Role) -> tuple[int, float, float]:
+def _single_contact(cycle: PlaneCycle, role: Role) -> ToothLoad:
     """Return all of the load on tooth 0 at the outer point of single contact of a gear, D or B."""
     model, path = cycle.model, cycle.model.pair.path_of_contact
-    return 0, PerGear(path.D, model.line.whole - path.B).pick(role), model.force(cycle.torque)
+    return ToothLoad(0, PerGear(path.D, model.line.whole - path.B).pick(role), model.force(cycle.torque))
 
 
 def root_at_single_contact(cycle: PlaneCycle, role: Role) -> float:

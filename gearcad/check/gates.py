@@ -199,8 +199,9 @@ def _reactions(cycle: Cycle, source: str) -> Iterator[Comparison]:
     model = cycle.model
     force = model.force(cycle.torque) * model.width / 1000
     for role, body in model.bodies.items():
-        applied = force * body.flank.base_radius
-        worst = max((position.torques.pick(role) for position in cycle.every), key=lambda torque: farness(torque, applied))
+        nominal = force * body.flank.base_radius
+        every = [(each.torques.pick(role), nominal * each.torque_ratios.pick(role)) for each in cycle.every]
+        worst, applied = max(every, key=lambda torques: farness(*torques))
         yield agrees(f"torque reaction of the {role.value}", worst, applied, _REACTION, "N·m", source)
 
 

@@ -8,7 +8,7 @@ from gearcad.check.gates import rim_notices
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.loaded import Cycle
-from gearcad.core.records import Notice
+from gearcad.core.records import Notice, Role
 from gearcad.geometry import Gear
 from gearcad.geometry.gear_data import RING_RIM_LIMIT
 from gearcad.meshing.outline import round_bore_notice
@@ -121,8 +121,10 @@ def _corners(task: CheckTask, cycle: Cycle, summary: Summary) -> Iterator[Notice
     if summary.corner_positions:
         relieved = any(gear.modification.tip_relief for gear in task.pair.gears)
         advice = "the tip relief given does not prevent it under this load" if relieved else "tip relief would avoid it"
+        early, late = cycle.tip_positions(Role.WHEEL), cycle.tip_positions(Role.PINION)
+        where = f"the wheel's before the path of contact begins at {early}, the pinion's after its end at {late}"
         yield Notice(
             "corner-contact",
-            f"a tip corner touches at {summary.corner_positions} of {len(cycle.positions)} positions: its pressure depends on "
-            f"the mesh and is left out; {advice}",
+            f"a tip corner touches at {summary.corner_positions} of {len(cycle.positions)} positions ({where}): its pressure "
+            f"depends on the mesh and is left out; {advice}",
         )

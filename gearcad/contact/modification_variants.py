@@ -54,8 +54,8 @@ def press(given: Responses, matrix: Floats, gap: Floats, radii: Floats, force: f
     todo = np.arange(len(gap))
     for _ in range(_ROUNDS):
         own = _own(given, half_widths(given, radii[todo], np.maximum(forces, least)))
-        forces, changed = _equations(matrix, own, gap[todo], force, active)
-        opening = forces @ matrix.T + own * forces + gap[todo] - changed[:, None]
+        forces, changed = _equations(matrix, own, gap[todo], force, given.arms, active)
+        opening = forces @ matrix.T + own * forces + gap[todo] - changed[:, None] * given.arms
         wrong = np.where(active, forces <= 0, opening < -_OPEN)
         settled = ~wrong.any(axis=1) & (np.abs(changed - approach) < _SETTLED * np.abs(changed))
         found[todo[settled]], approaches[todo[settled]] = forces[settled], changed[settled]
@@ -86,9 +86,9 @@ def _own(given: Responses, widths: Floats) -> Floats:
     return result
 
 
-def _equations(matrix: Floats, own: Floats, gap: Floats, force: float, active: Bools) -> tuple[Floats, Floats]:
+def _equations(matrix: Floats, own: Floats, gap: Floats, force: float, arms: Floats, active: Bools) -> tuple[Floats, Floats]:
     """Return the forces and approach where exactly the `active` cells touch: systems of equal size, filled up by rows of
-    identity.
+    identity. `arms` (n,) are those of `Responses`.
     """
     most = int(active.sum(axis=1).max())
     cells = np.argsort(~active, axis=1, kind="stable")[:, :most]
@@ -96,9 +96,10 @@ def _equations(matrix: Floats, own: Floats, gap: Floats, force: float, active: B
     system = matrix[cells[:, :, None], cells[:, None, :]] * (real[:, :, None] & real[:, None, :])
     steps = np.arange(most)
     system[:, steps, steps] += np.where(real, np.take_along_axis(own, cells, 1), 1.0)
-    right = np.stack([np.where(real, np.take_along_axis(gap, cells, 1), 0.0), real.astype(float)], -1)
+    lever = np.where(real, arms[cells], 0.0)
+    right = np.stack([np.where(real, np.take_along_axis(gap, cells, 1), 0.0), lever], -1)
     by_gap, by_approach = np.moveaxis(np.linalg.solve(system, right), -1, 0)
-    approach = (force + by_gap.sum(axis=1)) / by_approach.sum(axis=1)
+    approach = (force + (lever * by_gap).sum(axis=1)) / (lever * by_approach).sum(axis=1)
     forces = np.zeros_like(gap)
     np.put_along_axis(forces, cells, approach[:, None] * by_approach - by_gap, 1)
     return forces, approach

@@ -36,10 +36,25 @@ _NO_COEFFICIENT = 1e-9
 
 @dataclass(frozen=True)
 class Flanks:
-    """Sides of the joined mesh that may touch, as the names of `sides`."""
+    """Sides of the joined mesh that may touch, as the names of `sides`.
+
+    CalculiX presses along the normals of the master surface. So the flank whose edge touches is the slave: the wheel's where
+    `wheel_tip` says that the edge of its tip touches, otherwise the pinion's.
+    """
 
     pinion: str
     wheel: str
+    wheel_tip: bool = False
+
+    @property
+    def slave(self) -> str:
+        """Name of the slave surface."""
+        return self.wheel if self.wheel_tip else self.pinion
+
+    @property
+    def master(self) -> str:
+        """Name of the master surface."""
+        return self.pinion if self.wheel_tip else self.wheel
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,7 +118,7 @@ class LoadedPairDeck:
         file.write(f"*NODE PRINT, NSET={REFERENCE}\nU\n")
         file.write(f"*NODE PRINT, NSET={HELD.format(Role.WHEEL.value)}, TOTALS=ONLY\nRF\n")
         for each in self.flanks:
-            file.write(f"*CONTACT PRINT, SLAVE={each.pinion}, MASTER={each.wheel}\nCF\n")
+            file.write(f"*CONTACT PRINT, SLAVE={each.slave}, MASTER={each.master}\nCF\n")
         file.write("*CONTACT PRINT\nCSTR\n*END STEP\n")
 
 
@@ -162,7 +177,7 @@ def write_contact(file: TextIO, flanks: Iterable[Flanks], stiffness: float) -> N
     file.write(f"*SURFACE INTERACTION, NAME={_INTERACTION}\n")
     file.write(f"*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{number(stiffness)}\n")
     for each in flanks:
-        file.write(f"*CONTACT PAIR, INTERACTION={_INTERACTION}, TYPE=SURFACE TO SURFACE\n{each.pinion}, {each.wheel}\n")
+        file.write(f"*CONTACT PAIR, INTERACTION={_INTERACTION}, TYPE=SURFACE TO SURFACE\n{each.slave}, {each.master}\n")
 
 
 _COLUMN = 12
@@ -176,7 +191,7 @@ _ROWS = re.compile(r"[-+ 0-9.EeNna]+")
 
 @dataclass(frozen=True)
 class PrintedContact:
-    """Results in the .dat file of a loaded pair: rotation of the pinion (rad), and by the names of the pinion's flanks the
+    """Results in the .dat file of a loaded pair: rotation of the pinion (rad), and by the names of the slave surfaces the
     normal force (N, 0 where nothing touches) and the greatest pressure at a point of integration (MPa).
     """
 
@@ -186,13 +201,13 @@ class PrintedContact:
 
     @property
     def shares(self) -> dict[str, float]:
-        """Shares of the load by the names of the pinion's flanks."""
+        """Shares of the load by the names of the slave surfaces."""
         total = math.fsum(self.forces.values())
         return {name: force / total for name, force in self.forces.items()}
 
 
 def printed_contact(path: Path, mesh: ElementMesh, flanks: Iterable[str]) -> PrintedContact:
-    """Read the .dat of a loaded pair; `flanks` are the pinion's sides that may touch. Raises SolverError if it is not whole."""
+    """Read the .dat of a loaded pair; `flanks` are the slave surfaces. Raises SolverError if it is not whole."""
     turn, forces, stresses = math.nan, dict.fromkeys(flanks, 0.0), np.empty((0, 3))
     sides = {name.upper(): name for name in forces}
     for heading, rows in _blocks(path):

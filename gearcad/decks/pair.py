@@ -198,9 +198,10 @@ class PairDecks(ABC):
         """Name of the loaded "flank" or "fillet" of a tooth in the joined mesh."""
         return f"{role.value}_{self.flank_side}_{part}_{tooth}"
 
-    def flanks(self, tooth: int) -> Flanks:
-        """Return the names of the flanks of our solution's pair of teeth `tooth` in the joined mesh."""
-        return Flanks(*(self.side(role, self.tooth(role, tooth), "flank") for role in Role))
+    def flanks(self, tooth: int, *, wheel_tip: bool = False) -> Flanks:
+        """Return the flanks of our solution's pair of teeth `tooth` in the joined mesh."""
+        pinion, wheel = (self.side(role, self.tooth(role, tooth), "flank") for role in Role)
+        return Flanks(pinion, wheel, wheel_tip)
 
     def at(self, roll_angle: float) -> PairDeck:
         """Return the pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
@@ -210,12 +211,13 @@ class PairDecks(ABC):
         meshes = PerGear.each(lambda role: self.mesh(role, zones.pick(role)))
         mesh = posed(self.pair, meshes, roll_angle, approach, left=self.left)
         edge = min(zone.edge for each in zones for zone in each.values())
+        tips = {contact.tooth for contact in position.contacts if contact.arms.wheel != 1}
         deck = LoadedPairDeck(
             mesh=mesh,
             held=PerGear.each(lambda role: held_nodes(mesh, f"{role.value}_")),
             material=self.task.materials.pinion,
             torque=self.task.torque,
-            flanks=[self.flanks(tooth) for tooth in self.teeth_near(roll_angle)],
+            flanks=[self.flanks(tooth, wheel_tip=tooth in tips) for tooth in self.teeth_near(roll_angle)],
             contact_stiffness=_STIFFNESS * self.task.materials.pinion.youngs_modulus / edge,
             width=self.width,
         )
@@ -274,7 +276,7 @@ class PairDeck:
         """Return the figures to compare as CalculiX has left them in the files of a job, named without suffix. Raises
         SolverError.
         """
-        mesh, flanks = self.deck.mesh, {each.pinion: each for each in self.deck.flanks}
+        mesh, flanks = self.deck.mesh, {each.slave: each for each in self.deck.flanks}
         printed = printed_contact(job.with_name(f"{job.name}.dat"), mesh, flanks)
         moved = displacements(job.with_name(f"{job.name}.frd"), len(mesh.points))
         turn = math.copysign(printed.turn, printed.turn * self.deck.torque)
@@ -284,7 +286,7 @@ class PairDeck:
             "normal_force": math.fsum(printed.forces.values()),
             "pairs": [
                 {
-                    "pinion": name,
+                    "pinion": flanks[name].pinion,
                     "wheel": flanks[name].wheel,
                     "load_share": printed.shares[name],
                     "contact_pressure": printed.pressures[name],

@@ -128,8 +128,9 @@ def figures(pair: GearPair, torque: float, material: Material | None = None, sen
 
 
 def test_either_gear_may_be_the_pinion() -> None:
-    pair = small_pair()
-    torque = 100.0
+    """Reliefs keep edges of tips out of contact: where these touch, torques are not in the ratio of teeth."""
+    pair = small_pair(modification=FlankModification(tip_relief=40.0, tip_relief_length=1.2))
+    torque = 30.0
     other = GearPair(pinion=pair.wheel, wheel=pair.pinion)
     exchanged = torque * pair.wheel.teeth / pair.pinion.teeth
     assert figures(other, exchanged, sense=-1) == pytest.approx(figures(pair, torque), rel=SAME)
@@ -194,8 +195,13 @@ def test_any_pair_carries_its_torque(changes: dict[str, Any]) -> None:
     model = plane_pair(pair, Material())
     for role, body in model.bodies.items():
         for position in PlaneCycle.run(model, torque, 6).positions:
-            reaction = sum(body.hub_torque(contact.centre(role)) * contact.force for contact in position.contacts)
-            assert reaction == pytest.approx(model.force(torque) * body.flank.base_radius, rel=1e-3)
+            # Edges of tips have levers of their own, and turn the wheel by more or less than the ratio of teeth.
+            reaction = sum(
+                body.hub_torque(contact.centre(role)) * contact.force * contact.arms.pick(role) for contact in position.contacts
+            )
+            levers = position.torque_ratios.pick(role)
+            assert levers == 1 or (role is Role.WHEEL and abs(levers - 1) < 0.04)
+            assert reaction == pytest.approx(model.force(torque) * body.flank.base_radius * levers, rel=1e-3)
 
 
 def high_teeth() -> GearPair:
@@ -252,7 +258,11 @@ def test_few_teeth_between_cuts_are_told(teeth: int, told: bool) -> None:
 )
 def test_tip_relief_is_advised_only_where_there_is_none(relief: float, advice: str) -> None:
     pair = relieved(ReliefShape.LINEAR, tip_relief=relief, tip_relief_length=4.0)
-    parts = (SimpleNamespace(pair=pair), SimpleNamespace(positions=range(24)), SimpleNamespace(corner_positions=4))
+    parts = (
+        SimpleNamespace(pair=pair),
+        SimpleNamespace(positions=range(24), tip_positions=lambda _role: 2),
+        SimpleNamespace(corner_positions=4),
+    )
     (notice,) = _corners(*parts)  # type: ignore[arg-type]
     assert notice.text.endswith(advice)
 

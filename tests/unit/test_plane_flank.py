@@ -12,6 +12,7 @@ from gearcad import Gear, Material
 from gearcad.contact.plane.flank import (
     Fillets,
     PlaneCompliance,
+    ToothLoad,
     edge_displacement,
     flamant_displacement,
     flamant_traction,
@@ -188,7 +189,7 @@ def test_another_constant_of_the_logarithm_changes_nothing() -> None:
 def test_tension_below_the_load_and_compression_behind(solved: PlaneCompliance) -> None:
     """A load near the tip bends the tooth: the fillet below it is stretched, the other one pressed a little more."""
     fillets = Fillets(solved)
-    load = [(0, float(solved.loads[-4]), 100.0)]
+    load = [ToothLoad(0, float(solved.loads[-4]), 100.0)]
     tension, compression = fillets.greatest(OutlineSide.LEFT_FILLET, load), fillets.greatest(OutlineSide.RIGHT_FILLET, load)
     assert 1.05 < -compression.stress / tension.stress < 1.5
     assert 12 <= tension.tangent_angle < 60
@@ -198,11 +199,11 @@ def test_tension_below_the_load_and_compression_behind(solved: PlaneCompliance) 
 
 def test_loads_on_two_teeth_superpose(solved: PlaneCompliance) -> None:
     fillets = Fillets(solved)
-    loads = [(0, float(solved.loads[3]), 60.0), (1, float(solved.loads[-6]), 40.0)]
+    loads = [ToothLoad(0, float(solved.loads[3]), 60.0), ToothLoad(1, float(solved.loads[-6]), 40.0)]
     both = fillets.stresses(OutlineSide.LEFT_FILLET, loads)
     alone = sum(fillets.stresses(OutlineSide.LEFT_FILLET, [load]) for load in loads)
     assert both == pytest.approx(alone, rel=1e-12)
-    far, own = (fillets.stresses(OutlineSide.LEFT_FILLET, [(tooth, *loads[1][1:])]) for tooth in (1, 0))
+    far, own = (fillets.stresses(OutlineSide.LEFT_FILLET, [loads[1]._replace(tooth=tooth)]) for tooth in (1, 0))
     assert 0.05 < np.abs(far).max() / np.abs(own).max() < 0.5
 
 

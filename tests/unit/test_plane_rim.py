@@ -11,7 +11,7 @@ import scipy.sparse.linalg
 from support.brute import stiffness_matrix, tip_loads
 
 from gearcad import Body, Gear, GearPair, Material
-from gearcad.contact.plane.flank import Fillets, PlaneCompliance, flank_compliance
+from gearcad.contact.plane.flank import Fillets, PlaneCompliance, ToothLoad, flank_compliance
 from gearcad.contact.plane.pair import flank_body
 from gearcad.contact.plane.ring import Ring, SurfaceStresses, assemble, far_responses
 from gearcad.contact.plane.sector import PlaneElasticity, hub_tractions, key_load, with_support
@@ -226,7 +226,7 @@ def test_a_thin_ring_bends_as_in_closed_form() -> None:
 # ---------------------------------------------------------------------- stresses of a rim that bends
 
 FZG = Gear(teeth=16, normal_module=4.5, face_width=14, profile_shift=0.1817, body=Body(bore=30))
-LOAD = (0, 18.0, 680.0)
+LOAD = ToothLoad(0, 18.0, 680.0)
 """About point D of the FZG pinion, with the whole load of stage 9."""
 
 
@@ -270,8 +270,8 @@ def test_a_key_adds_what_the_ring_in_full_has(mesh: SectorMesh, in_full: InFull)
     # Edges of the bore that the keyway, 4 mm wide, reaches.
     assert 1.0 < np.abs(y[loaded]).max() < 2.0 + 1.5
     free, keyed = (Fillets(flank_compliance(GEAR, _free(mesh, 1, hold), ELASTIC)) for hold in (Hold.FREE, Hold.KEY))
-    load = (0, float(free.body.loads[5]), 100.0)
-    torque = load[2] * GEAR.base_diameter / 2
+    load = ToothLoad(0, float(free.body.loads[5]), 100.0)
+    torque = load.force * GEAR.base_diameter / 2
     by_key = in_full.solve({0: torque * key})
     found = []
     for side in (OutlineSide.LEFT_FILLET, OutlineSide.RIGHT_FILLET):
@@ -281,7 +281,7 @@ def test_a_key_adds_what_the_ring_in_full_has(mesh: SectorMesh, in_full: InFull)
         moved = by_key.reshape(GEAR.teeth, -1, 2)[:, ends]
         added = ELASTIC.modulus * (np.diff(moved, axis=1) * chord).sum(-1) / (chord**2).sum(-1)
         for own in range(GEAR.teeth):
-            alone = free.stresses(side, [(-own, *load[1:])]).reshape(-1, 2).mean(axis=1)
+            alone = free.stresses(side, [load._replace(tooth=-own)]).reshape(-1, 2).mean(axis=1)
             found.append((alone + added)[:, root].min())
     assert keyed.extreme(OutlineSide.RIGHT_FILLET, [load]).stress == pytest.approx(min(found), rel=0.02)
     assert min(found) < 1.1 * free.extreme(OutlineSide.RIGHT_FILLET, [load]).stress

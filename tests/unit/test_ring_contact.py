@@ -133,7 +133,10 @@ def test_a_steeper_helix_of_a_ring_acts_on_the_flank_that_carries() -> None:
 def test_the_hubs_balance_the_torque(cycle: PlaneCycle) -> None:
     for position in cycle.positions:
         assert position.torques.pinion == pytest.approx(TORQUE, rel=1e-5)
-        assert position.torques.wheel == pytest.approx(TORQUE * 70 / 22, rel=1e-5)
+        # Where the edge of a tip touches, by its lever.
+        levers = position.torque_ratios.wheel
+        assert (levers != 1) == any(contact.edge for contact in position.contacts)
+        assert position.torques.wheel == pytest.approx(TORQUE * 70 / 22 * levers, rel=1e-5)
 
 
 def test_pressures_are_those_of_a_round_flank_in_a_hollow_one(cycle: PlaneCycle) -> None:
@@ -270,8 +273,11 @@ def test_loads_of_lines_add_up(result: SolidCheck) -> None:
         SOLID_TORQUE * 1000 / (SOLID_PAIR.pinion.base_diameter / 2) / math.cos(math.radians(SOLID_PAIR.pinion.base_helix_angle))
     )
     form = SOLID_PAIR.wheel.flank_form
-    for lines in json.loads(json.dumps(result.own_document))["load_distribution"]:
-        carried = sum(np.dot(line["line_load"], line["length"]) for line in lines)
+    documents = json.loads(json.dumps(result.own_document))["load_distribution"]
+    for lines, position in zip(documents, result.cycle.positions, strict=True):
+        # Each line by its lever, which is that of the base circle but where the edge of the pinion's tip touches.
+        levers = {contact.tooth: contact.arms.pinion for contact in position.contacts}
+        carried = sum(np.dot(line["line_load"], line["length"]) * levers[line["tooth"]] for line in lines)
         assert carried == pytest.approx(force, rel=1e-6)
         for line in lines:
             touching = np.array(line["pinion_roll_length"]) + np.array(line["wheel_roll_length"])

@@ -10,6 +10,7 @@ from support.dense_contact import gap_along_action, hertz_ellipse, middle_height
 from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.line_of_action import line_of_action
+from gearcad.contact.shared.tip_edge import TipEdges
 from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact
 from gearcad.contact.solid.elements import lame
 from gearcad.contact.solid.flank import (
@@ -219,6 +220,7 @@ def half_spaces(width: float, cells: int) -> Responses:
         points=np.stack([zero, zero, across], -1),
         edge_distance=one,
         slope=0.0,
+        edges=TipEdges.none(cells),
     )
     modulus = STEEL.youngs_modulus / (1 - STEEL.poisson_ratio**2) / 2
     return Responses((line,), PerGear(*np.zeros((2, cells, cells))), np.abs(across[:, None] - across), line.lengths, modulus)
@@ -312,36 +314,37 @@ def test_contact_settles_whatever_the_misalignment(teeth: int, mate: int, helix:
         torque, angle = 10 ** random.uniform(0.5, 2.7), random.uniform(-8, 8)
         solved = moved.solve(angle, torque)
         force = moved.force(torque) * moved.width / math.cos(moved.helix)
-        assert solved.forces.sum() == pytest.approx(force, rel=1e-9)
+        assert (solved.forces * solved.given.arms).sum() == pytest.approx(force, rel=1e-9)
         assert solved.forces.min() >= 0
         assert_widths_are_hertzs(solved)
 
 
 def assert_widths_are_hertzs(solved: LineSolution, times: int = 1) -> None:
     """Rebuild the equation of the widths from the forces alone: loads evened out over `times` the even load's half widths."""
-    given, radii, total = solved.given, solved.gaps.radii, solved.forces.sum()
+    given, radii, total = solved.given, solved.gaps.radii, (solved.forces * solved.given.arms).sum()
     even = total * given.lengths / given.lengths.sum()
     near = np.exp(-((given.apart / (times * half_widths(given, radii, even)[:, None])) ** 2)) * given.lengths
     weights = near / near.sum(axis=1, keepdims=True)
     loads = weights @ (np.maximum(solved.forces, 1e-3 * even) / given.lengths)
     kernel = given.half_space(half_widths(given, radii, loads * given.lengths))
-    moved = (given.both + kernel) @ solved.forces + solved.gaps.normal - solved.approach
+    moved = (given.both + kernel) @ solved.forces + solved.gaps.normal - given.arms * solved.approach
     carries = solved.forces > 0
     assert np.abs(moved[carries]).max() < SAME_WIDTH * max(solved.approach - solved.rigid, 1e-3)
     assert moved.min() > -SAME_WIDTH
 
 
-@pytest.mark.parametrize("angle", [-1.5, 1.5])
-def test_contact_settles_where_few_cells_carry_all_of_it(angle: float) -> None:
-    """The ends of the lines are pressed 2.5 times as wide as an even load would be: loads are evened out over more of it."""
+@pytest.mark.parametrize(("angle", "times"), [(-1.5, 1), (1.5, 2)])
+def test_contact_settles_where_few_cells_carry_all_of_it(angle: float, times: int) -> None:
+    """The ends of the lines are pressed 2.5 times as wide as an even load would be: loads can be evened out over more of it."""
     common = {"normal_module": 3.0, "tooth_thinning": 0.06}
     pinion = Gear(teeth=20, face_width=10.0, helix_angle=-10.0, profile_shift=0.154, body=Body(bore=24.0), **common)
     wheel = Gear(teeth=67, face_width=8.24, helix_angle=10.0, profile_shift=0.28, body=Body(bore=80.0), **common)
     sizes, mounting = SolidSizes().refined(0.5), Mounting(misalignment=-150.0)
     model = solid_pair(GearPair(pinion=pinion, wheel=wheel), STEEL, body=BodyModel(teeth=5), sizes=sizes, mounting=mounting)
     solved = model.solve(angle, 35.66)
-    assert solved.forces.sum() == pytest.approx(model.force(35.66) * model.width / math.cos(model.helix), rel=1e-9)
-    assert_widths_are_hertzs(solved, times=2)
+    carried = (solved.forces * solved.given.arms).sum()
+    assert carried == pytest.approx(model.force(35.66) * model.width / math.cos(model.helix), rel=1e-9)
+    assert_widths_are_hertzs(solved, times=times)
 
 
 def test_a_contact_wider_than_teeth_are_deep_is_refused() -> None:

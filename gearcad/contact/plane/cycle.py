@@ -71,6 +71,11 @@ class PlanePairContact(PairContact):
         return self.edge_distance < 0
 
     @property
+    def arms(self) -> PerGear[float]:
+        """Lever arms of the force on both gears, over their base radii."""
+        return self.pair.arms
+
+    @property
     def peak_pressure(self) -> float:
         """Greatest cell pressure."""
         return float(self.pressures.max())
@@ -164,19 +169,29 @@ class PlaneCycle(LoadedCycle[PlanePair, PlanePosition, PlanePairContact]):
 def tooth_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[ToothLoad]:
     """Return the loads on the teeth of a gear, counted as its own teeth follow each other."""
     sense = TOOTH_ORDER.pick(role)
-    return [(sense * contact.tooth, contact.centre(role), contact.force) for contact in contacts]
+    return [
+        ToothLoad(
+            sense * contact.tooth,
+            contact.centre(role),
+            contact.force,
+            contact.pair.arms.pick(role),
+            contact.pair.tilts.pick(role),
+        )
+        for contact in contacts
+    ]
 
 
 def root_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[list[ToothLoad]]:
     """Return, for each tooth in contact, the loads on the gear as seen from that tooth."""
     loads = tooth_loads(contacts, role)
-    return [seen_from(own, loads) for own, *_ in loads]
+    return [seen_from(load.tooth, loads) for load in loads]
 
 
 def _hub_torque(model: PlanePair, contacts: tuple[PlanePairContact, ...], role: Role) -> float:
     """Return the torque (N·m) that the loads put on a gear's hub."""
     body = model.bodies.pick(role)
-    return sum(body.hub_torque(contact.centre(role)) * contact.force for contact in contacts) * model.width / 1000
+    each = (body.hub_torque(of.centre(role)) * (of.force * of.pair.arms.pick(role)) for of in contacts)
+    return sum(each) * model.width / 1000
 
 
 def _contacts(model: PlanePair, solution: ContactSolution) -> tuple[PlanePairContact, ...]:

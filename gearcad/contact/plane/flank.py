@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -106,6 +106,11 @@ class PlaneFlank(LoadedFlank):
         """Return the unit normals (..., 2) into the tooth."""
         heading = self.heading(lengths)
         return np.stack([np.sin(heading), -np.cos(heading)], -1)
+
+    def towards_tip(self, lengths: Floats) -> Floats:
+        """Return the unit tangents (..., 2) towards the tip."""
+        heading = self.heading(lengths)
+        return self.upward * np.stack([np.cos(heading), np.sin(heading)], -1)
 
     def points(self, lengths: Floats | float) -> Floats:
         """Return the points (..., 2) at roll lengths (mm)."""
@@ -213,6 +218,37 @@ class PlaneCompliance(FlankCompliance):
         result: Floats = _within(self._over_flank, self._spread(lengths)).reshape(len(lengths), -1, len(self.loads))
         return result
 
+    def along_by_unit_loads(self, lengths: Floats) -> Floats:
+        """Displacements (n, teeth in full, m) towards the tip at roll lengths (n,) of each tooth, by unit loads on tooth 0.
+
+        Of tooth 0 they lack those of a straight edge, (1 - nu')/(2 E') towards the load on both of its sides.
+        """
+        result: Floats = _within(self._along_flank, self._spread(lengths)).reshape(len(lengths), -1, len(self.loads))
+        return result
+
+    @cached_property
+    def _along_flank(self) -> CubicSpline:
+        from scipy.interpolate import CubicSpline
+
+        flank, lengths = self.flank, self.flank.lengths
+        towards_tip, values = flank.towards_tip(lengths), []
+        for tooth, moved in enumerate(self.displacements, -self.neighbours):
+            slid = moved[2 * flank.nodes] * towards_tip[:, :1] + moved[2 * flank.nodes + 1] * towards_tip[:, 1:]
+            values.append(slid if tooth or not self.edge_taken_off else slid + self._bent_along(towards_tip))
+        rows = lengths <= self._last
+        return CubicSpline(self._spread(lengths[rows]), np.hstack(values)[rows])
+
+    def _bent_along(self, towards_tip: Floats) -> Floats:
+        """Displacements (nodes, m) towards the tip by the fields that were taken off, less those of a straight edge."""
+        flank, points = self.flank, self.flank.points(self.flank.lengths)
+        straight = -(1 - self.elasticity.ratio) / (2 * self.elasticity.modulus)
+        found = np.zeros((len(points), len(self.loads)))
+        for column, load in enumerate(self.loads):
+            field = flamant_displacement(points, flank.points(load), flank.inward(load), self.elasticity)
+            away = flank.arc(flank.lengths) - flank.arc(load)
+            found[:, column] = np.where(np.abs(away) > 1e-9, (field * towards_tip).sum(-1) - straight * np.sign(away), 0.0)
+        return found
+
     def parts_of_loads(self, lengths: Floats) -> Floats:
         """Return the parts (n, m) of the responses to the unit loads (m,) in the responses to loads at roll lengths (n,)."""
         return _within(self._over_loads, self._spread(lengths))
@@ -266,22 +302,29 @@ def _within(spline: CubicSpline, at: Floats) -> Floats:
 
 def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> PlaneCompliance:
     """Solve the body for unit loads at about 24 places of the flank, graded towards the tip."""
-    mesh = ring.sector.mesh
-    flank = flank_of(gear, mesh)
+    flank = flank_of(gear, ring.sector.mesh)
     loads = _load_places(flank)
-    near = near_elements(gear, mesh)
-    nodes = np.unique(mesh.triangles[near])
-    points, inward = flank.points(loads), flank.inward(loads)
-    singular = np.zeros((2 * len(mesh.points), len(loads)))
-    for column, (at, into) in enumerate(zip(points, inward, strict=True)):
-        moved = flamant_displacement(mesh.points[nodes], at, into, elasticity)
-        singular[2 * nodes, column], singular[2 * nodes + 1, column] = moved.T
-    forces = -_traction_forces(mesh, _boundary_edges(mesh.triangles[near]), points, inward)
-    forces += element_forces(mesh.triangles[near], ring.sector.stiffness[near], singular)
+    forces, singular = _unit_forces(flank, ring, elasticity, flank.points(loads), flank.inward(loads))
     displacements, torques = ring.solve(forces)
     displacements[len(displacements) // 2] -= singular
     hub_forces = ring.hub_forces(forces) if ring.support.floats else None
     return PlaneCompliance(flank, ring, elasticity, loads, displacements, singular, torques, hub_forces)
+
+
+def _unit_forces(
+    flank: PlaneFlank, ring: Ring, elasticity: PlaneElasticity, points: Floats, directions: Floats
+) -> tuple[Floats, Floats]:
+    """Nodal forces (2 n, m) of 1 N per mm at points (m, 2) along unit vectors, and the fields (2 n, m) to be taken off."""
+    mesh = ring.sector.mesh
+    near = near_elements(flank.gear, mesh)
+    nodes = np.unique(mesh.triangles[near])
+    singular = np.zeros((2 * len(mesh.points), len(points)))
+    for column, (at, into) in enumerate(zip(points, directions, strict=True)):
+        moved = flamant_displacement(mesh.points[nodes], at, into, elasticity)
+        singular[2 * nodes, column], singular[2 * nodes + 1, column] = moved.T
+    forces = -_traction_forces(mesh, _boundary_edges(mesh.triangles[near]), points, directions)
+    forces += element_forces(mesh.triangles[near], ring.sector.stiffness[near], singular)
+    return forces, singular
 
 
 def _load_places(flank: PlaneFlank) -> Floats:
@@ -336,8 +379,14 @@ def _traction_forces(mesh: SectorMesh, edges: Wholes, loads_at: Floats, inward: 
     return forces.reshape(-1, len(loads_at))
 
 
-ToothLoad = tuple[int, float, float]
-"""Tooth, roll length (mm) and force (N per mm of width)."""
+class ToothLoad(NamedTuple):
+    """Tooth, roll length (mm) and force (N per mm of width); of a tip edge lever arm over the base radius, and tilt (rad)."""
+
+    tooth: int
+    length: float
+    force: float
+    arm: float = 1.0
+    tilt: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -352,10 +401,12 @@ class Fillets:
     def stresses(self, side: OutlineSide, loads: list[ToothLoad]) -> Floats:
         """Return the stress (MPa) at the points of a side of tooth 0."""
         total = np.zeros(len(self.places(side)[0]))
-        for tooth, length, force in loads:
+        for load in loads:
             # A load on tooth j is seen from tooth 0 as the load on tooth 0 is from tooth -j.
-            if (seen := self._response(side, -tooth)) is not None:
-                total += seen(np.asarray(length)) * force
+            if (place := self._place(side, -load.tooth)) is not None:
+                total += self._splines[side][place](np.asarray(load.length)) * load.force
+                if load.tilt:
+                    total += self._down_the_tip[side][place] * (load.tilt * load.force)
         return total
 
     def greatest(self, side: OutlineSide, loads: list[ToothLoad]) -> RootStress:
@@ -371,7 +422,7 @@ class Fillets:
         if self.body.ring.support.bends:
             found = [self._at_root(each, stress, sign) for each in _ROOT for stress in self._all_round(each, loads, sign)]
         else:
-            found = [self.greatest(side, seen_from(own, loads)) for own, *_ in loads]
+            found = [self.greatest(side, seen_from(load.tooth, loads)) for load in loads]
         return max(found, key=lambda stress: sign * stress.stress)
 
     def bore_tension(self, loads: list[ToothLoad]) -> float | None:
@@ -382,7 +433,7 @@ class Fillets:
 
     def _all_round(self, side: OutlineSide, loads: list[ToothLoad], sign: int) -> Iterator[Floats]:
         """Yield the stresses of every tooth of the gear, with the key where it adds most tension (1) or compression (-1)."""
-        torque = self.body.flank.base_radius * sum(force for *_, force in loads)
+        torque = self.body.flank.base_radius * sum(load.force * load.arm for load in loads)
         by_key = torque * sign * (sign * self._by_key(side)).max(axis=0)
         for own in range(self.body.ring.support.teeth):
             yield self.stresses(side, seen_from(own, loads)) + by_key
@@ -410,13 +461,11 @@ class Fillets:
         found = {side: surface_rows(mesh, side, modulus) for side in self._sides}
         return found
 
-    def _response(self, side: OutlineSide, tooth: int) -> CubicSpline | None:
-        """Return the stress on a side of a tooth by 1 N per mm on tooth 0, as a function of the load's roll length; None if
-        unknown.
-        """
+    def _place(self, side: OutlineSide, tooth: int) -> int | None:
+        """Return the place of a tooth among the responses of a side to loads on tooth 0; None if they are unknown."""
         support = self.body.ring.support
         place = (tooth + self.body.neighbours) % support.teeth if support.bends else tooth + self.body.neighbours
-        return self._splines[side][place] if 0 <= place < len(self._splines[side]) else None
+        return place if 0 <= place < len(self._splines[side]) else None
 
     @cached_property
     def _splines(self) -> dict[OutlineSide, tuple[CubicSpline, ...]]:
@@ -432,6 +481,16 @@ class Fillets:
         body, moved = self.body, self.body.displacements.copy()
         moved[body.neighbours] += body.singular
         return self._stresses(moved, body.hub_forces)
+
+    @cached_property
+    def _down_the_tip(self) -> dict[OutlineSide, Floats]:
+        """Stresses (teeth, points) by 1 N per mm along the flank of tooth 0, beside its tip and towards the root."""
+        body, flank = self.body, self.body.flank
+        last = body.loads[-1:]
+        forces, _ = _unit_forces(flank, body.ring, body.elasticity, flank.points(last), -flank.towards_tip(last))
+        hub_forces = body.ring.hub_forces(forces) if body.ring.support.floats else None
+        found = self._stresses(body.ring.solve(forces)[0], hub_forces)
+        return {side: stresses[..., 0] for side, stresses in found.items()}
 
     def _by_key(self, side: OutlineSide) -> Floats:
         """Return the stresses (teeth, points) of a side by a torque of 1 (N mm per mm) from the key,
@@ -478,7 +537,7 @@ def surface_rows(mesh: SectorMesh, side: OutlineSide, modulus: float) -> tuple[F
 
 def seen_from(own: int, loads: list[ToothLoad]) -> list[ToothLoad]:
     """Return the loads with tooth numbers counted from the tooth `own`."""
-    return [(tooth - own, length, force) for tooth, length, force in loads]
+    return [load._replace(tooth=load.tooth - own) for load in loads]
 
 
 _ROOT = (OutlineSide.LEFT_FILLET, OutlineSide.LEFT_ROOT, OutlineSide.RIGHT_ROOT, OutlineSide.RIGHT_FILLET)

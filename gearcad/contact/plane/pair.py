@@ -28,6 +28,7 @@ from gearcad.contact.shared.line_of_action import (
 )
 from gearcad.contact.shared.loaded import TOOTH_ORDER, FlexiblePair
 from gearcad.contact.shared.local_contact import complementary, onsets, start_distance
+from gearcad.contact.shared.tip_edge import tip_edges
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Bools, Floats, Indices, PerGear, Role
 from gearcad.geometry import Gear, GearPair
@@ -51,17 +52,23 @@ class ContactCells:
     gap: Floats
 
 
+_NORMAL_ARMS, _NO_TILTS = PerGear(1.0, 1.0), PerGear(0.0, 0.0)
+
+
 @dataclass(frozen=True)
 class ContactPair:
     """A pair of flanks: tooth `tooth` of the pinion (0 is the middle one), in contact at roll `lengths` (mm).
 
-    `added_curvature` (1/mm) is what modified flanks have more than the two involutes, where they come nearest.
+    `added_curvature` (1/mm) is what modified flanks have more than the two involutes, where they come nearest. `arms` (over
+    the base radii) and `tilts` (rad) are those of `TipEdges`.
     """
 
     tooth: int
     lengths: PerGear[float]
     cells: ContactCells
     added_curvature: float = 0.0
+    arms: PerGear[float] = _NORMAL_ARMS
+    tilts: PerGear[float] = _NO_TILTS
 
     @property
     def plain_radius(self) -> float:
@@ -100,14 +107,16 @@ def solve_contact(
 ) -> ContactSolution:
     """Press the gears together with the normal force `force` (N per mm of width).
 
-    What touches is sought from where it does in a solution `like` this one, if there is one.
+    What touches is sought from where it does in a solution `like` this one, if there is one. The gears are pressed by the
+    torque on the pinion while the wheel stands: so the approach is the pinion's, and a cell takes part in both by its arm.
     """
     sizes = [len(pair.cells.place) for pair in pairs]
     width = np.concatenate([np.full(size, pair.cells.width) for size, pair in zip(sizes, pairs, strict=True)])
+    arms = np.concatenate([np.full(size, pair.arms.pinion) for size, pair in zip(sizes, pairs, strict=True)])
     gap = np.concatenate([pair.cells.gap for pair in pairs])
     matrices = PerGear.each(lambda role: compliance_matrix(pairs, bodies.pick(role), role))
     touching = _middles(pairs) if like is None else _touching(pairs, like)
-    pressure, approach = complementary(matrices.pinion + matrices.wheel, gap * width, width, force, touching)
+    pressure, approach = complementary(matrices.pinion + matrices.wheel, gap * width, width * arms, force, touching)
     parts = matrices.map(lambda matrix: float(pressure @ matrix @ pressure) / force)
     return ContactSolution(pairs, tuple(np.split(pressure, np.cumsum(sizes)[:-1])), approach, parts)
 
@@ -146,6 +155,30 @@ def compliance_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, rol
         if body.edge_taken_off and not apart:
             matrix[there, here] += _edge_block(one.cells, body)
     result: Floats = (matrix + matrix.T) / 2
+    if any(pair.tilts.pick(role) for pair in pairs):
+        result += _tilted_matrix(pairs, body, role, spans, parts)
+    return result
+
+
+def _tilted_matrix(
+    pairs: tuple[ContactPair, ...], body: PlaneCompliance, role: Role, spans: list[slice], parts: Floats
+) -> Floats:
+    """Return what is added to the compliance (n, n) in mm²/MPa where forces are not normal to the flank.
+
+    A force that is tilted by a small angle t moves the flank's point in its own direction by u_n - t u_s, with u_s towards the
+    tip; and so does a normal force that which moves towards the tip, by reciprocity.
+    """
+    matrix = np.zeros((spans[-1].stop, spans[-1].stop))
+    for one, there in zip(pairs, spans, strict=True):
+        if not (tilt := one.tilts.pick(role)):
+            continue
+        slid = body.along_by_unit_loads(one.cells.lengths.pick(role))
+        for other, here in zip(pairs, spans, strict=True):
+            apart = (one.tooth - other.tooth) * TOOTH_ORDER.pick(role)
+            if abs(apart) <= body.neighbours:
+                block = slid[:, apart + body.neighbours] @ parts[here].T
+                matrix[there, here] -= tilt * block * (one.cells.width * other.cells.width)
+    result: Floats = matrix + matrix.T
     return result
 
 
@@ -234,7 +267,12 @@ def _contact_pair(
     # The mean gap over a cell is that of its middle and what the curvature adds.
     gap = gap + width**2 / 24 / radius
     added = 0.0 if line.exact else _curvature(line, tooth, pinion_length, middle) - 1 / radius
-    return ContactPair(tooth, touching, ContactCells(place, width, facing, gap), added)
+    formed = ContactCells(place, width, facing, gap)
+    if low <= 0 <= high:
+        return ContactPair(tooth, touching, formed, added)
+    edges = tip_edges(line, touching.map(lambda length: np.array([length])))
+    arms, tilts = (each.map(lambda of: float(of[0])) for each in edges)
+    return ContactPair(tooth, touching, formed, added, arms, tilts)
 
 
 def _of_transition(line: LineOfAction, touching: PerGear[float], radius: float, reach: float) -> float:

@@ -444,6 +444,11 @@ class PairContact(ABC):
 
     @property
     @abstractmethod
+    def arms(self) -> PerGear[float]:
+        """Lever arms of the force on both gears, over their base radii: other than 1 where the edge of a gear's tip touches."""
+
+    @property
+    @abstractmethod
     def interior_pressure(self) -> float | None:
         """Greatest pressure (MPa) away from all edges of both flanks; None if all of the contact is near them."""
 
@@ -470,6 +475,15 @@ class LoadedPosition(ABC, Generic[C]):
     compression: PerGear[RootStress]
     bore_tension: PerGear[float | None]
     torques: PerGear[float]
+
+    @property
+    def torque_ratios(self) -> PerGear[float]:
+        """Torque on each gear over that of the force at its base radius: the wheel's is other than 1 where edges of tips touch.
+
+        There the teeth do not turn the wheel evenly, and the ratio of torques is that of the speeds.
+        """
+        turning = PerGear.each(lambda role: sum(contact.force * contact.arms.pick(role) for contact in self.contacts))
+        return PerGear(1.0, turning.wheel / turning.pinion)
 
     @property
     def stiffness(self) -> float:
@@ -565,6 +579,10 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
     def edge_positions(self) -> int:
         """Even positions at which the edge of a tip touches."""
         return sum(any(contact.edge for contact in position.contacts) for position in self.positions)
+
+    def tip_positions(self, role: Role) -> int:
+        """Return the number of even positions at which the edge of a gear's tip touches beyond the path of contact."""
+        return sum(any(contact.arms.pick(role) != 1 for contact in position.contacts) for position in self.positions)
 
     def worst_position(self, role: Role) -> Position:
         """Return the position of the greatest root tension of a gear."""

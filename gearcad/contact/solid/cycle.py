@@ -70,6 +70,11 @@ class SolidPairContact(PairContact):
         return bool((self.line.on_edge & (self.forces > 0)).any())
 
     @property
+    def arms(self) -> PerGear[float]:
+        """Lever arms of the force on both gears, over their base radii: the mean of the cells by their forces."""
+        return self.line.edges.arms.map(lambda arms: float((self.forces * arms).sum() / self.forces.sum()))
+
+    @property
     def interior(self) -> Bools:
         """Cells (n,) that carry away from all edges."""
         result: Bools = (self.margin > 0) & (self.forces > 0)
@@ -157,7 +162,7 @@ class SolidCycle(LoadedCycle[SolidPair, SolidPosition, SolidPairContact]):
             tension=PerGear.each(lambda role: _tension(model.fillets.pick(role).loaded, loads.pick(role))),
             compression=PerGear.each(lambda role: _compression(model.fillets.pick(role).behind, loads.pick(role))),
             bore_tension=PerGear.each(lambda role: _bore_tension(model.fillets.pick(role).bore, loads.pick(role))),
-            torques=PerGear.each(lambda role: _hub_torque(model.bodies.pick(role), loads.pick(role))),
+            torques=PerGear.each(lambda role: _hub_torque(model.bodies.pick(role), contacts, role)),
         )
 
     def contacts_at(self, angle: float) -> tuple[SolidPairContact, ...]:
@@ -224,9 +229,13 @@ def tooth_loads(model: SolidPair, contacts: tuple[SolidPairContact, ...], role: 
     ]
 
 
-def _hub_torque(body: SolidCompliance, loads: list[ToothForces]) -> float:
-    """Return the torque (N·m) that the loads put on the hub."""
-    return float(sum(force @ -body.torques for _, force in loads)) / 1000
+def _hub_torque(body: SolidCompliance, contacts: tuple[SolidPairContact, ...], role: Role) -> float:
+    """Return the torque (N·m) that the loads put on the hub of a gear, those on tip edges by their lever arms."""
+    total = 0.0
+    for contact in contacts:
+        forces = contact.forces * contact.line.edges.arms.pick(role)
+        total += float((body.load_weights(contact.line.places.pick(role)).T @ forces) @ -body.torques)
+    return total / 1000
 
 
 def _tension(fillet: SolidFillet, loads: list[ToothForces]) -> SolidRootStress:

@@ -57,6 +57,12 @@ class SolidFlank(LoadedFlank):
         flat, rise = math.cos(self.helix), math.sin(self.helix)
         return np.stack([flat * np.sin(heading), -flat * np.cos(heading), np.full(heading.shape, rise)], -1)
 
+    def towards_tip(self, places: Places) -> Floats:
+        """Return the unit tangents (n, 3) in the transverse section towards the tip."""
+        length, z = np.broadcast_arrays(*places)
+        heading = self.heading(length) + self.rate * z
+        return self.upward * np.stack([np.cos(heading), np.sin(heading), np.zeros(heading.shape)], -1)
+
 
 @dataclass(frozen=True)
 class FlankGrid:
@@ -202,9 +208,12 @@ class Images:
 
     def normal(self, moved: Places, loaded: Places) -> Floats:
         """Return the normal displacements (n, m) in mm at places by all that stands for 1 N at each loaded place."""
-        points, normals = self.flank.points(moved), self.flank.inward(moved)
+        return self.moved_along(self.flank.inward(moved), moved, loaded)
+
+    def moved_along(self, directions: Floats, moved: Places, loaded: Places) -> Floats:
+        """Return the displacements (n, m) in mm along `directions` (n, 3) at places, by the same."""
         where, to, forces = self.loads(self.flank.points(loaded), self.flank.inward(loaded))
-        return half_space_normal_displacement(points, normals, where, to, self.material, forces)
+        return half_space_normal_displacement(self.flank.points(moved), directions, where, to, self.material, forces)
 
 
 class TakenOff(Images):
@@ -374,6 +383,21 @@ class SolidCompliance(FlankCompliance):
     def images(self) -> Images:
         """The loads' images behind the ends of the teeth."""
         return Images(self.flank, self.material)
+
+    @cached_property
+    def along(self) -> dict[int, Floats]:
+        """Displacements as `moved`, but towards the tip in the transverse section; of tooth 0 without the fields taken off."""
+        mesh = self.body.sector.mesh
+        on_flank, grid = _flank_grid(self.flank, mesh)
+        place, towards_tip = np.searchsorted(self.surface, on_flank), self.flank.towards_tip(grid.places)
+        teeth = range(-self.neighbours, self.neighbours + 1)
+        return {
+            tooth: _normal(mesh, self.displacements[self.neighbours + tooth][place], on_flank, towards_tip) for tooth in teeth
+        }
+
+    def taken_off_along(self, places: Places) -> Floats:
+        """Return the displacements (n, n) in mm towards the tip at places of the flank by the fields that 1 N at each has."""
+        return TakenOff(self.flank, self.material).moved_along(self.flank.towards_tip(places), places, places)
 
     def taken_off_traction(self, points: Floats, normals: Floats) -> Floats:
         """Return the traction (..., 3, loads) in MPa by the fields that were taken off, on elements of surface of tooth 0."""

@@ -22,6 +22,7 @@ import numpy as np
 from gearcad.contact.shared.line_of_action import LEAST_LENGTH, LineOfAction, gears_loaded_left
 from gearcad.contact.shared.loaded import TOOTH_ORDER
 from gearcad.contact.shared.local_contact import complementary, onsets, start_distance
+from gearcad.contact.shared.tip_edge import TipEdges, tip_edges
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Bools, Floats, PerGear, Role, Wholes
 from gearcad.geometry import Gear, GearPair
@@ -48,7 +49,8 @@ class ContactLine:
     `across` (n,) in mm from the middle of the common face width, `nominal` (n,) where the line of contact crosses the line
     of action (mm from T1), `places` on both flanks, `lengths` (n,) of the cells in mm, `aside` (n,) in mm how far beside the
     line of action the flanks are nearest (0 on the line of contact, else an edge touches), `gap` (n,) the transverse gap of the
-    exact involutes in mm, `points` (n, 3) on the pinion's flank, `slope` (mm per mm) that of `nominal` over `across`.
+    exact involutes in mm, `points` (n, 3) on the pinion's flank, `slope` (mm per mm) that of `nominal` over `across`. `edges`
+    are the forces of the cells (n,), as they lie in the transverse section.
     """
 
     tooth: int
@@ -61,6 +63,7 @@ class ContactLine:
     points: Floats
     edge_distance: Floats
     slope: float
+    edges: TipEdges
 
     @property
     def middle(self) -> float:
@@ -121,9 +124,17 @@ def contact_lines(
                 flank.points(places.pinion),
                 distance[here],
                 slope,
+                _edges(line, nominal[here], aside[here]),
             )
         )
     return tuple(found)
+
+
+def _edges(line: LineOfAction, nominal: Floats, aside: Floats) -> TipEdges:
+    """Return the forces of cells (n,), of which an edge touches those that are not 0 `aside` (mm)."""
+    if not aside.any():
+        return TipEdges.none(len(nominal))
+    return tip_edges(line, overlap_of(line, nominal).touching)
 
 
 class _Overlap(NamedTuple):
@@ -358,6 +369,11 @@ class Responses:
         """`smooth` of both bodies together (n, n)."""
         return self.smooth.pinion + self.smooth.wheel
 
+    @cached_property
+    def arms(self) -> Floats:
+        """Lever arms (n,) of the forces on the pinion over its base radius: what cells take part in its torque and its turn."""
+        return np.concatenate([line.edges.arms.pinion for line in self.lines])
+
     @property
     def cells(self) -> int:
         """Cells of all lines."""
@@ -420,6 +436,31 @@ def _smooth(lines: tuple[ContactLine, ...], body: SolidCompliance, role: Role) -
             blocks[-1].append(block)
     matrix = np.block(blocks)
     result: Floats = (matrix + matrix.T) / 2
+    if any(line.edges.tilts.pick(role).any() for line in lines):
+        result += _tilted(lines, body, role, rows, columns)
+    return result
+
+
+def _tilted(
+    lines: tuple[ContactLine, ...], body: SolidCompliance, role: Role, rows: list[Floats], columns: list[Floats]
+) -> Floats:
+    """Return what is added to the responses (n, n) in mm/N where forces on tip edges are not normal to the flank.
+
+    They are tilted in the transverse section: a cell then moves in the direction of its force by u_n - t cos(beta_b) u_s, with
+    u_s towards the tip; so does a normal force that which moves there, by reciprocity.
+    """
+    blocks: list[list[Floats]] = []
+    for moved, row in zip(lines, rows, strict=True):
+        blocks.append([])
+        tilts = -math.cos(body.flank.helix) * moved.edges.tilts.pick(role)[:, None]
+        for loaded, column in zip(lines, columns, strict=True):
+            response = body.along.get((moved.tooth - loaded.tooth) * TOOTH_ORDER.pick(role)) if tilts.any() else None
+            block = np.zeros((len(row), len(column))) if response is None else row @ response @ column.T
+            if moved is loaded and tilts.any():
+                block += body.taken_off_along(moved.places.pick(role))
+            blocks[-1].append(tilts * block)
+    matrix = np.block(blocks)
+    result: Floats = matrix + matrix.T
     return result
 
 
@@ -493,6 +534,8 @@ def evened_loads(given: Responses, gap: Gaps, forces: Floats) -> Floats:
 def solve_lines(given: Responses, gap: Gaps, force: float, like: Floats | None = None) -> LineSolution:
     """Press the gears together with the normal force `force` (N), from forces (n,) `like` those sought. Raises SolverError.
 
+    The force is that of the torque on the pinion at its base radius; cells on tip edges have other arms.
+
     Newton's rule on the logarithms of the half widths: each cell's width must be that of Hertz for the load that it then
     carries. Steps are shortened until the residual falls; the cells that carry change with the widths.
     """
@@ -565,7 +608,7 @@ class _Widths:
     def at(self, widths: Floats, start: Bools) -> _State:
         """Solve the contact for given half widths (n,) in mm, from the cells that carry at the `start` (n,)."""
         kernel = self.given.half_space(widths)
-        forces, approach = complementary(self.smooth + kernel, self.gap.normal, np.ones(len(widths)), self.force, start)
+        forces, approach = complementary(self.smooth + kernel, self.gap.normal, self.given.arms, self.force, start)
         evened = self.spread @ np.maximum(forces, _LEAST * self.even)
         return _State(widths, kernel, forces, approach, half_widths(self.given, self.gap.radii, evened))
 
@@ -587,7 +630,7 @@ class _Widths:
         count, cells = len(carry), len(state.widths)
         system = np.zeros((count + 1, count + 1))
         system[:count, :count] = (self.smooth + state.kernel)[carry[:, None], carry]
-        system[:count, count] = system[count, :count] = -1.0
+        system[:count, count] = system[count, :count] = -self.given.arms[carry]
         moved = np.zeros((count + 1, cells))
         moved[:count] = -(self.given.half_space_slopes(state.widths) * state.forces)[carry]
         changed = np.zeros((cells, cells))

@@ -55,7 +55,7 @@ def press_starts(pair: GearPair, action: LineOfAction, mounting: Mounting, helix
     if shortest == math.inf or not len(cells := _cells_at_start(found, action, mounting, pair, helix)):
         return found
     curve, solved = _Curve.of(found, cells, pair, action, mounting, helix), found
-    force, normal, radii = float(found.forces.sum()), found.gaps.normal.copy(), found.gaps.radii.copy()
+    force, normal, radii = float((found.forces * given.arms).sum()), found.gaps.normal.copy(), found.gaps.radii.copy()
     middle, half = np.zeros(len(cells)), solved.half_widths[cells]
     for _ in range(_ROUNDS):
         loads = evened_loads(given, solved.gaps, solved.forces)[cells]

@@ -449,6 +449,10 @@ class _Builder:
         self.plan = RackPlan(lines[:, 0], rack.drift, rack.length, rack.face_width)
         (x, z), c = self.plan.places.T, self.plan.along
         heights = np.where(self.plan.line >= 0, lines[self.plan.line, 1], np.interp(c, *lines.T))
+        # A corner through which no line goes may lie on a fillet, below the chord between the lines beside it.
+        for piece in (each for each in outline_pieces(rack) if each.fillet is not None):
+            for i in np.flatnonzero((self.plan.line < 0) & (piece.start[0] < c) & (c < piece.end[0])):
+                heights[i] = piece.height(float(c[i]))
         top = np.stack([x, heights, z], -1)
         # Below the middles of spaces the end faces are parted, so that their triangles stay short.
         below = [i for i, line in enumerate(self.plan.line.tolist()) if line in middles and z[i] in (0.0, rack.face_width)]
