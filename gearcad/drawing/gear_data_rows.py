@@ -90,14 +90,20 @@ def teeth_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[GearDataRow]:
     assert part.teeth is not None  # derived by now
     yield write.text("teeth", write.words.number(part.teeth, 0), "z", {"teeth": part.teeth})
     yield from rack_rows(part, write)
-    if isinstance(part, Gear) and isinstance(part.tool, ToolName) and part.tool.tool is not None:
-        yield write.text("tool", f"{part.tool.tool.name} ({part.tool.tool.file})")
+    if named := tool_text(part):
+        yield write.text("tool", named)
     yield write.plain("pressure_angle", part.rack.pressure_angle, "α_n", "°", "rack.pressure_angle")
     angle = abs(part.helix_angle)
     shown = write.words.number(angle, 4) if angle else "0"
     yield write.text("helix_angle", f"{shown}°", "β", {"helix_angle": part.helix_angle})
     if part.helix_angle:
         yield _hand(drawn, write)
+
+
+def tool_text(part: Gear | Rack) -> str:
+    """Return the name of the tool of the shelf that a gear has, with its table; "" without one."""
+    name = part.tool if isinstance(part, Gear) else None
+    return f"{name.tool.name} ({name.tool.file})" if isinstance(name, ToolName) and name.tool is not None else ""
 
 
 def _double(part: Gear | Rack) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from gearcad.drawing.assembly_sheets import AssemblySheet
 from gearcad.drawing.drawing_subjects import DrawnGear
-from gearcad.drawing.gear_data_rows import GearDataRow
+from gearcad.drawing.gear_data_rows import GearDataRow, tool_text
 from gearcad.drawing.gear_sheet import DrawingSheet
 from gearcad.drawing.layout import View
 from gearcad.drawing.options import DrawingOptions
@@ -74,6 +74,8 @@ def tool_rows(part: Gear | Rack, words: SheetWords) -> Iterator[GearDataRow]:
         return GearDataRow(key=key, words=words[f"tool.{key}"], symbol=symbol, text=" / ".join(texts) + extra, numbers=numbers)
 
     pre, m = part.premachining, part.normal_module
+    if named := tool_text(part):
+        yield GearDataRow(key="tool", words=words["data.tool"], symbol="", text=named)
     if isinstance(part, Gear) and shaped(part):
         yield row("module", "m_0", m)
         yield row("pressure_angle", "α_0", part.rack.pressure_angle, units=("°",))

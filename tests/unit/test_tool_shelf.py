@@ -17,6 +17,7 @@ from gearcad.designs.spec_writers import pair_text
 from gearcad.designs.table import open_table
 from gearcad.drawing.drawing_subjects import DrawnGear
 from gearcad.drawing.gear_data_rows import gear_rows
+from gearcad.drawing.tool_sheet import tool_rows
 from gearcad.drawing.words import Language, SheetWords
 from gearcad.geometry.premachining import Finishing
 from gearcad.geometry.tool_shelf import Place, Shelf, ToolName
@@ -266,6 +267,7 @@ def test_sheets_tell_the_tool_and_its_table(folders: Path) -> None:
     for role, own in design.gears.items():
         rows = gear_rows(DrawnGear(role=role, gear=own), SheetWords.of(Language.GERMAN))
         assert [(row.words, row.text) for row in rows if row.key == "tool"] == [("Werkzeug", shown[role])]
+        assert next(tool_rows(own, SheetWords.of(Language.ENGLISH))).text == shown[role]
     (section, *_) = sheet_of(design).sections
     (block,) = (each for each in section.blocks if each.title == "Tool of the shelf")
     assert [row.texts for row in block.rows] == [("ISO 53 D", "H"), ("tool_shelf.csv", "tools.csv")]
