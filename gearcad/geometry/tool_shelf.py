@@ -334,7 +334,10 @@ def _rows(path: Path, place: Place, _stamp: tuple[int, int]) -> tuple[ToolRow, .
     lines = text.splitlines()
     heading = next((line for line in lines if line.strip() and not line.lstrip().startswith(("#", "sep="))), "")
     separator = max(",;\t", key=heading.count)
-    records = [(number, cells) for number, cells in enumerate(csv.reader(lines, delimiter=separator), 1)]
+    try:
+        records = list(enumerate(csv.reader(lines, delimiter=separator), 1))
+    except csv.Error as error:
+        raise SpecError(f"{table.shown}: cannot be read ({error})") from None
     filled = [
         (number, cells)
         for number, cells in records
@@ -441,7 +444,10 @@ class Shelf(NamedTuple):
         folded = {each.casefold(): each for each in names}
         near = difflib.get_close_matches(" ".join(name.split()).casefold(), folded, n=_NEAREST, cutoff=0.0)
         nearest = ", ".join(f'"{folded[each]}"' for each in near)
-        files = ", ".join(printable(shown_path(path)) for path, place in self.places if place is not Place.OWN)
+        paths = [path for path, place in self.places if place is not Place.OWN]
+        if "/" in name:
+            paths.append(self.folder / name.rpartition("/")[0] / FILE)
+        files = ", ".join(printable(shown_path(path)) for path in paths)
         return f"must be a tool of the shelf; the nearest are {nearest}; looked in {files} and the table of gearcad"
 
     def text_of(self, name: str) -> str:
