@@ -86,6 +86,10 @@ def _gear_lines(name: str, each: CutGear) -> Iterator[str]:
         name = _shortened(choice.tool.name, _NAME)
         for fault in choice.faults[:1]:
             yield from wrap(f"{name}: {translated(fault)}", _WIDTH, subsequent_indent="  ")
+        if choice.wheel is not None and choice.holds:
+            end, radius = choice.wheel.end_diameter, choice.wheel.wheel_tip_radius
+            rounded = "" if radius is None else f", finishing.wheel_tip_radius = {radius:.6g}"
+            yield f"{name}: with finishing.end_diameter = {end:.6g}{rounded}"
         if choice.short_lead is not None and choice.gear is not None:
             pre = choice.gear.premachining
             keys = f"tool_addendum = {pre.tool_addendum:.6g}, tool_tip_radius = {pre.tool_tip_radius:.6g}"

@@ -56,11 +56,11 @@ def cuts(tool: ShelfTool, gear: Gear) -> bool:
     return tool.fits(gear.normal_module) and abs(tool.rack.pressure_angle - gear.rack.pressure_angle) < _SAME_ANGLE
 
 
-def with_tool(gear: Gear, tool: ShelfTool) -> Gear:
+def with_tool(gear: Gear, tool: ShelfTool, end: float | None = None) -> Gear:
     """Return a gear as a tool of the shelf would cut it, with the tips that it has unless the tool cuts them.
 
-    Where the tool leaves stock at the root and the gear names no end of its finished flank, the wheel ends at the root form
-    circle that the gear has. Raises GeometryError where the tool leaves no such gear.
+    Where the tool leaves stock at the root and the gear names no end of its finished flank, the wheel ends at the diameter
+    `end` (mm), or without one at the root form circle that the gear has. Raises GeometryError where the tool leaves none.
     """
     rack, pre = gear.rack, tool.premachining
     if not pre.present:
@@ -81,11 +81,11 @@ def with_tool(gear: Gear, tool: ShelfTool) -> Gear:
     if not pre.present:
         return plain
     tip = NOT_GIVEN if pre.topping is not None else plain.tip_diameter
-    return replace(plain, premachining=pre, finishing=_finishing(gear, pre), tip_diameter=tip)
+    return replace(plain, premachining=pre, finishing=_finishing(gear, pre, end), tip_diameter=tip)
 
 
-def _finishing(gear: Gear, pre: Premachining) -> Finishing:
-    """Return the finishing of a gear, which ends at its root form circle where a tool leaves stock and it names no end."""
+def _finishing(gear: Gear, pre: Premachining, end: float | None) -> Finishing:
+    """Return the finishing of a gear; where a tool leaves stock and the gear names no end, that given, or its form circle."""
     left = pre.stock_of(gear.normal_module) - pre.protuberance
     if left <= 0 and gear.premachining.present:
         return gear.finishing
@@ -96,8 +96,10 @@ def _finishing(gear: Gear, pre: Premachining) -> Finishing:
     radius = wheel.wheel_tip_radius
     if radius is None and least > 0.2 * gear.normal_module:
         radius = least
-    end = float(gear.form_diameter) if wheel.end_diameter is None else wheel.end_diameter
-    return replace(wheel, end_diameter=end, wheel_tip_radius=radius)
+    given = wheel.end_diameter
+    if given is None:
+        given = float(gear.form_diameter) if end is None else end
+    return replace(wheel, end_diameter=given, wheel_tip_radius=radius)
 
 
 def _short_lead(gear: Gear, tool: ShelfTool, module: float) -> Premachining:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,6 +16,7 @@ from gearcad.designs import Design, PairDesign, PlanetaryDesign, RackPairDesign
 from gearcad.designs.cells import cell_text, write_csv
 from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear, GearPair, RackPair
+from gearcad.geometry.premachining import Finishing
 from gearcad.geometry.tool_outlines import cuts, fillet_distance, short_lead_module, with_tool
 from gearcad.geometry.tool_shelf import FILE, Shelf, ShelfTool
 from gearcad.jobs.job import Subject, as_design, with_summary
@@ -65,6 +66,13 @@ class ToolChoice:
         return None if self.gear is None else self.gear.residual_undercut
 
     @property
+    def wheel(self) -> Finishing | None:
+        """The finishing that was assumed, which the spec has to have; None where the tool needs none, or the gear names it."""
+        if self.gear is None or self.gear.finishing in (self.asked.finishing, Finishing()):
+            return None
+        return self.gear.finishing
+
+    @property
     def root_difference(self) -> float | None:
         """Root diameter less that asked for (mm)."""
         return None if self.gear is None else self.gear.root_diameter - self.asked.root_diameter
@@ -90,6 +98,8 @@ class ToolChoice:
             "holds": self.holds,
             "faults": list(self.faults),
         }
+        if self.wheel is not None:
+            found["finishing"] = {name: getattr(self.wheel, name) for name in ("end_diameter", "wheel_tip_radius")}
         if gear is not None and self.short_lead is not None:
             pre = gear.premachining
             own = ("tool_addendum", "tool_tip_radius", "tool_pressure_angle")
@@ -172,45 +182,52 @@ def _all_tools(shelf: Shelf) -> tuple[ShelfTool, ...]:
     return tuple(found)
 
 
+_ENDS = 16
+"""Steps in which the end of a wheel is sought."""
+
 _INTERFERENCE = "fillet-interference"
 
-Mate = Callable[[Gear], tuple[float, list[str]]]
-"""Returns the clearance (mm) of a mate's tip in the root of another gear in the place of one, and what is wrong there."""
+
+class Mating(NamedTuple):
+    """A pair, and the gear of it in whose place others are tried."""
+
+    pair: GearPair | RackPair
+    role: Role
+
+    @property
+    def active_root(self) -> float:
+        """Diameter (mm) down to which the mate's tip touches the flanks."""
+        pair = self.pair
+        return pair.active_root_diameter if isinstance(pair, RackPair) else pair.active_root_diameters.pick(self.role)
+
+    def tried(self, gear: Gear) -> tuple[float, list[str]]:
+        """Return the clearance (mm) of the mate's tip in the root of another gear, and what is wrong there."""
+        if isinstance(self.pair, RackPair):
+            rack_pair = replace(self.pair, pinion=gear)
+            return rack_pair.tip_clearances.rack, _interference(rack_pair, "rack")
+        pair = replace(self.pair, pinion=gear) if self.role is Role.PINION else replace(self.pair, wheel=gear)
+        return pair.tip_clearances.pick(self.role.mate), _interference(pair, self.role.mate.value)
 
 
-def _mates(design: Design, name: str) -> Iterator[Mate]:
+def _interference(pair: GearPair | RackPair, owner: str) -> list[str]:
+    """Return what notices say of the interference of an owner's tip: "the wheel's tip reaches ..."."""
+    told = [each.text for each in pair.notices if each.code == _INTERFERENCE]
+    return [text for text in told if text.partition("'")[0].endswith(owner)]
+
+
+def _mates(design: Design, name: str) -> Iterator[Mating]:
     """Yield the meshes of a gear of a design."""
     if isinstance(design, PairDesign):
-        yield partial(_in_pair, design.pair, Role(name))
+        yield Mating(design.pair, Role(name))
     elif isinstance(design, RackPairDesign):
-        yield partial(_at_rack, design.pair)
+        yield Mating(design.pair, Role.PINION)
     elif isinstance(design, PlanetaryDesign):
         gear = design.gears[name]
         for pair in (*(mesh.pair for mesh in design.train.meshes), *(stage.pair for stage in design.train.stages)):
-            for role, each in pair.gears.items():
-                if each == gear:
-                    yield partial(_in_pair, pair, role)
+            yield from (Mating(pair, role) for role, each in pair.gears.items() if each == gear)
 
 
-def _tip_owner(text: str) -> str:
-    """Return whose tip a notice of interference begins with: "the wheel's tip reaches ..."."""
-    return text.partition("'")[0].rpartition(" ")[2]
-
-
-def _in_pair(pair: GearPair, role: Role, gear: Gear) -> tuple[float, list[str]]:
-    made = replace(pair, pinion=gear) if role is Role.PINION else replace(pair, wheel=gear)
-    clearance = made.tip_clearances.pick(role.mate)
-    told = [each.text for each in made.notices if each.code == _INTERFERENCE and _tip_owner(each.text) == role.mate.value]
-    return clearance, told
-
-
-def _at_rack(pair: RackPair, gear: Gear) -> tuple[float, list[str]]:
-    made = replace(pair, pinion=gear)
-    told = [each.text for each in made.notices if each.code == _INTERFERENCE and _tip_owner(each.text) == "rack"]
-    return made.tip_clearances.rack, told
-
-
-def _choices(gear: Gear, shelf: Shelf, known: tuple[ShelfTool, ...], mates: tuple[Mate, ...]) -> tuple[ToolChoice, ...]:
+def _choices(gear: Gear, shelf: Shelf, known: tuple[ShelfTool, ...], mates: tuple[Mating, ...]) -> tuple[ToolChoice, ...]:
     """Return the tools for a gear. Of rows of one name that counts which a design takes, and those with a short lead."""
     fitting: list[ShelfTool] = []
     for name in dict.fromkeys(tool.name for tool in known):
@@ -221,16 +238,32 @@ def _choices(gear: Gear, shelf: Shelf, known: tuple[ShelfTool, ...], mates: tupl
     return tuple(sorted(found, key=lambda each: (each.distance is None, each.distance or 0.0)))
 
 
-def _choice(gear: Gear, tool: ShelfTool, mates: tuple[Mate, ...]) -> ToolChoice:
-    lead = short_lead_module(tool, gear)
+def _made(gear: Gear, tool: ShelfTool, mates: tuple[Mating, ...]) -> Gear | InputError:
+    """Return a gear as a tool would cut it, or why it cannot.
+
+    A wheel ends at the root form circle that is asked for; where the root lets it not, as deep as it can before the circle down
+    to which the mates touch.
+    """
     try:
-        made = with_tool(gear, tool)
+        return with_tool(gear, tool)
     except InputError as error:
-        return ToolChoice(tool=tool, asked=gear, gear=None, faults=(str(error),), short_lead=lead)
+        if mates and error.parameter == "finishing.end_diameter":
+            first, last = gear.form_diameter, min(mate.active_root for mate in mates)
+            for part in range(1, _ENDS + 1):
+                with suppress(InputError):
+                    return with_tool(gear, tool, first + (last - first) * part / _ENDS)
+        return error
+
+
+def _choice(gear: Gear, tool: ShelfTool, mates: tuple[Mating, ...]) -> ToolChoice:
+    lead = short_lead_module(tool, gear)
+    made = _made(gear, tool, mates)
+    if isinstance(made, InputError):
+        return ToolChoice(tool=tool, asked=gear, gear=None, faults=(str(made),), short_lead=lead)
     clearances, faults = list[float](), list[str]()
     for mate in mates:
         try:
-            clearance, told = mate(made)
+            clearance, told = mate.tried(made)
         except InputError as error:
             faults.append(str(error))
             continue

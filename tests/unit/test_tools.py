@@ -139,6 +139,20 @@ def test_clearances_and_faults_are_those_of_the_pair(here: Path) -> None:
     assert found["round"].faults and "fillet interference" in found["round"].faults[0]
 
 
+def test_a_gear_that_takes_a_listed_name_has_the_listed_root() -> None:
+    pair = GearPair(pinion=gear(teeth=20), wheel=gear(), centre_distance=90.6)
+    for name, own in (("pinion", pair.pinion), ("wheel", pair.wheel)):
+        found = [each for each in choices(pair, name).values() if each.gear is not None]
+        assert sum(each.wheel is not None and each.holds for each in found) == 2  # DIN 3972 III and IV
+        for each in found:
+            made = replace(own, tool=each.tool.name, **({} if each.wheel is None else {"finishing": each.wheel}))
+            assert (made.root_diameter, made.form_diameter) == pytest.approx(
+                (each.gear.root_diameter, each.gear.form_diameter),
+                abs=1e-9,  # type: ignore[union-attr]
+            )
+            assert fillet_distance(made.profile, each.gear.profile) < 1e-9  # type: ignore[union-attr]
+
+
 def test_every_fault_of_a_table_is_told_in_a_line(here: Path) -> None:
     (here / "tools.csv").write_text(HEADING + "a,,20,9,0.2,,\nb,,20,1.2,0.2,,\nc,,20,1.2,x,,\n", encoding="utf-8")
     with pytest.raises(SpecError) as told:
