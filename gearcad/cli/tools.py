@@ -15,7 +15,7 @@ from gearcad.cli.job import json_option, quiet_option
 from gearcad.cli.language import say, translated
 
 if TYPE_CHECKING:
-    from gearcad.geometry.tool_shelf import ShelfTool
+    from gearcad.geometry.tool_tables import ShelfTool
     from gearcad.jobs.tools import CutGear, ShelfTools, ToolChoice, ToolChoices
 
 _NAME = 24

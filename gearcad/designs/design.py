@@ -18,8 +18,8 @@ from gearcad.core.output import file_bytes
 from gearcad.core.records import JsonObject, Notice, concise, texts
 from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear
-from gearcad.geometry.tool_shelf import FILE as TOOLS
 from gearcad.geometry.tool_shelf import ToolName
+from gearcad.geometry.tool_tables import FILE as TOOLS
 from gearcad.version import __version__
 
 _PART = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""

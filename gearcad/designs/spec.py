@@ -43,8 +43,8 @@ from gearcad.geometry import (
 from gearcad.geometry.feasibility import check_given
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.mating import tip_on_form_circle
-from gearcad.geometry.tool_shelf import PARTS as TOOL_PARTS
 from gearcad.geometry.tool_shelf import find_tool, module_given
+from gearcad.geometry.tool_tables import PARTS as TOOL_PARTS
 from gearcad.material import Grade, Material, MaterialGroup, MaterialQuality, grade_of
 
 if TYPE_CHECKING:

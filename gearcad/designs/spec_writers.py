@@ -31,8 +31,9 @@ from gearcad.dynamics.planetary.planetary_strength import ALTERNATING
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.trains.train import EngagedMesh, Train
 from gearcad.geometry import ISO53_A, Gear, GearPair
-from gearcad.geometry.tool_shelf import PARTS as TOOL_PARTS
-from gearcad.geometry.tool_shelf import Place, ToolName
+from gearcad.geometry.tool_shelf import ToolName
+from gearcad.geometry.tool_tables import PARTS as TOOL_PARTS
+from gearcad.geometry.tool_tables import Place
 from gearcad.identify.candidates import Candidate as GearCandidate
 from gearcad.identify.candidates import Identification
 from gearcad.identify.measurements import Gauge, Measurements

@@ -15,7 +15,7 @@ from gearcad.geometry.gear import Gear
 from gearcad.geometry.gear_parts import ISO_54_I, ISO_54_II, ShaperCutter
 from gearcad.geometry.premachining import Finishing, Premachining
 from gearcad.geometry.profile import ToothProfile
-from gearcad.geometry.tool_shelf import ShelfTool
+from gearcad.geometry.tool_tables import ShelfTool
 
 BASE_PITCH_SLACK = 1e-4
 """Share by which the base pitches of a hob with a short lead and of a gear may differ."""

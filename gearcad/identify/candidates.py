@@ -11,7 +11,7 @@ from gearcad.core.errors import InputError, SolverError, SpecError
 from gearcad.core.quantities import NOT_GIVEN
 from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
 from gearcad.geometry import BasicRack, Gear
-from gearcad.geometry.tool_shelf import ShelfTool, ToolRow
+from gearcad.geometry.tool_tables import ShelfTool, ToolRow
 from gearcad.identify.fit import FittedHypothesis, read_off, touches
 from gearcad.identify.measurements import Gauge, Measured, Reading
 from gearcad.identify.standards import FREE, StandardRack, Unknown

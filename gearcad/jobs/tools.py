@@ -18,7 +18,8 @@ from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.premachining import Finishing
 from gearcad.geometry.tool_outlines import cuts, fillet_distance, short_lead_module, with_tool
-from gearcad.geometry.tool_shelf import FILE, Shelf, ShelfTool
+from gearcad.geometry.tool_shelf import Shelf
+from gearcad.geometry.tool_tables import FILE, ShelfTool
 from gearcad.jobs.job import Subject, as_design, with_summary
 from gearcad.version import __version__
 

@@ -20,7 +20,8 @@ from gearcad.drawing.gear_data_rows import gear_rows
 from gearcad.drawing.tool_sheet import tool_rows
 from gearcad.drawing.words import Language, SheetWords
 from gearcad.geometry.premachining import Finishing
-from gearcad.geometry.tool_shelf import Place, Shelf, ToolName
+from gearcad.geometry.tool_shelf import Shelf, ToolName
+from gearcad.geometry.tool_tables import Place
 from gearcad.sheet import sheet_of
 
 PAIR = """[pair]

@@ -17,7 +17,7 @@ from gearcad.core.errors import ParameterError, SpecError
 from gearcad.designs.reader import read_spec, starter_text
 from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.tool_outlines import fillet_distance, with_tool
-from gearcad.geometry.tool_shelf import Place, ShelfTool
+from gearcad.geometry.tool_tables import Place, ShelfTool
 from gearcad.jobs.searches import pair_spec
 from gearcad.jobs.tools import ShelfTools, ToolChoice, ToolChoices
 from gearcad.rating import RatingOptions
