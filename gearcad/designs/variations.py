@@ -385,7 +385,7 @@ def _full_key(text: str, name: str, kind: DesignKind) -> str:
     table, _, field = (main, "", name) if name in KEYS[main] else name.partition(".")
     if field not in KEYS.get(table, ()):
         raise ParameterError("vary", text, explain_unknown_column(name, main))
-    beside = _BESIDE.get(kind, tuple(owner for owner in KEYS if owner not in ("gear", "rack")))
+    beside = _BESIDE.get(kind, tuple(owner for owner in KEYS if owner not in ("gear", "rack", "spline")))
     permitted = [owner for owner in KEYS if owner in (*MAIN_TABLES[kind], *beside)]
     if table not in permitted:
         tables = ", ".join(f"[{owner}]" for owner in permitted)
