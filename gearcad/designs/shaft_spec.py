@@ -15,7 +15,7 @@ from gearcad.designs.design import Where, read_tables, require_plain_name
 from gearcad.designs.keys import OF_SHAFTS, SHAFTS, DesignKind, has_shafts, without_shafts
 from gearcad.designs.reader import design_from_tables, kind_of
 from gearcad.shafts.arrangement import ShaftOptions, with_stations
-from gearcad.shafts.beam import Shaft, ShaftBearing, ShaftForce, ShaftSegment
+from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
 
 _LISTS = dict(zip(OF_SHAFTS, (ShaftSegment, ShaftBearing, ShaftForce), strict=True))
 """Lists of tables, and what each table makes."""
@@ -24,17 +24,17 @@ Part = TypeVar("Part")
 
 
 @dataclass(frozen=True)
-class Arrangement:
+class ShaftArrangement:
     """Shafts by their names with their speeds (rpm), their options, and the mesh of a pair."""
 
     name: str
-    shafts: Mapping[str, Shaft]
+    shafts: Mapping[str, SteppedShaft]
     speeds: Mapping[str, float]
     options: ShaftOptions
     mesh: MeshOnShafts | None = None
 
 
-def read_arrangement(path: Path | str) -> Arrangement:
+def read_arrangement(path: Path | str) -> ShaftArrangement:
     """Return the shafts of a spec. Raises SpecError."""
     tables, where = read_tables(path)
     name = Path(path).stem
@@ -46,7 +46,7 @@ def read_arrangement(path: Path | str) -> Arrangement:
     return _of_pair(tables, where, name)
 
 
-def _alone(tables: Mapping[str, Any], where: Where, name: str) -> Arrangement:
+def _alone(tables: Mapping[str, Any], where: Where, name: str) -> ShaftArrangement:
     """Return a shaft by itself."""
     for table in tables:
         if table not in (*_LISTS, SHAFTS):
@@ -57,10 +57,10 @@ def _alone(tables: Mapping[str, Any], where: Where, name: str) -> Arrangement:
     options = _options(tables, where)
     shaft = _shaft(tables, "", options.coupling, options, where)
     require_plain_name(name)
-    return Arrangement(name, {"shaft": shaft}, {"shaft": options.speed}, options)
+    return ShaftArrangement(name, {"shaft": shaft}, {"shaft": options.speed}, options)
 
 
-def _of_pair(tables: Mapping[str, Any], where: Where, name: str) -> Arrangement:
+def _of_pair(tables: Mapping[str, Any], where: Where, name: str) -> ShaftArrangement:
     """Return the shafts of a pair's gears, and their mesh under the pair's load."""
     from gearcad.designs.pair_designs import PairDesign
     from gearcad.rating.tooth_stiffness import mesh_stiffness
@@ -72,7 +72,7 @@ def _of_pair(tables: Mapping[str, Any], where: Where, name: str) -> Arrangement:
         raise SpecError(
             f"{where('wheel.teeth')}: wheel.teeth = {pair.wheel.teeth}: must be above 0: shafts of rings are not made"
         )
-    shafts, positions = dict[Role, Shaft](), dict[Role, float]()
+    shafts, positions = dict[Role, SteppedShaft](), dict[Role, float]()
     for role in Role:
         own = tables[role.value]
         if "shaft" not in own:
@@ -99,10 +99,10 @@ def _of_pair(tables: Mapping[str, Any], where: Where, name: str) -> Arrangement:
     )
     speeds = {Role.PINION: load.speed, Role.WHEEL: load.speed / pair.gear_ratio}
     named = {role.value: shaft for role, shaft in shafts.items()}
-    return Arrangement(design.name, named, {role.value: speeds[role] for role in shafts}, options, mesh)
+    return ShaftArrangement(design.name, named, {role.value: speeds[role] for role in shafts}, options, mesh)
 
 
-def _mesh_position(own: Mapping[str, Any], role: Role, shaft: Shaft, width: float, where: Where) -> float:
+def _mesh_position(own: Mapping[str, Any], role: Role, shaft: SteppedShaft, width: float, where: Where) -> float:
     """Return the middle of the face on a shaft (mm). Raises SpecError for a face that is not on it."""
     key = f"{role.value}.mesh_position"
     if "mesh_position" not in own:
@@ -127,7 +127,7 @@ def _options(tables: Mapping[str, Any], where: Where) -> ShaftOptions:
     return _made(ShaftOptions, tables.get(SHAFTS, {}), SHAFTS, where)
 
 
-def _shaft(own: Mapping[str, Any], owner: str, coupling: float, options: ShaftOptions, where: Where) -> Shaft:
+def _shaft(own: Mapping[str, Any], owner: str, coupling: float, options: ShaftOptions, where: Where) -> SteppedShaft:
     """Return the shaft of a table's lists."""
     parts: dict[str, tuple[Any, ...]] = {}
     for name, kind in _LISTS.items():
@@ -137,7 +137,7 @@ def _shaft(own: Mapping[str, Any], owner: str, coupling: float, options: ShaftOp
             raise SpecError(f"{where(key)}: {key}: must be headed [[{key}]], once for each", key)
         parts[name] = tuple(_made(kind, each, f"{key}[{number}]", where) for number, each in enumerate(listed))
     try:
-        shaft = Shaft(
+        shaft = SteppedShaft(
             segments=parts["shaft"],
             bearings=parts["bearing"],
             forces=parts["force"],

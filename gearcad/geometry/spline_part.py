@@ -26,8 +26,8 @@ from gearcad.geometry.spline_standards import (
     HUB,
     ISO4156,
     ROOTS,
-    Fit,
     Proportions,
+    SplineFit,
     SplineTolerances,
     deviation,
     form_tooth_height,
@@ -92,7 +92,7 @@ class Spline:
         return word
 
     @cached_property
-    def fit(self) -> Fit | None:
+    def fit(self) -> SplineFit | None:
         """Tolerance class; None without one, whose sizes are the basic ones."""
         said, given = self._said("fit"), self.inputs.fit
         if said and given and said != given:

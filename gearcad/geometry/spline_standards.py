@@ -140,7 +140,7 @@ def form_clearance(standard: str, module: float, reference_diameter: float) -> f
 # ---------------------------------------------------------------------- fits
 
 
-class Fit(NamedTuple):
+class SplineFit(NamedTuple):
     """Tolerance class of a part: letter of the fundamental deviation, "" in ANSI B92.1, and grade."""
 
     letter: str
@@ -189,16 +189,16 @@ _LETTERS = {
 _FIT = re.compile(r"\s*(\d{1,2})\s*([A-Za-z]{0,2})\s*")
 
 
-def read_fit(standard: str, part: str, text: str) -> Fit:
+def read_fit(standard: str, part: str, text: str) -> SplineFit:
     """Return the tolerance class that a text names, such as "9H". Raises ParameterError."""
     found, letters, (least, most) = _FIT.fullmatch(text), _LETTERS[standard, part], _GRADES[standard]
     if found and found[2] in letters and least <= int(found[1]) <= most:
-        return Fit(found[2], int(found[1]))
+        return SplineFit(found[2], int(found[1]))
     example = {"": f'as in "{least + 1}"'}.get(letters[0], f"and {'one of ' if len(letters) > 1 else ''}{', '.join(letters)}")
     raise ParameterError("fit", text, f"must be a grade from {least} to {most} {example} ({standard}, {part})")
 
 
-def deviation(standard: str, part: str, fit: Fit, diameter: float, tolerances: SplineTolerances) -> float:
+def deviation(standard: str, part: str, fit: SplineFit, diameter: float, tolerances: SplineTolerances) -> float:
     """Return the fundamental deviation (µm) of the effective tooth thickness (shaft) or space width (hub).
 
     `diameter` (mm) is d_B in DIN 5480 and d in ISO 4156, whose js and k follow from the tolerances. Raises GeometryError.
@@ -218,7 +218,7 @@ def deviation(standard: str, part: str, fit: Fit, diameter: float, tolerances: S
     )
 
 
-def _iso_deviation(fit: Fit, diameter: float, tolerances: SplineTolerances) -> float:
+def _iso_deviation(fit: SplineFit, diameter: float, tolerances: SplineTolerances) -> float:
     """es_v (µm) of a shaft: that of ISO 286 for d, e, f; T + lambda for k, half of it for js."""
     if fit.letter in ("js", "k"):
         total = (tolerances.actual or 0.0) + (tolerances.effective or 0.0)
@@ -234,7 +234,7 @@ _ISO_HELIX = {4: (0.8, 4.0), 5: (1.0, 5.0), 6: (1.25, 6.3), 7: (2.0, 10.0)}
 
 
 def tolerances_of(
-    standard: str, fit: Fit, *, module: float, teeth: int, diameter: float, thickness: float, length: float
+    standard: str, fit: SplineFit, *, module: float, teeth: int, diameter: float, thickness: float, length: float
 ) -> SplineTolerances:
     """Return the tolerances of a part (µm): by the formulas of ISO 4156, in DIN 5480 where a printed value is known."""
     if standard == ISO4156:

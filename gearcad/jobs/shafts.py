@@ -7,7 +7,7 @@ from pathlib import Path
 
 from gearcad.core.output import json_text, staged_files
 from gearcad.core.records import JsonObject, Role, texts
-from gearcad.designs.shaft_spec import Arrangement, read_arrangement
+from gearcad.designs.shaft_spec import ShaftArrangement, read_arrangement
 from gearcad.jobs.job import with_summary
 from gearcad.shafts.arrangement import ArrangementResult, ShaftResult
 from gearcad.version import __version__
@@ -41,7 +41,7 @@ def done_shafts(spec: Path | str) -> ShaftsDone:
     return ShaftsDone(found.name, result_of(found))
 
 
-def result_of(found: Arrangement) -> ArrangementResult:
+def result_of(found: ShaftArrangement) -> ArrangementResult:
     """Return the result of an arrangement: under the load over the face where there is a mesh, otherwise under its forces."""
     results = {}
     for name, shaft in found.shafts.items():

@@ -13,7 +13,7 @@ import numpy as np
 from gearcad.core.errors import InputError
 from gearcad.core.quantities import SPEED, Range, Whole, Words, require_fields
 from gearcad.core.records import JsonObject, Notice, concise
-from gearcad.shafts.beam import Shaft, ShaftBearing, ShaftState
+from gearcad.shafts.beam import ShaftBearing, ShaftState, SteppedShaft
 from gearcad.shafts.bearing_life import (
     BALL_KINDS,
     RECALLED,
@@ -151,7 +151,7 @@ def _modification(bearing: ShaftBearing, load: float, speed: float, options: Sha
         return "modified life: the oil is thinner than ISO 281 covers (kappa below 0.1)"
 
 
-def with_stations(shaft: Shaft) -> Shaft:
+def with_stations(shaft: SteppedShaft) -> SteppedShaft:
     """Return the shaft with further stations at whole steps, so that its lines can be drawn."""
     wanted = shaft.length / _FEWEST_STATIONS
     power = 10.0 ** math.floor(math.log10(wanted))

@@ -1,4 +1,4 @@
-"""Shaft: a stepped round beam on bearings under forces, its weight and a coupling (Timoshenko, Cowper's shear coefficients).
+"""SteppedShaft: a round beam of segments on bearings, under forces, its weight and a coupling (Timoshenko, Cowper).
 
 z runs along the shaft from its left end, x and y are square to it. Lengths in mm, forces in N, torques and moments in N·m,
 stiffness of bearings in N/µm, tilting stiffness in N·m/rad; deflections in µm, inclinations in µm/mm, twist in degrees. Inside
@@ -195,7 +195,7 @@ class ShaftForce:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Shaft:
+class SteppedShaft:
     """A shaft of segments from left to right on its bearings.
 
     The `coupling` (mm) is where its twist is held, and what torque is left over is taken. `gravity` in m/s². Raises
@@ -352,7 +352,7 @@ _LOOSE = 1e-13
 class ShaftState:
     """Displacements (6 n,) in mm and rad of the nodes of a shaft under loads (6 n,) in N and N mm."""
 
-    shaft: Shaft
+    shaft: SteppedShaft
     moved: Floats
     loads: Floats
 

@@ -16,7 +16,7 @@ from gearcad.designs.shaft_spec import read_arrangement
 from gearcad.geometry import Gear, GearPair, profile_shift_sum
 from gearcad.jobs.shafts import done_shafts
 from gearcad.shafts.arrangement import ShaftOptions, bearing_life
-from gearcad.shafts.beam import Shaft, ShaftBearing, ShaftForce, ShaftSegment
+from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
 from gearcad.shafts.bearing_life import (
     ball_deflection,
     basic_life,
@@ -31,7 +31,7 @@ REFERENCE = json.loads((Path(__file__).parents[1] / "data" / "shafts.json").read
 SHAFTS, MESHES = REFERENCE["shafts"], REFERENCE["meshes"]
 
 
-def shaft_of(inputs: dict[str, Any], stations: list[float] | None = None) -> Shaft:
+def shaft_of(inputs: dict[str, Any], stations: list[float] | None = None) -> SteppedShaft:
     def plain(value: Any) -> Any:
         return tuple(map(float, value)) if isinstance(value, list) else value if isinstance(value, str) else float(value)
 
@@ -39,7 +39,7 @@ def shaft_of(inputs: dict[str, Any], stations: list[float] | None = None) -> Sha
         key: [kind(**{name: plain(value) for name, value in each.items()}) for each in inputs.get(key, [])]
         for key, kind in (("segments", ShaftSegment), ("bearings", ShaftBearing), ("forces", ShaftForce))
     }
-    return Shaft(
+    return SteppedShaft(
         **{key: tuple(each) for key, each in parts.items()},
         coupling=float(inputs["coupling"]),
         gravity=tuple(inputs.get("gravity", (0.0, 0.0, 0.0))),
@@ -76,10 +76,12 @@ def test_given_shafts(case: dict[str, Any]) -> None:
     assert found["coupling_torque"] == pytest.approx(expected["coupling_torque"], abs=1e-4)
 
 
-def beam(length: float = 400.0, position: float = 150.0, force: float = 1000.0) -> tuple[Shaft, ShaftSegment]:
+def beam(length: float = 400.0, position: float = 150.0, force: float = 1000.0) -> tuple[SteppedShaft, ShaftSegment]:
     part = ShaftSegment(length=length, outer_diameter=40.0)
     rigid = (ShaftBearing(position=0.0, axial_stiffness="rigid"), ShaftBearing(position=length))
-    return Shaft(segments=(part,), bearings=rigid, forces=(ShaftForce(position=position, force=(0.0, -force, 0.0)),)), part
+    return SteppedShaft(
+        segments=(part,), bearings=rigid, forces=(ShaftForce(position=position, force=(0.0, -force, 0.0)),)
+    ), part
 
 
 def test_a_force_between_two_supports_by_the_closed_form() -> None:
@@ -109,7 +111,7 @@ def test_the_first_critical_speed_of_a_slender_beam() -> None:
     """omega = pi^2 sqrt(E I/(rho A))/l^2; shear and rotary inertia take 0.4 % of it here."""
     part = ShaftSegment(length=1000.0, outer_diameter=30.0)
     rigid = (ShaftBearing(position=0.0, axial_stiffness="rigid"), ShaftBearing(position=1000.0))
-    shaft = Shaft(segments=(part,), bearings=rigid, places=tuple(np.linspace(0.0, 1000.0, 101)))
+    shaft = SteppedShaft(segments=(part,), bearings=rigid, places=tuple(np.linspace(0.0, 1000.0, 101)))
     slender = math.pi**2 * math.sqrt(part.youngs_modulus * part.second_moment / (part.density * 1e-12 * part.area)) / 1e6
     assert shaft.critical_speeds(1)[0] == pytest.approx(30 / math.pi * slender, rel=5e-3)
 

@@ -15,7 +15,7 @@ import numpy as np
 from gearcad.contact.shared.local_contact import complementary
 from gearcad.core.records import Floats, JsonObject, PerGear, Role
 from gearcad.geometry import GearPair
-from gearcad.shafts.beam import Shaft, ShaftState
+from gearcad.shafts.beam import ShaftState, SteppedShaft
 
 _END_SLICES = 160
 """Slices with which the line load is carried on to the end of the face."""
@@ -31,7 +31,7 @@ class MeshOnShafts:
 
     pair: GearPair
     torque: float
-    shafts: PerGear[Shaft | None]
+    shafts: PerGear[SteppedShaft | None]
     positions: PerGear[float]
     mesh_angle: float = 0.0
     stiffness: float = 20.0
@@ -83,10 +83,10 @@ class MeshOnShafts:
         return -(self.pair.centre_distance - radius) * self._frame[0]
 
     @cached_property
-    def _beams(self) -> PerGear[Shaft | None]:
+    def _beams(self) -> PerGear[SteppedShaft | None]:
         """The shafts with nodes at the slices."""
 
-        def beam(role: Role) -> Shaft | None:
+        def beam(role: Role) -> SteppedShaft | None:
             shaft = self.shafts.pick(role)
             return None if shaft is None else replace(shaft, places=tuple(self.positions.pick(role) + self.places))
 
