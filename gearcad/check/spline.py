@@ -88,7 +88,7 @@ class SplineCheck:
 
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know of the result."""
+        """Notices about the result."""
         text = (
             "the pressure at the ends of the flanks hangs on how sharp their edges are: it is told for the rest of the height"
         )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from gearcad.cli.group import debug_option, require_new_file
-from gearcad.cli.job import echo_warnings, quiet_option
+from gearcad.cli.job import aligned_columns, echo_warnings, quiet_option
 from gearcad.cli.language import say
 from gearcad.core.errors import ParameterError
 from gearcad.core.quantities import FieldSchema, schema_of
@@ -27,24 +27,14 @@ def identification_lines(found: Identification) -> Iterator[str]:
     """Candidates, their residuals, the verdict, and what would decide."""
     from gearcad.jobs.searches import identification_verdict, tool_lines
 
-    yield from _aligned(_candidate_rows(found), left=(1, 10))
+    yield from aligned_columns(_candidate_rows(found), left=(1, 10))
     yield ""
-    yield from _aligned(_residual_rows(found), left=(0,))
+    yield from aligned_columns(_residual_rows(found), left=(0,))
     yield ""
     if told := list(tool_lines(found)):
         yield from told
         yield ""
     yield from identification_verdict(found)
-
-
-def _aligned(rows: Sequence[Sequence[str]], left: Sequence[int]) -> Iterator[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        cells = (
-            f"{cell:<{width}}" if number in left else f"{cell:>{width}}"
-            for number, (cell, width) in enumerate(zip(row, widths, strict=True))
-        )
-        yield "  ".join(cells).rstrip()
 
 
 def _candidate_rows(found: Identification) -> list[tuple[str, ...]]:
@@ -214,12 +204,12 @@ def _spline_lines(found: SplineIdentification) -> Iterator[str]:
         joint = each.spline.joint
         sizes = (f"{joint.profile_shift:.3f}", f"{each.size:.3f}", f"{each.spline.basic_size:.3f}", f"{each.misfit:.2f}")
         rows.append((f"{number}", each.designation, each.spline.root, *sizes))
-    yield from _aligned(rows, left=(1, 2))
+    yield from aligned_columns(rows, left=(1, 2))
     yield ""
     shown = found.candidates[:_COLUMNS]
     off = [("off, in uncertainties", *(f"{number}" for number in range(1, len(shown) + 1)))]
     off += [(label, *(f"{each.residuals[place]:+.1f}" for each in shown)) for place, label in enumerate(labels)]
-    yield from _aligned(off, left=(0,))
+    yield from aligned_columns(off, left=(0,))
     yield ""
     if not found.fits:
         yield "No spline of a standard fits: a reading is wrong, or it is another profile"

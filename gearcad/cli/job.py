@@ -7,7 +7,7 @@ import os
 import re
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, TypeVar
@@ -255,3 +255,14 @@ def echo_warnings(notices: Iterable[Notice], *, err: bool = False) -> None:
     colour = False if os.environ.get("NO_COLOR") else None  # None: where it is a terminal
     for text in texts(notices):
         say(f"Warning: {text}", fg="yellow", err=err, color=colour)
+
+
+def aligned_columns(rows: Sequence[Sequence[str]], left: Sequence[int]) -> Iterator[str]:
+    """Yield rows as lines whose columns are as wide as their contents; those whose numbers are in `left` begin at the left."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (
+            f"{cell:<{width}}" if number in left else f"{cell:>{width}}"
+            for number, (cell, width) in enumerate(zip(row, widths, strict=True))
+        )
+        yield "  ".join(cells).rstrip()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gearcad.cli.group import debug_option
-from gearcad.cli.job import json_option, quiet_option
+from gearcad.cli.job import aligned_columns, json_option, quiet_option
 from gearcad.cli.language import say, translated
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def shelf_lines(result: ShelfTools) -> Iterator[str]:
     rows: list[tuple[str, ...]] = [("tool", "kind", "module mm", "α_n °", "h_aP0*", "ρ_aP0*", "table")]
     for (name, _, _), group in groupby(result.tools, key=lambda tool: (tool.name, tool.place, tool.file)):
         rows.append(_shelf_row(name, list(group)))
-    yield from _aligned(rows, left=(0, 1, 2, 6))
+    yield from aligned_columns(rows, left=(0, 1, 2, 6))
 
 
 def _shelf_row(name: str, rows: Sequence[ShelfTool]) -> tuple[str, ...]:
@@ -81,7 +81,7 @@ def _gear_lines(name: str, each: CutGear) -> Iterator[str]:
         return
     rows: list[tuple[str, ...]] = [("tool", "table", "off mm", "d_f mm", "+/-", "d_Ff mm", "+/-", "s_pr mm", "c mm", "holds")]
     rows += [_choice_row(choice) for choice in each.choices]
-    yield from _aligned(rows, left=(0, 1))
+    yield from aligned_columns(rows, left=(0, 1))
     for choice in each.choices:
         name = _shortened(choice.tool.name, _NAME)
         for fault in choice.faults[:1]:
@@ -126,16 +126,6 @@ def _number(value: float | None, *, signed: bool = False) -> str:
 
 def _shortened(text: str, most: int) -> str:
     return text if len(text) <= most else f"{text[: most - 1]}…"
-
-
-def _aligned(rows: Sequence[Sequence[str]], left: Sequence[int]) -> Iterator[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        cells = (
-            f"{cell:<{width}}" if number in left else f"{cell:>{width}}"
-            for number, (cell, width) in enumerate(zip(row, widths, strict=True))
-        )
-        yield "  ".join(cells).rstrip()
 
 
 @click.command(short_help="The shelf of tools, and which of them would cut the gears of a design.")

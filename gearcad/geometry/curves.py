@@ -62,7 +62,9 @@ class Curve(PlaneCurve, Protocol):
         """Return the radius (mm) and half tooth angle (rad) at s."""
 
 
-class _Cartesian:
+class PolarCurve:
+    """A curve by its polar coordinates."""
+
     def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
         raise NotImplementedError
 
@@ -72,7 +74,7 @@ class _Cartesian:
 
 
 @dataclass(frozen=True)
-class Land(_Cartesian):
+class Land(PolarCurve):
     """Arc about the gear axis (the root land or the tip land)."""
 
     kind: CurveKind
@@ -89,7 +91,7 @@ class Land(_Cartesian):
 
 
 @dataclass(frozen=True)
-class Fillet(_Cartesian):
+class Fillet(PolarCurve):
     """Fillet that the tool tip cuts from theta = `first` to `last`; s is linear in arcsinh(tan theta), to spread the bend."""
 
     tool: FilletTool
@@ -126,7 +128,7 @@ class Fillet(_Cartesian):
 
 
 @dataclass(frozen=True)
-class Involute(_Cartesian):
+class Involute(PolarCurve):
     """Involute between two roll angles (rad); s is linear in the roll angle.
 
     On an `internal` tooth, whose tip is the end of the lesser roll, the half angle grows outwards.
@@ -161,7 +163,7 @@ class Involute(_Cartesian):
 
 
 @dataclass(frozen=True)
-class WheelArc(_Cartesian):
+class WheelArc(PolarCurve):
     """Arc that the rounded tip of a form wheel leaves: about (`x`, `y`) in mm, from angle `first` to `last` (rad, from +x)."""
 
     x: float
@@ -205,7 +207,7 @@ class WheelArc(_Cartesian):
 
 
 @dataclass(frozen=True)
-class FlankTrace(_Cartesian):
+class FlankTrace(PolarCurve):
     """Piece of a fillet that the straight flank of a cutter's protuberance cuts, between two ways (mm) along that flank."""
 
     flank: CutterFlank
@@ -240,7 +242,7 @@ RootCurve = Fillet | Involute | WheelArc | FlankTrace
 
 
 @dataclass(frozen=True)
-class FilletChain(_Cartesian):
+class FilletChain(PolarCurve):
     """Pieces of a fillet, root side first, as one curve with corners at the parameters `breaks`."""
 
     pieces: tuple[RootCurve, ...]
@@ -289,7 +291,7 @@ class FilletChain(_Cartesian):
 
 
 @dataclass(frozen=True)
-class Chamfer(_Cartesian):
+class Chamfer(PolarCurve):
     """Straight tip chamfer at 45 degrees to the radius through its end on the flank; `run` is its radial extent there (mm).
 
     It runs outwards, or inwards on an `internal` tooth.

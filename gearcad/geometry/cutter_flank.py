@@ -37,7 +37,7 @@ class CutterFlank:
 
     @cached_property
     def _start(self) -> tuple[float, float]:
-        """Where the corner ends, radially and across from the cutter's axis, its middle on the radial line."""
+        """End of the corner, radially and across from the cutter's axis, its middle on the radial line."""
         along, across = self.tip.corner(np.array(self.tip.corner_end))
         return float(along), float(across)
 
@@ -48,7 +48,7 @@ class CutterFlank:
 
     @cached_property
     def _slope(self) -> float:
-        """How far the flank goes across for its way, in the transverse section."""
+        """Part of the flank's way that goes across, in the transverse section."""
         return math.tan(self._angle) / math.cos(self.tip.helix_angle)
 
     @cached_property

@@ -34,7 +34,7 @@ _KEYS_OF = {
 
 @dataclass(frozen=True, kw_only=True)
 class Making:
-    """How a gear is made; without a `process` nothing is corrected.
+    """Inputs of how a gear is made; without a `process` nothing is corrected.
 
     `shrinkage_radial` (percent) scales all distances from the axis by 1/(1 - s), and all else too unless that is given:
     `shrinkage_tangential` the thickness of each tooth about its middle, `shrinkage_axial` what lies along the axis. `offset`

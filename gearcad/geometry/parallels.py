@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core.records import Floats
-from gearcad.geometry.curves import Curve, CurveKind, Involute
+from gearcad.geometry.curves import Curve, CurveKind, Involute, PolarCurve
 from gearcad.geometry.involute import root_between
 
 
@@ -22,20 +22,13 @@ class CrossingFault(Exception):
     """Two curves that should cross and do not."""
 
 
-class _Wrapped:
+class _Wrapped(PolarCurve):
     curve: Curve
 
     @property
     def kind(self) -> CurveKind:
         """The kind of the curve itself."""
         return self.curve.kind
-
-    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
-        raise NotImplementedError
-
-    def points(self, s: ArrayLike) -> Floats:
-        radius, angle = self.polar(s)
-        return np.stack([radius * np.cos(angle), radius * np.sin(angle)], -1)
 
 
 @dataclass(frozen=True)

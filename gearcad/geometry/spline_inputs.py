@@ -48,7 +48,7 @@ _MICRONS = Range("µm", 0, 10_000)
 
 @dataclass(frozen=True, kw_only=True)
 class _PartInputs:
-    """What can be given of one part of a spline joint.
+    """Inputs of one part of a spline joint.
 
     `fit` is the tolerance class ("8f", "9H"; a grade in ANSI B92.1); `root` says how the root is made (DIN 5480) or its form.
     Without `tolerance_actual` T_act and `tolerance_effective` T_eff they are those of the standard where these are known.
@@ -151,7 +151,7 @@ class SplineInputs:
 
     @cached_property
     def designated(self) -> Designation | None:
-        """What the designation says; None without one."""
+        """Content of the designation; None without one."""
         return None if self.designation is None else read_designation(self.designation)
 
     def _take(self, said: Designation | None) -> None:

@@ -51,7 +51,7 @@ class Spline:
 
     @property
     def inputs(self) -> ShaftInputs | HubInputs:
-        """What is given of this part."""
+        """Inputs of this part."""
         return self.joint.hub if self.is_hub else self.joint.shaft
 
     @property

@@ -285,7 +285,7 @@ _SHAPES = (
 
 
 class Designation(NamedTuple):
-    """What a designation says: the standard, the values under the keys of [spline], and those of each part under theirs."""
+    """Content of a designation: the standard, values under the keys of [spline], and those of each part under theirs."""
 
     standard: str
     values: Mapping[str, float | int]

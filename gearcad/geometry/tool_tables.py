@@ -40,7 +40,7 @@ _PLAIN = ("name", "normal_module", "source")
 
 
 class Place(Enum):
-    """Where the table of a tool is."""
+    """Place of the table of a tool."""
 
     DESIGN = "design"
     USER = "user"
@@ -136,7 +136,7 @@ def _columns() -> dict[str, FieldSchema]:
 
 
 _MODULE = next(each for each in get_args(NormalModule) if hasattr(each, "require"))
-"""What is permitted of a normal module."""
+"""Permitted range of a normal module."""
 
 
 @dataclass(frozen=True)

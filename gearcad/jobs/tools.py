@@ -117,7 +117,7 @@ class CutGear(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class ToolChoices:
-    """What would cut each gear of a design, by the names of the gears."""
+    """Tools that would cut each gear of a design, by the names of the gears."""
 
     name: str
     gears: Mapping[str, CutGear]

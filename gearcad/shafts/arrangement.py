@@ -199,7 +199,7 @@ class ArrangementResult:
 
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know of the result."""
+        """Notices about the result."""
         return tuple(self._found())
 
     def _found(self) -> Iterator[Notice]:

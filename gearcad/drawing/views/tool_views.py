@@ -130,7 +130,7 @@ class StraightTool:
 
     @property
     def joint(self) -> Point:
-        """Where rounding or protuberance end on the flank."""
+        """Place on the flank where rounding or protuberance ends."""
         x, height = self.on_arc(self.last)
         if self.steep is None:
             return x, height
