@@ -364,14 +364,6 @@ class Gear(GearData):
         free = stock <= self.premachining.protuberance
         return replace(self, premachining=pre, finishing=Finishing() if free else self.finishing)
 
-    def can_have_stock(self, stock: float) -> bool:
-        """Return whether the tools leave a root with a stock (mm)."""
-        try:
-            self.with_stock(stock)
-        except GeometryError:
-            return False
-        return True
-
     def to_dict(self) -> JsonObject:
         """Return the inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
         parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix")}

@@ -307,14 +307,6 @@ class Rack(RackData):
         free = stock <= self.premachining.protuberance
         return replace(self, premachining=pre, finishing=RackFinishing() if free else self.finishing)
 
-    def can_have_stock(self, stock: float) -> bool:
-        """Return whether the tools leave a root with a stock (mm)."""
-        try:
-            self.with_stock(stock)
-        except GeometryError:
-            return False
-        return True
-
     def _premachining_document(self) -> JsonObject:
         """Return the inputs of the pre-cutting tool and what it leaves (mm)."""
         pre, before = self.premachining, self.precut

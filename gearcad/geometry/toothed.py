@@ -171,6 +171,18 @@ class ToothedPart(Toothed[float]):
     name: str
     face_width: float
 
+    def with_stock(self, stock: float) -> ToothedPart:
+        """Return the part cut with another stock (mm). Raises GeometryError where the tools leave no such root."""
+        raise NotImplementedError
+
+    def can_have_stock(self, stock: float) -> bool:
+        """Return whether the tools leave a root with a stock (mm)."""
+        try:
+            self.with_stock(stock)
+        except GeometryError:
+            return False
+        return True
+
     @property
     def tip_thickness(self) -> float:
         """Normal tooth thickness s_an at the tip, before a tip chamfer."""
