@@ -75,13 +75,14 @@ SHAFTS = "shafts"
 OF_SHAFTS = ("shaft", "bearing", "force")
 """Lists of tables that describe a shaft: its segments, its bearings, and forces on it."""
 
-_OF_SHAFTED_GEARS = (*OF_SHAFTS, "mesh_position", "coupling")
+OF_SHAFTED_GEARS = (*OF_SHAFTS, "mesh_position", "coupling")
 """Keys of a gear of a pair that belong to its shaft."""
 
 
 def has_shafts(tables: Mapping[str, Any]) -> bool:
-    """Return whether the tables of a pair's spec describe a shaft."""
-    return any("shaft" in content for role in Role if isinstance(content := tables.get(role.value), Mapping))
+    """Return whether the tables of a pair's spec have anything of shafts."""
+    own = (content for role in Role if isinstance(content := tables.get(role.value), Mapping))
+    return SHAFTS in tables or any(key in content for content in own for key in OF_SHAFTED_GEARS)
 
 
 def without_shafts(tables: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -91,7 +92,7 @@ def without_shafts(tables: Mapping[str, Any]) -> Mapping[str, Any]:
     found = {name: content for name, content in tables.items() if name != SHAFTS}
     for role in Role:
         if isinstance(content := found.get(role.value), Mapping):
-            found[role.value] = {key: each for key, each in content.items() if key not in _OF_SHAFTED_GEARS}
+            found[role.value] = {key: each for key, each in content.items() if key not in OF_SHAFTED_GEARS}
     return found
 
 

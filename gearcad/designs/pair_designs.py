@@ -12,7 +12,7 @@ from bisect import bisect_left
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, as_choice, require_number
@@ -51,6 +51,7 @@ from gearcad.rating.options import RatingOptions
 if TYPE_CHECKING:
     from gearcad.check.options import CheckOptions
     from gearcad.check.task import CheckTask
+    from gearcad.designs.shaft_spec import PairShafts, ShaftArrangement
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,24 +62,36 @@ class PairDesign(GearedDesign):
 
     pair: GearPair
     material: Materials | None = None
-    shafts_described: bool = False
-    """Whether its spec describes shafts, which `gearcad shafts` alone takes into account."""
+    shafts: PairShafts | None = None
+    """Shafts of its gears, which `gearcad shafts` alone takes into account."""
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
         """Return the design that [pair], [pinion] and [wheel] describe. Raises SpecError."""
-        described, tables = has_shafts(tables), without_shafts(tables)
-        spec = cls.spec(tables, where)
-        beside = beside_teeth(spec, tables, PerGear._fields)
+        spec, teeth = cls.spec(tables, where), without_shafts(tables)
+        beside = beside_teeth(spec, teeth, PerGear._fields)
         name = spec.name("pair", default_name)
         pair = spec.pair(name)
+        if has_shafts(tables):
+            from gearcad.designs.shaft_spec import read_pair_shafts  # which few specs need
+
+            beside["shafts"] = read_pair_shafts(tables, pair, where)
         with spec.blame("pair"):
-            return cls(name=name, pair=pair, shafts_described=described, **beside)
+            return cls(name=name, pair=pair, **beside)
+
+    @cached_property
+    def arrangement(self) -> ShaftArrangement | None:
+        """Shafts of its gears with stations and speeds, with their mesh if there is a load; None without shafts."""
+        if self.shafts is None:
+            return None
+        from gearcad.designs.shaft_spec import pair_arrangement
+
+        return replace(pair_arrangement(self.shafts, self.pair, self.load, self.materials), name=self.name)
 
     @property
     def notices(self) -> tuple[Notice, ...]:
         """Notices of gears and pair, and that shafts are not taken into account here."""
-        if not self.shafts_described:
+        if self.shafts is None:
             return super().notices
         text = "shafts are described: they count in `gearcad shafts` alone, here the gears are held on rigid ones"
         return (*super().notices, Notice("rigid-shafts", text))

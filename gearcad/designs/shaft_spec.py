@@ -3,103 +3,144 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, TypeVar
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from gearcad.contact.shared.face_load import MeshOnShafts
 from gearcad.core.errors import InputError, SpecError, format_number, shown
 from gearcad.core.quantities import schema_of
 from gearcad.core.records import PerGear, Role
-from gearcad.designs.design import Where, read_tables, require_plain_name
-from gearcad.designs.keys import OF_SHAFTS, SHAFTS, DesignKind, has_shafts, without_shafts
-from gearcad.designs.reader import design_from_tables, kind_of
+from gearcad.designs.design import Where
+from gearcad.designs.keys import OF_SHAFTED_GEARS, OF_SHAFTS, SHAFTS, has_shafts
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material
 from gearcad.shafts.arrangement import ShaftOptions, with_stations
 from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
 
-_LISTS = dict(zip(OF_SHAFTS, (ShaftSegment, ShaftBearing, ShaftForce), strict=True))
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+    from gearcad.contact.shared.face_load import MeshOnShafts
+
+SHAFT_LISTS: dict[str, type[DataclassInstance]] = dict(zip(OF_SHAFTS, (ShaftSegment, ShaftBearing, ShaftForce), strict=True))
 """Lists of tables, and what each table makes."""
 
 Part = TypeVar("Part")
 
 
+@dataclass(frozen=True, kw_only=True)
+class MountedShaft:
+    """A shaft of a gear, with the middle of the common face at `mesh_position` (mm from its left end)."""
+
+    shaft: SteppedShaft
+    mesh_position: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairShafts:
+    """The shafts of both gears of a pair, None for a rigid one, and their options."""
+
+    gears: PerGear[MountedShaft | None]
+    options: ShaftOptions
+
+    @property
+    def mounted(self) -> dict[Role, MountedShaft]:
+        """The shafts that are described."""
+        return {role: own for role, own in self.gears.items() if own is not None}
+
+
 @dataclass(frozen=True)
 class ShaftArrangement:
-    """Shafts by their names with their speeds (rpm), their options, and the mesh of a pair."""
+    """Shafts by their names, with stations at whole steps, their speeds (rpm) and options.
+
+    Of a pair the names are those of its gears, `positions` (mm) are the middles of the face on the shafts, and `mesh` is their
+    mesh under the pair's load, None without a load.
+    """
 
     name: str
     shafts: Mapping[str, SteppedShaft]
     speeds: Mapping[str, float]
     options: ShaftOptions
+    positions: Mapping[str, float] = field(default_factory=dict)
     mesh: MeshOnShafts | None = None
 
 
-def read_arrangement(path: Path | str) -> ShaftArrangement:
-    """Return the shafts of a spec. Raises SpecError."""
-    tables, where = read_tables(path)
-    name = Path(path).stem
-    if "shaft" in tables or "bearing" in tables:
-        return _alone(tables, where, name)
-    if kind_of(tables) is not DesignKind.PAIR or not has_shafts(tables):
-        permitted = "must have [[shaft]] and [[bearing]], or a pair with [[pinion.shaft]] or [[wheel.shaft]]"
-        raise SpecError(f"{where('')}: {permitted}")
-    return _of_pair(tables, where, name)
-
-
-def _alone(tables: Mapping[str, Any], where: Where, name: str) -> ShaftArrangement:
-    """Return a shaft by itself."""
+def read_shaft(tables: Mapping[str, Any], where: Where) -> tuple[SteppedShaft, ShaftOptions]:
+    """Return a shaft by itself, and its options. Raises SpecError."""
     for table in tables:
-        if table not in (*_LISTS, SHAFTS):
-            permitted = ", ".join(f"[[{each}]]" for each in _LISTS)
+        if table not in (*SHAFT_LISTS, SHAFTS):
+            permitted = ", ".join(f"[[{each}]]" for each in SHAFT_LISTS)
             raise SpecError(
                 f"{where(table)}: [{shown(table)}] cannot stand beside [[shaft]]: permitted are {permitted}, [{SHAFTS}]"
             )
     options = _options(tables, where)
-    shaft = _shaft(tables, "", options.coupling, options, where)
-    require_plain_name(name)
-    return ShaftArrangement(name, {"shaft": shaft}, {"shaft": options.speed}, options)
+    return _shaft(tables, "", options.coupling, options, where), options
 
 
-def _of_pair(tables: Mapping[str, Any], where: Where, name: str) -> ShaftArrangement:
-    """Return the shafts of a pair's gears, and their mesh under the pair's load."""
-    from gearcad.designs.pair_designs import PairDesign
-    from gearcad.rating.tooth_stiffness import mesh_stiffness
-
-    design = design_from_tables(without_shafts(tables), where=where, default_name=name)
-    assert isinstance(design, PairDesign)
-    load, options, pair = design.loaded("shafts are loaded by it"), _options(tables, where), design.pair
+def read_pair_shafts(tables: Mapping[str, Any], pair: GearPair, where: Where) -> PairShafts | None:
+    """Return the shafts that the tables of a pair's spec describe, or None. Raises SpecError."""
+    if not has_shafts(tables):
+        return None
     if pair.internal:
         raise SpecError(
             f"{where('wheel.teeth')}: wheel.teeth = {pair.wheel.teeth}: must be above 0: shafts of rings are not made"
         )
-    shafts, positions = dict[Role, SteppedShaft](), dict[Role, float]()
-    for role in Role:
-        own = tables[role.value]
+    options = _options(tables, where)
+
+    def mounted(role: Role) -> MountedShaft | None:
+        own = tables.get(role.value, {})
+        described = next((key for key in OF_SHAFTED_GEARS if key in own), None)
+        if described is None:
+            return None
         if "shaft" not in own:
-            continue
-        coupling = _number(own, "coupling", role, where, 0.0)
-        shafts[role] = _shaft(own, f"{role.value}.", coupling, options, where)
-        positions[role] = _mesh_position(own, role, shafts[role], pair.common_width.width, where)
-    torque = load.torque * load.application_factor
+            key = f"{role.value}.{described}"
+            raise SpecError(f"{where(key)}: {key}: needs the shaft: segments headed [[{role.value}.shaft]]", key)
+        shaft = _shaft(own, f"{role.value}.", _number(own, "coupling", role, where, 0.0), options, where)
+        return MountedShaft(shaft=shaft, mesh_position=_mesh_position(own, role, shaft, pair.common_width.width, where))
+
+    found = PerGear.each(mounted)
+    if not any(found):
+        permitted = f"needs a shaft: segments headed {' or '.join(f'[[{role.value}.shaft]]' for role in Role)}"
+        raise SpecError(f"{where(SHAFTS)}: [{SHAFTS}]: {permitted}", SHAFTS)
+    return PairShafts(gears=found, options=options)
+
+
+def pair_arrangement(shafts: PairShafts, pair: GearPair, load: Load | None, materials: PerGear[Material]) -> ShaftArrangement:
+    """Return the arrangement of a pair's shafts, with their mesh under the load where there is one."""
+    mounted = {role.value: each for role, each in shafts.mounted.items()}
+    speed = 0.0 if load is None else load.speed
+    speeds = {Role.PINION.value: speed, Role.WHEEL.value: speed / pair.gear_ratio}
+    found = ShaftArrangement(
+        pair.name,
+        {name: with_stations(each.shaft) for name, each in mounted.items()},
+        {name: speeds[name] for name in mounted},
+        shafts.options,
+        {name: each.mesh_position for name, each in mounted.items()},
+    )
+    return found if load is None else replace(found, mesh=_mesh(found, pair, load, materials))
+
+
+def _mesh(found: ShaftArrangement, pair: GearPair, load: Load, materials: PerGear[Material]) -> MeshOnShafts:
+    """Return the mesh on the shafts under a load."""
+    from gearcad.contact.shared.face_load import MeshOnShafts
+    from gearcad.rating.tooth_stiffness import mesh_stiffness
+
+    options, torque = found.options, load.torque * load.application_factor
     stiffness = options.face_mesh_stiffness
     if stiffness is None:
         force = 2000 * abs(torque) / pair.pinion.reference_diameter
-        stiffness = float(mesh_stiffness(pair, design.materials, force / pair.common_width.width).mesh_beta)
-    crowned = sum(gear.modification.lead_crowning for gear in pair.gears)
-    mesh = MeshOnShafts(
+        stiffness = float(mesh_stiffness(pair, materials, force / pair.common_width.width).mesh_beta)
+    return MeshOnShafts(
         pair=pair,
         torque=torque,
-        shafts=PerGear.each(shafts.get),
-        positions=PerGear.each(lambda role: positions.get(role, 0.0)),
+        shafts=PerGear.each(lambda role: found.shafts.get(role.value)),
+        positions=PerGear.each(lambda role: found.positions.get(role.value, 0.0)),
         mesh_angle=options.mesh_angle,
         stiffness=stiffness,
         slices=options.slices,
-        crowning=crowned,
+        crowning=sum(gear.modification.lead_crowning for gear in pair.gears),
         slope=options.misalignment,
     )
-    speeds = {Role.PINION: load.speed, Role.WHEEL: load.speed / pair.gear_ratio}
-    named = {role.value: shaft for role, shaft in shafts.items()}
-    return ShaftArrangement(design.name, named, {role.value: speeds[role] for role in shafts}, options, mesh)
 
 
 def _mesh_position(own: Mapping[str, Any], role: Role, shaft: SteppedShaft, width: float, where: Where) -> float:
@@ -130,7 +171,7 @@ def _options(tables: Mapping[str, Any], where: Where) -> ShaftOptions:
 def _shaft(own: Mapping[str, Any], owner: str, coupling: float, options: ShaftOptions, where: Where) -> SteppedShaft:
     """Return the shaft of a table's lists."""
     parts: dict[str, tuple[Any, ...]] = {}
-    for name, kind in _LISTS.items():
+    for name, kind in SHAFT_LISTS.items():
         listed = own.get(name, [])
         key = f"{owner}{name}"
         if not isinstance(listed, list):
@@ -145,7 +186,6 @@ def _shaft(own: Mapping[str, Any], owner: str, coupling: float, options: ShaftOp
             gravity=options.gravity,
             places=options.stations,
         )
-        shaft = with_stations(shaft)
         shaft.compliance  # noqa: B018 - a loose shaft is told now
     except InputError as error:
         key, unit = f"{owner}{error.parameter}", f" {error.unit}" if error.unit else ""

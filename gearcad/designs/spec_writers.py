@@ -20,9 +20,10 @@ from gearcad.core.quantities import is_given, schema_of
 from gearcad.core.records import PerGear, Role, is_assumed, is_usual
 from gearcad.designs.cells import cell_text, write_found_rows
 from gearcad.designs.design import LONGEST_NAME, Where, read_tables
-from gearcad.designs.keys import BESIDE, FIELDS, GEAR_FIELDS, nearest_key, permitted_words
+from gearcad.designs.keys import BESIDE, FIELDS, GEAR_FIELDS, SHAFTS, nearest_key, permitted_words
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
+from gearcad.designs.shaft_spec import SHAFT_LISTS, PairShafts
 from gearcad.designs.spec import AUTO
 from gearcad.designs.train_designs import DesignedPair, plain_name
 from gearcad.drawing.options import PartDrawing
@@ -42,6 +43,7 @@ from gearcad.material import Grade, Material, Materials, grade_of
 from gearcad.planetary.members import mesh_material, stage_material
 from gearcad.planetary.power import FactorSource, MeshLoad, PowerFlow, mesh_loads, power_flow, stage_loads
 from gearcad.planetary.search import PlanetarySet, SearchResult
+from gearcad.shafts.arrangement import ShaftOptions
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -73,14 +75,31 @@ def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
         },
         **{f"{gear}.drawing": dict(_pair_text_values(own, schema_of(PartDrawing))) for gear, own in design.drawings.items()},
     }
-    return toml_text(tables, comments)
+    if design.shafts is None:
+        return toml_text(tables, comments)
+    for role, mounted in design.shafts.mounted.items():
+        tables[role.value] |= {"mesh_position": mounted.mesh_position, "coupling": mounted.shaft.coupling}
+    options = dict(_pair_text_values(design.shafts.options, schema_of(ShaftOptions)))
+    return toml_text({**tables, **({SHAFTS: options} if options else {}), **_shaft_lists(design.shafts)}, comments)
 
 
-def toml_text(tables: Mapping[str, Mapping[str, Any]], comments: Sequence[str] = ()) -> str:
-    """Return the TOML of tables with flattened keys, beginning with `comments`, a line each."""
+def _shaft_lists(shafts: PairShafts) -> dict[str, list[dict[str, Any]]]:
+    """Return the lists of tables that describe shafts."""
+    found = {}
+    for role, mounted in shafts.mounted.items():
+        shaft = mounted.shaft
+        for (name, kind), parts in zip(SHAFT_LISTS.items(), (shaft.segments, shaft.bearings, shaft.forces), strict=True):
+            if parts:
+                found[f"{role.value}.{name}"] = [dict(_pair_text_values(part, schema_of(kind))) for part in parts]
+    return found
+
+
+def toml_text(tables: Mapping[str, Mapping[str, Any] | Sequence[Mapping[str, Any]]], comments: Sequence[str] = ()) -> str:
+    """Return the TOML of tables with flattened keys, and of lists of tables, beginning with `comments`, a line each."""
     blocks = ["\n".join(f"# {line}".rstrip() for line in comments)] if comments else []
-    for table, values in tables.items():
-        blocks.append("\n".join([f"[{table}]", *(f"{key} = {_toml(value)}" for key, value in values.items())]))
+    for table, content in tables.items():
+        header, every = (f"[{table}]", [content]) if isinstance(content, Mapping) else (f"[[{table}]]", content)
+        blocks += ["\n".join([header, *(f"{key} = {_toml(value)}" for key, value in values.items())]) for values in every]
     return "\n\n".join(blocks) + "\n"
 
 

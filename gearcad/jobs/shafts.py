@@ -5,11 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from gearcad.core.errors import SpecError
 from gearcad.core.output import json_text, staged_files
 from gearcad.core.records import JsonObject, Role, texts
-from gearcad.designs.shaft_spec import ShaftArrangement, read_arrangement
+from gearcad.designs.design import read_tables, require_plain_name
+from gearcad.designs.pair_designs import PairDesign
+from gearcad.designs.reader import read_spec
+from gearcad.designs.shaft_spec import ShaftArrangement, read_shaft
 from gearcad.jobs.job import with_summary
-from gearcad.shafts.arrangement import ArrangementResult, ShaftResult
+from gearcad.shafts.arrangement import ArrangementResult, ShaftResult, with_stations
 from gearcad.version import __version__
 
 _FILE = "shafts.json"
@@ -39,6 +43,22 @@ def done_shafts(spec: Path | str) -> ShaftsDone:
     """Return what the shafts of a spec do under their loads. Raises SpecError and InputError."""
     found = read_arrangement(spec)
     return ShaftsDone(found.name, result_of(found))
+
+
+def read_arrangement(path: Path | str) -> ShaftArrangement:
+    """Return the shafts of a spec. Raises SpecError and ParameterError."""
+    tables, where = read_tables(path)
+    if "shaft" in tables or "bearing" in tables:
+        require_plain_name(name := Path(path).stem)
+        shaft, options = read_shaft(tables, where)
+        return ShaftArrangement(name, {"shaft": with_stations(shaft)}, {"shaft": options.speed}, options)
+    design = read_spec(path)
+    if not isinstance(design, PairDesign) or design.shafts is None:
+        permitted = "must have [[shaft]] and [[bearing]], or a pair with [[pinion.shaft]] or [[wheel.shaft]]"
+        raise SpecError(f"{where('')}: {permitted}")
+    design.loaded("shafts are loaded by it")
+    assert design.arrangement is not None
+    return design.arrangement
 
 
 def result_of(found: ShaftArrangement) -> ArrangementResult:

@@ -12,9 +12,11 @@ import pytest
 from gearcad.contact.shared.face_load import MeshOnShafts
 from gearcad.core.errors import GeometryError, InputError, SpecError
 from gearcad.core.records import PerGear, Role
-from gearcad.designs.shaft_spec import read_arrangement
+from gearcad.designs import PairDesign, read_spec
+from gearcad.designs.spec_writers import pair_text
 from gearcad.geometry import Gear, GearPair, profile_shift_sum
-from gearcad.jobs.shafts import done_shafts
+from gearcad.jobs.shafts import done_shafts, read_arrangement
+from gearcad.load import Load
 from gearcad.shafts.arrangement import ShaftOptions, bearing_life
 from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
 from gearcad.shafts.bearing_life import (
@@ -328,3 +330,83 @@ def test_faults_of_specs_are_one_line(tmp_path: Path, change: tuple[str, str], w
     with pytest.raises(SpecError) as caught:
         read_arrangement(spec)
     assert words in str(caught.value) and "\n" not in str(caught.value)
+
+
+PAIR = """
+[pair]
+normal_module = 2.5
+face_width = 35.0
+[pinion]
+teeth = 21
+mesh_position = 80.0
+coupling = 150.0
+[[pinion.shaft]]
+length = 150
+outer_diameter = 40.0
+[[pinion.bearing]]
+name = "left"
+position = 20.0
+axial_stiffness = "rigid"
+offset = [1.0, 0]
+[[pinion.bearing]]
+position = 130.0
+radial_stiffness = 200.0
+[[pinion.force]]
+position = 150.0
+force = [0.0, -300.0, 0.0]
+[wheel]
+teeth = 40
+[shafts]
+mesh_angle = 90.0
+"""
+
+
+def pair_design(tmp_path: Path, text: str = PAIR) -> PairDesign:
+    spec = tmp_path / "pair.toml"
+    spec.write_text(text, encoding="utf-8")
+    design = read_spec(spec)
+    assert isinstance(design, PairDesign)
+    return design
+
+
+def test_the_shafts_of_a_pair_are_part_of_its_design_and_are_written_back(tmp_path: Path) -> None:
+    design = pair_design(tmp_path)
+    assert design.arrangement is not None and design.arrangement.mesh is None
+    assert design.arrangement.positions == {"pinion": 80.0} and design.arrangement.shafts["pinion"].coupling == 150.0
+    again = pair_design(tmp_path, pair_text(design))
+    assert again.shafts == design.shafts and again == design
+    loaded = replace(design, load=Load(torque=50.0, speed=600.0))
+    assert loaded.arrangement is not None and loaded.arrangement.mesh is not None
+    assert loaded.arrangement.mesh.torque == 50.0 and loaded.arrangement.speeds == {"pinion": 600.0}
+    assert loaded.arrangement is loaded.arrangement
+    assert replace(design, shafts=None).arrangement is None
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (("outer_diameter", "diameter"), "line 11: pinion.shaft[0].diameter: unknown key"),
+        (("radial_stiffness = 200.0", "stiffness = 200.0"), "line 19: pinion.bearing[1].stiffness: unknown key"),
+        (("mesh_angle", "angle"), "shafts.angle: unknown key"),
+        (("mesh_position = 80.0\n", ""), "pinion.mesh_position is missing"),
+        (("mesh_position = 80.0", "mesh_position = 140.0"), "pinion.mesh_position = 140 mm: must be from 17.5 to 132.5 mm"),
+        (("position = 130.0", "position = 151.0"), "pinion.bearing[1].position = 151 mm: must be from 0 to 150 mm"),
+        (
+            ("teeth = 40", "teeth = 40\nmesh_position = 3.0"),
+            "wheel.mesh_position: needs the shaft: segments headed [[",
+        ),
+        (("coupling = 150.0", 'coupling = "left"'), "pinion.coupling = 'left': must be a number, in mm"),
+        (('axial_stiffness = "rigid"\n', ""), "pinion.bearing = 2: must hold the shaft"),
+        (("teeth = 40", "teeth = -80"), "shafts of rings are not made"),
+    ],
+)
+def test_faults_of_shafts_are_told_by_every_command(tmp_path: Path, change: tuple[str, str], words: str) -> None:
+    with pytest.raises(SpecError) as caught:
+        pair_design(tmp_path, PAIR.replace(*change))
+    assert words in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_options_of_shafts_need_a_shaft(tmp_path: Path) -> None:
+    text = "[pair]\nnormal_module = 2\nface_width = 20\n[pinion]\nteeth = 20\n[wheel]\nteeth = 30\n[shafts]\nslices = 10\n"
+    with pytest.raises(SpecError, match=r"line 8: \[shafts\]: needs a shaft: segments headed \[\[pinion.shaft\]\]"):
+        pair_design(tmp_path, text)
