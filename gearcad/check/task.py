@@ -17,7 +17,7 @@ from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
 from gearcad.mounting import Mounting
 from gearcad.rating.load_factor_formulas import face_load_factor, root_face_load_factor, width_to_height
-from gearcad.rating.load_factors import BodyLoad
+from gearcad.rating.load_factors import BodyLoad, FaceLoadSource
 from gearcad.rating.nominal_rating import Rating, rate
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import StrengthRating, rate_strength
@@ -25,7 +25,10 @@ from gearcad.rating.strength import StrengthRating, rate_strength
 
 @dataclass(frozen=True, kw_only=True)
 class CheckTask:
-    """Task of a check; `pair` is as mounted. `body_load` is that of a load distribution, if one is asked for."""
+    """Task of a check; `pair` is as mounted. `body_load` is that of a load distribution, if one is asked for.
+
+    `face_load` finds the load over the face on the shafts for the rating, where they are known.
+    """
 
     pair: GearPair
     material: Materials
@@ -34,6 +37,7 @@ class CheckTask:
     options: CheckOptions
     rating_options: RatingOptions = field(default_factory=RatingOptions)
     body_load: BodyLoad | None = None
+    face_load: FaceLoadSource | None = None
 
     @property
     def materials(self) -> PerGear[Material]:
@@ -69,7 +73,9 @@ class CheckTask:
     @cached_property
     def strength_rating(self) -> StrengthRating:
         """The full rating. Raises what `rate_strength` raises."""
-        return rate_strength(self.pair, self.material, self.load, self.rating_options, body_load=self.body_load)
+        return rate_strength(
+            self.pair, self.material, self.load, self.rating_options, body_load=self.body_load, face_load=self.face_load
+        )
 
 
 def check_task(
@@ -79,6 +85,7 @@ def check_task(
     options: CheckOptions | None = None,
     mounting: Mounting | None = None,
     rating: RatingOptions | None = None,
+    face_load: FaceLoadSource | None = None,
 ) -> CheckTask:
     """Return the task of a pair in its mounting. Raises ParameterError and GeometryError for what cannot be checked."""
     options, mounting = options or CheckOptions(), mounting or Mounting()
@@ -89,6 +96,7 @@ def check_task(
         mounting=mounting,
         options=options,
         rating_options=rating or RatingOptions(),
+        face_load=face_load,
     )
     _require_meshing(task)
     return task

@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from gearcad.check.options import CheckOptions
     from gearcad.check.task import CheckTask
     from gearcad.designs.shaft_spec import PairShafts, ShaftArrangement
+    from gearcad.rating.load_factors import FaceLoadSource
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,7 +87,17 @@ class PairDesign(GearedDesign):
             return None
         from gearcad.designs.shaft_spec import pair_arrangement
 
-        return replace(pair_arrangement(self.shafts, self.pair, self.load, self.materials), name=self.name)
+        found = pair_arrangement(self.shafts, self.pair, self.load, self.materials, mounting=self.mounting, rating=self.rating)
+        return replace(found, name=self.name)
+
+    @property
+    def face_load(self) -> FaceLoadSource | None:
+        """The function by which a rating finds the load over the face on the shafts; None without shafts."""
+        if self.arrangement is None or self.arrangement.mesh is None:
+            return None
+        from gearcad.designs.shaft_spec import face_load_of
+
+        return face_load_of(self.arrangement.mesh)
 
     @property
     def notices(self) -> tuple[Notice, ...]:
@@ -146,7 +157,7 @@ class PairDesign(GearedDesign):
         from gearcad.check.task import check_task
 
         material, load = self.material or Material(), self.loaded(why)
-        return check_task(self.pair, material, load, options or self.check, self.mounting, self.rating)
+        return check_task(self.pair, material, load, options or self.check, self.mounting, self.rating, self.face_load)
 
 
 def _require_pair(tables: Mapping[str, Any], where: Where) -> None:

@@ -14,13 +14,16 @@ from gearcad.designs.keys import OF_SHAFTED_GEARS, OF_SHAFTS, SHAFTS, has_shafts
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.mounting import Mounting
+from gearcad.rating.load_factors import FaceLoad, FaceLoadSource
+from gearcad.rating.options import RatingOptions
+from gearcad.rating.tooth_stiffness import mesh_stiffness
 from gearcad.shafts.arrangement import ShaftOptions, with_stations
 from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
+from gearcad.shafts.face_load import MeshOnShafts, require_modelled
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
-
-    from gearcad.contact.shared.face_load import MeshOnShafts
 
 SHAFT_LISTS: dict[str, type[DataclassInstance]] = dict(zip(OF_SHAFTS, (ShaftSegment, ShaftBearing, ShaftForce), strict=True))
 """Lists of tables, and what each table makes."""
@@ -81,10 +84,11 @@ def read_pair_shafts(tables: Mapping[str, Any], pair: GearPair, where: Where) ->
     """Return the shafts that the tables of a pair's spec describe, or None. Raises SpecError."""
     if not has_shafts(tables):
         return None
-    if pair.internal:
-        raise SpecError(
-            f"{where('wheel.teeth')}: wheel.teeth = {pair.wheel.teeth}: must be above 0: shafts of rings are not made"
-        )
+    try:
+        require_modelled(pair)
+    except InputError as error:
+        key, unit = error.parameter, f" {error.unit}" if error.unit else ""
+        raise SpecError(f"{where(key)}: {key} = {format_number(error.value)}{unit}: {error.permitted}", key) from error
     options = _options(tables, where)
 
     def mounted(role: Role) -> MountedShaft | None:
@@ -105,7 +109,15 @@ def read_pair_shafts(tables: Mapping[str, Any], pair: GearPair, where: Where) ->
     return PairShafts(gears=found, options=options)
 
 
-def pair_arrangement(shafts: PairShafts, pair: GearPair, load: Load | None, materials: PerGear[Material]) -> ShaftArrangement:
+def pair_arrangement(
+    shafts: PairShafts,
+    pair: GearPair,
+    load: Load | None,
+    materials: PerGear[Material],
+    *,
+    mounting: Mounting | None = None,
+    rating: RatingOptions | None = None,
+) -> ShaftArrangement:
     """Return the arrangement of a pair's shafts, with their mesh under the load where there is one."""
     mounted = {role.value: each for role, each in shafts.mounted.items()}
     speed = 0.0 if load is None else load.speed
@@ -117,30 +129,52 @@ def pair_arrangement(shafts: PairShafts, pair: GearPair, load: Load | None, mate
         shafts.options,
         {name: each.mesh_position for name, each in mounted.items()},
     )
-    return found if load is None else replace(found, mesh=_mesh(found, pair, load, materials))
-
-
-def _mesh(found: ShaftArrangement, pair: GearPair, load: Load, materials: PerGear[Material]) -> MeshOnShafts:
-    """Return the mesh on the shafts under a load."""
-    from gearcad.contact.shared.face_load import MeshOnShafts
-    from gearcad.rating.tooth_stiffness import mesh_stiffness
-
-    options, torque = found.options, load.torque * load.application_factor
-    stiffness = options.face_mesh_stiffness
-    if stiffness is None:
-        force = 2000 * abs(torque) / pair.pinion.reference_diameter
-        stiffness = float(mesh_stiffness(pair, materials, force / pair.common_width.width).mesh_beta)
-    return MeshOnShafts(
-        pair=pair,
-        torque=torque,
+    if load is None:
+        return found
+    mounting = mounting or Mounting()
+    mesh = MeshOnShafts(
+        pair=mounting.mounted(pair),
+        torque=load.torque * load.application_factor,
         shafts=PerGear.each(lambda role: found.shafts.get(role.value)),
         positions=PerGear.each(lambda role: found.positions.get(role.value, 0.0)),
-        mesh_angle=options.mesh_angle,
-        stiffness=stiffness,
-        slices=options.slices,
-        crowning=sum(gear.modification.lead_crowning for gear in pair.gears),
-        slope=options.misalignment,
+        mesh_angle=found.options.mesh_angle,
+        slices=found.options.slices,
+        misalignment=mounting.misalignment,
     )
+    return replace(found, mesh=loaded_mesh(mesh, rating or RatingOptions(), materials))
+
+
+def loaded_mesh(mesh: MeshOnShafts, options: RatingOptions, materials: PerGear[Material]) -> MeshOnShafts:
+    """Return the mesh with c_gammabeta and f_ma of the rating's options, to the worse side where both count.
+
+    c_gammabeta is that of ISO 6336-1 under the mesh's load if none is given; f_ma is 0 then.
+    """
+    pair, stiffness = mesh.pair, options.face_mesh_stiffness
+    if stiffness is None:
+        force = 2000 * abs(mesh.torque) / pair.pinion.reference_diameter
+        stiffness = float(mesh_stiffness(pair, materials, force / mesh.width).mesh_beta)
+    sides = options.sides_of(options.manufacturing_misalignment or 0.0)
+    found = [replace(mesh, stiffness=stiffness, misalignment=mesh.misalignment + side) for side in sides]
+    return max(found, key=lambda each: each.face_load_factor)
+
+
+def face_load_of(mesh: MeshOnShafts) -> FaceLoadSource:
+    """Return the function by which a rating finds the load over the face of a mesh on its shafts."""
+    rigid = [role.value for role, shaft in mesh.shafts.items() if shaft is None]
+    assumed = tuple(f"K_Hbeta: the {name} has no shaft in the design and is held rigidly" for name in rigid)
+
+    def found(torque: float, stiffness: float, misalignment: float) -> FaceLoad:
+        loaded = replace(mesh, torque=torque, stiffness=stiffness, misalignment=mesh.misalignment + misalignment)
+        return FaceLoad(
+            factor=loaded.face_load_factor,
+            factor_at_end=loaded.face_load_factor_at_end,
+            deflection=loaded.misalignment_of_shafts,
+            misalignment=loaded.misalignment,
+            carrying=float((loaded.line_load > 0).mean()),
+            assumed=assumed,
+        )
+
+    return found
 
 
 def _mesh_position(own: Mapping[str, Any], role: Role, shaft: SteppedShaft, width: float, where: Where) -> float:

@@ -7,7 +7,7 @@ Fillet, tip chamfer and the ends of the lands turn with the flank's own ends.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from enum import Enum
 from functools import cached_property
 from itertools import pairwise
@@ -251,6 +251,21 @@ class FlankForm:
         amount += of.lead_crowning * (2 * along - 1) ** 2 + of.twist * (along - 0.5) * (up - 0.5)
         amount += of.helix_angle_modification * (along - 0.5) * self.hand * (-1 if left else 1)
         return amount / 1000
+
+    def lead_depth(self, heights: ArrayLike, *, left: bool = True) -> Floats:
+        """Return the depth (mm) at heights z (mm) of what depends on the place along the face alone.
+
+        That is crowning, end relief and helix angle modification; a twist is 0 in the middle of the profile.
+        """
+        of = self.modification
+        alone = FlankModification(
+            lead_crowning=of.lead_crowning,
+            end_relief=of.end_relief,
+            end_relief_length=of.end_relief_length,
+            end_relief_shape=of.end_relief_shape,
+            helix_angle_modification=of.helix_angle_modification,
+        )
+        return replace(self, modification=alone).depth((self.first + self.last) / 2, heights, left=left)
 
     def turn(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
         """Return the angle (rad), counter-clockwise, by which the flank's points are turned: depth/r_b, in its shape.

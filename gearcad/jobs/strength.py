@@ -218,7 +218,8 @@ class Rate(ReportedJob[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRa
         if isinstance(design, RackPairDesign):
             return rate_strength(design.pair, design.materials, load, design.rating)
         pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
-        return rate_strength(pair, design.materials, load, design.rating, body_load=_of_bodies(design, load))
+        by_bodies = _of_bodies(design, load)
+        return rate_strength(pair, design.materials, load, design.rating, body_load=by_bodies, face_load=design.face_load)
 
     def document(self, result: StrengthRating | TrainStrength) -> JsonObject:
         """Return the values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.STRENGTH` has the

@@ -5,12 +5,13 @@ The formulas of K_v (Method B) and of K_Hbeta (from a misalignment) are in `gear
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Generic, NamedTuple
 
-from gearcad.core.errors import ParameterError
+from gearcad.core.errors import InputError, ParameterError
 from gearcad.core.records import Notice, PerGear, is_assumed
 from gearcad.core.values import Values, larger, smaller
 from gearcad.geometry import GearPair
@@ -89,14 +90,41 @@ class Finding:
     verify: tuple[str, ...] = ()
 
 
+class FaceLoad(NamedTuple):
+    """Load over the face on elastic shafts: K_Hbeta of the greatest slice, and carried on to the end of the face.
+
+    `deflection` f_sh (µm) is the slope of the gap that the shafts leave under an even load, `misalignment` (µm) that beside it,
+    both positive where the gap opens towards larger z; `carrying` the part of the face width that carries. `assumed` says what
+    was not given of the shafts.
+    """
+
+    factor: float
+    factor_at_end: float
+    deflection: float
+    misalignment: float
+    carrying: float = 1.0
+    assumed: tuple[str, ...] = ()
+
+
+FaceLoadSource = Callable[[float, float, float], FaceLoad]
+"""A function of the torque on the pinion (N·m, with all factors before K_Hbeta), c_gamma_beta (N/(mm·µm)) and f_ma (µm).
+
+It returns the load over the face of one mesh on its shafts.
+"""
+
+
 @dataclass(frozen=True, kw_only=True)
 class LoadedMesh:
-    """Inputs of a rating that follow from pair and load. Loads in N and N/mm, lengths in mm, speed in m/s."""
+    """Inputs of a rating that follow from pair and load. Loads in N and N/mm, lengths in mm, speed in m/s.
+
+    `face_load` finds the load over the face on the shafts, where they are known.
+    """
 
     pair: GearPair
     materials: PerGear[Material]
     load: Load
     options: RatingOptions
+    face_load: FaceLoadSource | None = None
 
     @cached_property
     def width(self) -> float:
@@ -113,6 +141,12 @@ class LoadedMesh:
     def stiffness(self) -> MeshStiffness[float]:
         """Mesh stiffness under the specific load, N/(mm·µm)."""
         return mesh_stiffness(self.pair, self.materials, self.specific_load)
+
+    @property
+    def face_stiffness(self) -> float:
+        """c_gamma_beta, N/(mm·µm): as given, or that under the specific load."""
+        given = self.options.face_mesh_stiffness
+        return self.stiffness.mesh_beta if given is None else given
 
     @cached_property
     def speed(self) -> float:
@@ -195,6 +229,7 @@ def shaft_notices(mesh: LoadedMesh) -> Iterator[Notice]:
 
 
 _NOT_FOUND = 'must be "C" or a number here: a load distribution of our own is found by gearcad rate, before the rating'
+_NO_SHAFTS = 'must be "C", "fe" or a number here: a shaft with its bearings is not known of either gear'
 
 
 def face_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
@@ -202,12 +237,80 @@ def face_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
     method = mesh.options.face_load_factor
     if method == "fe":
         raise ParameterError("rating.face_load_factor", method, _NOT_FOUND)
+    if method == "shafts":
+        return _with_root(mesh, _by_shafts(mesh, mean_load))
     flank = (
         Finding(factors={"K_Hbeta": method}, sources={"K_Hbeta": GIVEN}, notices=tuple(_notices_of_given(method)))
         if not isinstance(method, str)
         else _method_c(mesh, mean_load)
     )
     return _with_root(mesh, flank)
+
+
+def _by_shafts(mesh: LoadedMesh, mean_load: float) -> Finding:
+    """Return K_Hbeta of the load over the face on elastic shafts, f_ma to each of its sides, and Method C beside it.
+
+    ISO 6336-1, annex E: F_m = F_t K_A K_gamma K_v, and the worse side counts. Raises ParameterError without shafts, and as
+    tolerances do where f_ma is not given.
+    """
+    if mesh.face_load is None:
+        raise ParameterError("rating.face_load_factor", "shafts", _NO_SHAFTS)
+    options, stiffness = mesh.options, mesh.face_stiffness
+    given = options.manufacturing_misalignment
+    manufacture = manufacturing_misalignment(*helix_slope_deviations(mesh.pair, options)) if given is None else given
+    torque = math.copysign(mean_load * mesh.width * mesh.pair.pinion.reference_diameter / 2000, mesh.load.torque)
+    found = [mesh.face_load(torque, stiffness, side) for side in options.sides_of(manufacture)]
+    worst = max(found, key=lambda each: each.factor)
+    beside = _method_c_beside(mesh, mean_load, worst, stiffness)
+    return Finding(
+        factors={"K_Hbeta": worst.factor},
+        sources={"K_Hbeta": mesh.cited("annex E", "line load on elastic shafts")},
+        details={
+            "F_m_b": mean_load,
+            "f_sh": worst.deflection,
+            "f_ma": worst.misalignment,
+            "c_gamma_beta": stiffness,
+            "K_Hbeta_end_of_face": worst.factor_at_end,
+            **beside.details,
+        },
+        notices=tuple(_notices_of_line_load(worst)),
+        assumed=(*worst.assumed, *beside.assumed),
+        verify=("K_Hbeta",),
+    )
+
+
+def _notices_of_line_load(found: FaceLoad) -> Iterator[Notice]:
+    """Yield a notice if only a part of the face width carries."""
+    if found.carrying < 1:
+        yield Notice("narrow-bearing", f"K_Hbeta: only {found.carrying:.0%} of the face width carries on its shafts")
+
+
+def _method_c_beside(mesh: LoadedMesh, mean_load: float, found: FaceLoad, stiffness: float) -> Finding:
+    """Return f_sh and K_Hbeta of Method C, and why the load over the face on shafts is another, step by step.
+
+    First f_sh of the shafts takes the place of that of Method C; then its factor 1.33, B_1, B_2, the least misalignment and
+    running-in are left out; what is left is the shape of the gap.
+    """
+    try:
+        ours = _method_c(mesh, mean_load)
+        same = _method_c(replace(mesh, options=replace(mesh.options, shaft_deflection=abs(found.deflection))), mean_load)
+    except InputError:  # sizes or shafts that Method C does not cover
+        return Finding(factors={}, sources={})
+    straight = face_load_factor(abs(found.deflection + found.misalignment), stiffness, mean_load)
+    of_c, of_same = ours.factors["K_Hbeta"], same.factors["K_Hbeta"]
+    deflection = ours.details["f_sh"]
+    assert isinstance(deflection, float | int)
+    said = (
+        f"K_Hbeta: {found.factor:.4g} on shafts beside {of_c:.4g} of Method C: f_sh = {found.deflection:.3g} µm of both shafts"
+        f" in place of {deflection:.3g} µm makes {of_same - of_c:+.3g}, no factor 1.33, table 8, least misalignment and"
+        f" running-in {straight - of_same:+.3g}, shape of the gap and modified flanks {found.factor - straight:+.3g}"
+    )
+    return Finding(
+        factors={},
+        sources={},
+        details={"f_sh_C": deflection, "K_Hbeta_C": of_c, "K_Hbeta_C_shafts": of_same, "K_Hbeta_straight": straight},
+        assumed=(said,),
+    )
 
 
 class Misalignment(NamedTuple, Generic[Values]):
@@ -244,7 +347,7 @@ class Misalignment(NamedTuple, Generic[Values]):
         `deflection` is f_sh, `slopes` are f_Hbeta.
         """
         given = options.manufacturing_misalignment
-        manufacture = manufacturing_misalignment(*slopes) if given is None else given
+        manufacture = manufacturing_misalignment(*slopes) if given is None else abs(given)
         least = least_misalignment(mean_load, larger(*slopes))
         factors = helix_factors(options.helix_modification, options.standard)
         if options.contact_pattern is ContactPattern.PROVEN:
@@ -257,7 +360,7 @@ class Misalignment(NamedTuple, Generic[Values]):
 
 
 def _method_c(mesh: LoadedMesh, mean_load: float) -> Finding:
-    options, stiffness = mesh.options, mesh.stiffness.mesh_beta
+    options, stiffness = mesh.options, mesh.face_stiffness
     off = Misalignment.of(mesh, mean_load)
     worn = float(mesh.wear.beta(off.initial, mesh.speed))
     effective = off.initial - worn
@@ -300,7 +403,7 @@ def _notices(mesh: LoadedMesh, effective: float, mean_load: float) -> Iterator[N
     """Yield notices if only a part of the face width carries, and if gears have helix modifications that the options do not
     state.
     """
-    if (width := bearing_width(effective, mesh.stiffness.mesh_beta, mean_load)) < 1:
+    if (width := bearing_width(effective, mesh.face_stiffness, mean_load)) < 1:
         text = f"only {width:.0%} of the face width would carry: F_beta_y = {effective:.3g} µm is too much for this load"
         yield Notice("narrow-bearing", f"K_Hbeta: {text}")
     modified = [
@@ -523,14 +626,19 @@ class LoadFactors:
         materials: Material | PerGear[Material],
         load: Load,
         options: RatingOptions | None = None,
+        face_load: FaceLoadSource | None = None,
     ) -> LoadFactors:
         """Return the load factors of a pair of one material or two, under a load; numbers in the options are used as given.
+
+        `face_load` finds the load over the face for the options' face_load_factor "shafts".
 
         Raises ParameterError without a torque, for what a method needs and was not given, and beyond the tables of tolerances;
         GeometryError for a pair whose contact the standard does not describe, double helical ones among them.
         """
         require_ratable(pair, load)
-        mesh = LoadedMesh(pair=pair, materials=of_both(materials), load=load, options=options or RatingOptions())
+        mesh = LoadedMesh(
+            pair=pair, materials=of_both(materials), load=load, options=options or RatingOptions(), face_load=face_load
+        )
         speed = dynamic_factor(mesh)
         mean_load = mesh.specific_load * speed.factors["K_v"]
         face = face_load_factors(mesh, mean_load)

@@ -117,6 +117,7 @@ def _bin(numbers: tuple[Any, ...], given: Any) -> tuple[float, ...]:
 
 _FACTOR = Range("", 1.0, 100.0)
 _DEVIATION = Range("µm", 0.0, 1e4)
+_SIGNED = Range("µm", -1e4, 1e4)
 
 
 class HelixModification(StrEnum):
@@ -159,6 +160,16 @@ class BearingArrangement(StrEnum):
     SECOND_MESH_FAR = "e"
 
 
+class MisalignmentSides(StrEnum):
+    """Sides to which the misalignment by manufacture turns the flanks where the load over the face is found on shafts."""
+
+    WORSE = "worse"
+    """Both sides are computed and the greater K_Hbeta counts, as ISO 6336-1, annex E, has it."""
+
+    ONE = "one"
+    """The side of its sign: positive opens the gap towards larger z."""
+
+
 class AlphaDeviation(StrEnum):
     """The deviation from which y_alpha is taken, if K_Halpha depends on f_falpha because it is larger than f_pb."""
 
@@ -180,7 +191,7 @@ class LoadFactorOptions:
         float | Literal["B", "C"], Range("", 0.1, 100.0), Words("dynamic factor, or its method", "K_v", "ISO 6336-1")
     ] = "B"
     face_load_factor: Annotated[
-        float | Literal["C", "fe"], _FACTOR, Words("face load factor, or its method", "K_Hβ", "ISO 6336-1")
+        float | Literal["C", "fe", "shafts"], _FACTOR, Words("face load factor, or its method", "K_Hβ", "ISO 6336-1")
     ] = "C"
     transverse_load_factor: Annotated[
         float | Literal["B"], _FACTOR, Words("transverse load factor, or its method", "K_Hα", "ISO 6336-1")
@@ -198,8 +209,14 @@ class LoadFactorOptions:
     shaft_deflection: Annotated[float | None, _DEVIATION, Words("misalignment by deflected shafts", "f_sh", "ISO 6336-1")] = (
         None
     )
-    manufacturing_misalignment: Annotated[
-        float | None, _DEVIATION, Words("misalignment by manufacture", "f_ma", "ISO 6336-1")
+    manufacturing_misalignment: Annotated[float | None, _SIGNED, Words("misalignment by manufacture", "f_ma", "ISO 6336-1")] = (
+        None
+    )
+    misalignment_sides: Annotated[MisalignmentSides, Words("sides of f_ma on shafts", "", "ISO 6336-1, annex E")] = (
+        MisalignmentSides.WORSE
+    )
+    face_mesh_stiffness: Annotated[
+        float | None, Range("N/(mm·µm)", 0.01, 1000.0), Words("mesh stiffness over the face", "c_γβ", "ISO 6336-1")
     ] = None
     base_pitch_deviation: Annotated[Both | None, _DEVIATION, Words("base pitch deviation", "f_pb", "ISO 1328-1")] = None
     profile_form_deviation: Annotated[Both | None, _DEVIATION, Words("profile form deviation", "f_fα", "ISO 1328-1")] = None
@@ -213,8 +230,15 @@ class LoadFactorOptions:
         """The `bearing_arrangement`, "a" where none is given."""
         return self.bearing_arrangement or BearingArrangement.BETWEEN_NEAR
 
+    def sides_of(self, misalignment: float) -> tuple[float, ...]:
+        """Return the misalignments (µm) by manufacture that count for one of that size, positive where the gap opens to z."""
+        one = self.misalignment_sides is MisalignmentSides.ONE or not misalignment
+        return (misalignment,) if one else (misalignment, -misalignment)
+
     def _check_load_factors(self) -> None:
-        """Lists of both gears. Raises ParameterError."""
+        """Lists of both gears, and the sign of f_ma. Raises ParameterError."""
+        if self.misalignment_sides is not MisalignmentSides.ONE and (self.manufacturing_misalignment or 0.0) < 0:
+            _DEVIATION.require("manufacturing_misalignment", self.manufacturing_misalignment)
         take_both(self, "base_pitch_deviation", "profile_form_deviation", "helix_slope_deviation")
 
 

@@ -39,8 +39,7 @@ class ShaftOptions:
 
     `speed` (rpm) of a shaft by itself, the `viscosity` (mm²/s) of the oil at its temperature, `contamination_factor` e_C and
     `life_reliability` (%). `mesh_angle` (degrees) is where the wheel's axis lies from the pinion's, from x; `slices` are those
-    of the face, `face_mesh_stiffness` c_gammabeta (N/(mm·µm); None: that of ISO 6336-1), `misalignment` (µm over the face) is a
-    gap beside that of the shafts. `stations` (mm) are further places whose state is wanted. Raises ParameterError.
+    of the face. `stations` (mm) are further places whose state is wanted. Raises ParameterError.
     """
 
     coupling: Annotated[float, Range("mm", 0, 1e7), Words("position of the coupling")] = 0.0
@@ -48,10 +47,6 @@ class ShaftOptions:
     speed: Annotated[float, SPEED, Words("speed of the shaft", "n")] = 0.0
     mesh_angle: Annotated[float, Range("deg", -360, 360), Words("angle of the wheel's axis")] = 0.0
     slices: Annotated[int, Whole(2, 400), Words("slices of the face")] = 40
-    face_mesh_stiffness: Annotated[
-        float | None, Range("N/(mm·µm)", 0.01, 1000), Words("mesh stiffness over the face", "c_γβ", "ISO 6336-1")
-    ] = None
-    misalignment: Annotated[float, Range("µm", -1e4, 1e4), Words("misalignment over the face", "f_ma")] = 0.0
     stations: Annotated[tuple[float, ...], Words("further stations")] = ()
     viscosity: Annotated[float | None, Range("mm²/s", 0.1, 1e5), Words("viscosity of the oil", "ν")] = None
     contamination_factor: Annotated[float | None, Range("", 0, 1), Words("contamination factor", "e_C", "ISO 281")] = None

@@ -280,14 +280,18 @@ class SteppedShaft:
     def compliance(self) -> Floats:
         """Displacements (6 n, 6 n) of all nodes by unit forces: mm/N, rad/(N mm). Raises GeometryError for a loose shaft."""
         matrix, free = self._supported
-        own = matrix[np.ix_(free, free)]
-        scale = np.sqrt(np.abs(own.diagonal()))
-        values = np.linalg.eigvalsh(own / np.outer(scale, scale))
-        if values[0] < _LOOSE * values[-1]:
-            permitted = "must hold the shaft: two bearings that are stiff radially, and one that is stiff axially"
-            raise GeometryError("bearing", len(self.bearings), permitted)
         found = np.zeros_like(matrix)
-        found[np.ix_(free, free)] = np.linalg.inv(own / np.outer(scale, scale)) / np.outer(scale, scale)
+        for plane in _PLANES:  # round sections: what bends in one plane does not move in another
+            own = free[np.isin(free % _DOFS, plane)]
+            if not len(own):
+                continue
+            part = matrix[np.ix_(own, own)]
+            scale = np.sqrt(np.abs(part.diagonal()))
+            values = np.linalg.eigvalsh(part / np.outer(scale, scale))
+            if values[0] < _LOOSE * values[-1]:
+                permitted = "must hold the shaft: two bearings that are stiff radially, and one that is stiff axially"
+                raise GeometryError("bearing", len(self.bearings), permitted)
+            found[np.ix_(own, own)] = np.linalg.inv(part / np.outer(scale, scale)) / np.outer(scale, scale)
         return found
 
     def critical_speeds(self, count: int = 3) -> list[float]:
@@ -343,6 +347,9 @@ class SteppedShaft:
         moved = moved + self.compliance @ np.where(np.isin(np.arange(len(matrix)), free), forced, 0.0)
         return ShaftState(self, moved, loads)
 
+
+_PLANES = ((0, 4), (1, 3), (2,), (5,))
+"""Directions of a node that move together: bending in x-z, bending in y-z, axial, twist."""
 
 _LOOSE = 1e-13
 """Least eigenvalue over the greatest, of the stiffness scaled to equal diagonals, of a shaft that is held."""

@@ -1,6 +1,7 @@
 """LoadFactors of a pair: against another implementation, in their order, by options, and at their limits."""
 
 import math
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -13,7 +14,7 @@ from gearcad.core.symbols import LOAD_FACTOR_DETAILS
 from gearcad.geometry import FlankModification
 from gearcad.rating import DynamicFactor, RatingOptions
 from gearcad.rating.load_factor_formulas import face_load_factor
-from gearcad.rating.load_factors import LoadFactors
+from gearcad.rating.load_factors import FaceLoad, LoadFactors
 
 EXACT = 1e-9
 """Relative: the same equations by another program, whose pressure angles are from a bisection."""
@@ -37,6 +38,54 @@ LOAD = Load(torque=150.0, speed=3000.0, application_factor=1.25)
 
 def factors(options: RatingOptions | None = None, load: Load = LOAD, **given: Any) -> LoadFactors:
     return LoadFactors.of(HELICAL, EH, load, options or RatingOptions(**given))
+
+
+def tilted(torque: float, stiffness: float, misalignment: float) -> FaceLoad:
+    """Flanks that stand off by f_sh = 3 µm at 100 N·m and f_ma, in a straight line."""
+    deflection, mean = 0.03 * torque, 2000 * torque / HELICAL.pinion.reference_diameter / HELICAL.common_width.width
+    factor = float(face_load_factor(abs(deflection + misalignment), stiffness, mean))
+    return FaceLoad(factor=factor, factor_at_end=factor, deflection=deflection, misalignment=misalignment)
+
+
+def test_on_shafts_the_worse_side_counts_under_all_factors_before() -> None:
+    """F_m = F_t K_A K_gamma K_v goes to the function of the shafts; f_ma by the grade as Method C has it, to both sides."""
+    loads: list[tuple[float, float, float]] = []
+
+    def heard(torque: float, stiffness: float, misalignment: float) -> FaceLoad:
+        loads.append((torque, stiffness, misalignment))
+        return tilted(torque, stiffness, misalignment)
+
+    options = RatingOptions(face_load_factor="shafts", mesh_load_factor=1.2)
+    found, by_c = LoadFactors.of(HELICAL, EH, LOAD, options, heard), factors(mesh_load_factor=1.2)
+    assert [each[2] for each in loads] == pytest.approx([by_c.details["f_ma"], -float(by_c.details["f_ma"])])  # type: ignore[arg-type]
+    for torque, stiffness, _ in loads:
+        assert torque == pytest.approx(150 * 1.25 * 1.2 * found.dynamic)
+        assert stiffness == by_c.details["c_gamma_beta"]
+    assert found.face_flank == max(tilted(*each).factor for each in loads) == tilted(*loads[0]).factor
+    assert found.face_root == pytest.approx(found.face_flank ** float(found.details["N_F"]))  # type: ignore[arg-type]
+    assert found.details["K_Hbeta_C"] == by_c.face_flank and found.details["f_sh_C"] == by_c.details["f_sh"]
+    (said,) = (each for each in found.assumed if "beside" in each)
+    steps = [float(each) for each in re.findall(r"([+-][\d.]+)[, ]?", said.partition("makes")[2])]
+    assert by_c.face_flank + sum(steps) == pytest.approx(found.face_flank, abs=2e-3)
+    assert steps[2] == pytest.approx(0.0, abs=1e-9)  # a straight gap has no shape
+    assert "K_Hbeta" in found.verify and "annex E" in found.sources["K_Hbeta"]
+
+
+def test_one_side_and_given_stiffness_on_shafts() -> None:
+    given = {"face_load_factor": "shafts", "face_mesh_stiffness": 11.0, "misalignment_sides": "one"}
+    found = {}
+    for misalignment in (-9.0, 9.0):
+        options = RatingOptions(**given, manufacturing_misalignment=misalignment)  # type: ignore[arg-type]
+        found[misalignment] = LoadFactors.of(HELICAL, EH, LOAD, options, tilted)
+        assert found[misalignment].details["f_ma"] == misalignment
+        assert found[misalignment].details["c_gamma_beta"] == 11.0
+    assert found[9.0].face_flank > found[-9.0].face_flank
+    worse = RatingOptions(**{**given, "misalignment_sides": "worse"}, manufacturing_misalignment=9.0)  # type: ignore[arg-type]
+    assert LoadFactors.of(HELICAL, EH, LOAD, worse, tilted).face_flank == found[9.0].face_flank
+    with pytest.raises(GearcadError, match=r"manufacturing_misalignment = -9 µm: must be a number at least 0 µm"):
+        RatingOptions(manufacturing_misalignment=-9.0)
+    c = factors(face_mesh_stiffness=11.0).details
+    assert c["c_gamma_beta"] == 11.0
 
 
 @pytest.mark.parametrize(
@@ -98,6 +147,7 @@ def test_each_is_of_the_load_times_all_before_it() -> None:
 
 def test_every_figure_has_its_words() -> None:
     named = {symbol for method in ("B", "C") for symbol in factors(dynamic_factor=method).details}
+    named |= set(LoadFactors.of(HELICAL, EH, LOAD, RatingOptions(face_load_factor="shafts"), tilted).details)
     assert named == set(LOAD_FACTOR_DETAILS)
 
 
@@ -253,6 +303,10 @@ def test_face_factor_by_its_own_misalignment() -> None:
     ("given", "message"),
     [
         ({"face_load_factor": "fe"}, r"rating.face_load_factor = 'fe': must be \"C\" or a number here"),
+        (
+            {"face_load_factor": "shafts"},
+            r"rating.face_load_factor = 'shafts': .* shaft with its bearings is not known",
+        ),
         ({"pinion_offset": 10.0}, r"rating.bearing_span is missing: must be given with pinion_offset"),
         ({"pinion_offset": 10.0, "bearing_span": 90.0}, r"rating.shaft_diameter is missing"),
         ({"bearing_arrangement": "c"}, r"rating.pinion_offset = 0 mm: must not be 0 mm for bearing_arrangement \"c\""),

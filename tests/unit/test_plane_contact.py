@@ -24,7 +24,8 @@ from gearcad.contact.plane.pair import (
 from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.line_of_action import LineOfAction, line_of_action, rigid_approach
-from gearcad.contact.shared.local_contact import complementary, onsets, rounded_kink_pressure
+from gearcad.contact.shared.local_contact import onsets, rounded_kink_pressure
+from gearcad.core.complementarity import complementary
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import PerGear, Role
 from gearcad.rating import LineContact, reduced_modulus

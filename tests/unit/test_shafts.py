@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearcad.contact.shared.face_load import MeshOnShafts
 from gearcad.core.errors import GeometryError, InputError, SpecError
 from gearcad.core.records import PerGear, Role
 from gearcad.designs import PairDesign, read_spec
 from gearcad.designs.spec_writers import pair_text
-from gearcad.geometry import Gear, GearPair, profile_shift_sum
+from gearcad.geometry import FlankModification, Gear, GearPair, profile_shift_sum
 from gearcad.jobs.shafts import done_shafts, read_arrangement
 from gearcad.load import Load
 from gearcad.shafts.arrangement import ShaftOptions, bearing_life
@@ -28,6 +27,7 @@ from gearcad.shafts.bearing_life import (
     opposed_axial_loads,
     reference_viscosity,
 )
+from gearcad.shafts.face_load import MeshOnShafts
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "data" / "shafts.json").read_text(encoding="utf-8"))
 SHAFTS, MESHES = REFERENCE["shafts"], REFERENCE["meshes"]
@@ -218,8 +218,15 @@ def mesh_of(inputs: dict[str, Any], **changed: Any) -> MeshOnShafts:
             normal_module=module, teeth=PerGear(*teeth), helix_angle=helix, pressure_angle=20.0, centre_distance=distance
         )
     gears = [
-        Gear(teeth=z, normal_module=module, helix_angle=sign * helix, face_width=inputs["width"], profile_shift=shift / 2)
-        for z, sign in zip(teeth, (1, -1), strict=True)
+        Gear(
+            teeth=z,
+            normal_module=module,
+            helix_angle=sign * helix,
+            face_width=inputs["width"],
+            profile_shift=shift / 2,
+            modification=FlankModification(lead_crowning=crowning),
+        )
+        for z, sign, crowning in zip(teeth, (1, -1), (inputs.get("crowning", 0.0), 0.0), strict=True)
     ]
     pair = GearPair(pinion=gears[0], wheel=gears[1], **({} if distance is None else {"centre_distance": distance}))
     given = {
@@ -229,8 +236,7 @@ def mesh_of(inputs: dict[str, Any], **changed: Any) -> MeshOnShafts:
         "mesh_angle": inputs["mesh_angle"],
         "stiffness": inputs["stiffness"],
         "slices": inputs["slices"],
-        "crowning": inputs.get("crowning", 0.0),
-        "slope": inputs.get("misalignment", 0.0),
+        "misalignment": inputs.get("misalignment", 0.0),
     }
     return MeshOnShafts(pair=pair, **{**given, **changed})
 
@@ -257,7 +263,7 @@ def test_rigid_shafts_give_the_closed_form_of_method_c() -> None:
     inputs = MESHES[0]["inputs"]
     rigid = {"shafts": PerGear(None, None), "slices": 400}
     for slope in (5.0, 60.0):
-        mesh = mesh_of(inputs, slope=slope, **rigid)
+        mesh = mesh_of(inputs, misalignment=slope, **rigid)
         ratio = slope * inputs["stiffness"] / mesh.mean_load
         closed = 1 + ratio / 2 if ratio <= 2 else math.sqrt(2 * ratio)
         assert mesh.face_load_factor == pytest.approx(closed, rel=3e-3)
@@ -397,7 +403,7 @@ def test_the_shafts_of_a_pair_are_part_of_its_design_and_are_written_back(tmp_pa
         ),
         (("coupling = 150.0", 'coupling = "left"'), "pinion.coupling = 'left': must be a number, in mm"),
         (('axial_stiffness = "rigid"\n', ""), "pinion.bearing = 2: must hold the shaft"),
-        (("teeth = 40", "teeth = -80"), "shafts of rings are not made"),
+        (("teeth = 40", "teeth = -80"), "the load over the face of a ring on shafts is not modelled"),
     ],
 )
 def test_faults_of_shafts_are_told_by_every_command(tmp_path: Path, change: tuple[str, str], words: str) -> None:

@@ -27,8 +27,9 @@ from gearcad.contact.shared.line_of_action import (
     rigid_approach,
 )
 from gearcad.contact.shared.loaded import TOOTH_ORDER, FlexiblePair
-from gearcad.contact.shared.local_contact import complementary, onsets, start_distance
+from gearcad.contact.shared.local_contact import onsets, start_distance
 from gearcad.contact.shared.tip_edge import tip_edges
+from gearcad.core.complementarity import complementary
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Bools, Floats, Indices, PerGear, Role
 from gearcad.geometry import Gear, GearPair

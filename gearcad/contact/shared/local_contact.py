@@ -1,4 +1,4 @@
-"""Local contact of two flanks: frictionless contact as a complementarity problem, wide contacts, and the start of a relief.
+"""Local contact of two flanks: wide contacts, and the start of a relief.
 
 In a ring with few more teeth than its pinion flanks are nearly alike, one hollow, one round, and the contact can be as wide as
 their radii.
@@ -17,82 +17,8 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import numpy as np
 
 from gearcad.contact.shared.line_of_action import LineOfAction, TransverseFlank
-from gearcad.core.errors import SolverError
 from gearcad.core.records import Bools, Floats, Notice, Role
 from gearcad.rating.contact_stress import half_width
-
-_COMPLEMENTARITY_ROUNDS = 30
-"""Rounds in which all wrong cells change at once: few suffice, or none does."""
-
-_COMPLEMENTARITY_STEPS = 20
-"""Largest number of steps of one cell each, per cell. Each step lowers the energy, so no set of cells comes back."""
-
-_OPEN = -1e-12
-"""Opening (mm) below which cells overlap by more than rounding."""
-
-
-def complementary(matrix: Floats, gap: Floats, width: Floats, force: float, start: Bools | None = None) -> tuple[Floats, float]:
-    """p >= 0, C p + g - delta w >= 0, complementary, w.p = F, by a primal-dual active set. Raises SolverError.
-
-    The set is sought from the cells that press at the `start`, else from all: what is found is the same.
-    """
-    active = np.ones(len(width), bool) if start is None or not start.any() else start
-    for _ in range(_COMPLEMENTARITY_ROUNDS):
-        pressure, approach = _equations(matrix, gap, width, force, active)
-        wrong = np.where(active, pressure <= 0, (matrix @ pressure + gap) / width - approach < _OPEN)
-        if not wrong.any():
-            return pressure, approach
-        active = active ^ wrong
-        if not active.any():
-            active[np.argmin(gap / width)] = True
-    return _cell_by_cell(_positive(matrix), gap, width, force)
-
-
-def _positive(matrix: Floats) -> Floats:
-    """Return the matrix with no eigenvalue below the size of a negative one, which is the error of all."""
-    values, vectors = np.linalg.eigh((matrix + matrix.T) / 2)
-    if values[0] > 0:
-        return matrix
-    return np.asarray((vectors * np.maximum(values, -values[0])) @ vectors.T)
-
-
-def _cell_by_cell(matrix: Floats, gap: Floats, width: Floats, force: float) -> tuple[Floats, float]:
-    """Solve by an active set of the energy's least value under constraints, from one cell that carries all on."""
-    first = int(np.argmin(gap / width))
-    pressure, active = np.zeros(len(width)), np.zeros(len(width), bool)
-    pressure[first], active[first] = force / width[first], True
-    for _ in range(_COMPLEMENTARITY_STEPS * len(width)):
-        wanted, approach = _equations(matrix, gap, width, force, active)
-        lifted = active & (wanted <= 0)
-        if lifted.any():
-            parts = np.where(lifted, pressure / np.where(lifted, pressure - wanted, 1.0), np.inf)
-            pressure = np.maximum(pressure + parts.min() * (wanted - pressure), 0.0)
-            off = lifted & (parts <= parts.min())
-            pressure[off], active = 0.0, active & ~off
-            continue
-        pressure, opening = wanted, np.where(active, 0.0, (matrix @ wanted + gap) / width - approach)
-        if opening.min() >= _OPEN:
-            return pressure, approach
-        active[np.argmin(opening)] = True
-    raise SolverError(
-        "the contact did not converge: no set of cells carries the load without overlap; "
-        "change load.torque or check.refinement slightly"
-    )
-
-
-def _equations(matrix: Floats, gap: Floats, width: Floats, force: float, active: Bools) -> tuple[Floats, float]:
-    rows = np.flatnonzero(active)
-    count = len(rows)
-    system = np.zeros((count + 1, count + 1))
-    system[:count, :count] = matrix[rows[:, None], rows]
-    system[:count, count] = system[count, :count] = -width[rows]
-    right = np.full(count + 1, -force)
-    right[:count] = -gap[rows]
-    solved = np.linalg.solve(system, right)
-    pressure = np.zeros(len(width))
-    pressure[rows] = solved[:count]
-    return pressure, float(solved[count])
-
 
 _WIDE = 0.04
 """Half width over the pinion's radius of curvature up to which Hertz's pressure is within 1 % of that in a ring, for as few as

@@ -21,8 +21,9 @@ import numpy as np
 
 from gearcad.contact.shared.line_of_action import LEAST_LENGTH, LineOfAction, gears_loaded_left
 from gearcad.contact.shared.loaded import TOOTH_ORDER
-from gearcad.contact.shared.local_contact import complementary, onsets, start_distance
+from gearcad.contact.shared.local_contact import onsets, start_distance
 from gearcad.contact.shared.tip_edge import TipEdges, tip_edges
+from gearcad.core.complementarity import complementary
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Bools, Floats, PerGear, Role, Wholes
 from gearcad.geometry import Gear, GearPair

@@ -16,7 +16,7 @@ from gearcad.load import Load
 from gearcad.material import Material, of_both
 from gearcad.rating.factors import endurance_cycles, to_verify
 from gearcad.rating.load_factor_formulas import helix_factors, shaft_deflection
-from gearcad.rating.load_factors import BodyLoad, LoadFactors
+from gearcad.rating.load_factors import BodyLoad, FaceLoadSource, LoadFactors
 from gearcad.rating.material_limits import EnduranceLimits, endurance_limits_of
 from gearcad.rating.nominal_rating import Rating, rate, rate_rack
 from gearcad.rating.options import RatingOptions
@@ -145,6 +145,7 @@ class StrengthTask:
     options: RatingOptions
     driver: Role
     body_load: BodyLoad | None = None
+    face_load: FaceLoadSource | None = None
 
     # ------------------------------------------------------------------ what is held against each other
 
@@ -206,8 +207,10 @@ class StrengthTask:
         """
         if isinstance(self.rated, RackPair):
             return given_factors(load, self.options)
-        find = load_factors_of_half if self.halved else LoadFactors.of
-        found = find(self.rated, self.materials, load, self.options)
+        if self.halved:
+            found = load_factors_of_half(self.rated, self.materials, load, self.options)
+        else:
+            found = LoadFactors.of(self.rated, self.materials, load, self.options, self.face_load)
         return found if self.body_load is None else found.with_bodies(self.body_load)
 
     @cached_property
@@ -407,14 +410,16 @@ def rate_strength(
     options: RatingOptions | None = None,
     *,
     body_load: BodyLoad | None = None,
+    face_load: FaceLoadSource | None = None,
     driver: Role = Role.PINION,
 ) -> StrengthRating:
     """Rate a pair, of one material or each gear of its own: safeties of flanks and roots, life, permissible torque, scuffing.
 
-    `body_load` stands in place of the options' face_load_factor "fe": K_Hbeta of a load distribution. `driver` is the gear
-    that drives, for scuffing. What the standard does not cover, or what is not known, is not judged, each for its reason.
-    Raises ParameterError without a torque, for a spectrum beside an application factor, and for a hardness that its material
-    has no limit of; GeometryError for a pair whose contact the standard does not describe.
+    `body_load` stands in place of the options' face_load_factor "fe": K_Hbeta of a load distribution; `face_load` finds K_Hbeta
+    on elastic shafts for "shafts". `driver` is the gear that drives, for scuffing. What the standard does not cover, or what is
+    not known, is not judged, each for its reason. Raises ParameterError without a torque, for a spectrum beside an application
+    factor, and for a hardness that its material has no limit of; GeometryError for a pair whose contact the standard does not
+    describe.
     """
     options = options or RatingOptions()
     if options.bins and load.application_factor != 1:
@@ -423,7 +428,10 @@ def rate_strength(
     if body_load is not None:
         options = replace(options, face_load_factor=body_load.factor)
     both = of_both(materials)
-    return _rating(StrengthTask(pair=pair, materials=both, load=load, options=options, driver=driver, body_load=body_load))
+    task = StrengthTask(
+        pair=pair, materials=both, load=load, options=options, driver=driver, body_load=body_load, face_load=face_load
+    )
+    return _rating(task)
 
 
 def _rating(task: StrengthTask) -> StrengthRating:
