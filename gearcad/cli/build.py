@@ -80,6 +80,7 @@ def build(
     quiet: bool,
 ) -> None:
     from gearcad.core.output import json_text
+    from gearcad.core.records import texts
     from gearcad.designs.reader import read_spec
     from gearcad.jobs.build import Build
     from gearcad.jobs.job import with_summary
@@ -90,12 +91,12 @@ def build(
     with file_progress(shown=not quiet) as progress:
         files = job.write(design, folder, progress)
     if as_json:
-        found = {"output": str(folder), "files": [str(file) for file in files], "warnings": list(design.warnings)}
+        found = {"output": str(folder), "files": [str(file) for file in files], "warnings": texts(job.notices(design))}
         click.echo(json_text(with_summary(job.document(design) | found)), nl=False)
     else:
         click.echo("".join(f"{file}\n" for file in files), nl=False)
     if not quiet:
-        echo_warnings(design.notices, err=True)
+        echo_warnings(job.notices(design), err=True)
 
 
 @click.command(short_help="Draw SPEC's gears and what they make, with gear data: DXF, SVG, PDF.")
@@ -232,7 +233,7 @@ def picture(
     else:
         click.echo("".join(f"{file}\n" for file in files), nl=False)
     if not quiet:
-        echo_warnings((*job.notices(result), *design.notices), err=True)
+        echo_warnings((*job.notices(result), *job.design_notices(design)), err=True)
 
 
 def _pixels(text: str) -> tuple[int, int]:

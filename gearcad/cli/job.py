@@ -246,7 +246,7 @@ def perform_on(
         click.echo("".join(f"{file}\n" for file in files), nl=False)
     if not quiet:
         told = {notice.text for notice in job.notices(result)}
-        echo_warnings((notice for notice in design.notices if notice.text not in told), err=True)
+        echo_warnings((notice for notice in job.design_notices(design) if notice.text not in told), err=True)
     return result
 
 

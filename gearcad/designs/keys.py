@@ -78,6 +78,9 @@ OF_SHAFTS = ("shaft", "bearing", "force")
 OF_SHAFTED_GEARS = (*OF_SHAFTS, "mesh_position", "coupling")
 """Keys of a gear of a pair that belong to its shaft."""
 
+RIGID_SHAFTS = "rigid-shafts"
+"""Code of the notice that shafts are described, and not taken into account."""
+
 
 def has_shafts(tables: Mapping[str, Any]) -> bool:
     """Return whether the tables of a pair's spec have anything of shafts."""

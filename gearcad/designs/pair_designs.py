@@ -25,6 +25,7 @@ from gearcad.designs.keys import (
     MAIN_TABLES,
     OF_GEAR_PAIRS,
     OF_RACK_PAIRS,
+    RIGID_SHAFTS,
     SHARED,
     DesignKind,
     has_shafts,
@@ -105,7 +106,7 @@ class PairDesign(GearedDesign):
         if self.shafts is None:
             return super().notices
         text = "shafts are described: they count in `gearcad shafts` alone, here the gears are held on rigid ones"
-        return (*super().notices, Notice("rigid-shafts", text))
+        return (*super().notices, Notice(RIGID_SHAFTS, text))
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> PairSpec:

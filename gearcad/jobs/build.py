@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from gearcad.core.errors import GeometryError, ParameterError, as_choice, require_one_of, require_switch
-from gearcad.core.records import JsonObject, Notice
+from gearcad.core.records import JsonObject, Notice, naming
 from gearcad.core.runtime import Progress
 from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import ToothedDesign
@@ -22,6 +22,8 @@ from gearcad.solids.body_plan import require_rim
 from gearcad.solids.facets.tessellation import gear_chord_error
 from gearcad.solids.files.formats import formats_minding
 from gearcad.solids.files.products import GearProduct, MadeProduct, PairProduct, RackProduct, SplineProduct
+from gearcad.solids.files.shaft_products import shaft_chord_error
+from gearcad.solids.shaft_plan import SeatedShaft, pair_shafts
 from gearcad.version import __version__
 
 if TYPE_CHECKING:
@@ -40,7 +42,7 @@ def products_of(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[st
         train = _train_product(cast("PlanetaryDesign", design), options)
         return train.parts, train
     if design.kind is DesignKind.PAIR:
-        pair = PairProduct(cast("PairDesign", design).pair, options)
+        pair = PairProduct(cast("PairDesign", design).pair, options, seated_shafts(design))
         return pair.parts, pair
     if design.kind is DesignKind.SPLINE:
         spline = SplineProduct(cast("SplineDesign", design).spline, options)
@@ -48,6 +50,16 @@ def products_of(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[st
     if design.kind in (DesignKind.RACK, DesignKind.RACK_PAIR):
         return _with_rack(cast("RackDesign | RackPairDesign", design), options)
     return {name: GearProduct(gear=gear, name=design.name, options=options) for name, gear in design.gears.items()}, None
+
+
+def seated_shafts(design: ToothedDesign) -> tuple[SeatedShaft, ...]:
+    """Return the shafts of a pair where they stand in its assembly; none of another design."""
+    shafts = cast("PairDesign", design).shafts if design.kind is DesignKind.PAIR else None
+    if shafts is None:
+        return ()
+    mounted = shafts.gears
+    positions = mounted.map(lambda own: 0.0 if own is None else own.mesh_position)
+    return pair_shafts(cast("PairDesign", design).pair, mounted.map(lambda own: None if own is None else own.shaft), positions)
 
 
 def _train_product(design: PlanetaryDesign, options: FileOptions, *, as_made: bool = False) -> TrainProduct:
@@ -74,12 +86,17 @@ def require_bodies(design: ToothedDesign, options: FileOptions) -> None:
         _require_body(name, gear)
     if design.kind is DesignKind.PLANETARY:
         _train_product(cast("PlanetaryDesign", design), options).require_room()
+    for shaft in seated_shafts(design):
+        _ = shaft.plan
 
 
 def require_facets(design: ToothedDesign, options: FileOptions) -> None:
     """Raise ParameterError for a chord error that the facets of some gear or rack cannot have, before any is made."""
     for gear in design.gears.values():
         gear_chord_error(gear, options.chord_error)
+    for shaft in seated_shafts(design):
+        with naming(shaft.role):
+            shaft_chord_error(shaft.plan, options.chord_error)
     if design.kind in (DesignKind.RACK, DesignKind.RACK_PAIR):
         from gearcad.solids.facets.tessellation import rack_chord_error
 
@@ -125,16 +142,18 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     """The files of a design in some formats. Its result is the design itself: solids are made as they are written.
 
     Per part `pinion.step`, `wheel.step`, `rack.step` or `gear.step` and so on, of a planetary train by the names of its gears
-    and of its carrier, if one is made; a pair, or a train, also gets `assembly.*`, posed in mesh, in the formats that have
-    assemblies. The `stage` "precut" makes each gear as it is before its flanks are finished, and no assembly. With `as_made`
-    there are also `gear-as-made.step` and so on of each gear with a table making: what its mould or print is made to, or as
-    DXF the path of the wire or beam; and `assembly-as-made.*` of a planetary train that is printed as a whole.
+    and of its carrier, if one is made, of a pair on shafts also `pinion-shaft.step` and `wheel-shaft.step`; a pair, or a
+    train, also gets `assembly.*`, posed in mesh, in the formats that have assemblies. The `stage` "precut" makes each gear as
+    it is before its flanks are finished, and no assembly. With `as_made` there are also `gear-as-made.step` and so on of each
+    gear with a table making: what its mould or print is made to, or as DXF the path of the wire or beam; and
+    `assembly-as-made.*` of a planetary train that is printed as a whole.
     Raises ParameterError without a format.
     """
 
     verb = "build"
     accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE)
     why = "there are no teeth"
+    with_shafts = True
 
     formats: tuple[Format, ...] = _DEFAULT
     options: FileOptions = field(default_factory=FileOptions)
@@ -187,11 +206,18 @@ class Build(Job[ToothedDesign, ToothedDesign]):
                 raise GeometryError("as_made", True, f"needs the format {needed} of {name}")
 
     def document(self, result: ToothedDesign) -> JsonObject:
-        """Return the document that `--json` prints: kind, name of the design, and gearcad's version."""
-        return {"kind": "build", "name": result.name, "gearcad": __version__}
+        """Return the document that `--json` prints: kind, name of the design, gearcad's version, shafts with places."""
+        shafts = {each.file: each.to_dict() for each in self._shafts(result)}
+        return {"kind": "build", "name": result.name, "gearcad": __version__, **({"shafts": shafts} if shafts else {})}
 
     def notices(self, result: ToothedDesign) -> Sequence[Notice]:
-        return result.notices
+        """Return the notices of the design, but that shafts are not taken into account, and those of seats on shafts."""
+        return (*self.design_notices(result), *(notice for shaft in self._shafts(result) for notice in shaft.notices))
+
+    def _shafts(self, design: ToothedDesign) -> tuple[SeatedShaft, ...]:
+        """Return the shafts of which files are made."""
+        of_bodies = any(kind.entry.write_body is not None for kind in self.formats)
+        return seated_shafts(design) if of_bodies and self.stage == "finished" else ()
 
     def files(self, result: ToothedDesign) -> dict[str, Writer]:
         """Return every file of the design, quickest first."""
@@ -205,6 +231,9 @@ class Build(Job[ToothedDesign, ToothedDesign]):
                 found |= _train_writers(kind, cast("TrainProduct", assembly))
             elif assembly is not None and kind.entry.write_pair is not None:
                 found[f"assembly.{kind.value}"] = partial(kind.entry.write_pair, assembly)
+            if isinstance(assembly, PairProduct) and kind.entry.write_body is not None:
+                bodies = assembly.bodies.items()
+                found |= {f"{name}.{kind.value}": partial(kind.entry.write_body, body) for name, body in bodies}
         return found | (self._made_files(result, parts) if self.as_made else {})
 
     def _made_files(self, design: ToothedDesign, parts: Mapping[str, PartProduct]) -> dict[str, Writer]:
@@ -297,8 +326,8 @@ def _formats(given: object) -> tuple[Format, ...]:
 def _train_writers(kind: Format, train: TrainProduct) -> dict[str, Writer]:
     """Return the writers, by file name, of the carrier (if one is made) and of the whole train, in a format that has them."""
     found: dict[str, Writer] = {}
-    if train.carrier is not None and kind.entry.write_carrier is not None:
-        found[f"{train.train.carrier.name}.{kind.value}"] = partial(kind.entry.write_carrier, train.carrier)
+    if train.carrier is not None and kind.entry.write_body is not None:
+        found[f"{train.train.carrier.name}.{kind.value}"] = partial(kind.entry.write_body, train.carrier)
     if kind.entry.write_train is not None:
         found[f"assembly.{kind.value}"] = partial(kind.entry.write_train, train)
     return found

@@ -177,6 +177,7 @@ class Draw(Job[ToothedDesign, Drawing]):
     verb = "draw"
     accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE)
     why = "there are no teeth"
+    with_shafts = True
 
     formats: tuple[SheetFormat, ...] = _ALL
     given: Mapping[str, Any] = field(default_factory=dict)
@@ -387,6 +388,7 @@ class Picture(Job[ToothedDesign, PictureShot]):
     verb = "picture"
     accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "there are no teeth"
+    with_shafts = True
     writes_long = True
 
     view: SceneView = SceneView.CORNER

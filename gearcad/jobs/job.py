@@ -15,7 +15,7 @@ from gearcad.core.output import json_text, staged_files
 from gearcad.core.records import JsonObject, Notice, PerGear, texts
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.designs.design import Design
-from gearcad.designs.keys import DesignKind
+from gearcad.designs.keys import RIGID_SHAFTS, DesignKind
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.material import Material
 
@@ -63,6 +63,9 @@ class Job(ABC, Generic[Accepted, Result]):
     sometimes: ClassVar[tuple[str, ...]] = ()
     """Files that not every result has: one that is there of a former result goes, for it would belong to another."""
 
+    with_shafts: ClassVar[bool] = False
+    """Whether it takes the shafts of a pair's gears into account."""
+
     @abstractmethod
     def run(self, design: Design, progress: Progress | None = None) -> Result:
         """Return the result for a design. Raises ParameterError for a kind that it does not take, and what its solvers raise.
@@ -96,6 +99,10 @@ class Job(ABC, Generic[Accepted, Result]):
     def notices(self, _result: Result) -> Sequence[Notice]:
         """Return the notices that the user should know before trusting a result."""
         return ()
+
+    def design_notices(self, design: Design) -> Sequence[Notice]:
+        """Return the notices of a design, without that on shafts where this job takes them into account."""
+        return [each for each in design.notices if not (self.with_shafts and each.code == RIGID_SHAFTS)]
 
     def conclusion(self, _name: str, _result: Result) -> str:
         """Return one line that sums up the result for a design of this name; "" if nothing is judged."""

@@ -28,7 +28,7 @@ from gearcad.report.document import heading
 from gearcad.report.verification import verification_html
 from gearcad.report.verification_pdf import write_verification_pdf
 from gearcad.solids import FileOptions, Format
-from gearcad.solids.files.products import GearProduct, MadeProduct
+from gearcad.solids.files.products import GearProduct, MadeProduct, PairProduct
 from gearcad.verification.as_made_files import judge_made
 from gearcad.verification.assemblies import PlacedMesh, judge_joint
 from gearcad.verification.calculix import calculix_version
@@ -42,12 +42,14 @@ from gearcad.verification.result import Verification
 from gearcad.verification.step import judge_step
 from gearcad.verification.step_entities import JudgedSolids
 from gearcad.verification.strength import judge_check, judge_rating
+from gearcad.verification.turned_parts import ExactShaft
 from gearcad.version import __version__
 
 if TYPE_CHECKING:
     from gearcad.designs import Inputs, PairDesign, PlanetaryDesign, RackPairDesign, SplineDesign
     from gearcad.load import Load
     from gearcad.planetary import TrainLoad
+    from gearcad.solids.files.shaft_products import ShaftProduct
 
 FORMATS = (Format.STEP, Format.STL, Format.THREE_MF, Format.GLB, Format.DXF)
 """Formats that are made and judged."""
@@ -122,6 +124,8 @@ class Verify(Job[ToothedDesign, Verification]):
         """What is judged, one after the other, and about how long each takes beside the others."""
         parts, assembly = products_of(design, FileOptions())
         exact = {product.name: ExactPart(_part(product)) for product in parts.values()}
+        bodies = assembly.bodies if isinstance(assembly, PairProduct) else {}
+        exact |= {body.name: ExactShaft(body.plan.shaft) for body in bodies.values()}
         yield from _of_files(design, folder, parts, assembly, exact)
         yield from _of_made(parts, folder, made=not self.folder)
         of_parts = {name: exact[product.name] for name, product in parts.items()}
@@ -227,7 +231,8 @@ def _of_files(
     options, judged = FileOptions(), _Judged()
     for kind in FORMATS:
         effort = _EFFORTS.get(kind, 1.0)
-        for name, product in parts.items():
+        bodies = assembly.bodies if isinstance(assembly, PairProduct) and kind.entry.write_body is not None else {}
+        for name, product in {**parts, **bodies}.items():
             claims = partial(_of_part, kind=kind, product=product, exact=exact, options=options, judged=judged)
             path = folder / f"{name}.{kind.value}"
             yield _Stage(path.name, effort, partial(_of_file, path, kind, claims))
@@ -314,7 +319,7 @@ class _Judged:
 def _of_part(
     path: Path,
     kind: Format,
-    product: PartProduct,
+    product: PartProduct | ShaftProduct,
     exact: Mapping[str, ExactPart],
     options: FileOptions,
     judged: _Judged,

@@ -242,6 +242,8 @@ def _judge_body(judge: Judge, mesh: Trimesh, part: ExactPart, ending: str, chord
         "µm",
         place=_where(surface, vertices[faces], away),
     )
+    if not part.teeth:
+        return
     on_flanks = (corners[surface.flanks] <= permitted).any(axis=0)
     numbers = set(surface.teeth(middles[on_flanks]).tolist())  # a helical rack has parts of more teeth at its ends
     yield judge.equal("number of teeth", part.teeth, len(numbers.intersection(range(part.teeth))))

@@ -342,6 +342,8 @@ def _judge_faces(judge: Judge, shape: Any, part: ExactPart) -> Iterator[Claim]:
         yield judge.below(
             "distance of tooth faces from the exact surface", 1e3 * away.max(), 1e3 * permitted, "µm", place=place
         )
+    if not part.teeth:
+        return
     yield judge.equal("number of teeth", part.teeth, len(set(surface.teeth(on_teeth).tolist()).intersection(range(part.teeth))))
 
 

@@ -28,6 +28,7 @@ from gearcad.solids.exact.boundary import (
 from gearcad.solids.exact.rack_solid import rack_boundary
 from gearcad.solids.exact.solid import AssembledProduct, Occurrence, SolidProduct, cad_assembly, gear_boundary, placed
 from gearcad.solids.exact.teeth import tube
+from gearcad.solids.shaft_plan import SeatedShaft
 
 if TYPE_CHECKING:
     import cadquery
@@ -130,6 +131,12 @@ def part_names(pair: GearPair) -> PartNames:
 
     own = PerGear.each(own_name)
     return PartNames(own if len({pair.name, bracket, *own}) == 4 else ours, bracket)
+
+
+def shaft_part_name(pair: GearPair, shaft: SeatedShaft) -> str:
+    """Return the name of a shaft of a pair as a product: that of the pair and what it is, which no gear of the pair has."""
+    name, taken = f"{pair.name} {shaft.name}", {pair.name, *part_names(pair).gears}
+    return name if name not in taken else f"{name} (2)"
 
 
 def pair_product(pair: GearPair, *, bracket: bool = False) -> AssembledProduct:

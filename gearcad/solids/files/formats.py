@@ -16,9 +16,11 @@ from gearcad.solids.facets.tessellation import Facets
 
 if TYPE_CHECKING:
     from gearcad.solids.files.products import FileOptions, GearProduct, PairProduct, RackPairProduct, RackProduct, SplineProduct
+    from gearcad.solids.files.shaft_products import ShaftProduct
     from gearcad.solids.files.train_products import CarrierProduct, TrainProduct
 
     PartProduct: TypeAlias = GearProduct | RackProduct
+    BodyProduct: TypeAlias = CarrierProduct | ShaftProduct
     AssemblyProduct: TypeAlias = PairProduct | RackPairProduct | SplineProduct | TrainProduct
 
 
@@ -47,7 +49,7 @@ class Format(Enum):
 class SolidFormat:
     """One format: what it holds, in words; what writes a gear or a rack, and what stands in mesh (None: it has no assemblies);
     which fields of FileOptions matter to it; whether it holds bodies, so that a ring needs its rim; what writes a planetary
-    train, where that is more than of a pair, and what its carrier by itself, which has no teeth.
+    train, where that is more than of a pair, and what a body without teeth by itself: its carrier, or a shaft of a pair.
     """
 
     words: str
@@ -56,7 +58,7 @@ class SolidFormat:
     options: tuple[str, ...] = ()
     of_bodies: bool = True
     write_train: Callable[[TrainProduct, Path], None] | None = None
-    write_carrier: Callable[[CarrierProduct, Path], None] | None = None
+    write_body: Callable[[BodyProduct, Path], None] | None = None
 
 
 def formats_minding(option: str) -> list[Format]:
@@ -64,7 +66,7 @@ def formats_minding(option: str) -> list[Format]:
     return [kind for kind in Format if option in kind.entry.options]
 
 
-def _step(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
+def _step(product: PartProduct | BodyProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.step import write_product, write_step
 
     if blanks := product.blanks:
@@ -79,17 +81,17 @@ def _step(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -
     write_product(product.solid(), path)
 
 
-def _stl(product: PartProduct | CarrierProduct, path: Path) -> None:
+def _stl(product: PartProduct | BodyProduct, path: Path) -> None:
     write_stl(product.facets, path)
 
 
-def _3mf(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
+def _3mf(product: PartProduct | BodyProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.scenes import write_3mf
 
     write_3mf(product.scene(), path)
 
 
-def _glb(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
+def _glb(product: PartProduct | BodyProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.scenes import write_glb
 
     write_glb(product.scene(), path)
@@ -101,7 +103,7 @@ def _turning_glb(product: TrainProduct, path: Path) -> None:
     write_glb(product.scene(), path, product.turning())
 
 
-def _png(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
+def _png(product: PartProduct | BodyProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.studio import write_picture
 
     write_picture(product.scene(), path)
@@ -125,16 +127,14 @@ _FACETED = ("chord_error",)
 _PLACED = ("carrier", "exploded")
 
 _ENTRIES = {
-    Format.STEP: SolidFormat("the exact solid", _step, _step, ("bracket", *_PLACED), write_train=_step, write_carrier=_step),
-    Format.STL: SolidFormat("facets within --chord-error", _stl, None, (*_FACETED, "carrier"), write_carrier=_stl),
-    Format.THREE_MF: SolidFormat(
-        "facets, for printing", _3mf, _3mf, (*_FACETED, *_PLACED), write_train=_3mf, write_carrier=_3mf
-    ),
+    Format.STEP: SolidFormat("the exact solid", _step, _step, ("bracket", *_PLACED), write_train=_step, write_body=_step),
+    Format.STL: SolidFormat("facets within --chord-error", _stl, None, (*_FACETED, "carrier"), write_body=_stl),
+    Format.THREE_MF: SolidFormat("facets, for printing", _3mf, _3mf, (*_FACETED, *_PLACED), write_train=_3mf, write_body=_3mf),
     Format.GLB: SolidFormat(
-        "facets, for viewers", _glb, _glb, (*_FACETED, *_PLACED, "turning"), write_train=_turning_glb, write_carrier=_glb
+        "facets, for viewers", _glb, _glb, (*_FACETED, *_PLACED, "turning"), write_train=_turning_glb, write_body=_glb
     ),
     Format.PNG: SolidFormat(
-        "a picture from three sides", _png, _png, (*_FACETED, *_PLACED), write_train=_train_png, write_carrier=_png
+        "a picture from three sides", _png, _png, (*_FACETED, *_PLACED), write_train=_train_png, write_body=_png
     ),
     Format.DXF: SolidFormat("exact section, for cutting", _dxf, None, ("circles",), of_bodies=False, write_train=_dxf),
     Format.CSV: SolidFormat("points of flank and fillet", _csv, of_bodies=False),

@@ -19,6 +19,7 @@ from gearcad.solids.exact.assemblies import (
     part_names,
     rack_part_names,
     rack_product,
+    shaft_part_name,
     spline_part_name,
     spline_product,
 )
@@ -30,6 +31,8 @@ from gearcad.solids.facets.tessellation import Facets, tessellate, tessellate_ra
 from gearcad.solids.files.dxf import write_rack_dxf
 from gearcad.solids.files.points import write_rack_points
 from gearcad.solids.files.scenes import ScenePart
+from gearcad.solids.files.shaft_products import SeatedProduct, ShaftProduct
+from gearcad.solids.shaft_plan import SeatedShaft
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,10 +125,11 @@ class MadeProduct(GearProduct):
 
 @dataclass(frozen=True)
 class PairProduct:
-    """A pair in mesh."""
+    """A pair in mesh, and the `seated` shafts on which its gears sit."""
 
     pair: GearPair
     options: FileOptions
+    seated: tuple[SeatedShaft, ...] = ()
 
     @property
     def name(self) -> str:
@@ -147,20 +151,42 @@ class PairProduct:
         """The gears by the names of their files."""
         return {role.value: product for role, product in self.gears.items()}
 
+    @cached_property
+    def shafts(self) -> tuple[SeatedProduct, ...]:
+        """The shafts in their places."""
+        return tuple(SeatedProduct(each, shaft_part_name(self.pair, each), self.options) for each in self.seated)
+
+    @property
+    def bodies(self) -> dict[str, ShaftProduct]:
+        """The shafts by the names of their files."""
+        return {each.seated.file: each.product for each in self.shafts}
+
     @property
     def blanks(self) -> dict[str, Gear]:
         """Gears with blanks of their own by their names as products."""
         return {name: gear for part in self.parts.values() for name, gear in part.blanks.items()}
 
     def solid(self) -> AssembledProduct:
-        """Return both exact solids posed in mesh: see `pair_product`."""
-        return pair_product(self.pair, bracket=self.options.bracket)
+        """Return both exact solids posed in mesh, with their shafts: see `pair_product`."""
+        made = pair_product(self.pair, bracket=self.options.bracket)
+        return (
+            made
+            if not self.shafts
+            else replace(made, occurrences=(*made.occurrences, *(each.occurrence() for each in self.shafts)))
+        )
 
     def scene(self, pinion_rotation: float = 0.0) -> list[ScenePart]:
-        """Return both gears posed in mesh, the pinion turned by an angle (degrees)."""
+        """Return both gears posed in mesh, the pinion turned by an angle (degrees), then their shafts."""
         pose = self.pair.wheel_pose(pinion_rotation)
         (pinion,), (wheel,) = self.gears.pinion.scene(pinion_rotation), self.gears.wheel.scene()
-        return [pinion, replace(wheel, rotation=pose.rotation, offset=(pose.x, 0.0, pose.z))]
+        turns = {Role.PINION: pinion_rotation, Role.WHEEL: pose.rotation}
+        shafts = (each.scene_part(turns[each.seated.role]) for each in self.shafts)
+        return [pinion, replace(wheel, rotation=pose.rotation, offset=(pose.x, 0.0, pose.z)), *shafts]
+
+    @cached_property
+    def shaft_roles(self) -> dict[str, Role]:
+        """The gears of the shafts, by the names of the shafts as products."""
+        return {each.name: each.seated.role for each in self.shafts}
 
 
 @dataclass(frozen=True)

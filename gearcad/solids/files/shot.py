@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.core.errors import GeometryError
-from gearcad.core.records import Floats, Notice
+from gearcad.core.records import Floats, Notice, Role
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.bore_teeth import bore_teeth, with_round_bore
 from gearcad.planetary import PlanetaryTrain
@@ -318,7 +318,7 @@ def cuts_of(product: Product, parts: Sequence[ScenePart], cutaway: Cutaway) -> d
     """Return the cut of each part by name. A cutaway takes off all on the near side of the plane through the axes along x.
 
     A quarter takes off only the side of the part's own axis that faces the eye. A train is cut about its own axis, a rack
-    across its width or in the middle of it.
+    across its width or in the middle of it. Shafts are not cut lengthways.
     """
     near, aside = (
         np.array([0.0, -1.0, 0.0]),
@@ -327,6 +327,8 @@ def cuts_of(product: Product, parts: Sequence[ScenePart], cutaway: Cutaway) -> d
     upper = np.array([0.0, 0.0, 1.0])
     found = {}
     for part in parts:
+        if isinstance(product, PairProduct) and part.name in product.shaft_roles:
+            continue
         point, normals = np.array(part.offset), (near, aside)
         if isinstance(product, TrainProduct):
             point = np.zeros(3)
@@ -339,15 +341,22 @@ def cuts_of(product: Product, parts: Sequence[ScenePart], cutaway: Cutaway) -> d
 
 
 def apart(product: PairProduct | RackPairProduct, parts: Sequence[ScenePart]) -> tuple[float, float, float]:
-    """Return the shift (x, y, z) in mm that frees the second part of a pair from the first: a ring down, others aside.
+    """Return the shift (x, y, z) in mm that frees the mate of a pair from the pinion: a ring down, others aside.
 
     A gap is left between both. Trains move themselves apart.
     """
     diameter = product.pair.pinion.tip_diameter
-    pinion, mate = (points_of([part]) for part in parts)
+    own = beside_pinion(product, parts)
+    pinion, mate = (points_of([part for part, here in zip(parts, own, strict=True) if here is side]) for side in (True, False))
     if isinstance(product, PairProduct) and product.pair.internal:
         return 0.0, 0.0, float(pinion[:, 2].min() - mate[:, 2].max()) - _GAP_OF_RING * diameter
     return float(pinion[:, 0].max() - mate[:, 0].min()) + _GAP * diameter, 0.0, 0.0
+
+
+def beside_pinion(product: PairProduct | RackPairProduct, parts: Sequence[ScenePart]) -> list[bool]:
+    """Return which parts of a scene are the pinion, which comes first, or its shaft."""
+    roles = product.shaft_roles if isinstance(product, PairProduct) else {}
+    return [number == 0 or roles.get(part.name) is Role.PINION for number, part in enumerate(parts)]
 
 
 class Close(NamedTuple):
@@ -416,7 +425,10 @@ class Shot:
     def scene(self, share: float) -> list[ScenePart]:
         """Return the parts in their places at a share of the loop."""
         parts = list(self.loop.scene(share) if self.loop else self.product.scene())
-        return [parts[0], *(_moved(part, self._apart) for part in parts[1:])] if any(self._apart) else parts
+        if not any(self._apart) or not isinstance(self.product, PairProduct | RackPairProduct):
+            return parts
+        own = beside_pinion(self.product, parts)
+        return [part if here else _moved(part, self._apart) for part, here in zip(parts, own, strict=True)]
 
     def _set(self, share: float) -> tuple[Sequence[ScenePart], Camera, dict[str, CutPlanes]]:
         parts = self.scene(share)
