@@ -395,7 +395,7 @@ def _all_springs(planar: PlanarTrain) -> list[tuple[Spring, float, Floats]]:
     """Return each spring with its stiffness, 0 where there is none, and its vector over all coordinates."""
     size, carrier = 9 + 3 * planar.planets, planar.members[0].name
     result = [
-        (Spring(SpringKind.MESH, line.name, n), float(line.stiffness[n]), _mesh_vector(line, place, n, psi, size))
+        (Spring(SpringKind.MESH, line.name, n), float(line.stiffness[n]), mesh_vector(line, place, n, psi, size))
         for place, line in enumerate(planar.meshes, 1)
         for n, psi in enumerate(planar.angles)
     ]
@@ -412,7 +412,7 @@ def _all_springs(planar: PlanarTrain) -> list[tuple[Spring, float, Floats]]:
     return result
 
 
-def _mesh_vector(line: MeshLine, member: int, planet: int, psi: float, size: int) -> Floats:
+def mesh_vector(line: MeshLine, member: int, planet: int, psi: float, size: int) -> Floats:
     """Return the approach of flanks (size,) per coordinate, with e -1 for a ring.
 
     It is u + e u_p - x sin(psi - e a) + y cos(psi - e a) - e zeta sin a - eta cos a. The other flanks are at -a, and a torque
