@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from gearcad.core.records import Floats
+from gearcad.dynamics.planetary.gyroscopic_modes import GyroscopicModes
 from gearcad.dynamics.planetary.planetary_modes import (
     CampbellLine,
     LineKind,
@@ -306,6 +307,25 @@ def _explain(axes: Axes, train: PlanetaryTrain, campbell: PlanetaryCampbell) -> 
     axes.legend(
         handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, frameon=False, fontsize=8, borderaxespad=0.2
     )
+
+
+GYROSCOPIC_INCHES = (FIGURE_INCHES[0], 4.2)
+
+
+def plot_gyroscopic(train: PlanetaryTrain, modes: GyroscopicModes, ax: Axes | None = None) -> Axes:
+    """Draw the change of the natural frequencies over the speed of the carrier, in the frame of the carrier, by kinds."""
+    empty = new_figure(GYROSCOPIC_INCHES).subplots() if ax is None else ax
+    axes = prepared(empty, f"speed of {plain(train.carrier.name)} in rpm", "change of frequency in Hz")
+    told: set[ModeKind] = set()
+    for kind, frequency in zip(modes.kinds, modes.frequency.T, strict=True):
+        label = "" if kind in told else kind.value
+        axes.plot(modes.speed, frequency - frequency[0], color=KIND_COLOURS[kind], linewidth=1.0, label=label)
+        told.add(kind)
+    if modes.operating:
+        axes.axvline(modes.operating, color=DARK, linewidth=1.2, linestyle="--", label="load")
+    axes.set_xlim(0, float(modes.speed[-1]))
+    legend_above(axes, 5)
+    return axes
 
 
 RESPONSE_INCHES = (FIGURE_INCHES[0], 4.2)

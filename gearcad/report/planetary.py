@@ -13,6 +13,7 @@ import numpy as np
 
 from gearcad.core.records import Floats, Role, texts
 from gearcad.core.symbols import STRENGTH_FACTORS
+from gearcad.dynamics.planetary.gyroscopic_modes import GyroscopicModes
 from gearcad.dynamics.planetary.load_sharing import LoadSharing
 from gearcad.dynamics.planetary.planar_model import Spring, SpringKind
 from gearcad.dynamics.planetary.planetary_modes import ModeFamily, PlanetaryCampbell, PlanetaryModes
@@ -36,11 +37,13 @@ from gearcad.plots.planetary import (
 from gearcad.plots.planetary_scheme import plot_scheme, scheme_inches
 from gearcad.plots.planetary_vibration import (
     CAMPBELL_INCHES,
+    GYROSCOPIC_INCHES,
     MOST_MODES,
     RESPONSE_INCHES,
     RUNNING_INCHES,
     highest_drawn,
     modes_inches,
+    plot_gyroscopic,
     plot_modes,
     plot_response,
     plot_running,
@@ -444,6 +447,8 @@ def sections_of_vibration(study: PlanetaryStudy) -> Iterator[ReportSection]:
         yield _modes(study.train, study.modes)
     if study.campbell is not None:
         yield _campbell(study.train, study.campbell)
+    if study.gyroscopic is not None and study.gyroscopic.speed[-1] > 0:
+        yield _gyroscopic(study.train, study.gyroscopic)
     if study.response is not None:
         yield _response(study.response)
 
@@ -507,6 +512,14 @@ def _campbell(train: PlanetaryTrain, campbell: PlanetaryCampbell) -> ReportSecti
         words=(said("campbell_words", train, campbell),),
         tables=(ReportTable("Excited modes", grid=table, note=note),) if table.rows else (),
         figures=(figure("Campbell diagram", draw, CAMPBELL_INCHES, said("campbell", campbell, highest_drawn(campbell))),),
+    )
+
+
+def _gyroscopic(train: PlanetaryTrain, modes: GyroscopicModes) -> ReportSection:
+    draw = on_axes(partial(plot_gyroscopic, train, modes))
+    picture = figure("Change of natural frequencies", draw, GYROSCOPIC_INCHES, said("gyroscopic", modes))
+    return ReportSection(
+        "Natural frequencies over the speed of the carrier", words=(said("gyroscopic_words", train, modes),), figures=(picture,)
     )
 
 

@@ -48,7 +48,7 @@ class _Exact:
                 apart = at[planet, :2] - at[place, :2]
                 length = np.hypot(*apart)
                 out, along = apart / length, np.array([-apart[1], apart[0]]) / length
-                turned = np.arctan2(*(np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]) @ apart)[::-1])
+                turned = np.angle((apart[0] + 1j * apart[1]) * np.exp(-1j * angle))
                 pressure = np.arccos(abs(both) / length)
                 start = np.arccos(abs(both) / self.distance)
                 involute = (np.tan(pressure) - pressure) - (np.tan(start) - start)
@@ -78,7 +78,8 @@ class _Exact:
         coriolis[x, x + 1], coriolis[x + 1, x] = 2 * self.mass[:, 0] * self.speed, -2 * self.mass[:, 1] * self.speed
         inverse = 1 / self.mass.ravel()[:, None]
         unit = 1e4
-        system = np.block([[np.zeros((size, size)), np.eye(size)], [inverse * self.slopes(moved) / unit**2, inverse * coriolis / unit]])
+        below = [inverse * self.slopes(moved) / unit**2, inverse * coriolis / unit]
+        system = np.block([[np.zeros((size, size)), np.eye(size)], below])
         return np.sort(unit * np.linalg.eigvals(system).imag)[size:]
 
 
@@ -183,5 +184,5 @@ def test_all_but_turning_motions_weigh_in_the_matrices() -> None:
 @pytest.mark.parametrize("speed", [-1.0, float("nan"), float("inf")])
 def test_a_speed_that_is_none(speed: float) -> None:
     springs = train_springs(on_springs(TRAINS["A"], support=60.0, pin=200.0), (400.0, 500.0))
-    with pytest.raises(ParameterError, match="highest_speed .* must be a finite speed of at least 0 rpm"):
+    with pytest.raises(ParameterError, match=r"highest_speed .* must be a finite speed of at least 0 rpm"):
         gyroscopic_modes(springs, MASSES, speed)

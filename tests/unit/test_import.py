@@ -4,6 +4,7 @@ import ast
 import doctest
 import importlib
 import json
+import pkgutil
 import re
 import subprocess
 import sys
@@ -163,8 +164,12 @@ ROOMS = [
 @pytest.mark.parametrize("room", ROOMS)
 def test_examples_give_what_they_show(room: str) -> None:
     module = importlib.import_module(room)
-    for name in dir(module):  # names that are imported at their first use, which is not to be while their examples are sought
+    # Names and modules that are imported at their first use, which is not to be while their examples are sought.
+    for name in dir(module):
         getattr(module, name, None)
+    for each in pkgutil.iter_modules(getattr(module, "__path__", ())):
+        if each.name != "__main__":
+            importlib.import_module(f"{room}.{each.name}")
     found = doctest.testmod(module)
     assert found.attempted and not found.failed
 

@@ -17,7 +17,14 @@ from numpy.typing import ArrayLike
 
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Floats, JsonObject, Notice, freeze
-from gearcad.dynamics.planetary.planar_model import MeshLine, SpringKind, TrainMasses, TrainSprings, all_coordinates, mesh_vector
+from gearcad.dynamics.planetary.planar_model import (
+    MeshLine,
+    SpringKind,
+    TrainMasses,
+    TrainSprings,
+    all_coordinates,
+    mesh_vector,
+)
 from gearcad.dynamics.planetary.planetary_modes import ModeKind, mass_diagonal, why_mixed
 
 _ROUNDING = 1e-6
@@ -115,7 +122,7 @@ def _stiffness_of_loaded_springs(springs: TrainSprings, diagonal: Floats) -> Flo
 def _mesh_curvature(
     line: MeshLine, distance: float, central: int, planet: int, angle: float, size: int
 ) -> tuple[Floats, float]:
-    """Return the direction w (size,) across the line of action, and c (1/m) of the second derivative c w w^T of the approach."""
+    """Return the direction w (size,) across the line of action, and c (1/m) of its second derivative c w w^T."""
     external, alpha = 1.0 if line.external else -1.0, line.pressure_angle
     sin, cos = np.sin(alpha), np.cos(alpha)
     radial, along = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
@@ -145,7 +152,7 @@ class GyroscopicModes:
 
     @property
     def change(self) -> float:
-        """Greatest relative change of a natural frequency above 0 from the carrier at rest to that at the load; 0 for no load."""
+        """Greatest relative change of a natural frequency above 0 from the carrier at rest to the load; 0 for no load."""
         if self.operating is None:
             return 0.0
         row = int(np.flatnonzero(self.speed == self.operating)[0])
@@ -164,10 +171,12 @@ class GyroscopicModes:
         """Notices of frequencies that the turning carrier changes, and of modes that grow."""
         found = []
         if self.change > _TOLD:
-            words = f"the turning carrier moves natural frequencies by up to {100 * self.change:.2g} % at {self.operating:.5g} rpm"
-            found.append(Notice("modes-move", f"{words}: the Campbell diagram is that of a carrier at rest", "modes"))
+            moved = f"the turning carrier moves natural frequencies by up to {100 * self.change:.2g} %"
+            words = f"{moved} at {self.operating:.5g} rpm: the Campbell diagram is that of a carrier at rest"
+            found.append(Notice("modes-move", words, "modes"))
         if self.unstable_from is not None:
-            found.append(Notice("modes-grow", f"a mode is unstable from {self.unstable_from:.5g} rpm of the carrier on", "modes"))
+            words = f"a mode is unstable from {self.unstable_from:.5g} rpm of the carrier on"
+            found.append(Notice("modes-grow", words, "modes"))
         return tuple(found)
 
     def to_dict(self) -> JsonObject:
@@ -186,7 +195,7 @@ class GyroscopicModes:
 def gyroscopic_modes(
     springs: TrainSprings, masses: TrainMasses, highest_speed: float, *, operating: float | None = None, count: int = 21
 ) -> GyroscopicModes:
-    """Return the natural frequencies at `count` speeds of the carrier from 0 to `highest_speed`, and at `operating`, all in rpm.
+    """Return the natural frequencies at `count` speeds of the carrier from 0 to `highest_speed`, and at `operating` (rpm).
 
     Raises ParameterError where a mass is missing, and for a speed that is not finite.
     """
@@ -197,9 +206,7 @@ def gyroscopic_modes(
     spaces = [(kind, space, _free_turns(springs, space)) for kind, space in _spaces(springs)]
     own = [] if operating is None else [operating]
     speeds = np.unique([*np.linspace(0.0, highest_speed, count), *own])
-    roots = np.array(
-        [np.hstack([matrices.roots(2 * np.pi * speed / 60, *rest) for _, *rest in spaces]) for speed in speeds.tolist()]
-    )
+    roots = np.array([_roots_at(2 * np.pi * speed / 60, matrices, spaces) for speed in speeds.tolist()])
     return GyroscopicModes(
         speed=speeds,
         kinds=tuple(kind for kind, space, _ in spaces for _ in range(space.shape[1])),
@@ -207,6 +214,11 @@ def gyroscopic_modes(
         growth=roots[:, 1],
         operating=operating,
     )
+
+
+def _roots_at(speed: float, matrices: TurningMatrices, spaces: list[tuple[ModeKind, Floats, int]]) -> Floats:
+    """Return imaginary and real parts (2, n) of the roots of all spaces one after another, in 1/s."""
+    return np.hstack([matrices.roots(speed, space, free) for _, space, free in spaces])
 
 
 def _spaces(springs: TrainSprings) -> Iterator[tuple[ModeKind, Floats]]:
@@ -223,7 +235,7 @@ def _spaces(springs: TrainSprings) -> Iterator[tuple[ModeKind, Floats]]:
     alike = np.ones((planar.planets, 1))
     together = np.linalg.matrix_rank(waves)
     others = np.linalg.svd(np.hstack([alike, waves]).T)[2][1 + together :].T
-    parts = (
+    parts: tuple[tuple[ModeKind, list[int], Floats], ...] = (
         (ModeKind.ROTATIONAL, [2, 5, 8], alike),
         (ModeKind.TRANSLATIONAL, [0, 1, 3, 4, 6, 7], waves if together == 2 else _column_space(waves)),
         (ModeKind.PLANET, [], others),
@@ -239,7 +251,7 @@ def _spaces(springs: TrainSprings) -> Iterator[tuple[ModeKind, Floats]]:
 
 
 def _free_turns(springs: TrainSprings, space: Floats) -> int:
-    """Return how many independent motions in a space (n, d) bend no spring, with no member off its axis and no planet outwards."""
+    """Return how many independent turns of a space (n, d) bend no spring: no member leaves its axis, no planet moves out."""
     rooted = (springs.vectors * np.sqrt(springs.stiffness)[:, None]) @ space
     places = np.array(_free_places(springs))
     off_axis = np.where(places < 9, places % 3 != 2, places % 3 == 0)

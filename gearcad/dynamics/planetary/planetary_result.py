@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from gearcad.core.records import JsonObject, Notice, Pictured, Verdict, strength_verdict, texts
+from gearcad.dynamics.planetary.gyroscopic_modes import GyroscopicModes
 from gearcad.dynamics.planetary.load_sharing import LoadSharing
 from gearcad.dynamics.planetary.planar_model import TrainMasses
 from gearcad.dynamics.planetary.planetary_modes import PlanetaryCampbell, PlanetaryModes
@@ -46,7 +47,8 @@ class PlanetaryStudy(Pictured):
     """A planetary train at its load: geometry in mesh, speeds, torques, forces, sharing, stiffness, natural modes, rating.
 
     A part is None where an input that it needs is not given or the part cannot be computed; `why_not` {part: reason} says
-    which. The `response` takes long and is there where it was asked for. `stiffness` is of both meshes by their names,
+    which. `gyroscopic` are the natural frequencies with the carrier turning; they are there where the Campbell diagram is. The
+    `response` takes long and is there where it was asked for. `stiffness` is of both meshes by their names,
     `stage_cycles` of the stages that carry something. `asks_strength`: whether materials or required safeties ask for a verdict
     on strength.
     """
@@ -69,6 +71,7 @@ class PlanetaryStudy(Pictured):
     masses: TrainMasses
     modes: PlanetaryModes | None
     campbell: PlanetaryCampbell | None
+    gyroscopic: GyroscopicModes | None
     response: PlanetaryResponse | None
     rating: TrainRating | None
     asks_strength: bool = False
@@ -98,7 +101,8 @@ class PlanetaryStudy(Pictured):
         found = [*self.train.notices, *(self.load.notices if self.load is not None else ())]
         for mesh in (self.stiffness or {}).values():
             found += mesh.notices
-        for part in (self.sharing, self.torsion, self.running, self.modes, self.campbell, self.response, self.rating):
+        vibrating = self.modes, self.campbell, self.gyroscopic, self.response
+        for part in (self.sharing, self.torsion, self.running, *vibrating, self.rating):
             found += part.notices if part is not None else ()
         if self.flow is not None and self.flow.self_locking:
             found.append(Notice("self-locking", f"{self.train.output} cannot drive {self.train.input}: the train locks itself"))
@@ -145,6 +149,7 @@ def study_document(study: PlanetaryStudy) -> JsonObject:
         "frequencies": None if study.modes is None else [family.to_dict() for family in study.modes.families],
         "modes": _document(study.modes),
         "campbell": _document(study.campbell),
+        "modes_over_speed": _document(study.gyroscopic),
         "response": _document(study.response),
         "rating": _document(study.rating),
         **_strength(study),

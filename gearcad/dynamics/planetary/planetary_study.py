@@ -9,6 +9,7 @@ from typing import TypeVar
 from gearcad.core.errors import InputError, ParameterError, SolverError
 from gearcad.core.runtime import Agenda, Progress
 from gearcad.dynamics.options import AUTO, DynamicsOptions
+from gearcad.dynamics.planetary.gyroscopic_modes import GyroscopicModes, gyroscopic_modes
 from gearcad.dynamics.planetary.load_sharing import share_load
 from gearcad.dynamics.planetary.planar_model import TrainMasses, train_masses, train_springs
 from gearcad.dynamics.planetary.planetary_excitation import QUICK, PlanetMeshStiffness, train_stiffness
@@ -126,6 +127,9 @@ def study_planetary(
     campbell = found.part(
         "campbell", ("speeds", "modes"), lambda: _campbell(train, load, others, _there(modes), phases, dynamics)
     )
+    turned = None
+    if campbell is not None and modes is not None and turning is not None:
+        turned = _turned(campbell, modes, masses, turning)
     answer = None
     if response:
         tell("response")
@@ -163,6 +167,7 @@ def study_planetary(
         masses=masses,
         modes=modes,
         campbell=campbell,
+        gyroscopic=turned,
         response=answer,
         rating=found.part("rating", ("loads",), lambda: rate_train(train, _there(loads), on_stages, masses, material, rating)),
         asks_strength=asks_strength(material, rating),
@@ -283,6 +288,14 @@ def _campbell(
     # By the signed speed: where the input turns clockwise all senses are reversed alike, as `highest` has none.
     given = {name: each * highest / speed if speed else each for name, each in others.items()}
     return planetary_campbell(train, modes, phases, highest, given_speeds=given, speed=speed)
+
+
+def _turned(campbell: PlanetaryCampbell, modes: PlanetaryModes, masses: TrainMasses, turning: Speeds) -> GyroscopicModes:
+    """Return the natural frequencies up to the speed of the carrier at the end of the Campbell diagram."""
+    train = campbell.train
+    carrier, entering = (abs(turning.members[name]) for name in (train.carrier.name, train.input))
+    highest = carrier * campbell.highest_speed / entering if entering else carrier
+    return gyroscopic_modes(modes.springs, masses, highest, operating=carrier if campbell.speed else None)
 
 
 def _weighed(train: PlanetaryTrain, masses: TrainMasses) -> PlanetaryTrain:
