@@ -25,8 +25,10 @@ from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.designs.shaft_spec import SHAFT_LISTS, PairShafts
 from gearcad.designs.spec import AUTO
-from gearcad.designs.train_designs import DesignedPair, plain_name
+from gearcad.designs.train_designs import plain_name
+from gearcad.designs.train_meshes import free_name, mesh_design, under_load
 from gearcad.drawing.options import PartDrawing
+from gearcad.dynamics.engagement import PinionLoad
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.planetary.planetary_strength import ALTERNATING
 from gearcad.dynamics.train_result import TrainStudy
@@ -165,31 +167,16 @@ def pair_specs(study: TrainStudy) -> dict[str, str]:
 
 def _file(mesh: EngagedMesh, taken: dict[str, str]) -> str:
     """Return a name that no other has, also where large and small letters are the same."""
-    name, others = plain_name(mesh.name), {each.casefold() for each in taken}
-    tried = (f"{name}.toml" if number == 1 else f"{name}-{number}.toml" for number in range(1, len(taken) + 2))
-    return next(each for each in tried if each.casefold() not in others)
+    return f"{free_name(plain_name(mesh.name), {each.removesuffix('.toml').casefold() for each in taken})}.toml"
 
 
 def loaded_pair(train: Train, mesh: EngagedMesh) -> PairDesign:
     """Return the pair of a mesh, with the torque and speed that the train gives its pinion, and the inertias of the train."""
-    of = mesh.teeth_of
-    own = of.design if isinstance(of, DesignedPair) else _plain_design(mesh)
+    own = mesh_design(mesh)
     name = plain_name(f"{train.name}-{mesh.name}"[:LONGEST_NAME])
-    factor = own.load.application_factor if own.load is not None else 1.0
-    torque, speed = (_loaded_pairs_plain(each) for each in (mesh.course.torque, train.speed * train.speed_ratios[mesh.pinion]))
-    load = Load(torque=torque, speed=speed, application_factor=factor)
-    return replace(own, name=name, pair=replace(own.pair, name=name), load=load, dynamics=_dynamics(train, mesh, own))
-
-
-def _loaded_pairs_plain(value: float) -> float:
-    """Return the value rounded to 12 digits, without the rounding errors of a train's equations."""
-    return float(f"{value:.12g}")
-
-
-def _plain_design(mesh: EngagedMesh) -> PairDesign:
-    """Return a design for the pair of a mesh that has no design of its own."""
-    of = mesh.teeth_of
-    return PairDesign(name=plain_name(mesh.name), pair=of.pair, material=of.material, mounting=of.mounting, rating=of.rating)
+    course = mesh.course
+    loaded = under_load(own, PinionLoad(course.torque, train.speed * train.speed_ratios[mesh.pinion], course.driver))
+    return replace(loaded, name=name, pair=replace(own.pair, name=name), dynamics=_dynamics(train, mesh, own))
 
 
 def _dynamics(train: Train, mesh: EngagedMesh, own: PairDesign) -> DynamicsOptions:

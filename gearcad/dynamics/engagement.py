@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.stiffness.method import StiffnessMethod
 
-__all__ = ["engaged", "pair_notices"]
+__all__ = ["PinionLoad", "engaged", "pair_notices", "pinion_loads"]
 
 
 _FIRST_GUESS = 15.0
@@ -42,6 +43,52 @@ _ROUNDING = 1e-9
 
 _OTHER = 1e-3
 """Relative difference above which two loads count as different."""
+
+
+class PinionLoad(NamedTuple):
+    """Load of the pinion of a mesh: torque (N·m) and speed (rpm), counter-clockwise positive, and the gear that drives."""
+
+    torque: float
+    speed: float
+    driver: Role
+
+
+def pinion_loads(train: Train, options: DynamicsOptions | None = None) -> dict[str, PinionLoad]:
+    """Return what a train gives the pinions of its meshes by their names: torques at rest, without losses, and speeds.
+
+    They are the static forces under which `engaged` studies the pairs. Only where these depend on the stiffness of the meshes
+    the mesh cycles of the pairs are needed. Raises ParameterError for a pair that carries no force, and the errors of `engaged`.
+    """
+    places = [j for j, mesh in enumerate(train.meshes) if mesh.pair is not None and not isinstance(mesh, EngagedMesh)]
+    try:
+        forces = _static_forces(train, options or DynamicsOptions(), places)
+    finally:
+        _method.cache_clear()
+    return {mesh.name: _pinion_load(train, j, forces) for j, mesh in enumerate(train.meshes)}
+
+
+def _static_forces(train: Train, options: DynamicsOptions, places: Sequence[int]) -> Floats:
+    """Return the signed mesh forces (m,) in N, by mesh cycles only where they depend on the stiffness of the meshes."""
+    first = _first_guess(train, places)
+    forces = pressing_forces(_lumped(train, first))
+    if not places:
+        return forces
+    other = pressing_forces(_lumped(train, {j: (2.0 + place) * each for place, (j, each) in enumerate(first.items())}))
+    if np.abs(other - forces).max() > _SAME * np.abs(forces).max():
+        return _settled(train, options, places)[0]
+    for j in places:
+        _require_force(train.meshes[j], float(forces[j]), float(np.abs(forces).max()))
+    return forces
+
+
+def _pinion_load(train: Train, j: int, forces: Floats) -> PinionLoad:
+    """Return the load of the pinion of the mesh with number `j` under the signed mesh forces (m,) in N."""
+    mesh = train.meshes[j]
+    ratio = train.speed_ratios[mesh.pinion]
+    turning = math.copysign(1.0, train.speed or forces[0]) * ratio
+    driver = Role.PINION if forces[j] * turning > 0 else Role.WHEEL
+    torque = _torque(mesh, forces[j])
+    return PinionLoad(torque if mesh.pair is None else _in_range(mesh, torque), train.speed * ratio, driver)
 
 
 def engaged(train: Train, options: DynamicsOptions | None = None) -> Train:
@@ -63,26 +110,26 @@ def engaged(train: Train, options: DynamicsOptions | None = None) -> Train:
     finally:
         # Bodies of finite elements are large; the curves are kept.
         _method.cache_clear()
-    direction = math.copysign(1.0, train.speed or forces[0])
     meshes = list(train.meshes)
     for j in places:
-        turning = direction * train.speed_ratios[meshes[j].pinion]
-        driver = Role.PINION if forces[j] * turning > 0 else Role.WHEEL
-        torque = _in_range(meshes[j], _torque(meshes[j], forces[j]))
-        meshes[j] = _engaged(meshes[j], cycles[j], torque, driver, rounds, options)
+        meshes[j] = _engaged(meshes[j], cycles[j], _pinion_load(train, j, forces), rounds, options)
     return replace(train, meshes=tuple(meshes))
 
 
 def _settled(train: Train, options: DynamicsOptions, places: Sequence[int]) -> tuple[Floats, dict[int, MeshCycle], int]:
     """Return the signed mesh forces (m,) in N, the mesh cycles of the pairs under them, and the number of rounds."""
-    first = {j: _FIRST_GUESS * _pair(train.meshes[j]).mounted.common_width.width for j in places}
-    forces = pressing_forces(_lumped(train, first))
+    forces = pressing_forces(_lumped(train, _first_guess(train, places)))
     for rounds in range(1, _MOST_ROUNDS + 1):
         cycles = {j: _cycle_of(train.meshes[j], float(forces[j]), np.abs(forces).max(), options) for j in places}
         before, forces = forces, pressing_forces(_lumped(train, {j: cycle.tangent_mean for j, cycle in cycles.items()}))
         if np.abs(forces - before).max() <= _SAME * np.abs(before).max():
             return before, cycles, rounds
     raise SolverError(f"the static forces in the meshes of {train.name} and the stiffness of their pairs do not settle")
+
+
+def _first_guess(train: Train, places: Sequence[int]) -> dict[int, float]:
+    """Return the stiffness (N/µm) of the meshes with these numbers with which the iteration begins."""
+    return {j: _FIRST_GUESS * _pair(train.meshes[j]).mounted.common_width.width for j in places}
 
 
 def _lumped(train: Train, stiffness: Mapping[int, float]) -> Train:
@@ -118,14 +165,19 @@ def _cycle_of(mesh: ToothMesh, force: float, greatest: float, options: DynamicsO
 
     Raises ParameterError if the mesh carries no force.
     """
-    if abs(force) <= _NO_FORCE * greatest or not force:
-        permitted = "carries nothing at rest, and its stiffness depends on the load: give torques that reach it, or a preload"
-        raise ParameterError(f"{mesh.name}.pair", _pair(mesh).pair.name, permitted)
+    _require_force(mesh, force, greatest)
     of, torque = _pair(mesh), _in_range(mesh, _torque(mesh, force))
     try:
         return _cycle(options.method_for(of.mounted), of.pair, of.material, of.body, of.mounting, torque)
     except InputError as error:
         raise error.within(mesh.name) from error
+
+
+def _require_force(mesh: ToothMesh, force: float, greatest: float) -> None:
+    """Raise ParameterError if a mesh carries no force (N); `greatest` is the greatest of all mesh forces (N)."""
+    if abs(force) <= _NO_FORCE * greatest or not force:
+        permitted = "carries nothing at rest, and its stiffness depends on the load: give torques that reach it, or a preload"
+        raise ParameterError(f"{mesh.name}.pair", _pair(mesh).pair.name, permitted)
 
 
 def _in_range(mesh: ToothMesh, torque: float) -> float:
@@ -163,7 +215,7 @@ def _method(name: str, pair: GearPair, material: Materials, body: BodyModel, mou
 
 
 def _engaged(
-    mesh: ToothMesh, cycle: MeshCycle, torque: float, driver: Role, rounds: int, options: DynamicsOptions
+    mesh: ToothMesh, cycle: MeshCycle, load: PinionLoad, rounds: int, options: DynamicsOptions
 ) -> EngagedMesh:
     from gearcad.stiffness.methods import METHODS
 
@@ -176,7 +228,7 @@ def _engaged(
     # One round: the force does not depend on the stiffness, nor on how far the flanks have approached.
     offset = cycle.mean_of(cycle.transmission_error) - cycle.force / cycle.tangent_mean if rounds > 1 else 0.0
     title = METHODS[cycle.method].title
-    course = MeshCourse(cycle=cycle, title=title, torque=torque, driver=driver, rounds=rounds, offset=offset)
+    course = MeshCourse(cycle=cycle, title=title, torque=load.torque, driver=load.driver, rounds=rounds, offset=offset)
     return EngagedMesh(**given, course=course)
 
 
