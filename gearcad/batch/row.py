@@ -20,21 +20,24 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from gearcad.core.errors import GearcadError, OutputError, ParameterError, SpecError, out_of_memory
-from gearcad.core.output import UNWRITABLE, json_text, locked, unwritable
+from gearcad.core.output import UNWRITABLE, files_in, json_text, locked, unwritable
 from gearcad.core.records import JsonObject, PerGear
 from gearcad.core.runtime import PACKAGE
 from gearcad.core.symbols import PER_GEAR
 from gearcad.designs import Design
 from gearcad.designs.table import DesignRow
 from gearcad.jobs import VERBS
-from gearcad.jobs.job import Data, Job
+from gearcad.jobs.job import Data, Job, write_inside
+from gearcad.jobs.train import figures_of, suited
 from gearcad.version import __version__
 
 MANIFEST = "manifest.json"
 
 _NO_NAME = r'\x00-\x1f\ud800-\udfff/\\<>:"|?*'
-_OUR_FILE = re.compile(rf"[^\s.\-{_NO_NAME}][^{_NO_NAME}]{{0,200}}\.[a-z0-9]{{1,10}}")
-"""Pattern of file names that a row may write. Some are named after gears, so any name that a folder can have is permitted."""
+_PLAIN_NAME = rf"[^\s.\-{_NO_NAME}][^{_NO_NAME}]{{0,200}}"
+_OUR_FILE = re.compile(rf"({_PLAIN_NAME}/)?{_PLAIN_NAME}\.[a-z0-9]{{1,10}}")
+"""Pattern of file names that a row may write, in a folder of a mesh too. Some are named after gears, so any name that a folder
+can have is permitted."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +130,7 @@ def publish(staging: Path, folder: Path, manifest: Manifest, before: Manifest | 
 
 
 def _replace_files(staging: Path, folder: Path, manifest: Manifest, before: Manifest | None) -> None:
-    made = sorted(file.name for file in staging.iterdir() if file.name != MANIFEST)
+    made = [file for file in files_in(staging) if file != MANIFEST]
     stale = sorted((before.files if before else set()) - manifest.files)
     touched = {*made, *stale}
     sound = {name: part for name, part in manifest.parts.items() if not touched & set(part.files)}
@@ -135,6 +138,7 @@ def _replace_files(staging: Path, folder: Path, manifest: Manifest, before: Mani
     for file in stale:
         (folder / file).unlink(missing_ok=True)
     for file in made:
+        (folder / file).parent.mkdir(exist_ok=True)
         (staging / file).replace(folder / file)
     (staging / MANIFEST).replace(folder / MANIFEST)
 
@@ -169,10 +173,10 @@ def stages(wanted: Sequence[Job[Any, Any]]) -> tuple[Job[Any, Any], ...]:
 
 def make_parts(job: Job[Any, Any], design: Design, parts: Sequence[str], folder: Path) -> None:
     """Make some of a job's parts in an empty folder."""
-    maker = job.for_row(design, parts).headed(design)
+    maker = suited(job.for_row(design, parts), design).headed(design)
     for name, write in maker.files(maker.run(design)).items():
-        if job.part_of(name):
-            write(folder / name)
+        if job.part_of(name.rpartition("/")[2]):
+            write_inside(folder, name, write)
 
 
 _HOPELESS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.ENOENT)
@@ -286,7 +290,7 @@ def _document(task: Task, folder: Path) -> JsonObject:
     document = _read(folder, DATA)
     for job in task.stages:
         if job.verb != DATA and job.verb in job.parts:
-            document[job.verb] = document.get(job.verb, {}) | job.figures(_read(folder, job.verb))
+            document[job.verb] = document.get(job.verb, {}) | figures_of(job, _read(folder, job.verb))
     return document
 
 
@@ -353,8 +357,8 @@ def _valid_parts(before: Manifest | None, inputs: str, folder: Path) -> dict[str
 
 def _parts_in(staging: Path, job: Job[Any, Any]) -> dict[str, RowPart]:
     options, files = job.parts, dict[str, dict[str, int]]()
-    for file in sorted(staging.iterdir()):
-        files.setdefault(job.part_of(file.name), {})[file.name] = file.stat().st_size
+    for name in files_in(staging):
+        files.setdefault(job.part_of(name.rpartition("/")[2]), {})[name] = (staging / name).stat().st_size
     return {name: RowPart(options[name], of) for name, of in files.items()}
 
 

@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from gearcad.core.runtime import Expected, Progress
     from gearcad.designs import Design
     from gearcad.jobs.job import Job
+    from gearcad.jobs.train import MeshResults, OverMeshes
 
 
 _USUAL_WIDTH = 80
@@ -232,8 +234,14 @@ def perform_on(
 ) -> Result:
     """Do a job on a design, write its files, and print its document, or what `show` prints and the files.
 
-    Warnings about the design that the result does not have itself follow on stderr.
+    Warnings about the design that the result does not have itself follow on stderr. Of a train a job of pairs is done with each
+    mesh.
     """
+    from gearcad.jobs.train import OverMeshes, suited
+
+    job = suited(job, design)
+    if isinstance(job, OverMeshes):
+        show = partial(_show_meshes, job)
     require_folder(folder_of(output, design.name))  # before a long job
     with job_progress(shown=not quiet, expected=None if quiet else job.expected(design)) as progress:
         result = job.run(design, progress)
@@ -248,6 +256,33 @@ def perform_on(
         told = {notice.text for notice in job.notices(result)}
         echo_warnings((notice for notice in job.design_notices(design) if notice.text not in told), err=True)
     return result
+
+
+def _show_meshes(job: OverMeshes, name: str, result: MeshResults) -> None:
+    """Print a line for each mesh of a train, then the notices and the verdict of the train."""
+    say("\n".join(mesh_lines(result)))
+    echo_warnings(result.notices)
+    if line := job.conclusion(name, result):
+        colour = "red" if result.falls_short else "green" if result.passed else "yellow"
+        say(line, fg=None if os.environ.get("NO_COLOR") else colour, bold=True)
+
+
+def mesh_lines(result: MeshResults) -> Iterator[str]:
+    """Yield a line for each mesh of a train: its load, least safeties where there are any, and its verdict."""
+    safeties = [(name, words) for name, words in _SAFETIES.items() if any(name in each.figures for each in result.meshes)]
+    rows = [["mesh", "N·m", "rpm", *(words for _, words in safeties), "verdict", "folder"]]
+    for each in result.meshes:
+        load, told = each.mesh.load, each.strength.value if each.strength is not None else _PASSED[each.passed]
+        told = _PASSED[False] if each.passed is False else told
+        numbers = [each.figures.get(name) for name, _ in safeties]
+        cells = ["-" if value is None else f"{value:.4g}" for value in numbers]
+        rows.append([each.mesh.name, f"{load['torque']:.6g}", f"{load['speed']:.6g}", *cells, told, each.mesh.folder])
+    rows += [[name, *("-" for _ in rows[0][2:-1]), "not judged", "-"] for name in result.without]
+    yield from aligned_columns(rows, left=(0, len(rows[0]) - 2, len(rows[0]) - 1))
+
+
+_SAFETIES = {"S_H_min": "S_H", "S_F_min": "S_F"}
+_PASSED = {True: "passed", False: "failed", None: "-"}
 
 
 def echo_warnings(notices: Iterable[Notice], *, err: bool = False) -> None:

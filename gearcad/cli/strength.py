@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from gearcad.check.spline import SplineCheck
     from gearcad.dynamics.planetary.planetary_strength import TrainStrength
     from gearcad.jobs.modify import Proposal
+    from gearcad.jobs.train import MeshResults
     from gearcad.rating.strength import StrengthRating
     from gearcad.stiffness import StiffnessComparison
 
@@ -102,6 +103,13 @@ def verdict_line(name: str, result: CheckResult) -> str:
     return Check().conclusion(name, result)
 
 
+def _conclusion(result: CheckResult | MeshResults) -> str:
+    """Return the conclusion of a check, or of those of a train's meshes."""
+    from gearcad.jobs.train import MeshResults
+
+    return result.conclusion if isinstance(result, MeshResults) else verdict_line(result.pair.name, result)
+
+
 def _verdict_row(of: Comparison) -> _Line:
     """Return the row of a comparison; for a limit it shows how much of it is used."""
     gate = of.role is ComparisonRole.GATE
@@ -171,7 +179,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
 
     result = perform(Check(model=model), spec, output, print_verdict, as_json=as_json, quiet=quiet)
     if as_json and not quiet:
-        say(verdict_line(result.pair.name, result), err=True)
+        say(_conclusion(result), err=True)
     if not result.passed:
         click.get_current_context().exit(1)
 
@@ -204,11 +212,12 @@ def print_strength(name: str, result: StrengthRating | TrainStrength) -> None:
     say(strength_line(name, result), fg=None if os.environ.get("NO_COLOR") else colour, bold=True)
 
 
-def strength_line(name: str, result: StrengthRating | TrainStrength) -> str:
+def strength_line(name: str, result: StrengthRating | TrainStrength | MeshResults) -> str:
     """Return the conclusion of a rating in one line."""
     from gearcad.jobs.strength import Rate
+    from gearcad.jobs.train import MeshResults
 
-    return Rate().conclusion(name, result)
+    return result.conclusion if isinstance(result, MeshResults) else Rate().conclusion(name, result)
 
 
 def strength_lines(rating: StrengthRating) -> Iterator[str]:

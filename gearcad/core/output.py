@@ -137,7 +137,7 @@ def staged_files(folder: Path, inside: Path | None = None, *, sometimes: Collect
         with _staging(folder, inside, made) as staging:
             yield staging
             with locked(folder):
-                _move_files(staging, folder, sometimes)
+                _move_files(staging, folder, sometimes, made)
         finished = True
     except UNWRITABLE as error:
         raise unwritable(folder, error) from error
@@ -235,15 +235,25 @@ def _is_there(folder: Path, fd: int) -> bool:
         return False
 
 
-def _move_files(staging: Path, folder: Path, sometimes: Collection[str]) -> None:
-    """Rename all files or none: files that cannot be replaced are found before the first file moves."""
-    files = [file for file in sorted(staging.iterdir()) if file.name != MARK]
-    gone = set(sometimes).difference(file.name for file in files)
-    for name in (*(file.name for file in files), *gone):
+def _move_files(staging: Path, folder: Path, sometimes: Collection[str], made: list[Path]) -> None:
+    """Rename all files or none: files that cannot be replaced are found before the first file moves.
+
+    Folders of files are made first, and noted in `made`.
+    """
+    files = [file for file in files_in(staging) if file != MARK]
+    gone = set(sometimes).difference(files)
+    for name in (*files, *gone):
         if (folder / name).is_dir():
             raise IsADirectoryError(0, f"{name} is a folder there")
+    for inner in dict.fromkeys((folder / name).parent for name in files):
+        _make_folder(inner, made)
     with undivided():
-        for file in files:
-            file.replace(folder / file.name)
+        for name in files:
+            (staging / name).replace(folder / name)
         for name in gone:
             (folder / name).unlink(missing_ok=True)
+
+
+def files_in(folder: Path) -> list[str]:
+    """Return the names of the files in a folder and in the folders in it, with / behind the name of a folder, sorted."""
+    return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if not path.is_dir())

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 from gearcad.check.options import CheckOptions
 from gearcad.core.errors import InputError, ParameterError, SpecError, as_choice, format_number, printable, shown
 from gearcad.core.quantities import FieldSchema, parts_of, schema_of, with_assumed
-from gearcad.core.records import JsonObject, Role
+from gearcad.core.records import JsonObject, Notice, Role
 from gearcad.designs.design import Design, Where, kinds_in_words, read_tables, require_plain_name
 from gearcad.designs.keys import BESIDE, MAIN_TABLES, OF_SETS, DesignKind, permitted_words
 from gearcad.designs.pair_designs import PairDesign
@@ -340,6 +340,12 @@ class TrainDesign(Design):
         dynamics = reader.dynamics(tables.get("dynamics", {}), train)
         with reader.blame("train"):
             return cls(name=train.name, train=train, other_models=others, dynamics=dynamics)
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """Notices of the designs of the pairs, each with the name of its mesh."""
+        designed = ((mesh.name, mesh.pair.design) for mesh in self.train.meshes if isinstance(mesh.pair, DesignedPair))
+        return tuple(notice.within(name) for name, design in designed for notice in design.notices)
 
     def require_kind(self, *kinds: DesignKind, why: str) -> None:
         """Raise ParameterError unless it is of one of these kinds: jobs of pairs take the specs of its pairs."""

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from gearcad.core.errors import ParameterError
+from gearcad.core.errors import InputError, ParameterError, SolverError
 from gearcad.core.records import JsonObject, Role
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.train_designs import DesignedPair, TrainDesign, plain_name
@@ -105,6 +104,12 @@ def without_rounding(value: float) -> float:
     return float(f"{value:.12g}")
 
 
-def loads_document(meshes: TrainMeshes) -> Mapping[str, JsonObject]:
-    """Return the loads of meshes by their names: torque (N·m) and speed (rpm) of the pinion, and the gear that drives."""
-    return {each.name: each.load for each in meshes.meshes}
+def mesh_documents(design: TrainDesign) -> dict[str, JsonObject]:
+    """Return the documents of `data.json` of the pairs of a train's meshes by the names of meshes.
+
+    Their loads are those of the train; where these are not known, the pairs' own.
+    """
+    try:
+        return {mesh.name: mesh.design.to_dict() for mesh in train_meshes(design).meshes}
+    except (InputError, SolverError):
+        return {mesh.name: mesh_design(mesh).to_dict() for mesh in design.train.meshes if mesh.pair is not None}

@@ -115,6 +115,10 @@ _ALL_PARTS = {"inertia": "all inertias", "shaft": "all shafts", "mesh": "all mes
 _OWNERS = tuple(role.value for role in Role)
 
 
+MESHES = "meshes"
+"""Part of a train's data.json that has the documents of its pairs."""
+
+
 def column_of_train(heading: str) -> tuple[str, Symbol] | None:
     """Return the owner and the symbol of a column in a table of planetary trains, or None for an unknown one.
 
@@ -143,9 +147,24 @@ def column_symbol(heading: str) -> tuple[str, Symbol] | None:
 
     The owner is "pinion", "wheel", the name of a train's part, or "".
 
-    Columns are `pinion.tip_diameter`, `pair.tip_clearances.wheel`, `check.root_tension_pinion`, `check.rating.wheel.Y_F` or
-    `shaft.input.length`.
+    Columns are `pinion.tip_diameter`, `pair.tip_clearances.wheel`, `check.root_tension_pinion`, `check.rating.wheel.Y_F`,
+    `shaft.input.length` or, of the pair of a train's mesh, `meshes.stage 1.pinion.tip_diameter` and `rate.stage 1.S_H.pinion`.
     """
+    return _of_pair(heading) or _of_mesh(heading)
+
+
+def _of_mesh(heading: str) -> tuple[str, Symbol] | None:
+    """Return owner and symbol of a column about the pair of a train's mesh, or None; the owner begins with the mesh's name."""
+    table, *parts = heading.split(".")
+    before = [] if table == MESHES else [table]
+    for end in range(1, len(parts)):  # a name may have points
+        if (found := _of_pair(".".join([*before, *parts[end:]]))) is not None:
+            return " ".join(filter(None, (".".join(parts[:end]), found[0]))), found[1]
+    return None
+
+
+def _of_pair(heading: str) -> tuple[str, Symbol] | None:
+    """Return owner and symbol of a column that is not about the pair of a train's mesh, or None."""
     for table, known in _TABLES.items():
         if table and not heading.startswith(f"{table}."):
             continue

@@ -57,7 +57,7 @@ def pinion_loads(train: Train, options: DynamicsOptions | None = None) -> dict[s
     """Return what a train gives the pinions of its meshes by their names: torques at rest, without losses, and speeds.
 
     They are the static forces under which `engaged` studies the pairs. Only where these depend on the stiffness of the meshes
-    the mesh cycles of the pairs are needed. Raises ParameterError for a pair that carries no force, and the errors of `engaged`.
+    the mesh cycles of the pairs are needed. Raises ParameterError for a pair that carries no force, and what `engaged` raises.
     """
     places = [j for j, mesh in enumerate(train.meshes) if mesh.pair is not None and not isinstance(mesh, EngagedMesh)]
     try:
@@ -214,9 +214,7 @@ def _method(name: str, pair: GearPair, material: Materials, body: BodyModel, mou
     return METHODS[name](pair=pair, material=material, body=body, mounting=mounting)
 
 
-def _engaged(
-    mesh: ToothMesh, cycle: MeshCycle, load: PinionLoad, rounds: int, options: DynamicsOptions
-) -> EngagedMesh:
+def _engaged(mesh: ToothMesh, cycle: MeshCycle, load: PinionLoad, rounds: int, options: DynamicsOptions) -> EngagedMesh:
     from gearcad.stiffness.methods import METHODS
 
     given = {each.name: getattr(mesh, each.name) for each in fields(ToothMesh)}

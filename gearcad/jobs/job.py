@@ -34,6 +34,12 @@ Writer = Callable[[Path], object]
 """Writes one file at the path it is given."""
 
 
+def write_inside(folder: Path, name: str, write: Writer) -> None:
+    """Write a file of a folder; its name may have that of a folder in it before a /, which is made."""
+    (folder / name).parent.mkdir(exist_ok=True)
+    write(folder / name)
+
+
 def with_summary(document: Mapping[str, Any], warnings: Iterable[str] = ()) -> JsonObject:
     """Return a document with `passed`, `strength`, `not_judged` and `warnings` at its top, whatever command it is of.
 
@@ -124,7 +130,7 @@ class Job(ABC, Generic[Accepted, Result]):
         with staged_files(folder, sometimes=self.sometimes) as staging:
             for name, write in files.items():
                 agenda(name)
-                write(staging / name)
+                write_inside(staging, name, write)
         return [folder / name for name in files]
 
     def headed(self, _design: Design) -> Self:
@@ -254,11 +260,26 @@ class Data(Job[Design, Design]):
         return self.accepted(design, progress)
 
     def document(self, result: Design) -> JsonObject:
-        """Return the content of data.json: inputs and derived properties under their field names (mm, degrees)."""
-        return result.to_dict()
+        """Return the content of data.json: inputs and derived properties under their field names (mm, degrees).
+
+        Of a train "meshes" has that of the pair of each mesh, under the load that the train gives it.
+        """
+        return result.to_dict() | pair_documents(result)
 
     def notices(self, result: Design) -> Sequence[Notice]:
         return result.notices
+
+
+def pair_documents(design: Design) -> JsonObject:
+    """Return the documents of the pairs of a train's meshes as "meshes"; nothing for other designs and without pairs."""
+    if design.kind is not DesignKind.TRAIN:
+        return {}
+    from gearcad.designs.train_designs import TrainDesign
+    from gearcad.designs.train_meshes import mesh_documents
+
+    assert isinstance(design, TrainDesign)
+    found = mesh_documents(design)
+    return {"meshes": found} if found else {}
 
 
 def data(subject: Subject | Train, load: Load | None = None, **inputs: Unpack[Inputs]) -> JsonObject:

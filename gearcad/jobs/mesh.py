@@ -18,6 +18,7 @@ from gearcad.decks.solid import SolidDecks, solid_task, solid_tooth_deck
 from gearcad.designs import Design, DesignKind, GearedDesign, Inputs, PairDesign, SplineDesign
 from gearcad.geometry import Gear, GearPair
 from gearcad.jobs.job import Job, Writer, as_design
+from gearcad.jobs.train import suited
 from gearcad.load import Load
 from gearcad.material import Material, Materials
 from gearcad.meshing.bodies.body_mesh import contacts
@@ -241,4 +242,5 @@ def mesh(
         "roll": roll,
     }
     job = Mesh(given={name: value for name, value in options.items() if value is not None})
-    return job.run(as_design(subject, load, **inputs), progress)
+    design = as_design(subject, load, **inputs)
+    return suited(job, design).run(design, progress)

@@ -22,6 +22,7 @@ from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDes
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 from gearcad.geometry import GearPair
 from gearcad.jobs.job import ReportedJob, Subject, Writer, as_design
+from gearcad.jobs.train import suited
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.planetary import TrainLoad
@@ -121,10 +122,11 @@ def check(
     >>> f"{result.rating.to_dict()['p_0']:.0f} MPa by Hertz, {result.summary.contact_pressure_pitch_point:.0f} MPa here"
     '683 MPa by Hertz, 683 MPa here'
 
-    Raises ParameterError without a pair or a load, ParameterError and GeometryError for what cannot be checked, SolverError
-    where a solver fails.
+    A train of pairs has MeshResults, one for each of its meshes. Raises ParameterError without a pair or a load, ParameterError
+    and GeometryError for what cannot be checked, SolverError where a solver fails.
     """
-    return Check(model=model, report=False).run(as_design(subject, load, **inputs), progress)
+    design = as_design(subject, load, **inputs)
+    return suited(Check(model=model, report=False), design).run(design, progress)
 
 
 _VERDICT = ("passed", "strength")
@@ -315,7 +317,8 @@ def rate(subject: Subject, load: Load | TrainLoad | None = None, **inputs: Unpac
 
     Raises ParameterError without a pair or a torque, GeometryError for a pair whose contact the standard does not describe.
     """
-    return Rate(report=False).run(as_design(subject, load, **inputs))
+    design = as_design(subject, load, **inputs)
+    return suited(Rate(report=False), design).run(design)
 
 
 _STIFFNESS_NO_LOAD = "stiffness depends on it"
@@ -426,4 +429,5 @@ def stiffness(
     Raises ParameterError without a pair or a load, or for an unknown method; where no method can treat the pair, what the first
     one raises.
     """
-    return Stiffness(methods=methods, positions=positions).run(as_design(subject, load, **inputs), progress)
+    design = as_design(subject, load, **inputs)
+    return suited(Stiffness(methods=methods, positions=positions), design).run(design, progress)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from gearcad.core.errors import format_number
 from gearcad.core.quantities import symbols_of
@@ -27,6 +27,9 @@ from gearcad.sheet.blocks import (
     spline_sections,
 )
 
+if TYPE_CHECKING:
+    from gearcad.designs.train_designs import TrainDesign
+
 __all__ = ["sheet_of"]
 
 _OF_EVERY_RATING = ("standard", "accuracy", "accuracy_grade")
@@ -36,10 +39,12 @@ def sheet_of(design: Design) -> Sheet:
     """Return a column for each gear, then the pair, material, load, mounting and rating, then the notices."""
     document = design.to_dict()
     if design.kind is DesignKind.TRAIN:
-        from gearcad.sheet.trains import train_sections
+        from gearcad.designs.train_meshes import mesh_documents
+        from gearcad.sheet.trains import mesh_sections, train_sections
 
         title = f"train, {len(document['inertia'])} inertias"
-        return Sheet(design.name, title, "lengths in mm", "", tuple(train_sections(document)), design.notices)
+        sections = (*train_sections(document), *mesh_sections(mesh_documents(cast("TrainDesign", design))))
+        return Sheet(design.name, title, "lengths in mm", "", sections, design.notices)
     sections = tuple(section for section in _sections(design, document) if section.blocks)
     units = "lengths in mm, angles in degrees"
     clauses = "" if design.kind is DesignKind.SPLINE else "clauses of ISO 21771:2007"

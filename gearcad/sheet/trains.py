@@ -9,13 +9,14 @@ from typing import Any, NamedTuple
 from gearcad.core import symbols
 from gearcad.core.errors import format_number
 from gearcad.core.quantities import symbols_of
-from gearcad.core.records import PerGear, Role, is_assumed
+from gearcad.core.records import JsonObject, PerGear, Role, is_assumed
 from gearcad.core.symbols import Better, Symbol
 from gearcad.designs.train_keys import MAIN, TORQUES, TRAIN, TRAIN_PARTS
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
+from gearcad.load import Load
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
 from gearcad.rating.strength import FactorGroup, RatedPart, StrengthRating
-from gearcad.sheet.blocks import ABSENT, Block, Row, Section, block, flattened, pair_section, value_text
+from gearcad.sheet.blocks import ABSENT, OF_PAIR, Block, Row, Section, block, flattened, pair_section, value_text
 
 _TRAIN_KEYS = (
     "set_type planets input output fixed ratio basic_ratio centre_distance planet_angles positions"
@@ -61,6 +62,27 @@ def train_sections(document: Mapping[str, Any]) -> Iterator[Section]:
         known = {key: field.symbol for key, field in TRAIN[table].items()} | symbols.TRAIN_PARTS[table]
         rows = (_train_row(table, key, symbol, [part.get(key) for part in parts.values()]) for key, symbol in known.items())
         yield Section(tuple(parts), (Block(_TITLES[table], _nonzero_rows(rows)),))
+
+
+_PAIR_KEYS = ("gear_ratio", "centre_distance", "transverse_contact_ratio", "overlap_ratio", "circumferential_backlash")
+"""Figures of the pair of a mesh that the sheet of a train has; all are in its data.json."""
+
+
+def mesh_sections(documents: Mapping[str, JsonObject]) -> Iterator[Section]:
+    """Yield a section with the pair of each mesh, whose documents have the names of meshes: teeth, load of the pinion, ..."""
+    if not documents:
+        return
+    rows = [
+        _train_row("mesh", f"{role.value}.teeth", Symbol("z", "", "", f"teeth of the {role.value}"), values)
+        for role in Role
+        for values in [[each[role.value]["teeth"] for each in documents.values()]]
+    ]
+    for key in _PAIR_KEYS:
+        rows.append(_train_row("mesh", key, OF_PAIR[key], [each["pair"].get(key) for each in documents.values()]))
+    for key in ("torque", "speed"):
+        loads = [(each.get("load") or {}).get(key) for each in documents.values()]
+        rows.append(_train_row("mesh", f"load.{key}", symbols_of(Load)[key], loads))
+    yield Section(tuple(documents), (Block("Pairs", _nonzero_rows(rows)),))
 
 
 def _nonzero_rows(rows: Iterable[Row]) -> tuple[Row, ...]:

@@ -1,0 +1,101 @@
+"""Commands of pairs with a train of pairs: a folder a mesh, one document, a line a mesh on the screen; tables of trains."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from support.commands import invoke, read_json
+
+from gearcad.batch import run_table
+from gearcad.designs import read_spec
+from gearcad.designs.reader import starter_text
+from gearcad.designs.spec_writers import pair_text
+from gearcad.designs.train_designs import DesignedPair, TrainDesign
+from gearcad.jobs.strength import Rate
+
+PAIRS = "train-pairs"
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    file, text = starter_text(PAIRS)
+    Path(file).write_text(text, encoding="utf-8")
+    return Path(file)
+
+
+def test_rate_writes_a_folder_a_mesh(here: Path) -> None:
+    result = invoke("rate", str(here), "--quiet")
+    assert result.exit_code == 0, result.stderr
+    lines = result.stdout.splitlines()
+    assert [line.split() for line in lines[:3]] == [
+        ["mesh", "N·m", "rpm", "S_H", "S_F", "verdict", "folder"],
+        ["stage", "1", "40", "2950", "-", "-", "not", "asked", "for", "stage", "1"],
+        ["stage", "2", "-120", "-983.333", "-", "-", "not", "asked", "for", "stage", "2"],
+    ]
+    folder = Path("output") / PAIRS
+    assert lines[-5:] == [str(folder / "rate.json")] + [
+        str(folder / mesh / name) for mesh in ("stage 1", "stage 2") for name in ("rate.json", "rate.html")
+    ]
+    document = read_json(folder / "rate.json")
+    assert {name: each["load"] for name, each in document["meshes"].items()} == {
+        "stage 1": {"torque": 40.0, "speed": 2950.0, "driver": "pinion"},
+        "stage 2": {"torque": -120.0, "speed": -983.333333333, "driver": "pinion"},
+    }
+    again = invoke("rate", str(here), "--json", "--quiet")
+    assert json.loads(again.stdout) == document
+
+
+def test_data_has_the_pairs(here: Path) -> None:
+    document = json.loads(invoke("data", str(here), "--json").stdout)
+    alone = document["meshes"]["stage 2"]
+    assert (
+        alone["load"]["torque"] == -120.0 and alone["wheel"]["teeth"] == 48 and document["mesh"]["stage 2"]["pair"] == "stage 2"
+    )
+    screen = invoke("data", str(here)).stdout
+    assert "gear ratio                                       u                         3     2.66667" in screen
+
+
+@pytest.mark.long
+def test_a_table_of_trains(here: Path, tmp_path: Path) -> None:
+    """Figures of each mesh have columns, and files of the folders of meshes are resumed as all others are."""
+    design = read_spec(here)
+    assert isinstance(design, TrainDesign)
+    for mesh in design.train.meshes:
+        assert isinstance(mesh.pair, DesignedPair)
+        Path(f"{mesh.name}.toml").write_text(pair_text(mesh.pair.design), encoding="utf-8")
+    meshes = ("1", "2")
+    heads = [
+        "name", "train.speed", "train.torques.pinion 1", "train.torques.wheel 2",
+        *(f"inertia.{part} {n}.inertia" for n in meshes for part in ("pinion", "wheel")),
+        "shaft.s.start", "shaft.s.end", "shaft.s.torsional_stiffness",
+        *(f"mesh.stage {n}.{key}" for n in meshes for key in ("pinion", "wheel", "pair")),
+    ]  # fmt: skip
+    rows = [
+        [f"t{torque}", 1000, torque, -8 * torque, *(4 * [0.001]), "wheel 1", "pinion 2", 1e4]
+        + [value for n in meshes for value in (f"pinion {n}", f"wheel {n}", f"stage {n}.toml")]
+        for torque in (10, 40)
+    ]
+    with Path("trains.csv").open("w", newline="") as file:
+        csv.writer(file).writerows([heads, *rows])
+    summary = run_table("trains.csv", Path("out"), [Rate()], jobs=1)
+    assert summary.passed, summary.errors
+    with Path("out/results.csv").open() as file:
+        lines = list(csv.DictReader(file))
+    for line, torque in zip(lines, (10, 40), strict=True):
+        assert float(line["meshes.stage 2.load.torque"]) == -3 * torque and float(line["meshes.stage 1.pair.gear_ratio"]) == 3
+        alone = read_json(Path("out") / line["files.stage 2/rate.json"])
+        assert float(line["rate.stage 2.sigma_H.pinion"]) == alone["stresses"]["sigma_H"]["pinion"]
+    with Path("out/columns.csv").open() as file:
+        told = {line[0]: line[1:4] for line in csv.reader(file)}
+    assert told["rate.stage 2.sigma_H.pinion"] == ["σ_H", "MPa", "stage 2 pinion"]
+    assert told["meshes.stage 1.pinion.reference_diameter"] == ["d", "mm", "stage 1 pinion"]
+    made = {path: path.stat().st_mtime_ns for path in Path("out").rglob("rate.html")}
+    assert len(made) == 4
+    Path("out/t10/stage 1/rate.html").unlink()
+    assert run_table("trains.csv", Path("out"), [Rate()], jobs=1).passed
+    after = {path: path.stat().st_mtime_ns for path in Path("out").rglob("rate.html")}
+    assert {path for path in made if after[path] == made[path]} == {
+        Path("out/t40") / f"stage {n}" / "rate.html" for n in meshes
+    }
