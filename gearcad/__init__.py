@@ -37,6 +37,7 @@ gearcad.core.errors.ParameterError: load = 60: must be a Load
     stiffness(pair, load)          mesh stiffness by every method
     dynamics(pair, load)           natural frequencies, K_v over speed; of trains too
     planetary(train, load)         speeds, torques, assembly, load sharing, stiffness and modes of a planetary train
+    shafts(pair, load)             deflection of shafts, life of their bearings, load over the face
     modify(pair, load)             tip relief and crowning for the load
     identify(teeth, ...)           the standard gears that measured diameters, spans or pins may be of
     tools(pair)                    the tools of the shelf that would cut the gears, with the root that each would leave
@@ -64,6 +65,7 @@ _CALLABLE_ROOMS = {
     "dynamics": "jobs.dynamics",
     "identify": "jobs.searches",
     "planetary": "jobs.planetary",
+    "shafts": "jobs.shafts",
     "stiffness": "jobs.strength",
 }
 """Packages that can also be called as functions, and the module in which the function stands."""

@@ -51,6 +51,7 @@ from .jobs.mesh import mesh as mesh
 from .jobs.modify import modify as modify
 from .jobs.planetary import planetary as planetary
 from .jobs.searches import identify as identify
+from .jobs.shafts import shafts as shafts
 from .jobs.strength import check as check
 from .jobs.strength import rate as rate
 from .jobs.strength import stiffness as stiffness

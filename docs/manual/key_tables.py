@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from functools import cache
 
 from gearcad.core.quantities import FieldSchema, schema_of
-from gearcad.designs.keys import FIELDS, SHARED
+from gearcad.designs.keys import FIELDS, OF_SHAFTS, SHAFTS, SHARED
+from gearcad.designs.shaft_keys import shaft_fields
 from gearcad.designs.train_keys import PLANETARY, PRE_STAGE, TRAIN
 from gearcad.identify import Measurements
 
@@ -28,6 +29,7 @@ def key_tables() -> Mapping[str, Mapping[str, FieldSchema]]:
         "pair": {key: each for key, each in FIELDS["pair"].items() if key not in SHARED},
         "rack": {key: each for key, each in FIELDS["rack"].items() if key.partition(".")[0] not in ("material", "drawing")},
         **_spline(),
+        **_shafts(),
         **{table: dict(FIELDS[table]) for table in _BESIDE},
         "part_drawing": own_drawing,
         "train": dict(TRAIN["train"]),
@@ -48,6 +50,20 @@ def _spline() -> dict[str, dict[str, FieldSchema]]:
     for key, each in FIELDS["spline"].items():
         part, dot, _ = key.partition(".")
         found[f"spline.{part}" if dot else "spline"][key] = each
+    return found
+
+
+def _shafts() -> dict[str, dict[str, FieldSchema]]:
+    """The keys of [shafts], of the lists that describe a shaft, and of a gear on one."""
+    found: dict[str, dict[str, FieldSchema]] = {SHAFTS: {}, **{name: {} for name in OF_SHAFTS}, "shafted_gear": {}}
+    for key, each in shaft_fields().items():
+        table, _, field = key.partition(".")
+        if table == SHAFTS:
+            found[SHAFTS][field] = each
+        elif table == "pinion" and "[]" not in field:
+            found["shafted_gear"][field] = each
+        elif table.endswith("[]"):
+            found[table.removesuffix("[]")][field] = each
     return found
 
 

@@ -366,7 +366,7 @@ _INPUTS_ALONE = ("drawing", "drawings")
 """Parts of documents that hold nothing but inputs, which have columns where they are given."""
 
 
-_COURSES = ("specific_sliding_path",)
+_COURSES = ("specific_sliding_path", "segments", "bearings")
 """Parts of documents that hold values at many places, which are too many for a line of a table."""
 
 

@@ -46,7 +46,7 @@ class Commands(click.Group):
 
     def list_commands(self, _ctx: click.Context) -> list[str]:
         """Return the names of the commands in the order of use, not in alphabetical order."""
-        return ["new", *job_commands(), "shafts", "size", "identify", "tools", "study", "batch", "plot", "open", "completion"]
+        return ["new", *job_commands(), "size", "identify", "tools", "study", "batch", "plot", "open", "completion"]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """Return a command, whose module is imported now: a command is as quick to start as what it needs."""

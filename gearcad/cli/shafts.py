@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import click
 
 from gearcad.cli.group import debug_option, spec_argument
-from gearcad.cli.job import echo_warnings, folder_of, json_option, output_option, quiet_option
+from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
 from gearcad.cli.language import say
 
 if TYPE_CHECKING:
-    from gearcad.jobs.shafts import ShaftsDone
+    from gearcad.shafts.arrangement import ArrangementResult
 
 
 @click.command(short_help="Deflection, reactions and bearing life of SPEC's shafts.")
@@ -29,21 +29,19 @@ def shafts(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
     pinion.mesh_position, and the same of the wheel: then the load over the face and K_Hbeta on these shafts follow too. Writes
     shafts.json.
     """
-    from gearcad.jobs.shafts import done_shafts
+    from gearcad.jobs.shafts import Shafts
 
-    done = done_shafts(spec)
-    files = done.write(folder_of(output, done.name))
-    if as_json:
-        click.echo(files[0].read_text(encoding="utf-8"), nl=False)
-        return
-    if not quiet:
-        say("\n".join(_lines(done)))
-        echo_warnings(done.result.notices)
-    click.echo("".join(f"{file}\n" for file in files), nl=False)
+    perform(Shafts(), spec, output, _show, as_json=as_json, quiet=quiet)
 
 
-def _lines(done: ShaftsDone) -> Iterator[str]:
-    for name, shaft in done.result.shafts.items():
+def _show(_name: str, result: ArrangementResult) -> None:
+    """Print the figures of the shafts and their notices."""
+    say("\n".join(_lines(result)))
+    echo_warnings(result.notices)
+
+
+def _lines(result: ArrangementResult) -> Iterator[str]:
+    for name, shaft in result.shafts.items():
         state = shaft.state
         yield f"{name}: length {state.shaft.length:g} mm, torque of the coupling {state.coupling_torque:.5g} N·m"
         for life, force in zip(shaft.lives, state.reactions, strict=True):
@@ -59,7 +57,6 @@ def _lines(done: ShaftsDone) -> Iterator[str]:
         yield f"  greatest equivalent stress {max(each['equivalent_stress'] for each in stressed):.4g} MPa (nominal)"
         speeds = ", ".join(f"{each:.4g}" for each in shaft.state.shaft.critical_speeds())
         yield f"  critical speeds {speeds} rpm"
-    if done.result.mesh is not None:
-        mesh = done.result.mesh
+    if (mesh := result.mesh) is not None:
         yield f"mesh: f_sh {mesh['f_sh']:.4g} µm, K_Hbeta {mesh['K_Hbeta_end_of_face']:.4g} at the end of the face"
-    yield f"not judged: {'; '.join(done.result.not_judged)}"
+    yield f"not judged: {'; '.join(result.not_judged)}"

@@ -37,6 +37,9 @@ __all__ = [
     "RATING",
     "RING_FORMULA",
     "SCUFFING",
+    "SHAFT",
+    "SHAFTS",
+    "SHAFT_SEGMENT",
     "SPLINE",
     "STIFFNESS",
     "STRENGTH",
@@ -342,6 +345,40 @@ SPLINE = {
     "backlash_angle": Symbol("", "deg", "", "backlash angle at mean tolerances"),
 }
 """Symbols of splines, by their keys under "shaft", "hub" and "joint"."""
+
+SHAFTS = {
+    "L10h": Symbol("L_10h", "h", "ISO 281", "least basic life of the bearings", Better.HIGHER),
+    "Lnmh": Symbol("L_nmh", "h", "ISO 281", "least modified life of the bearings", Better.HIGHER),
+    "deflection": Symbol("", "µm", "", "greatest deflection of the shafts", Better.LOWER),
+    "equivalent_stress": Symbol("σ_v", "MPa", "", "greatest nominal stress of the shafts", Better.LOWER),
+    "critical_speed": Symbol("n_1", "rpm", "", "lowest critical speed of bending", Better.HIGHER),
+    "f_sh": Symbol("f_sh", "µm", "ISO 6336-1", "deformation of the shafts over the face"),
+    "K_Hbeta": Symbol("K_Hβ", "", "ISO 6336-1", "face load factor on the shafts", Better.LOWER),
+}
+"""Symbols of the figures of `shafts`, one line a design."""
+
+SHAFT = {
+    "mesh_position": Symbol("", "mm", "", "middle of the face on the shaft"),
+    "length": Symbol("", "mm", "", "length of the shaft"),
+    "mass": Symbol("m", "kg", "", "mass"),
+    "centre_of_mass": Symbol("", "mm", "", "centre of mass from the left end"),
+    "polar_inertia": Symbol("J", "kg·m²", "", "moment of inertia about the axis"),
+    "transverse_inertia": Symbol("J_t", "kg·m²", "", "moment of inertia across the axis"),
+    "torsional_stiffness": Symbol("", "N·m/rad", "", "torsional stiffness, end to end"),
+}
+"""Symbols of the sizes of a shaft."""
+
+SHAFT_SEGMENT = {
+    "position": Symbol("z", "mm", "", "begins at"),
+    "length": Symbol("l", "mm", "", "length of the segment"),
+    "outer_diameter": Symbol("d", "mm", "", "outer diameter"),
+    "inner_diameter": Symbol("d_i", "mm", "", "inner diameter"),
+    "area": Symbol("A", "mm²", "", "area of the section"),
+    "second_moment": Symbol("I", "mm⁴", "", "second moment of area"),
+    "section_modulus": Symbol("W_b", "mm³", "", "section modulus of bending"),
+    "mass": Symbol("m", "kg", "", "mass of the segment"),
+}
+"""Symbols of a segment of a shaft."""
 
 DRIVE = {
     "rack_force": Symbol("F", "N", "", "force along the rack, without losses"),

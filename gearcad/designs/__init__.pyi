@@ -11,6 +11,7 @@ from .pair_designs import RackPairDesign as RackPairDesign
 from .planetary_designs import PlanetaryDesign as PlanetaryDesign
 from .reader import design_from_tables as design_from_tables
 from .reader import read_spec as read_spec
+from .shaft_spec import ShaftDesign as ShaftDesign
 from .spec_writers import MeshPairs as MeshPairs
 from .spec_writers import read_measurements as read_measurements
 from .table import DesignRow as DesignRow

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from gearcad.core.errors import ParameterError, SpecError, shown
 from gearcad.designs.keys import MAIN_TABLES, OF_SETS, SPEEDS, Cell, DesignKind
+from gearcad.designs.shaft_keys import explain_unknown_item, is_of_list, is_of_shaft_alone, shaft_field
 from gearcad.designs.train_keys import (
     COLUMNS,
     COUNTS,
@@ -298,6 +299,7 @@ def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
         DesignKind.TRAIN: any(map(_of_train, keys)),
         DesignKind.PLANETARY: bool(owners & planetary),
         DesignKind.SPLINE: "spline" in owners,
+        DesignKind.SHAFT: any(map(is_of_shaft_alone, keys)),
     }
     return {kind for kind, made in makes.items() if made}
 
@@ -321,7 +323,7 @@ def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
     while headings and not headings[-1]:
         headings.pop()
     dotted = (heading for heading in headings if "." in heading and heading not in COLUMNS["gear"])
-    kinds = kinds_of(f"{nearest_table(first) or ''}.{rest}" for first, _, rest in (each.partition(".") for each in dotted))
+    kinds = kinds_of(map(_placed, dotted))
     if any(heading in _OF_SPLINES_ALONE for heading in headings):
         kinds = {DesignKind.SPLINE}
     places: dict[str, int] = {}
@@ -342,6 +344,12 @@ def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
     return tuple(columns)
 
 
+def _placed(heading: str) -> str:
+    """Return a heading with a dot with the table that it means."""
+    first, _, rest = heading.partition(".")
+    return heading if is_of_list(heading) else f"{nearest_table(first) or ''}.{rest}"
+
+
 _OF_SPLINES_ALONE = ("designation", "nominal_diameter", "centring")
 """Keys without a table that only [spline] has."""
 
@@ -357,8 +365,10 @@ def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
     if DesignKind.PLANETARY in kinds:
         return _key_of_planetary(heading, kinds)
     table, _, field = heading.partition(".")
-    if table in COLUMNS and field in COLUMNS[table]:
+    if (table in COLUMNS and field in COLUMNS[table]) or shaft_field(heading) is not None:
         return heading, ""
+    if is_of_list(heading):
+        return "", explain_unknown_item(heading)
     mains = dict.fromkeys(MAIN_TABLES[kind][0] for kind in MAIN_TABLES if kind in kinds)
     if len(mains) > 1 and heading in COLUMNS["gear"]:
         homes = tuple(mains) if heading in COLUMNS["pair"] else (*(main for main in mains if main != "pair"), "pinion", "wheel")

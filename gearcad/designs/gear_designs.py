@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
     from gearcad.check.options import CheckOptions
+    from gearcad.designs.shaft_spec import PairShafts
     from gearcad.drawing.options import DrawingOptions, PartDrawing
     from gearcad.dynamics.options import DynamicsOptions
     from gearcad.geometry.spline import SplineJoint
@@ -120,6 +121,7 @@ class Inputs(TypedDict, total=False):
     rating: RatingOptions
     drawing: DrawingOptions
     verify: VerificationOptions
+    shafts: PairShafts
 
 
 @dataclass(frozen=True, kw_only=True)

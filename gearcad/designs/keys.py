@@ -30,6 +30,7 @@ class DesignKind(Enum):
     TRAIN = "train"
     PLANETARY = "planetary"
     SPLINE = "spline"
+    SHAFT = "shaft"
 
     @property
     def words(self) -> str:
@@ -62,6 +63,7 @@ MAIN_TABLES = {
     DesignKind.TRAIN: ("train",),
     DesignKind.PLANETARY: ("planetary",),
     DesignKind.SPLINE: ("spline",),
+    DesignKind.SHAFT: ("shafts",),
 }
 """The tables without which a spec makes no gear, no rack, no pair of them, no train; the first is what bare keys are of."""
 

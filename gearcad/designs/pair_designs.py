@@ -143,6 +143,16 @@ class PairDesign(GearedDesign):
         """The gears, and the pair that they make."""
         return {**self.gears, "pair": self.pair}
 
+    def to_dict(self) -> JsonObject:
+        """Return the document of `data.json`, with the sizes of the shafts if there are any."""
+        document = super().to_dict()
+        if self.shafts is None:
+            return document
+        sizes = {
+            role.value: {"mesh_position": own.mesh_position} | own.shaft.sizes() for role, own in self.shafts.mounted.items()
+        }
+        return document | {"shafts": sizes}
+
     def loaded(self, why: str) -> Load:
         """Return the load. Raises ParameterError if there is none; the message ends with `why` it is needed."""
         if self.load is None:

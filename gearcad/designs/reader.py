@@ -17,6 +17,7 @@ from gearcad.core.errors import ParameterError, SpecError, as_path
 from gearcad.core.runtime import templates
 from gearcad.designs.design import Design, Where, read_tables
 from gearcad.designs.keys import MAIN_TABLES, OF_SETS, Cell, DesignKind
+from gearcad.designs.shaft_keys import with_shaft_lists
 
 if TYPE_CHECKING:
     from tomlkit import TOMLDocument
@@ -58,7 +59,7 @@ def design_from_values(values: Mapping[str, Any], kind: DesignKind, *, where: Wh
     return design_from_tables(nested(values, kind), where=where, default_name=default_name)
 
 
-def nested(values: Mapping[str, Any], kind: DesignKind) -> dict[str, dict[str, Any]]:
+def nested(values: Mapping[str, Any], kind: DesignKind) -> dict[str, Any]:
     """Return the values under their full keys as one mapping per table of a spec; the tables of the kind are there even if
     empty.
     """
@@ -66,7 +67,7 @@ def nested(values: Mapping[str, Any], kind: DesignKind) -> dict[str, dict[str, A
     for key, value in values.items():
         owner, _, field = key.partition(".")
         tables.setdefault(owner, {})[field] = value
-    return tables
+    return with_shaft_lists(tables)
 
 
 def kind_of(tables: Mapping[str, Any]) -> DesignKind:
@@ -78,6 +79,8 @@ def kind_of(tables: Mapping[str, Any]) -> DesignKind:
     if "rack" in tables and "train" not in tables:
         paired = any(table in tables for table in MAIN_TABLES[DesignKind.PAIR])
         return DesignKind.RACK_PAIR if paired else DesignKind.RACK
+    if "bearing" in tables:
+        return DesignKind.SHAFT
     if any(table in tables for table in OF_SETS) and "train" not in tables:
         return DesignKind.PLANETARY
     return next((kind for kind in reversed(DesignKind) if kind.value in tables), DesignKind.PAIR)

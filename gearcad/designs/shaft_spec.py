@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from gearcad.core.errors import InputError, SpecError, format_number, shown
 from gearcad.core.quantities import schema_of
-from gearcad.core.records import PerGear, Role
-from gearcad.designs.design import Where
-from gearcad.designs.keys import OF_SHAFTED_GEARS, OF_SHAFTS, SHAFTS, has_shafts
+from gearcad.core.records import JsonObject, PerGear, Role
+from gearcad.designs.design import Design, Where
+from gearcad.designs.keys import OF_SHAFTED_GEARS, SHAFTS, DesignKind, has_shafts
+from gearcad.designs.shaft_keys import SHAFT_LISTS
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
@@ -19,16 +20,16 @@ from gearcad.rating.load_factors import FaceLoad, FaceLoadSource
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.tooth_stiffness import mesh_stiffness
 from gearcad.shafts.arrangement import ShaftOptions, with_stations
-from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
+from gearcad.shafts.beam import SteppedShaft
 from gearcad.shafts.face_load import MeshOnShafts, require_modelled
 
 if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
-SHAFT_LISTS: dict[str, type[DataclassInstance]] = dict(zip(OF_SHAFTS, (ShaftSegment, ShaftBearing, ShaftForce), strict=True))
-"""Lists of tables, and what each table makes."""
+    from gearcad.drawing.options import DrawingOptions
 
 Part = TypeVar("Part")
+
+_DRAWING = "drawing"
+"""Table of the drawings' options, which a shaft by itself may have."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,16 +69,50 @@ class ShaftArrangement:
     mesh: MeshOnShafts | None = None
 
 
-def read_shaft(tables: Mapping[str, Any], where: Where) -> tuple[SteppedShaft, ShaftOptions]:
-    """Return a shaft by itself, and its options. Raises SpecError."""
-    for table in tables:
-        if table not in (*SHAFT_LISTS, SHAFTS):
-            permitted = ", ".join(f"[[{each}]]" for each in SHAFT_LISTS)
-            raise SpecError(
-                f"{where(table)}: [{shown(table)}] cannot stand beside [[shaft]]: permitted are {permitted}, [{SHAFTS}]"
-            )
-    options = _options(tables, where)
-    return _shaft(tables, "", options.coupling, options, where), options
+@dataclass(frozen=True, kw_only=True)
+class ShaftDesign(Design):
+    """A shaft by itself on its bearings, under given forces, with its options."""
+
+    kind: ClassVar[DesignKind] = DesignKind.SHAFT
+    elsewhere: ClassVar[str] = "a shaft by itself is for `gearcad data` and `gearcad shafts`"
+
+    shaft: SteppedShaft
+    shafts: ShaftOptions = field(default_factory=ShaftOptions)
+    drawing: DrawingOptions | None = None
+
+    @classmethod
+    def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
+        """Return the design that [[shaft]], [[bearing]], [[force]] and [shafts] describe. Raises SpecError."""
+        for table in tables:
+            if table not in (*SHAFT_LISTS, SHAFTS, _DRAWING):
+                permitted = ", ".join([*(f"[[{each}]]" for each in SHAFT_LISTS), f"[{SHAFTS}], [{_DRAWING}]"])
+                raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [[shaft]]: permitted are {permitted}")
+        own = dict(tables.get(SHAFTS, {})) if isinstance(tables.get(SHAFTS), Mapping) else {}
+        name = own.pop("name", default_name)
+        options = _options({**tables, SHAFTS: own} if own or SHAFTS not in tables else tables, where)
+        drawing = None
+        if _DRAWING in tables:
+            from gearcad.designs.spec import Spec
+            from gearcad.drawing.options import DrawingOptions
+
+            if not isinstance(tables[_DRAWING], Mapping):
+                raise SpecError(f"{where(_DRAWING)}: {_DRAWING}: must be a table, headed [{_DRAWING}]", _DRAWING)
+            drawing = Spec.of({_DRAWING: tables[_DRAWING]}, where).simple(_DRAWING, DrawingOptions)
+        shaft = _shaft(tables, "", options.coupling, options, where)
+        try:
+            return cls(name=name, shaft=shaft, shafts=options, drawing=drawing)
+        except InputError as error:
+            key = f"{SHAFTS}.name"
+            raise SpecError(f"{where(key)}: {SHAFTS}.{error}", key) from error
+
+    @property
+    def arrangement(self) -> ShaftArrangement:
+        """The shaft with stations and its speed."""
+        return ShaftArrangement(self.name, {"shaft": with_stations(self.shaft)}, {"shaft": self.shafts.speed}, self.shafts)
+
+    def to_dict(self) -> JsonObject:
+        """Return the document of `data.json`: the shaft's sizes, sections, bearings and mass."""
+        return {**super().to_dict(), "shaft": self.shaft.sizes()}
 
 
 def read_pair_shafts(tables: Mapping[str, Any], pair: GearPair, where: Where) -> PairShafts | None:

@@ -23,7 +23,8 @@ from gearcad.designs.design import LONGEST_NAME, Where, read_tables
 from gearcad.designs.keys import BESIDE, FIELDS, GEAR_FIELDS, SHAFTS, nearest_key, permitted_words
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
-from gearcad.designs.shaft_spec import SHAFT_LISTS, PairShafts
+from gearcad.designs.shaft_keys import SHAFT_LISTS
+from gearcad.designs.shaft_spec import PairShafts
 from gearcad.designs.spec import AUTO
 from gearcad.designs.train_designs import plain_name
 from gearcad.designs.train_meshes import free_name, mesh_design, under_load
@@ -101,8 +102,16 @@ def toml_text(tables: Mapping[str, Mapping[str, Any] | Sequence[Mapping[str, Any
     blocks = ["\n".join(f"# {line}".rstrip() for line in comments)] if comments else []
     for table, content in tables.items():
         header, every = (f"[{table}]", [content]) if isinstance(content, Mapping) else (f"[[{table}]]", content)
-        blocks += ["\n".join([header, *(f"{key} = {_toml(value)}" for key, value in values.items())]) for values in every]
+        for values in every:
+            plain = {key: value for key, value in values.items() if not _is_list_of_tables(value)}
+            blocks.append("\n".join([header, *(f"{key} = {_toml(value)}" for key, value in plain.items())]))
+            lists = {f"{table}.{key}": value for key, value in values.items() if key not in plain}
+            blocks += [toml_text({key: value}).rstrip("\n") for key, value in lists.items()]
     return "\n\n".join(blocks) + "\n"
+
+
+def _is_list_of_tables(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(each, Mapping) for each in value)
 
 
 def _materials(design: PairDesign) -> dict[str, Material]:

@@ -29,6 +29,7 @@ from gearcad.designs.keys import (
     nearest_key,
     nearest_of,
 )
+from gearcad.designs.shaft_keys import general_shaft_key, shaft_fields
 from gearcad.dynamics.options import OF_PAIRS, OF_TRAINS_OF_PAIRS, DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
 from gearcad.dynamics.trains.train import Train
@@ -175,7 +176,7 @@ def general_key(key: str) -> str:
     """
     table = key.partition(".")[0]
     found = TrainKey.of(key) if table in TRAIN_PARTS or table == MAIN else None
-    return key if found is None else found.general
+    return general_shaft_key(key) if found is None else found.general
 
 
 def explain_unknown_key_of_train(key: str, names: Mapping[str, tuple[str, ...]] | None = None) -> str:
@@ -233,6 +234,7 @@ _ALL_FIELDS = {
     for table, fields in TRAIN.items()
     for key, field in fields.items()
 }
+_ALL_FIELDS |= shaft_fields()
 COUNTS = frozenset(key for key, field in _ALL_FIELDS.items() if field.whole)
 LISTS = frozenset(key for key, field in _ALL_FIELDS.items() if field.several)
 NESTED = frozenset(key for key, field in _ALL_FIELDS.items() if field.nested)

@@ -23,6 +23,13 @@ from gearcad.designs.design import Design, Where, names_file, read_tables, with_
 from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import FIELDS, KEYS, MAIN_TABLES, SPEEDS, Cell, DesignKind, Fields
 from gearcad.designs.reader import design_from_values, kind_of, type_of
+from gearcad.designs.shaft_keys import (
+    explain_unknown_item,
+    is_of_list,
+    is_of_shaft_alone,
+    shaft_field,
+    shaft_values,
+)
 from gearcad.designs.spec import Given, Spec
 from gearcad.designs.train_designs import names_of, values_of
 from gearcad.designs.train_keys import (
@@ -81,6 +88,10 @@ _COMPUTED = {
     "check.rating.wheel.formula": symbols.RING_FORMULA,
     "draw": symbols.DRAW,
     "rate": symbols.STRENGTH_FIGURES,
+    "shaft": symbols.SHAFT,
+    "shafts.pinion": symbols.SHAFT,
+    "shafts.wheel": symbols.SHAFT,
+    "shafts": symbols.SHAFTS,
     "stiffness": symbols.STIFFNESS,
     "dynamics": symbols.DYNAMICS,
     "mesh": symbols.MESH,
@@ -176,6 +187,8 @@ def _of_pair(heading: str) -> tuple[str, Symbol] | None:
             name = field[: -len(owner) - 1]
             if field.endswith((f".{owner}", f"_{owner}")) and name in known:
                 return owner, known[name]
+    if (own := shaft_field(heading)) is not None:
+        return next((owner for owner in _OWNERS if heading.startswith(f"{owner}.")), ""), own.symbol
     return _of_own(heading) or _of_part(heading)
 
 
@@ -215,8 +228,12 @@ def read_values(path: Path | str) -> SpecValues:
     tables, where = read_tables(path)
     kind = kind_of(tables)
     made, main = type_of(kind), MAIN_TABLES[kind][0]
-    spec = made.spec(tables, where) if issubclass(made, ToothedDesign) else Spec(values_of(tables, where), where)
+    if kind is DesignKind.SHAFT:
+        spec = Spec({}, where)
+    else:
+        spec = made.spec(tables, where) if issubclass(made, ToothedDesign) else Spec(values_of(tables, where), where)
     name = spec.name(main, Path(path).stem)
+    spec.values.update({key: Given(value, key) for key, value in shaft_values(tables)})
     return SpecValues(kind, name, {key: given for key, given in spec.values.items() if key != f"{main}.name"}, where)
 
 
@@ -401,6 +418,10 @@ def _full_key(text: str, name: str, kind: DesignKind) -> str:
     main = MAIN_TABLES[kind][0]
     if kind is DesignKind.PLANETARY:
         return _key_of_planetary(text, name)
+    if is_of_list(name) or (kind in (DesignKind.PAIR, DesignKind.SHAFT) and shaft_field(name) is not None):
+        return _key_of_shafts(text, name, kind)
+    if kind is DesignKind.SHAFT:
+        raise ParameterError("vary", text, "unknown key; must be one of a shaft, such as shaft[0].length or shafts.speed")
     table, _, field = (main, "", name) if name in KEYS[main] else name.partition(".")
     if field not in KEYS.get(table, ()):
         raise ParameterError("vary", text, explain_unknown_column(name, main))
@@ -412,6 +433,17 @@ def _full_key(text: str, name: str, kind: DesignKind) -> str:
     if (table, field) == (main, "name"):
         raise ParameterError("vary", text, "the study numbers the names itself; vary another key")
     return f"{table}.{field}"
+
+
+def _key_of_shafts(text: str, name: str, kind: DesignKind) -> str:
+    """Return a key of shafts of a pair, or of a shaft by itself. Raises ParameterError."""
+    if shaft_field(name) is None:
+        raise ParameterError("vary", text, explain_unknown_item(name))
+    alone = kind is DesignKind.SHAFT
+    if (is_of_list(name) and is_of_shaft_alone(name) is not alone) or kind not in (DesignKind.PAIR, DesignKind.SHAFT):
+        permitted = "shaft[0].length" if alone else "pinion.shaft[0].length" if kind is DesignKind.PAIR else "its own"
+        raise ParameterError("vary", text, f"the spec makes a {kind.words}; permitted are keys such as {permitted}")
+    return name
 
 
 def _key_of_planetary(text: str, name: str) -> str:

@@ -14,7 +14,21 @@ if TYPE_CHECKING:
 
 __all__ = ["VERBS", "WITHOUT_DESIGN", "job_of"]
 
-VERBS = ("data", "build", "draw", "picture", "verify", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")
+VERBS = (
+    "data",
+    "build",
+    "draw",
+    "picture",
+    "verify",
+    "check",
+    "mesh",
+    "rate",
+    "stiffness",
+    "dynamics",
+    "planetary",
+    "shafts",
+    "modify",
+)
 WITHOUT_DESIGN = ("identify", "tools")
 """Verbs that begin without a design: functions, and no jobs."""
 

@@ -210,8 +210,10 @@ def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: 
     """
     from gearcad.designs import Design, GearDesign, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, SplineDesign
     from gearcad.designs.keys import BESIDE
+    from gearcad.designs.shaft_spec import PairShafts
     from gearcad.geometry import SplineJoint
     from gearcad.planetary import PlanetaryTrain, TrainLoad
+    from gearcad.shafts import ShaftOptions
 
     if isinstance(subject, Gear):
         subject = GearDesign(name=subject.name, gear=subject)
@@ -228,7 +230,8 @@ def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: 
     if not isinstance(subject, Design):
         objects = "a GearPair, a Gear, a RackPair, a Rack, a PlanetaryTrain, a SplineJoint"
         raise ParameterError("subject", subject, f"must be {objects}, or a design such as gearcad.read gives")
-    kinds = {**BESIDE, **({"load": TrainLoad} if isinstance(subject, PlanetaryDesign) else {})}
+    shafts = {"shafts": PairShafts if isinstance(subject, PairDesign) else ShaftOptions}
+    kinds = {**BESIDE, **shafts, **({"load": TrainLoad} if isinstance(subject, PlanetaryDesign) else {})}
     given: dict[str, Any] = {**inputs, "load": load} if load is not None else {**inputs}
     for name, value in given.items():
         if not hasattr(subject, name):

@@ -1,64 +1,64 @@
-"""Job `shafts`: the shafts of a spec under their loads, and their document shafts.json."""
+"""Job `shafts`: the shafts of a pair, or one by itself, under their loads: deflection, bearing life, load over the face."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from functools import partial
+from typing import TYPE_CHECKING, Any, Unpack
 
-from gearcad.core.errors import SpecError
-from gearcad.core.output import json_text, staged_files
-from gearcad.core.records import JsonObject, Role, texts
-from gearcad.designs.design import read_tables, require_plain_name
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import JsonObject, Notice, Role
+from gearcad.core.runtime import one_thread
+from gearcad.designs.keys import DesignKind
 from gearcad.designs.pair_designs import PairDesign
-from gearcad.designs.reader import read_spec
-from gearcad.designs.shaft_spec import ShaftArrangement, read_shaft
-from gearcad.jobs.job import with_summary
-from gearcad.shafts.arrangement import ArrangementResult, ShaftResult, with_stations
+from gearcad.designs.shaft_spec import ShaftArrangement, ShaftDesign
+from gearcad.jobs.job import ReportedJob, Subject, Writer, as_design
+from gearcad.shafts.arrangement import ArrangementResult, ShaftResult
 from gearcad.version import __version__
 
-_FILE = "shafts.json"
+if TYPE_CHECKING:
+    from gearcad.core.runtime import Progress
+    from gearcad.designs import Design, Inputs
+    from gearcad.load import Load
+
+_NO_LOAD = "shafts are loaded by it"
 
 
-@dataclass(frozen=True)
-class ShaftsDone:
-    """The result of shafts of a name."""
+@dataclass(frozen=True, kw_only=True)
+class Shafts(ReportedJob[PairDesign | ShaftDesign, ArrangementResult]):
+    """Shafts under their loads. Without `report` there is shafts.json alone."""
 
-    name: str
-    result: ArrangementResult
+    verb = "shafts"
+    accepts = (DesignKind.PAIR, DesignKind.SHAFT)
+    why = "others have no shafts that bend"
+    with_shafts = True
 
-    def document(self) -> JsonObject:
-        """Return the content of shafts.json."""
-        about: JsonObject = {"kind": "shafts", "name": self.name, "gearcad": __version__}
-        document = about | self.result.to_dict() | {"not_judged": self.result.not_judged}
-        return with_summary(document, texts(self.result.notices))
+    @one_thread()
+    def run(self, design: Design, progress: Progress | None = None) -> ArrangementResult:
+        design = self.accepted(design, progress)
+        if (found := design.arrangement) is None:
+            permitted = "must be described: [[pinion.shaft]] and [[pinion.bearing]], or those of the wheel"
+            raise ParameterError("pinion.shaft", None, permitted)
+        if isinstance(design, PairDesign):
+            design.loaded(_NO_LOAD)
+        return result_of(found)
 
-    def write(self, folder: Path) -> list[Path]:
-        """Write shafts.json, all or nothing, and return its path. Raises OutputError."""
-        with staged_files(folder) as staging:
-            (staging / _FILE).write_text(json_text(self.document()), encoding="utf-8")
-        return [folder / _FILE]
+    def document(self, result: ArrangementResult) -> JsonObject:
+        """Return reactions, stations, lives and critical speeds of each shaft, and the load over the face of a pair."""
+        about: JsonObject = {"kind": self.verb, "name": result.name, "gearcad": __version__}
+        return about | result.to_dict() | {"not_judged": result.not_judged}
 
+    def notices(self, result: ArrangementResult) -> Sequence[Notice]:
+        return result.notices
 
-def done_shafts(spec: Path | str) -> ShaftsDone:
-    """Return what the shafts of a spec do under their loads. Raises SpecError and InputError."""
-    found = read_arrangement(spec)
-    return ShaftsDone(found.name, result_of(found))
+    def figures(self, document: JsonObject) -> JsonObject:
+        """Return the least lives and safeties, the greatest deflection and stress, the first critical speed, f_sh, K_Hbeta."""
+        return shaft_columns(document)
 
-
-def read_arrangement(path: Path | str) -> ShaftArrangement:
-    """Return the shafts of a spec. Raises SpecError and ParameterError."""
-    tables, where = read_tables(path)
-    if "shaft" in tables or "bearing" in tables:
-        require_plain_name(name := Path(path).stem)
-        shaft, options = read_shaft(tables, where)
-        return ShaftArrangement(name, {"shaft": with_stations(shaft)}, {"shaft": options.speed}, options)
-    design = read_spec(path)
-    if not isinstance(design, PairDesign) or design.shafts is None:
-        permitted = "must have [[shaft]] and [[bearing]], or a pair with [[pinion.shaft]] or [[wheel.shaft]]"
-        raise SpecError(f"{where('')}: {permitted}")
-    design.loaded("shafts are loaded by it")
-    assert design.arrangement is not None
-    return design.arrangement
+    def files(self, result: ArrangementResult) -> dict[str, Writer]:
+        """Return the document."""
+        return {"shafts.json": partial(self.write_document, result)}
 
 
 def result_of(found: ShaftArrangement) -> ArrangementResult:
@@ -67,4 +67,41 @@ def result_of(found: ShaftArrangement) -> ArrangementResult:
     for name, shaft in found.shafts.items():
         state = None if found.mesh is None else found.mesh.state(Role(name))
         results[name] = ShaftResult(shaft.solve() if state is None else state, found.speeds[name], found.options)
-    return ArrangementResult(results, None if found.mesh is None else found.mesh.to_dict())
+    return ArrangementResult(found.name, results, None if found.mesh is None else found.mesh.to_dict())
+
+
+def shaft_columns(document: Mapping[str, Any]) -> JsonObject:
+    """Return the figures of a shafts.json for one line of a table; None for a life that is not judged or without end."""
+    shafts = document["shafts"].values()
+    lives = {key: [each[key] for shaft in shafts for each in shaft["bearings"]] for key in ("L10h", "Lnmh")}
+    stations = [each for shaft in shafts for each in shaft["stations"]]
+    sides = [each[side] for each in stations for side in ("left", "right") if side in each]
+    speeds = [speed for shaft in shafts for speed in shaft["critical_speeds"][:1]]
+    mesh = document.get("mesh", {})
+    return {
+        **{key: min((value for value in found if value is not None), default=None) for key, found in lives.items()},
+        "deflection": max((each["deflection"][0] ** 2 + each["deflection"][1] ** 2) ** 0.5 for each in stations),
+        "equivalent_stress": max(each["equivalent_stress"] for each in sides),
+        "critical_speed": min(speeds, default=None),
+        **{key: mesh[name] for key, name in (("f_sh", "f_sh"), ("K_Hbeta", "K_Hbeta_end_of_face")) if name in mesh},
+        "warnings": document["warnings"],
+    }
+
+
+def shafts(subject: Subject, load: Load | None = None, **inputs: Unpack[Inputs]) -> ArrangementResult:
+    """Return how the shafts of a pair, or a shaft by itself, bend under their loads: reactions, lives, load over the face.
+
+    A pair needs `shafts` (PairShafts) and a load; a design such as `read` gives has its own.
+
+    >>> from gearcad.designs import ShaftDesign
+    >>> from gearcad.shafts import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
+    >>> ends = ShaftBearing(position=0.0, axial_stiffness="rigid"), ShaftBearing(position=300.0)
+    >>> force = ShaftForce(position=100.0, force=(0.0, -900.0, 0.0))
+    >>> shaft = SteppedShaft(segments=(ShaftSegment(length=300.0, outer_diameter=40.0),), bearings=ends, forces=(force,))
+    >>> found = shafts(ShaftDesign(name="plain", shaft=shaft)).shafts["shaft"].state
+    >>> [round(float(each[1]), 6) for each in found.reactions]
+    [600.0, 300.0]
+
+    Raises ParameterError without shafts or a load.
+    """
+    return Shafts(report=False).run(as_design(subject, load, **inputs))

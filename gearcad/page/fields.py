@@ -21,7 +21,18 @@ from gearcad.core.symbols import Symbol
 from gearcad.designs.cells import list_text, nested_text, texts_cell
 from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import GearDesign
-from gearcad.designs.keys import BESIDE, FIELDS, MAIN_TABLES, OF_GEAR_PAIRS, OF_RACK_PAIRS, OF_SETS, SPEEDS, DesignKind, Fields
+from gearcad.designs.keys import (
+    BESIDE,
+    FIELDS,
+    MAIN_TABLES,
+    OF_GEAR_PAIRS,
+    OF_RACK_PAIRS,
+    OF_SETS,
+    SHAFTS,
+    SPEEDS,
+    DesignKind,
+    Fields,
+)
 from gearcad.designs.pair_designs import PairDesign, RackPairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.designs.ranking import gear_tables, ranked_rows
@@ -143,6 +154,10 @@ def _tables(kind: DesignKind, tables: Mapping[str, Any], members: tuple[str, ...
         from gearcad.designs.train_keys import MAIN, TRAIN
 
         return {table: TRAIN[table] for table in (MAIN, "dynamics")}
+    if kind is DesignKind.SHAFT:
+        from gearcad.shafts.arrangement import ShaftOptions
+
+        return {SHAFTS: schema_of(ShaftOptions)}
     made = type_of(kind)
     beside = [table for table in BESIDE if hasattr(made, table)]
     found = {table: FIELDS[table] for table in (*MAIN_TABLES[kind], *beside)}

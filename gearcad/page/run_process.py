@@ -91,6 +91,16 @@ def _planetary() -> Job[Any, Any]:
     return Planetary()
 
 
+def _shafts() -> Job[Any, Any]:
+    from gearcad.jobs.shafts import Shafts
+
+    return Shafts()
+
+
+def _has_shafts(design: Design) -> bool:
+    return not isinstance(design, PairDesign) or design.shafts is not None
+
+
 def _rate() -> Job[Any, Any]:
     from gearcad.jobs.strength import Rate
 
@@ -200,6 +210,7 @@ ANALYSES = {
     "stiffness": RunKind(job=_stiffness, report="stiffness.html"),
     "dynamics": RunKind(job=_dynamics, report="dynamics.html", shown=_shown_dynamics),
     "planetary": RunKind(job=_planetary, report="planetary.html"),
+    "shafts": RunKind(job=_shafts, takes=_has_shafts),
     "mesh": RunKind(job=_mesh, foreseen=False),
     "verify": RunKind(job=_verify, report="verify.html"),
 }

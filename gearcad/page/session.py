@@ -131,7 +131,7 @@ class Session:
                 with left.under("text"):
                     self._text = TextPanel(self.written, self.step, words)
                 left.on("text", lambda: self._text.follow(bench))
-                if bench.design.kind is DesignKind.TRAIN:
+                if bench.design.kind in (DesignKind.TRAIN, DesignKind.SHAFT):
                     left.choose("text")
                 with left.under("limits"):
                     limits = following.with_line(LimitsPanel(bench, self.change, words), lambda: left.chosen == "limits")
@@ -333,7 +333,9 @@ class Session:
         self._runs.follow()
         self._results.follow()
         self._show_begin()
-        self._panels.classes(**{"add" if self.bench.design.kind is DesignKind.TRAIN else "remove": "gearless"})
+        self._panels.classes(
+            **{"add" if self.bench.design.kind in (DesignKind.TRAIN, DesignKind.SHAFT) else "remove": "gearless"}
+        )
         self._following.follow()
 
     def _show_begin(self) -> None:

@@ -187,8 +187,9 @@ _NO_FORCE = 1e-9
 
 @dataclass(frozen=True)
 class ArrangementResult:
-    """Shafts by their names, and the load over the face of their mesh, where they have one."""
+    """Shafts by their names, and the load over the face of their mesh, where they have one; `name` is that of the design."""
 
+    name: str
     shafts: Mapping[str, ShaftResult]
     mesh: JsonObject | None = None
 

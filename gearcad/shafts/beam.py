@@ -236,6 +236,44 @@ class SteppedShaft:
         return tuple(np.concatenate([[0.0], np.cumsum([each.length for each in self.segments])]).tolist())
 
     @cached_property
+    def masses(self) -> Floats:
+        """Mass (kg) of each segment."""
+        found: Floats = np.array([each.density * 1e-9 * each.area * each.length for each in self.segments])
+        return found
+
+    def sizes(self) -> JsonObject:
+        """Return length (mm), mass (kg), centre of mass (mm), moments of inertia (kg·m²) about the axis and across it at the
+        centre of mass, torsional stiffness (N·m/rad) of the whole length, segments and bearings.
+        """
+        lengths = np.array([each.length for each in self.segments])
+        middles = np.array(self.ends[:-1]) + lengths / 2
+        gyration = np.array([(each.outer_diameter**2 + each.inner_diameter**2) / 16 for each in self.segments])
+        centre = float(self.masses @ middles / self.masses.sum())
+        twist = math.fsum(each.length / (2 * each.shear_modulus * each.second_moment) for each in self.segments)
+        return {
+            "length": self.length,
+            "mass": float(self.masses.sum()),
+            "centre_of_mass": centre,
+            "polar_inertia": float(2e-6 * self.masses @ gyration),
+            "transverse_inertia": float(1e-6 * self.masses @ (gyration + lengths**2 / 12 + (middles - centre) ** 2)),
+            "torsional_stiffness": 1e-3 / twist,
+            "segments": [
+                {
+                    "position": start,
+                    "length": each.length,
+                    "outer_diameter": each.outer_diameter,
+                    "inner_diameter": each.inner_diameter,
+                    "area": each.area,
+                    "second_moment": each.second_moment,
+                    "section_modulus": each.section_modulus,
+                    "mass": mass,
+                }
+                for start, each, mass in zip(self.ends, self.segments, self.masses.tolist(), strict=False)
+            ],
+            "bearings": [{"name": each.name, "position": each.position} for each in self.bearings],
+        }
+
+    @cached_property
     def nodes(self) -> Floats:
         """Positions (n,) in mm of steps, bearings, forces, the coupling and further places, each once."""
         wanted = [*self.ends, *(each.position for each in self.bearings), *(each.position for each in self.forces)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict
 from typing import Any, NamedTuple
 
@@ -227,6 +227,20 @@ def spline_sections(document: Mapping[str, Any], parts: Iterable[str]) -> tuple[
     columns = tuple(parts)
     of_parts = _spline_blocks("spline", _SPLINE_BLOCKS, [document[part] for part in columns])
     return Section(columns, of_parts), Section((), _spline_blocks("joint", _JOINT_BLOCKS, [document["joint"]]))
+
+
+def shaft_sections(shafts: Mapping[str, Mapping[str, Any]]) -> Iterator[Section]:
+    """Yield the sections of shafts by their names: their sizes, then the segments of each."""
+    rows = (_row(f"shaft.{key}", of, [each.get(key) for each in shafts.values()]) for key, of in symbols.SHAFT.items())
+    yield Section(tuple(shafts), block("Shafts", (row for row in rows if set(row.texts) != {ABSENT})))
+    for name, shaft in shafts.items():
+        segments = shaft["segments"]
+        rows = (
+            Row(f"{name}.{key}", of, tuple(each[key] for each in segments), tuple(f"{each[key]:.6g}" for each in segments))
+            for key, of in symbols.SHAFT_SEGMENT.items()
+        )
+        columns = tuple(f"{name} {number}" for number in range(1, len(segments) + 1))
+        yield Section(columns if len(columns) > 1 else (), block("Segments", rows))
 
 
 def _spline_blocks(owner: str, titles: Mapping[str, str], documents: list[Mapping[str, Any]]) -> tuple[Block, ...]:

@@ -24,6 +24,7 @@ from gearcad.sheet.blocks import (
     gear_section,
     pair_section,
     rack_section,
+    shaft_sections,
     spline_sections,
 )
 
@@ -47,7 +48,7 @@ def sheet_of(design: Design) -> Sheet:
         return Sheet(design.name, title, "lengths in mm", "", sections, design.notices)
     sections = tuple(section for section in _sections(design, document) if section.blocks)
     units = "lengths in mm, angles in degrees"
-    clauses = "" if design.kind is DesignKind.SPLINE else "clauses of ISO 21771:2007"
+    clauses = "" if design.kind in (DesignKind.SPLINE, DesignKind.SHAFT) else "clauses of ISO 21771:2007"
     return Sheet(design.name, _title(design, document), units, clauses, sections, design.notices)
 
 
@@ -66,6 +67,10 @@ def _sections(design: Design, document: Mapping[str, Any]) -> Iterator[Section]:
         from gearcad.sheet.trains import planetary_sections
 
         yield from planetary_sections(document["planetary"])
+    if design.kind is DesignKind.SHAFT:
+        yield from shaft_sections({"shaft": document["shaft"]})
+    elif shafts := document.get("shafts"):
+        yield from shaft_sections(shafts)
     yield _material_section(document)
     for table in ("load", "mounting", "rating"):
         given = _shown_of(table, document.get(table, {}))
@@ -112,6 +117,9 @@ def _title(design: Design, document: Mapping[str, Any]) -> str:
         joint = document["joint"]
         what = " and ".join(design.gears)
         return f"splined {what}, {joint['standard']}, z = {joint['teeth']}, m = {format_number(joint['module'])} mm"
+    if design.kind is DesignKind.SHAFT:
+        shaft = document["shaft"]
+        return f"shaft, {len(shaft['segments'])} segments, {len(shaft['bearings'])} bearings"
     teeth = " / ".join(str(gear.teeth) for gear in design.gears.values())
     if design.kind is DesignKind.PLANETARY:
         return f"planetary train of type {document['planetary']['set_type']}, z = {teeth}"

@@ -239,7 +239,20 @@ def test_rows_without_a_report_get_one_where_it_is_asked_for(tmp_path: Path) -> 
 def test_every_job_with_a_document_of_its_own_is_a_part() -> None:
     """`build` has parts by their formats, and the document of `data`."""
     own = [verb for verb in VERBS if verb in job_of(verb)().parts]
-    assert own == ["data", "draw", "picture", "verify", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify"]
+    assert own == [
+        "data",
+        "draw",
+        "picture",
+        "verify",
+        "check",
+        "mesh",
+        "rate",
+        "stiffness",
+        "dynamics",
+        "planetary",
+        "shafts",
+        "modify",
+    ]
 
 
 DATA = (Data(),)

@@ -50,6 +50,7 @@ COMMANDS = {
     "stiffness": "stiffness pair.toml --method iso6336",
     "dynamics": "dynamics train.toml",
     "planetary": "planetary planetary.toml",
+    "shafts": "shafts shaft.toml",
     "planetary sets": "planetary --ratio 5 --module 2 --planets 3",
     "identify": "identify --teeth 24 --tip-diameter 52.02 --root-diameter 43.01",
     "tools": "tools",
@@ -74,11 +75,22 @@ end = "load"
 torsional_stiffness = 1e4
 """
 
+SHAFT = """
+[[shaft]]
+length = 200.0
+outer_diameter = 30.0
+[[bearing]]
+position = 10.0
+axial_stiffness = "rigid"
+[[bearing]]
+position = 190.0
+"""
+
 
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    for name, text in {"pair.toml": PAIR, "train.toml": TRAIN, "gears.csv": TABLE}.items():
+    for name, text in {"pair.toml": PAIR, "train.toml": TRAIN, "gears.csv": TABLE, "shaft.toml": SHAFT}.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     for kind, name in (("spur", "gear.toml"), ("planetary-24-21-66", "planetary.toml")):
         assert CliRunner().invoke(main, ["new", kind, "-o", name]).exit_code == 0

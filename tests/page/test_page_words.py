@@ -9,14 +9,16 @@ from pathlib import Path
 import pytest
 
 from gearcad.core import symbols
+from gearcad.core.quantities import schema_of
 from gearcad.core.runtime import PACKAGE
-from gearcad.designs.keys import FIELDS, SPEEDS
+from gearcad.designs.keys import FIELDS, SHAFTS, SPEEDS
 from gearcad.designs.train_keys import MAIN, PLANETARY, TRAIN, TRAIN_PARTS
 from gearcad.page.fields import part_title, table_title, words_of
 from gearcad.page.forms import REQUIRED, form_fields
 from gearcad.page.panels import drawn_data, sheet_content
 from gearcad.page.panels import sheet_content as rating
 from gearcad.page.words import PageLanguage, PageWords, language_of
+from gearcad.shafts import ShaftOptions
 from gearcad.sheet import blocks, trains
 
 _SAME = {"name", "Text"}
@@ -61,7 +63,8 @@ def test_germans_are_words_of_their_own() -> None:
 def _words_of_inputs() -> set[str]:
     """Tables, parts and keys of all specs."""
     found = {part_title(SPEEDS)}
-    for tables in (FIELDS, PLANETARY, {table: TRAIN[table] for table in (MAIN, "dynamics")}):
+    of_shafts = {SHAFTS: schema_of(ShaftOptions)}
+    for tables in (FIELDS, PLANETARY, {table: TRAIN[table] for table in (MAIN, "dynamics")}, of_shafts):
         for table, fields in tables.items():
             found.add(table_title(table))
             for key, field in fields.items():
@@ -87,7 +90,19 @@ def _words_of_forms() -> set[str]:
 
 def _titles_of_sheets() -> set[str]:
     """Blocks of data sheets."""
-    single = {"Gear mesh", "Safety", "Least safeties", "Planetary train", "Train", "Material", "Load", "Mounting", "Rating"}
+    single = {
+        "Gear mesh",
+        "Safety",
+        "Least safeties",
+        "Planetary train",
+        "Train",
+        "Material",
+        "Load",
+        "Mounting",
+        "Rating",
+        "Shafts",
+    }
+    single |= {"Shafts", "Segments"}
     return single.union(
         blocks._GEAR_BLOCKS,
         blocks._RACK_BLOCKS,

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -9,12 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearcad.core.errors import GeometryError, InputError, SpecError
+from gearcad import check, data
+from gearcad.batch.study import plan_study, write_study
+from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError
 from gearcad.core.records import PerGear, Role
-from gearcad.designs import PairDesign, read_spec
+from gearcad.designs import PairDesign, ShaftDesign, open_table, read_spec
 from gearcad.designs.spec_writers import pair_text
 from gearcad.geometry import FlankModification, Gear, GearPair, profile_shift_sum
-from gearcad.jobs.shafts import done_shafts, read_arrangement
+from gearcad.jobs.shafts import Shafts
 from gearcad.load import Load
 from gearcad.shafts.arrangement import ShaftOptions, bearing_life
 from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
@@ -306,7 +309,7 @@ force = [0.0, -2000.0, 300.0]
 def test_a_shaft_by_itself_is_read_and_told(tmp_path: Path) -> None:
     spec = tmp_path / "alone.toml"
     spec.write_text(ALONE, encoding="utf-8")
-    document = done_shafts(spec).document()
+    document = Shafts().complete_document(Shafts().run(read_spec(spec)))
     (shaft,) = document["shafts"].values()
     assert [each["name"] for each in shaft["bearings"]] == ["left", "bearing 2"]
     assert shaft["reactions"][0]["force"] == pytest.approx([0.0, 1000.0, -300.0])
@@ -334,7 +337,7 @@ def test_faults_of_specs_are_one_line(tmp_path: Path, change: tuple[str, str], w
     spec = tmp_path / "alone.toml"
     spec.write_text(ALONE.replace(*change), encoding="utf-8")
     with pytest.raises(SpecError) as caught:
-        read_arrangement(spec)
+        read_spec(spec)
     assert words in str(caught.value) and "\n" not in str(caught.value)
 
 
@@ -416,3 +419,53 @@ def test_options_of_shafts_need_a_shaft(tmp_path: Path) -> None:
     text = "[pair]\nnormal_module = 2\nface_width = 20\n[pinion]\nteeth = 20\n[wheel]\nteeth = 30\n[shafts]\nslices = 10\n"
     with pytest.raises(SpecError, match=r"line 8: \[shafts\]: needs a shaft: segments headed \[\[pinion.shaft\]\]"):
         pair_design(tmp_path, text)
+
+
+def test_a_shaft_by_itself_has_data_and_other_commands_say_what_it_is_for(tmp_path: Path) -> None:
+    """A hollow bar: mass, and moments of inertia m(D^2 + d^2)/8 and m((D^2 + d^2)/16 + l^2/12)."""
+    spec = tmp_path / "bar.toml"
+    spec.write_text(ALONE.replace("outer_diameter = 30", "outer_diameter = 30\ninner_diameter = 10"), encoding="utf-8")
+    found = data(read_spec(spec))["shaft"]
+    mass = 7850 * math.pi / 4 * (0.03**2 - 0.01**2) * 0.2
+    assert found["mass"] == pytest.approx(mass, rel=1e-12)
+    assert found["polar_inertia"] == pytest.approx(mass * (0.03**2 + 0.01**2) / 8, rel=1e-12)
+    assert found["transverse_inertia"] == pytest.approx(mass * ((0.03**2 + 0.01**2) / 16 + 0.2**2 / 12), rel=1e-12)
+    modulus = 206e9 / 2.6
+    assert found["torsional_stiffness"] == pytest.approx(modulus * math.pi / 32 * (0.03**4 - 0.01**4) / 0.2, rel=1e-12)
+    with pytest.raises(ParameterError, match="kind = 'shaft': must be a pair: a shaft by itself is for `gearcad data`"):
+        check(read_spec(spec))
+
+
+def test_a_table_varies_the_keys_of_shafts(tmp_path: Path) -> None:
+    spec, table = tmp_path / "pair.toml", tmp_path / "table.csv"
+    spec.write_text(PAIR, encoding="utf-8")
+    study = plan_study(spec, ["pinion.shaft[0].outer_diameter=30,40", "shafts.mesh_angle=0,90"])
+    write_study(study, table)
+    rows = list(open_table(table).rows())
+    designs = [row.design() for row in rows]
+    found = [each.shafts for each in designs if isinstance(each, PairDesign) and each.shafts is not None]
+    given = pair_design(tmp_path).shafts
+    assert given is not None and len(found) == 4 and found[3] == given
+    assert [each.gears.pinion.shaft.segments[0].outer_diameter for each in found if each.gears.pinion] == [30, 30, 40, 40]
+    assert [each.options.mesh_angle for each in found] == [0, 90, 0, 90]
+    for text, words in (
+        ("pinion.shaft[0].lenght=1,2", "permitted behind pinion.shaft[0]. are length"),
+        ("shaft[0].length=1,2", "pair"),
+    ):
+        with pytest.raises(ParameterError, match=re.escape(words)):
+            plan_study(spec, [text])
+
+
+def test_a_table_of_shafts_by_themselves(tmp_path: Path) -> None:
+    table = tmp_path / "table.csv"
+    head = "name,shaft[0].length,shaft[0].outer_diameter,bearing[0].position,bearing[0].axial_stiffness,bearing[1].position"
+    table.write_text(f"{head}\none,100,20,0,rigid,100\ntwo,100,20,0,rigid,101\nthree,100,20,0,rigid,\n", encoding="utf-8")
+    one, two, three = open_table(table).rows()
+    assert isinstance(design := one.design(), ShaftDesign) and design.shaft.bearings[1].position == 100.0
+    assert two.all_faults() == [
+        f"{table} row 3 column F (two): bearing[1].position = 101 mm: must be from 0 to 100 mm, on the shaft"
+    ]
+    assert "must hold the shaft" in three.all_faults()[0]
+    table.write_text("name,shaft[0].length,shaft[0].width\none,1,2\n", encoding="utf-8")
+    with pytest.raises(SpecError, match=r"column C: shaft\[0\].width: unknown key; permitted behind shaft\[0\]. are length"):
+        open_table(table)

@@ -333,6 +333,7 @@ def _names(words: PageWords) -> dict[str, str]:
         "stiffness": words["mesh stiffness"],
         "dynamics": words["dynamics"],
         "planetary": words["planetary train"],
+        "shafts": words["shafts and bearings"],
         "mesh": words["meshes of finite elements"],
         "verify": words["verification of the files"],
         "size": words["search for pairs"],
