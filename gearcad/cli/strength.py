@@ -472,7 +472,13 @@ def modify(
     else:
         click.echo("\n".join([*_lines(proposal), str(path)]))
     if not quiet:
-        echo_warnings((*design.notices, *proposal.notices), err=True)
+        echo_warnings((*job.design_notices(design), *proposal.notices), err=True)
+
+
+def _on_shafts(proposal: Proposal) -> list[tuple[str, str, float, float]]:
+    """The row of K_Hbeta on the shafts, where the design has any."""
+    lead = proposal.lead
+    return [] if lead is None else [("face load factor K_Hβ on the shafts", "", lead.K_Hbeta_before, lead.K_Hbeta_after)]
 
 
 def _lines(proposal: Proposal) -> list[str]:
@@ -497,6 +503,7 @@ def _lines(proposal: Proposal) -> list[str]:
         ("root stress, pinion", "MPa", before.root_tension_pinion, after.root_tension_pinion),
         ("root stress, wheel", "MPa", before.root_tension_wheel, after.root_tension_wheel),
         ("face load factor K_Hβ", "", before.face_load_factor, after.face_load_factor),
+        *_on_shafts(proposal),
         ("positions with a tip edge in contact", "", before.edge_positions, after.edge_positions),
     ]
     lines.append(f"{'':<42}{'before':>10}{'after':>10}")
@@ -505,6 +512,8 @@ def _lines(proposal: Proposal) -> list[str]:
     beyond = f"; the proposal is {100 * over:.2g} % above it" if over > 0 else ""
     lines.append(f"bound of the contact pressure: {proposal.bound:.4g} MPa{beyond}")
     lines.append(f"figures of solid bodies, as gearcad check --model {proposal.model.value} has them")
+    if (lead := proposal.lead) is not None:
+        lines.append(f"turned by f_sh = {lead.f_sh:.3g} µm of the shafts; K_Hβ on them by slices, f_ma = {lead.f_ma:.3g} µm")
     lines.append("transmission error, peak to peak, under other conditions")
     for each in proposal.robustness:
         of = each.condition

@@ -491,18 +491,20 @@ _LONGEST = 0.5
 """Shortest and longest tip relief, as shares of the path of contact: in its middle flanks stay exact."""
 
 
-def start_search(model: SolidPair, torque: float, shape: ReliefShape) -> Search:
+def start_search(model: SolidPair, torque: float, shape: ReliefShape, lead: tuple[float, float] | None = None) -> Search:
     """Prepare a search at a torque (N·m) for a model whatever its own tip relief and crowning; the helix angle is modified
     only against a misalignment of its mounting.
+
+    `lead` (whole µm) are lead crowning and helix angle modification of the pinion that are found elsewhere and do not vary.
     """
     nothing = np.zeros(len(AMOUNTS))
     sampling = _HELICAL if model.helix else _SPUR
     bare = replace(
         model.remade(with_amounts(model.pair, nothing, shape), model.mounting), cells=sampling.cells, known=KnownResponses()
     )
-    start = np.array([0.0, 0.0, 0.0, 0.0, 0.0, _aligning(bare)])
+    start = np.array([0.0, 0.0, 0.0, 0.0, *(lead or (0.0, _aligning(bare)))])
     plain = FlankVariants(bare, shape, sampling.positions, torque, sampling.at_ends).outcomes(start[None], Condition(torque))
-    low, high = _bounds(bare, shape, float(plain.transmission_errors.max()))
+    low, high = _bounds(bare, shape, float(plain.transmission_errors.max()), lead)
     roomy = bare.remade(with_amounts(bare.pair, high, shape), bare.mounting)
     variants = FlankVariants(roomy, shape, sampling.positions, torque, sampling.at_ends)
     return Search(variants, torque, low, high, start, variants.outcomes(start[None], Condition(torque)))
@@ -514,8 +516,8 @@ def _aligning(model: SolidPair) -> float:
     return form.hand * model.mounting.misalignment * form.width / model.width
 
 
-def _bounds(model: SolidPair, shape: ReliefShape, deflection: float) -> tuple[Floats, Floats]:
-    """Return the least and the greatest amounts (6,)."""
+def _bounds(model: SolidPair, shape: ReliefShape, deflection: float, lead: tuple[float, float] | None) -> tuple[Floats, Floats]:
+    """Return the least and the greatest amounts (6,), those along the face of `lead` where it is given."""
     path, pair = model.pair.path_of_contact, model.pair
     reach = path.E - path.A
     longest = [min(_LONGEST * reach, gear.flank_form.last - gear.flank_form.first) for gear in pair.gears]
@@ -523,15 +525,19 @@ def _bounds(model: SolidPair, shape: ReliefShape, deflection: float) -> tuple[Fl
     low = np.array([0.0, _SHORTEST * reach, 0.0, _SHORTEST * reach, 0.0, -helix])
     relief, crowning = np.ceil(_MOST_RELIEF * deflection), np.ceil(_MOST_CROWNING * deflection)
     high = np.array([relief, longest[0], relief, longest[1], crowning, helix])
-    while not _fits(pair, high, shape):
-        high[[0, 2, 4]] = np.floor(0.9 * high[[0, 2, 4]])
+    shrinking = [0, 2, 4]
+    if lead is not None:
+        low[4:] = high[4:] = lead
+        shrinking = [0, 2]
+    while not _fits(pair, high, shape, shrinking):
+        high[shrinking] = np.floor(0.9 * high[shrinking])
     return low, high
 
 
-def _fits(pair: GearPair, amounts: Floats, shape: ReliefShape) -> bool:
-    """Return whether the flanks can be relieved by that length. A length of 0 always fits."""
+def _fits(pair: GearPair, amounts: Floats, shape: ReliefShape, shrinking: list[int]) -> bool:
+    """Return whether the flanks can be relieved by that length, or nothing of it is left to take away."""
     try:
         with_amounts(pair, amounts, shape)
     except GeometryError:
-        return not amounts[[0, 2, 4]].any()
+        return not amounts[shrinking].any()
     return True

@@ -65,7 +65,7 @@ class PairDesign(GearedDesign):
     pair: GearPair
     material: Materials | None = None
     shafts: PairShafts | None = None
-    """Shafts of its gears, which `gearcad shafts` alone takes into account."""
+    """Shafts of its gears, for `gearcad shafts` and the rating."""
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
@@ -98,7 +98,7 @@ class PairDesign(GearedDesign):
             return None
         from gearcad.designs.shaft_spec import face_load_of
 
-        return face_load_of(self.arrangement.mesh)
+        return face_load_of(self.arrangement.mesh, 0.0 if self.mounting is None else self.mounting.misalignment)
 
     @property
     def notices(self) -> tuple[Notice, ...]:
@@ -106,6 +106,8 @@ class PairDesign(GearedDesign):
         if self.shafts is None:
             return super().notices
         text = "shafts are described: they count in `gearcad shafts` alone, here the gears are held on rigid ones"
+        if self.rating is not None and self.rating.face_load_factor == "shafts":
+            text = "shafts count in K_Hbeta of the rating and in `gearcad shafts`, elsewhere the gears are held on rigid ones"
         return (*super().notices, Notice(RIGID_SHAFTS, text))
 
     @classmethod

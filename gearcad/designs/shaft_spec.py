@@ -193,13 +193,16 @@ def loaded_mesh(mesh: MeshOnShafts, options: RatingOptions, materials: PerGear[M
     return max(found, key=lambda each: each.face_load_factor)
 
 
-def face_load_of(mesh: MeshOnShafts) -> FaceLoadSource:
-    """Return the function by which a rating finds the load over the face of a mesh on its shafts."""
+def face_load_of(mesh: MeshOnShafts, misalignment: float = 0.0) -> FaceLoadSource:
+    """Return the function by which a rating finds the load over the face of a mesh on its shafts.
+
+    `misalignment` (µm over the face) is that of the mounting, to which that by manufacture is added.
+    """
     rigid = [role.value for role, shaft in mesh.shafts.items() if shaft is None]
     assumed = tuple(f"K_Hbeta: the {name} has no shaft in the design and is held rigidly" for name in rigid)
 
-    def found(torque: float, stiffness: float, misalignment: float) -> FaceLoad:
-        loaded = replace(mesh, torque=torque, stiffness=stiffness, misalignment=mesh.misalignment + misalignment)
+    def found(torque: float, stiffness: float, manufacture: float) -> FaceLoad:
+        loaded = replace(mesh, torque=torque, stiffness=stiffness, misalignment=misalignment + manufacture)
         return FaceLoad(
             factor=loaded.face_load_factor,
             factor_at_end=loaded.face_load_factor_at_end,

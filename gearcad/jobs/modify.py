@@ -1,4 +1,4 @@
-"""Job `modify`: tip relief and crowning for the load of a design."""
+"""Job `modify`: tip relief and crowning for the load of a design, on its shafts where it has any."""
 
 from __future__ import annotations
 
@@ -27,6 +27,10 @@ from gearcad.jobs.job import Job, as_design
 from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
 from gearcad.mounting import Mounting
+from gearcad.rating.load_factor_formulas import manufacturing_misalignment
+from gearcad.rating.options import RatingOptions, helix_slope_deviations
+from gearcad.shafts.face_load import MeshOnShafts
+from gearcad.shafts.lead_search import LeadProposal, propose_lead
 from gearcad.version import __version__
 
 SUFFIX = "-modified"
@@ -82,11 +86,21 @@ class Robustness(NamedTuple):
         return {**asdict(self.condition), "before": self.before, "after": self.after}
 
 
+class LeadOnShafts(NamedTuple):
+    """f_sh and f_ma (µm), and K_Hbeta of the load over the face on the shafts, of the worse side, before and after."""
+
+    f_sh: float
+    f_ma: float
+    K_Hbeta_before: float
+    K_Hbeta_after: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class Proposal(Pictured):
     """Modifications for a design at a torque (N·m on the pinion), and their effects; `pair` is the design's pair with them.
 
-    `bound` (MPa) is that of the contact pressure. All figures are those that a check of solid bodies finds.
+    `bound` (MPa) is that of the contact pressure. All figures are those that a check of solid bodies finds; `lead` is what the
+    modifications along the face make of the load on the shafts of the design, if it has any.
     """
 
     model: ClassVar[Model] = Model.SOLID
@@ -99,6 +113,7 @@ class Proposal(Pictured):
     before: CycleFigures
     after: CycleFigures
     robustness: tuple[Robustness, ...]
+    lead: LeadOnShafts | None = None
 
     def __repr__(self) -> str:
         errors = (each.transmission_error_peak_to_peak for each in (self.before, self.after))
@@ -164,6 +179,7 @@ class Proposal(Pictured):
             "before": asdict(self.before),
             "after": asdict(self.after),
             "robustness": [each.to_dict() for each in self.robustness],
+            **({} if self.lead is None else {"shafts": self.lead._asdict()}),
             "warnings": list(self.warnings),
             "notices": [each.to_dict() for each in self.notices],
         }
@@ -201,6 +217,7 @@ class Modify(Job[PairDesign, Proposal]):
     verb = "modify"
     accepts = (DesignKind.PAIR,)
     why = "flanks are modified for those of a mate"
+    with_shafts = True
 
     torque: Annotated[float | None, TORQUE, Words("torque on the pinion", "T_1")] = None
     pressure: Annotated[float | None, STRENGTH, Words("most contact pressure")] = None
@@ -219,13 +236,17 @@ class Modify(Job[PairDesign, Proposal]):
         design = self.accepted(design, progress)
         pair, torque = self._task(design)
         options, agenda = design.check or CheckOptions(), Agenda(progress, dict.fromkeys(_STEPS, 1.0))
-        model = _model(design, pair, torque, options, agenda)
+        on_shafts = _lead_on_shafts(design, torque)
+        model = _model(design, pair, torque, options, agenda, on_shafts)
+        lead = None if on_shafts is None else on_shafts.amounts(pair, torque)
         agenda(_CYCLE)
         count, limits = options.positions_of(Model.SOLID), self._limits(design.material or Material())
         before = _checked(model, torque, count)
         agenda(_SEARCH)
         shapes = ReliefShape if self.shape is None else (self.shape,)
-        tried = [each for shape in shapes for each in _tried(model, torque, shape, limits, count, self.pressure is not None)]
+        tried = [
+            each for shape in shapes for each in _tried(model, torque, shape, limits, count, self.pressure is not None, lead)
+        ]
         best = _polished(model, _best(tried, limits), count)
         agenda(_ROBUSTNESS)
         models = (model, best.cycle.model)
@@ -243,6 +264,7 @@ class Modify(Job[PairDesign, Proposal]):
             before=CycleFigures.of(before),
             after=best.figures,
             robustness=robustness,
+            lead=None if on_shafts is None else on_shafts.figures,
         )
 
     def _task(self, design: PairDesign) -> tuple[GearPair, float]:
@@ -317,9 +339,47 @@ def modify(
     return Modify(torque=torque, pressure=pressure, shape=chosen).run(as_design(subject, load, **inputs), progress)
 
 
-def _model(design: PairDesign, pair: GearPair, torque: float, options: CheckOptions, agenda: Agenda) -> SolidPair:
-    """Return the solid bodies, as `gearcad check --model 3d` makes them."""
+class _OnShafts(NamedTuple):
+    """The mesh of a design on its shafts at a torque, the misalignment f_ma (µm), and the modifications that both ask for."""
+
+    mesh: MeshOnShafts
+    manufacture: float
+    found: LeadProposal
+
+    @property
+    def figures(self) -> LeadOnShafts:
+        """The figures that the proposal has."""
+        return LeadOnShafts(self.mesh.misalignment_of_shafts, self.manufacture, self.found.before, self.found.after)
+
+    def amounts(self, pair: GearPair, torque: float) -> tuple[float, float]:
+        """Return lead crowning and helix angle modification (µm) for the pair that `loaded_left` makes of a pair."""
+        found = np.array([0.0, 0.0, 0.0, 0.0, self.found.lead_crowning, self.found.helix_angle_modification])
+        crowning, helix = unmirrored(found, pair, torque)[4:].tolist()
+        return crowning, helix
+
+
+def _lead_on_shafts(design: PairDesign, torque: float) -> _OnShafts | None:
+    """Return the modifications along the face for the shafts of a design at a torque (N·m); None without shafts.
+
+    f_ma is that of [rating], or of the accuracy grade, to the worse of its sides. Raises as tolerances do.
+    """
+    found = replace(design, load=Load(torque=torque)).arrangement
+    if found is None or found.mesh is None:
+        return None
+    options = design.rating or RatingOptions()
+    given = options.manufacturing_misalignment
+    manufacture = manufacturing_misalignment(*helix_slope_deviations(design.pair, options)) if given is None else given
+    mesh = replace(found.mesh, misalignment=(design.mounting or Mounting()).misalignment)
+    return _OnShafts(mesh, manufacture, propose_lead(mesh, options.sides_of(manufacture)))
+
+
+def _model(
+    design: PairDesign, pair: GearPair, torque: float, options: CheckOptions, agenda: Agenda, on_shafts: _OnShafts | None
+) -> SolidPair:
+    """Return the solid bodies, as `gearcad check --model 3d` makes them, turned by f_sh of the shafts if there are any."""
     mounting = design.mounting or Mounting()
+    if on_shafts is not None:
+        mounting = replace(mounting, misalignment=mounting.misalignment + on_shafts.mesh.misalignment_of_shafts)
     return solid_pair(
         loaded_left(mounting.mounted(pair), torque),
         design.material or Material(),
@@ -356,9 +416,17 @@ class _Tried(NamedTuple):
         return self.figures.transmission_error_peak_to_peak + over
 
 
-def _tried(model: SolidPair, torque: float, shape: ReliefShape, limits: list[float], count: int, given: bool) -> list[_Tried]:
+def _tried(
+    model: SolidPair,
+    torque: float,
+    shape: ReliefShape,
+    limits: list[float],
+    count: int,
+    given: bool,
+    lead: tuple[float, float] | None,
+) -> list[_Tried]:
     """Search with one shape of the tip relief: what it came to for the first bound that is kept, else for the last."""
-    search = start_search(model, torque, shape)
+    search = start_search(model, torque, shape, lead)
     plain = _modified(model, search.start, shape, torque, count).extreme(PRESSURE)
     seen = float(search.plain.pressures[0])
     greatest = seen if plain is None else plain.value

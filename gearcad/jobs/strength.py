@@ -19,6 +19,7 @@ from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Expected, Progress, one_thread
 from gearcad.core.symbols import STIFFNESS, STRENGTH_FIGURES
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
+from gearcad.designs.keys import RIGID_SHAFTS
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
 from gearcad.geometry import GearPair
 from gearcad.jobs.job import ReportedJob, Subject, Writer, as_design
@@ -222,6 +223,12 @@ class Rate(ReportedJob[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRa
         pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
         by_bodies = _of_bodies(design, load)
         return rate_strength(pair, design.materials, load, design.rating, body_load=by_bodies, face_load=design.face_load)
+
+    def design_notices(self, design: Design) -> Sequence[Notice]:
+        """Return the notices of a design, without that on shafts where K_Hbeta is that on them."""
+        options = getattr(design, "rating", None)
+        on_shafts = options is not None and options.face_load_factor == "shafts"
+        return [each for each in super().design_notices(design) if not (on_shafts and each.code == RIGID_SHAFTS)]
 
     def document(self, result: StrengthRating | TrainStrength) -> JsonObject:
         """Return the values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.STRENGTH` has the

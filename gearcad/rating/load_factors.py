@@ -229,7 +229,8 @@ def shaft_notices(mesh: LoadedMesh) -> Iterator[Notice]:
 
 
 _NOT_FOUND = 'must be "C" or a number here: a load distribution of our own is found by gearcad rate, before the rating'
-_NO_SHAFTS = 'must be "C", "fe" or a number here: a shaft with its bearings is not known of either gear'
+NO_SHAFTS = 'must be "C" or a number here: no gear has a shaft with its bearings, such as [[pinion.shaft]]'
+"""What the face load factor can be without shafts."""
 
 
 def face_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
@@ -254,13 +255,13 @@ def _by_shafts(mesh: LoadedMesh, mean_load: float) -> Finding:
     tolerances do where f_ma is not given.
     """
     if mesh.face_load is None:
-        raise ParameterError("rating.face_load_factor", "shafts", _NO_SHAFTS)
+        raise ParameterError("rating.face_load_factor", "shafts", NO_SHAFTS)
     options, stiffness = mesh.options, mesh.face_stiffness
     given = options.manufacturing_misalignment
     manufacture = manufacturing_misalignment(*helix_slope_deviations(mesh.pair, options)) if given is None else given
     torque = math.copysign(mean_load * mesh.width * mesh.pair.pinion.reference_diameter / 2000, mesh.load.torque)
-    found = [mesh.face_load(torque, stiffness, side) for side in options.sides_of(manufacture)]
-    worst = max(found, key=lambda each: each.factor)
+    found = {side: mesh.face_load(torque, stiffness, side) for side in options.sides_of(manufacture)}
+    side, worst = max(found.items(), key=lambda each: each[1].factor)
     beside = _method_c_beside(mesh, mean_load, worst, stiffness)
     return Finding(
         factors={"K_Hbeta": worst.factor},
@@ -268,7 +269,7 @@ def _by_shafts(mesh: LoadedMesh, mean_load: float) -> Finding:
         details={
             "F_m_b": mean_load,
             "f_sh": worst.deflection,
-            "f_ma": worst.misalignment,
+            "f_ma": side,
             "c_gamma_beta": stiffness,
             "K_Hbeta_end_of_face": worst.factor_at_end,
             **beside.details,

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, Literal
 
@@ -317,20 +317,31 @@ class SteppedShaft:
     @cached_property
     def compliance(self) -> Floats:
         """Displacements (6 n, 6 n) of all nodes by unit forces: mm/N, rad/(N mm). Raises GeometryError for a loose shaft."""
+        if not (replace(self, places=()) if self.places else self)._held:
+            permitted = "must hold the shaft: two bearings that are stiff radially, and one that is stiff axially"
+            raise GeometryError("bearing", len(self.bearings), permitted)
         matrix, free = self._supported
         found = np.zeros_like(matrix)
-        for plane in _PLANES:  # round sections: what bends in one plane does not move in another
+        for plane in _PLANES:
             own = free[np.isin(free % _DOFS, plane)]
-            if not len(own):
-                continue
-            part = matrix[np.ix_(own, own)]
-            scale = np.sqrt(np.abs(part.diagonal()))
-            values = np.linalg.eigvalsh(part / np.outer(scale, scale))
-            if values[0] < _LOOSE * values[-1]:
-                permitted = "must hold the shaft: two bearings that are stiff radially, and one that is stiff axially"
-                raise GeometryError("bearing", len(self.bearings), permitted)
-            found[np.ix_(own, own)] = np.linalg.inv(part / np.outer(scale, scale)) / np.outer(scale, scale)
+            part, scales = self._scaled(own)
+            found[np.ix_(own, own)] = np.linalg.inv(part) / scales
         return found
+
+    @cached_property
+    def _held(self) -> bool:
+        """Whether the bearings hold the shaft, by the least eigenvalue; further places do not change it."""
+        free = self._supported[1]
+        parts = [self._scaled(own)[0] for plane in _PLANES if len(own := free[np.isin(free % _DOFS, plane)])]
+        every = [np.linalg.eigvalsh(part) for part in parts]
+        return all(values[0] >= _LOOSE * values[-1] for values in every)
+
+    def _scaled(self, own: Wholes) -> tuple[Floats, Floats]:
+        """Return the stiffness of some dofs scaled to equal diagonals, and the scales of its entries."""
+        part: Floats = self._supported[0][np.ix_(own, own)]
+        scale = np.sqrt(np.abs(part.diagonal()))
+        scales = np.outer(scale, scale)
+        return part / scales, scales
 
     def critical_speeds(self, count: int = 3) -> list[float]:
         """Return the lowest critical speeds of bending (rpm), without gyroscopic moments: of masses lumped on the nodes."""
@@ -387,7 +398,7 @@ class SteppedShaft:
 
 
 _PLANES = ((0, 4), (1, 3), (2,), (5,))
-"""Directions of a node that move together: bending in x-z, bending in y-z, axial, twist."""
+"""Directions of a node that move together: bending in x-z, bending in y-z, axial, twist. Sections are round."""
 
 _LOOSE = 1e-13
 """Least eigenvalue over the greatest, of the stiffness scaled to equal diagonals, of a shaft that is held."""

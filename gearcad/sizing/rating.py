@@ -205,7 +205,8 @@ class ManyLoadFactors:
             options, deflection, self.helix_slope_deviations, self._slopes_of_grade_five, self._mean_load
         ).initial
         left = initial - self._wear.beta(initial, self.speed)
-        return face_load_factor(left, self.nominal.stiffness.mesh_beta, self._mean_load)
+        stiffness = self.nominal.stiffness.mesh_beta if options.face_mesh_stiffness is None else options.face_mesh_stiffness
+        return face_load_factor(left, stiffness, self._mean_load)
 
     def _slopes_of_grade_five(self) -> PerGear[Numbers]:
         return self._tolerances(_FIFTH).map(lambda each: each.helix_slope)

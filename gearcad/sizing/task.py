@@ -174,8 +174,9 @@ class SizeTask:
         options = self.rating
         if options.spectrum is not None:
             raise ParameterError("spectrum", "given", "must be left out: give the torque that is equivalent to it")
-        if options.face_load_factor == "fe":
-            raise ParameterError("face_load_factor", "fe", 'must be "C" or a number: no variant has a load distribution yet')
+        if options.face_load_factor in ("fe", "shafts"):
+            permitted = 'must be "C" or a number: no variant has a load distribution yet'
+            raise ParameterError("face_load_factor", options.face_load_factor, permitted)
         if options.required_safety_scuffing is not None and options.scuffing_stage is None:
             raise ParameterError("scuffing_stage", None, "must be given with a required safety against scuffing")
         self._check_shaft()

@@ -305,7 +305,7 @@ def test_face_factor_by_its_own_misalignment() -> None:
         ({"face_load_factor": "fe"}, r"rating.face_load_factor = 'fe': must be \"C\" or a number here"),
         (
             {"face_load_factor": "shafts"},
-            r"rating.face_load_factor = 'shafts': .* shaft with its bearings is not known",
+            r"rating.face_load_factor = 'shafts': .* no gear has a shaft with its bearings",
         ),
         ({"pinion_offset": 10.0}, r"rating.bearing_span is missing: must be given with pinion_offset"),
         ({"pinion_offset": 10.0, "bearing_span": 90.0}, r"rating.shaft_diameter is missing"),

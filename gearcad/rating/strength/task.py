@@ -16,7 +16,7 @@ from gearcad.load import Load
 from gearcad.material import Material, of_both
 from gearcad.rating.factors import endurance_cycles, to_verify
 from gearcad.rating.load_factor_formulas import helix_factors, shaft_deflection
-from gearcad.rating.load_factors import BodyLoad, FaceLoadSource, LoadFactors
+from gearcad.rating.load_factors import NO_SHAFTS, BodyLoad, FaceLoadSource, LoadFactors
 from gearcad.rating.material_limits import EnduranceLimits, endurance_limits_of
 from gearcad.rating.nominal_rating import Rating, rate, rate_rack
 from gearcad.rating.options import RatingOptions
@@ -425,6 +425,8 @@ def rate_strength(
     if options.bins and load.application_factor != 1:
         permitted = "must be 1 with a load spectrum, which has all loads in it (ISO 6336-6)"
         raise ParameterError("load.application_factor", load.application_factor, permitted)
+    if options.face_load_factor == "shafts" and face_load is None:
+        raise ParameterError("rating.face_load_factor", "shafts", NO_SHAFTS)
     if body_load is not None:
         options = replace(options, face_load_factor=body_load.factor)
     both = of_both(materials)
