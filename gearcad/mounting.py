@@ -1,18 +1,30 @@
-"""Mounting: the positions of the gears of a pair in the machine, where they differ from the drawing."""
+"""Mounting: the positions of the gears of a pair in the machine; SupportCompliance: what their supports give way under load.
+
+A contact takes the compliance of supports as it is, whatever makes it: shafts on their bearings, or measured figures. A force
+on a flank has a direction d in the transverse section and along the axis; its moment about the axis grows with the roll length
+s of its place: r x d = (r x d)_0 + s m x d, m along the line of action. So two loads at each station do for all places.
+"""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
-from typing import Annotated
+from functools import cached_property
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
 
 from gearcad.core.errors import GeometryError, InputError, format_number
 from gearcad.core.quantities import OFFSET, Range, Words, require_fields
-from gearcad.core.records import concise
+from gearcad.core.records import Floats, PerGear, concise, freeze
 from gearcad.geometry import GearPair
 
-__all__ = ["Mounting"]
+__all__ = ["Mounting", "SupportCompliance"]
 
-_DEVIATION = Range("µm", -1000.0, 1000.0)
+MOST_DEVIATION = 1000.0
+"""Greatest deviation of a mounting (µm)."""
+
+_DEVIATION = Range("µm", -MOST_DEVIATION, MOST_DEVIATION)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,3 +74,76 @@ class Mounting:
             at_fault = "" if error.parameter == "centre_distance" else f"{error.parameter} "
             permitted = f"makes a centre distance of {format_number(distance)} mm, but {at_fault}{error.permitted}"
             raise GeometryError("centre_distance_change", change, permitted, "mm").within("mounting") from error
+
+
+STATIONS = 20
+"""Stations over the common face width, unless others are wanted."""
+
+
+class SupportedCells(NamedTuple):
+    """What supports do to cells (n,): displacements (n, n) along the normals (mm/N), a gap (n,) in mm that needs no load.
+
+    `turns` (n,) in mm/N are lags of the wheel along the normal by the twist of both supports at the middle of the face,
+    `turned` (mm) is the lag without load.
+    """
+
+    matrix: Floats
+    gap: Floats
+    turns: Floats
+    turned: float
+
+
+@dataclass(frozen=True)
+class SupportCompliance:
+    """Compliance of the supports of both gears at `stations` (k,) in mm from the middle of the common face width.
+
+    `matrices` (2 k, 2 k) are gaps along the base tangent (mm) by loads of 1 N in the transverse section: at each station by the
+    force at the roll length 0, then by what each mm of roll length adds. `gaps` (2 k,) in mm are those without load, opening
+    positive. `turns` (2 k,) and `turned` are lags along the base tangent by the twist at the middle of the face. `slides` (2,)
+    are slopes (mm/mm over the face) of the wheel's way from the pinion's axis, square to the plane of action: without load, and
+    by 1 N of an even load. `helix` is the base helix angle (rad).
+    """
+
+    stations: Floats
+    matrices: PerGear[Floats]
+    gaps: PerGear[Floats]
+    turns: PerGear[Floats]
+    turned: PerGear[float]
+    slides: Floats
+    helix: float
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+    @cached_property
+    def _spline(self) -> Any:
+        from scipy.interpolate import CubicSpline
+
+        return CubicSpline(self.stations, np.eye(len(self.stations)))
+
+    def _rows(self, across: Floats, lengths: Floats) -> Floats:
+        """Return the weights (n, 2 k) of places on the values at the stations."""
+        weights = self._spline(across)
+        return np.hstack([weights, weights * lengths[:, None]])
+
+    def cells(self, across: Floats, lengths: PerGear[Floats]) -> SupportedCells:
+        """Return what the supports do to cells (n,) at places across the face and at roll lengths on both flanks (mm)."""
+        flat = math.cos(self.helix)
+        matrix, gap, turns = np.zeros((len(across), len(across))), np.zeros(len(across)), np.zeros(len(across))
+        for own, given, turn, places in zip(self.matrices, self.gaps, self.turns, lengths, strict=True):
+            rows = self._rows(across, places)
+            matrix += flat**2 * (rows @ own @ rows.T)
+            gap += flat * (rows @ given)
+            turns += flat**2 * (rows @ turn)
+        return SupportedCells((matrix + matrix.T) / 2, gap, turns, flat * sum(self.turned))
+
+    @property
+    def greatest_gap(self) -> float:
+        """Greatest difference of the gap without load over the face (mm), at one roll length."""
+        count = len(self.stations)
+        return float(sum(np.ptp(gap[:count]) for gap in self.gaps))
+
+    def slide(self, force: float) -> float:
+        """Return the slope (mm/mm) of the wheel's way square to the plane of action under a base tangent force (N), even."""
+        unloaded, loaded = self.slides.tolist()
+        return float(unloaded + loaded * force)

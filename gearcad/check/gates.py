@@ -19,10 +19,12 @@ from gearcad.core.records import Notice, PerGear, Role
 from gearcad.geometry import Gear
 from gearcad.geometry.gear_data import RING_RIM_LIMIT
 from gearcad.material import Limit, Material, by_gear
+from gearcad.rating.load_factor_formulas import root_face_load_factor, width_to_height
 from gearcad.rating.tooth_stiffness import RIM_LIMIT
 
 if TYPE_CHECKING:
     from gearcad.check.convergence import Convergence
+    from gearcad.check.on_shafts import LoadOnShafts
 
 _SAME = 1e-9
 """Difference of radii (mm) below which they count as equal."""
@@ -335,12 +337,16 @@ _FLICKER = 0.03
 
 
 def compare_solid(
-    task: CheckTask, cycle: SolidCycle, summary: SolidSummary, convergence: tuple[Convergence, ...]
+    task: CheckTask,
+    cycle: SolidCycle,
+    summary: SolidSummary,
+    convergence: tuple[Convergence, ...],
+    shafts: LoadOnShafts | None = None,
 ) -> tuple[Comparison, ...]:
     """Return all comparisons, gates first."""
     equilibrium = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.every)} positions"
     common = compare_common(task, cycle, summary, convergence, equilibrium=equilibrium, errors=_ERRORS, flicker=_FLICKER)
-    return (*common, *_contact(task, summary), *_face(task, summary))
+    return (*common, *_contact(task, summary), *_face(task, summary, shafts))
 
 
 def _contact(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
@@ -378,17 +384,26 @@ def _contact(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
     )
 
 
-def _face(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
-    """Face load factors against Method C."""
+def _face(task: CheckTask, summary: SolidSummary, shafts: LoadOnShafts | None) -> Iterator[Comparison]:
+    """Face load factors against Method C or, of a pair on its shafts, against annex E."""
     band, factors = task.options.contact_band / 100, face_factors(task)
+    flank, root, source = factors.flank, factors.root, "ISO 6336-1:2006 Method C"
     note = (
         f"Method C knows F_beta_y = {abs(factors.misalignment):.3g} µm, from misalignment and helix angle modifications alone: "
         "no edges, crowning, or deflection of the bodies"
     )
-    source = "ISO 6336-1:2006 Method C"
+    if shafts is not None:
+        flank, source = shafts.mesh.face_load_factor, "ISO 6336-1:2006 annex E"
+        root = root_face_load_factor(flank, width_to_height(task.pair))
+        deflection, factor = shafts.method_c
+        note = (
+            "annex E has the same shafts, and slices of teeth as springs that know nothing of each other; on rigid shafts the "
+            f"bodies have {shafts.rigid_face_load_factor:.3f}, annex E has {shafts.annex_e_on_rigid_shafts:.3f}; Method C has "
+            f"{factor:.3f} for f_sh = {deflection:.3g} µm"
+        )
     for words, value, reference in (
-        ("face load factor K_Hbeta", summary.face_load_factor, factors.flank),
-        ("face load factor K_Fbeta, pinion", summary.root_face_load_factor.pinion, factors.root),
-        ("face load factor K_Fbeta, wheel", summary.root_face_load_factor.wheel, factors.root),
+        ("face load factor K_Hbeta", summary.face_load_factor, flank),
+        ("face load factor K_Fbeta, pinion", summary.root_face_load_factor.pinion, root),
+        ("face load factor K_Fbeta, wheel", summary.root_face_load_factor.wheel, root),
     ):
         yield beside(words, value, reference, band, "", source, note)

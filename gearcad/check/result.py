@@ -25,6 +25,7 @@ from gearcad.check.explanation import (
     explain_stiffness,
 )
 from gearcad.check.notices import elastic_end
+from gearcad.check.on_shafts import LoadOnShafts
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.pictures import (
     AlongFace,
@@ -487,12 +488,14 @@ def _line(contact: SolidPairContact) -> LineOfContact:
 class SolidCheck(CheckResult):
     """A check of solid bodies; under a negative torque `cycle` is that of the mirrored pair.
 
-    `tooth_stresses` are those of the most stressed tooth of each gear.
+    `tooth_stresses` are those of the most stressed tooth of each gear. `shafts` is the load over the face on the pair's shafts,
+    None where they are rigid.
     """
 
     cycle: SolidCycle
     summary: SolidSummary
     tooth_stresses: PerGear[ToothStress]
+    shafts: LoadOnShafts | None = None
 
     model: ClassVar[Model] = Model.SOLID
 
@@ -523,7 +526,8 @@ class SolidCheck(CheckResult):
 
     @property
     def own_document(self) -> JsonObject:
-        return {"load_distribution": load_distribution(self.cycle), "face": self.along_face.to_dict()}
+        shafts = {} if self.shafts is None else {"shafts": self.shafts.to_dict()}
+        return {"load_distribution": load_distribution(self.cycle), "face": self.along_face.to_dict(), **shafts}
 
     @property
     def stress_files(self) -> Mapping[str, Callable[[Path], None]]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, SOLID_FACTORS, sweep_points, three_meshes, three_solid_meshes
 from gearcad.check.gates import compare_plane, compare_solid
 from gearcad.check.notices import common_notices
+from gearcad.check.on_shafts import load_on_shafts, shaft_notices
 from gearcad.check.options import Model
 from gearcad.check.pictures import tooth_stresses
 from gearcad.check.relief_start import relief_starts, start_comparisons, start_notices
@@ -209,6 +210,7 @@ def _left_out(task: CheckTask) -> Iterator[Notice]:
     along = [role for role, gear in task.pair.gears.items() if gear.modification.along_face]
     left_out = [f"the {role.value}'s modifications along the face width" for role in along]
     left_out += ["the misalignment"] if task.mounting.tilted else []
+    left_out += ["the shafts"] if task.shafts is not None else []
     if left_out:
         yield Notice("left-out", f"the plane model leaves out {' and '.join(left_out)}; --model 3d has them")
 
@@ -238,19 +240,20 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     positions = task.options.positions_of(Model.SOLID)
     cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
     summary, stresses = summarise_solid(cycle, model.single_stiffness(task.torque)), tooth_stresses(cycle)
-    starts = relief_starts(cycle)
+    starts, shafts = relief_starts(cycle), load_on_shafts(task, cycle)
     model.let_go()
     agenda(SWEEP)
     sweep = sweep_points(cycle, task.torques)
     convergence = three_solid_meshes(_solid_refined(task, cycle, agenda)) if task.options.refines else ()
     agenda(RATING)
-    comparisons = (*compare_solid(task, cycle, summary, convergence), *start_comparisons(task, starts))
+    comparisons = (*compare_solid(task, cycle, summary, convergence, shafts), *start_comparisons(task, starts))
     notices = (
         *common_notices(task, cycle, summary),
         *_edge_notices(task, cycle, summary),
         *_unresolved_notches(task),
         *wide_solid_contacts(cycle),
         *start_notices(task, starts),
+        *shaft_notices(task),
     )
     return SolidCheck(
         task=task,
@@ -262,17 +265,20 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         comparisons=comparisons,
         notices=notices,
         relief_starts=starts,
+        shafts=shafts,
     )
 
 
 def solid_model(task: CheckTask, factor: float = 1.0, tell: Share = unheard, *, fields: bool = False) -> SolidPair:
-    """Return the bodies of both gears of a task, with elements `factor` times smaller than it asks for; left flanks carry.
+    """Return the bodies of both gears of a task on its shafts, with elements `factor` times smaller than it asks for; left
+    flanks carry.
 
     They keep what `fields` of teeth need if these are asked for. Raises what `check_pair` does.
     """
     sizes = sizes_of(task, factor)
     pair, mounting = loaded_left(task.pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
-    return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, fields=fields, tell=tell)
+    made = solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, fields=fields, tell=tell)
+    return made if task.supports is None else made.on(task.supports)
 
 
 def _solid_refined(task: CheckTask, middle: SolidCycle, agenda: Agenda) -> Iterator[SolidCycle]:
@@ -346,11 +352,13 @@ def load_distribution(task: CheckTask, tell: Share = unheard) -> LoadDistributio
 
     The flanks stand off by the misalignment of the mounting or, where that is 0, by F_beta_x of Method C, to the worse side,
     with B_1 = B_2 = 1; y_beta runs in. The bodies are held all along their width, so that shafts and the pinion itself give
-    way in f_sh alone. The options of the task say how the bodies are held. Raises ParameterError, GeometryError and
-    SolverError.
+    way in f_sh alone or, where the pair has shafts, in the contact alone: f_sh is then 0. The options of the task say how the
+    bodies are held. Raises ParameterError, GeometryError and SolverError.
     """
     options, mounting = task.rating_options, task.mounting
     plain = replace(options, helix_modification=HelixModification.NONE)  # the flanks have their own
+    if task.shafts is not None:
+        plain = replace(plain, shaft_deflection=0.0)  # the shafts have their own
     mesh = LoadedMesh(pair=task.pair, materials=task.materials, load=task.load, options=plain)
     require_ratable(mesh.pair, task.load)
     speed_factor = dynamic_factor(mesh).factors["K_v"]

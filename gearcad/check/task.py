@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 from gearcad.check.options import CheckOptions, Model
 from gearcad.contact.shared.bodies import BodyModel
@@ -15,19 +15,23 @@ from gearcad.core.records import PerGear
 from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
-from gearcad.mounting import Mounting
-from gearcad.rating.load_factor_formulas import face_load_factor, root_face_load_factor, width_to_height
-from gearcad.rating.load_factors import BodyLoad, FaceLoadSource
+from gearcad.mounting import Mounting, SupportCompliance
+from gearcad.rating.load_factor_formulas import face_load_factor, helix_factors, root_face_load_factor, width_to_height
+from gearcad.rating.load_factors import BodyLoad, FaceLoadSource, deflection_of
 from gearcad.rating.nominal_rating import Rating, rate
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import StrengthRating, rate_strength
+
+if TYPE_CHECKING:
+    from gearcad.shafts.face_load import MeshOnShafts
 
 
 @dataclass(frozen=True, kw_only=True)
 class CheckTask:
     """Task of a check; `pair` is as mounted. `body_load` is that of a load distribution, if one is asked for.
 
-    `face_load` finds the load over the face on the shafts for the rating, where they are known.
+    `face_load` finds the load over the face on the shafts for the rating, where they are known. `shafts` is the mesh on them,
+    None for rigid ones.
     """
 
     pair: GearPair
@@ -38,6 +42,7 @@ class CheckTask:
     rating_options: RatingOptions = field(default_factory=RatingOptions)
     body_load: BodyLoad | None = None
     face_load: FaceLoadSource | None = None
+    shafts: MeshOnShafts | None = None
 
     @property
     def materials(self) -> PerGear[Material]:
@@ -66,6 +71,20 @@ class CheckTask:
         return body.for_solids() if self.model is Model.SOLID else body
 
     @cached_property
+    def on_shafts(self) -> MeshOnShafts | None:
+        """The mesh on shafts under the torque of the check, with the misalignment that the solid contact has; None for rigid
+        shafts.
+        """
+        if self.shafts is None:
+            return None
+        return replace(self.shafts, pair=self.pair, torque=self.torque, misalignment=self.mounting.misalignment)
+
+    @cached_property
+    def supports(self) -> SupportCompliance | None:
+        """What the shafts do to the solid contact; None for rigid ones."""
+        return None if self.on_shafts is None else self.on_shafts.face.supports()
+
+    @cached_property
     def rating(self) -> Rating:
         """Rating by ISO 6336 or DIN 3990, Method B: nominal stresses with K_A."""
         return rate(self.pair, self.material, self.load, self.rating_options)
@@ -86,8 +105,11 @@ def check_task(
     mounting: Mounting | None = None,
     rating: RatingOptions | None = None,
     face_load: FaceLoadSource | None = None,
+    shafts: MeshOnShafts | None = None,
 ) -> CheckTask:
-    """Return the task of a pair in its mounting. Raises ParameterError and GeometryError for what cannot be checked."""
+    """Return the task of a pair in its mounting, on its shafts. Raises ParameterError and GeometryError for what cannot be
+    checked.
+    """
     options, mounting = options or CheckOptions(), mounting or Mounting()
     task = CheckTask(
         pair=mounting.mounted(pair),
@@ -97,6 +119,7 @@ def check_task(
         options=options,
         rating_options=rating or RatingOptions(),
         face_load=face_load,
+        shafts=shafts,
     )
     _require_meshing(task)
     return task
@@ -152,6 +175,21 @@ def face_factors(task: CheckTask) -> FaceFactors:
     misalignment = task.mounting.misalignment + sum(_mismatch(task))
     flank = face_load_factor(misalignment, rating.stiffness.mesh_beta, rating.specific_load)
     return FaceFactors(misalignment, flank, root_face_load_factor(flank, width_to_height(task.pair)))
+
+
+def method_c_on_shafts(task: CheckTask) -> tuple[float, float]:
+    """Return f_sh (µm) and K_Hbeta by Method C with the shaft of [rating], under the load of the check.
+
+    1.33 B_1 f_sh and the misalignment of `face_factors` add up; deviations of manufacture and running in are no part of it, K_v
+    is 1. Raises ParameterError for a shaft that is half given.
+    """
+    rating, options = task.rating, task.rating_options
+    deflection = float(
+        deflection_of(options, rating.specific_load, task.pair.common_width.width, task.pair.pinion.reference_diameter)
+    )
+    factor = helix_factors(options.helix_modification, options.standard).deflection
+    misalignment = 1.33 * factor * deflection + abs(face_factors(task).misalignment)
+    return deflection, face_load_factor(misalignment, rating.stiffness.mesh_beta, rating.specific_load)
 
 
 def _mismatch(task: CheckTask) -> PerGear[float]:

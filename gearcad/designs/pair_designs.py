@@ -65,7 +65,7 @@ class PairDesign(GearedDesign):
     pair: GearPair
     material: Materials | None = None
     shafts: PairShafts | None = None
-    """Shafts of its gears, for `gearcad shafts` and the rating."""
+    """Shafts of its gears, which `gearcad shafts` and `gearcad check --model 3d` take into account."""
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
@@ -102,12 +102,13 @@ class PairDesign(GearedDesign):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Notices of gears and pair, and that shafts are not taken into account here."""
+        """Notices of gears and pair, and where shafts are taken into account."""
         if self.shafts is None:
             return super().notices
-        text = "shafts are described: they count in `gearcad shafts` alone, here the gears are held on rigid ones"
-        if self.rating is not None and self.rating.face_load_factor == "shafts":
-            text = "shafts count in K_Hbeta of the rating and in `gearcad shafts`, elsewhere the gears are held on rigid ones"
+        text = (
+            'shafts count in `gearcad shafts`, `gearcad check --model 3d` and by face_load_factor = "shafts"; elsewhere the '
+            "gears are held on rigid ones"
+        )
         return (*super().notices, Notice(RIGID_SHAFTS, text))
 
     @classmethod
@@ -170,7 +171,8 @@ class PairDesign(GearedDesign):
         from gearcad.check.task import check_task
 
         material, load = self.material or Material(), self.loaded(why)
-        return check_task(self.pair, material, load, options or self.check, self.mounting, self.rating, self.face_load)
+        shafts = None if self.arrangement is None else self.arrangement.mesh
+        return check_task(self.pair, material, load, options or self.check, self.mounting, self.rating, self.face_load, shafts)
 
 
 def _require_pair(tables: Mapping[str, Any], where: Where) -> None:

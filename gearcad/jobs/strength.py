@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypedDict, Unpack
 
 from gearcad.check.columns import check_columns
-from gearcad.check.options import CheckOptions
+from gearcad.check.options import CheckOptions, Model
 from gearcad.check.result import CheckResult, check_document, reported_document
 from gearcad.check.run import check_pair, expected_check
 from gearcad.check.task import CheckTask
@@ -67,8 +67,11 @@ class Check(ReportedJob[PairDesign, CheckResult]):
 
     def _task(self, design: PairDesign) -> CheckTask:
         """Return the task of the design, by the model of the job if it has one."""
+        return design.check_task(_NO_LOAD, self._options(design))
+
+    def _options(self, design: PairDesign) -> CheckOptions:
         options = design.check or CheckOptions()
-        return design.check_task(_NO_LOAD, options if self.model is None else replace(options, model=self.model))
+        return options if self.model is None else replace(options, model=self.model)
 
     def document(self, result: CheckResult) -> JsonObject:
         """Return the content of check.json.
@@ -79,6 +82,11 @@ class Check(ReportedJob[PairDesign, CheckResult]):
 
     def notices(self, result: CheckResult) -> Sequence[Notice]:
         return result.all_notices
+
+    def design_notices(self, design: Design) -> Sequence[Notice]:
+        """Return the notices of a design; solid bodies sit on its shafts."""
+        on_shafts = isinstance(design, PairDesign) and self._options(design).model_for(design.pair) is Model.SOLID
+        return [each for each in super().design_notices(design) if not (on_shafts and each.code == RIGID_SHAFTS)]
 
     def conclusion(self, name: str, result: CheckResult) -> str:
         return f"{name} at {result.torque:g} N·m: {result.verdict}"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gearcad.check.on_shafts import LoadOnShafts
 from gearcad.check.pictures import ToothSurface
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
 from gearcad.core.records import Floats, PerGear, Role
@@ -244,8 +245,19 @@ def plot_load_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
     mean = along.mean
     axes.axhline(mean, color=DARK, linestyle="--", linewidth=1.2, label=f"over the width: {short(mean)} N/mm")
     axes.axhline(factor * mean, color=DARK, linestyle=":", linewidth=1.2, label=rf"$K_{{H\beta}}$ = {factor:.3f}")
+    if (shafts := result.shafts) is not None:
+        axes.step(shafts.across, shafts.rigid_load, where="mid", color=PALE, label="on rigid shafts")
+        axes.plot(shafts.across, shafts.annex_e_load, color=SERIES[1], label="ISO 6336-1, annex E")
     axes.set_ylim(bottom=0)
     legend_above(axes, 3)
+    return axes
+
+
+def plot_gap_of_shafts(shafts: LoadOnShafts, ax: Axes | None = None) -> Axes:
+    """Gap that both shafts leave over the face under the load of the solid contact, from its least on."""
+    axes = prepared(ax, _ACROSS, "gap along the line of action in µm")
+    axes.plot(shafts.across, shafts.gap, color=SERIES[0], label="both shafts, under the load of the bodies")
+    legend_above(axes, 1)
     return axes
 
 

@@ -28,6 +28,7 @@ from gearcad.plots.check import (
     plot_convergence,
     plot_depth_profile,
     plot_fillets,
+    plot_gap_of_shafts,
     plot_harmonics,
     plot_line_loads,
     plot_lines_share,
@@ -478,6 +479,21 @@ class PlaneSections(CheckSections[PlaneCheck]):
         ]
 
 
+class FactorRow(NamedTuple):
+    """K_Hbeta by a model of the face, and f_sh (µm) where it has one."""
+
+    words: str
+    factor: str
+    deflection: str
+
+
+class ShaftRow(NamedTuple):
+    """A place of a shaft in the face: displacements (µm), inclinations (µm/mm) and twist (degrees)."""
+
+    words: str
+    numbers: list[str]
+
+
 class SolidSections(CheckSections[SolidCheck]):
     """Sections of the report on solid bodies over their face widths."""
 
@@ -504,15 +520,47 @@ class SolidSections(CheckSections[SolidCheck]):
             figure(f"Contact pattern, {role.value}", partial(plot_contact_pattern, of, role), "contact_pattern", "png", role)
             for role in Role
         ]
+        shafts = () if of.shafts is None else (of.shafts,)
         return [
             figure("Load over the plane of action", partial(plot_line_loads, of), "line_loads", "png"),
             *patterns,
             figure("Load along the face width", partial(plot_load_along_face, of), "load_along_face"),
+            *(figure("Gap that the shafts leave", partial(plot_gap_of_shafts, each), "gap_of_shafts") for each in shafts),
             figure("Root stress along the face width", partial(plot_root_along_face, of), "root_along_face"),
             figure("Load share", partial(plot_lines_share, of), "load_share"),
             *self.over_mesh,
             figure("Harmonics of the transmission error", partial(plot_harmonics, of), "harmonics"),
             *self.over_torque_and_mesh_size,
+        ]
+
+    @property
+    def shaft_factors(self) -> list[FactorRow]:
+        """Rows of K_Hbeta on shafts by the bodies, annex E and Method C; none of a pair on rigid shafts."""
+        if (of := self.result.shafts) is None:
+            return []
+        deflection, factor = of.method_c
+        return [
+            FactorRow("solid bodies on the shafts", f"{of.face_load_factor:.3f}", _NONE),
+            FactorRow("solid bodies on rigid shafts", f"{of.rigid_face_load_factor:.3f}", _NONE),
+            FactorRow(
+                "ISO 6336-1, annex E, on the shafts", f"{of.mesh.face_load_factor:.3f}", short(of.mesh.misalignment_of_shafts)
+            ),
+            FactorRow("ISO 6336-1, annex E, on rigid shafts", f"{of.annex_e_on_rigid_shafts:.3f}", _NONE),
+            FactorRow("ISO 6336-1, Method C, the shaft of [rating]", f"{factor:.3f}", short(deflection)),
+        ]
+
+    @property
+    def shaft_rows(self) -> list[ShaftRow]:
+        """Rows of the shafts in the face; none of a pair on rigid shafts."""
+        if (of := self.result.shafts) is None:
+            return []
+        return [
+            ShaftRow(
+                f"{role.value}, {short(place)} mm",
+                [short(value) for value in (*(1000 * moved[:3]), 1000 * moved[4], -1000 * moved[3], np.degrees(moved[5]))],
+            )
+            for role in of.states
+            for place, moved in of.face_states(role)
         ]
 
     @cached_property

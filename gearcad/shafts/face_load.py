@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from gearcad.core.complementarity import complementary
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats, JsonObject, PerGear, Role
 from gearcad.geometry import FlankModification, GearPair
+from gearcad.mounting import STATIONS, SupportCompliance
 from gearcad.shafts.beam import ShaftState, SteppedShaft
 
 _END_SLICES = 80
@@ -30,6 +32,16 @@ def require_modelled(pair: GearPair) -> None:
     if pair.double_helical:
         permitted = "must be left out: the load over the face of double helical gears on shafts is not modelled"
         raise GeometryError("pinion.double_helix.gap_width", pair.pinion.double_helix.gap_width, permitted, "mm")
+
+
+class _Support(NamedTuple):
+    """What a shaft does at stations: a part of a SupportCompliance."""
+
+    matrix: Floats
+    gap: Floats
+    turns: Floats
+    turned: float
+    slides: Floats
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,6 +161,55 @@ class FaceOnShafts:
             return moved if role is Role.WHEEL else -moved
 
         return PerGear.each(of)
+
+    def supports(self, stations: int = STATIONS) -> SupportCompliance:
+        """Return what both shafts do to a contact at any place of the flanks, by so many stations over the face."""
+        places = np.linspace(-self.width / 2, self.width / 2, stations)
+        parts = PerGear.each(lambda role: self._support(role, places))
+        return SupportCompliance(
+            stations=places,
+            matrices=parts.map(lambda part: part.matrix),
+            gaps=parts.map(lambda part: part.gap),
+            turns=parts.map(lambda part: part.turns),
+            turned=parts.map(lambda part: part.turned),
+            slides=parts.pinion.slides + parts.wheel.slides,
+            helix=math.radians(self.base_helix_angle),
+        )
+
+    def _support(self, role: Role, places: Floats) -> _Support:
+        """Return what the shaft of a gear does at places (k,) in mm from the middle of the face.
+
+        The lever of a place is r_b e_q + s m, e_q from the pinion's axis to T1, m along the line of action; of the wheel it is
+        the opposite of that, with its own base radius and roll length.
+        """
+        count, shaft, middle = len(places), self.shafts.pick(role), self.positions.pick(role)
+        if shaft is None:
+            return _Support(np.zeros((2 * count, 2 * count)), np.zeros(2 * count), np.zeros(2 * count), 0.0, np.zeros(2))
+        beam = replace(shaft, places=(*(middle + places).tolist(), middle))
+        d, side = self.direction, PerGear(-1.0, 1.0).pick(role)
+        m = d * [1.0, 1.0, 0.0]
+        square = self.sign * np.cross(m, [0.0, 0.0, 1.0])
+        pitch_radius, angle = self.pitch_radii.pick(role), math.radians(self.pressure_angle)
+        fixed = np.concatenate([d, -side * np.cross(pitch_radius * math.cos(angle) * square, d)])
+        by_length = np.concatenate([np.zeros(3), -side * np.cross(m, d)])
+        vectors, across = np.zeros((6 * len(beam.nodes), 2 * count)), np.zeros((6 * len(beam.nodes), count))
+        for number, place in enumerate((middle + places).tolist()):
+            first = 6 * beam.node_at(place)
+            vectors[first : first + 6, number], vectors[first : first + 6, count + number] = fixed, by_length
+            across[first : first + 3, number] = square
+        turn = np.zeros(len(vectors))
+        turn[6 * beam.node_at(middle) + 5] = fixed[5]
+        moved, unloaded = beam.compliance @ vectors, side * beam.solve().moved
+        matrix = vectors.T @ moved
+        shares = np.where(np.arange(count) % (count - 1), 1.0, 0.5) / (count - 1)
+        even = moved @ np.concatenate([shares, pitch_radius * math.sin(angle) * shares])
+        return _Support(
+            matrix=(matrix + matrix.T) / 2,
+            gap=vectors.T @ unloaded,
+            turns=turn @ moved,
+            turned=float(turn @ unloaded),
+            slides=np.array([np.polyfit(places, across.T @ each, 1)[0] for each in (unloaded, even)]),
+        )
 
     @cached_property
     def parts_per_newton(self) -> dict[str, Floats]:
@@ -301,14 +362,17 @@ class MeshOnShafts:
         every = sum(self.even_gaps.values(), np.zeros(self.slices))
         return float(np.polyfit(self.places, every, 1)[0] * self.width)
 
-    def state(self, role: Role) -> ShaftState | None:
-        """Return the shaft of a gear under the load over the face and its other forces; None of a rigid one."""
+    def state(self, role: Role, line_load: Floats | None = None) -> ShaftState | None:
+        """Return the shaft of a gear under the load over the face and its other forces; None of a rigid one.
+
+        The load is `line_load` (slices,) in N/mm if it is given, else that of the slices.
+        """
         shaft = self.shafts.pick(role)
         if shaft is None:
             return None
         beam = replace(shaft, places=(*shaft.places, *self.face.stations(role)))
-        sign = 1 if role is Role.WHEEL else -1
-        return beam.solve(sign * self.face.vectors(role, beam) @ self.line_load * self.width / self.slices)
+        sign, load = 1 if role is Role.WHEEL else -1, self.line_load if line_load is None else line_load
+        return beam.solve(sign * self.face.vectors(role, beam) @ load * self.width / self.slices)
 
     def to_dict(self) -> JsonObject:
         """Return f_sh under an even load, K_Hbeta, line loads (N/mm) and gaps (µm) slice by slice."""

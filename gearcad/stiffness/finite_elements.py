@@ -359,7 +359,8 @@ class SolidContact(ContactMethod):
         for line, cells in zip(found.given.lines, found.given.split(found.forces), strict=True):
             if cells.sum() > 0:
                 forces[line.tooth] = float(cells.sum()) * flat
-        return _Position(found.approach / flat, found.rigid / flat, found.parts.map(lambda part: part / flat), forces)
+        approach = found.approach - found.by_supports  # supports are no part of the stiffness of a mesh
+        return _Position(approach / flat, found.rigid / flat, found.parts.map(lambda part: part / flat), forces)
 
     def _single(self, torque: float) -> float:
         return self.model(torque).single_stiffness(torque)

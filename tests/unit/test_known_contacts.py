@@ -14,9 +14,6 @@ from gearcad.contact.plane.pair import KnownContacts, PlanePair, solve_contact
 from gearcad.contact.shared.line_of_action import TransverseFlank
 from gearcad.contact.shared.local_contact import (
     GapCurve,
-    _cell_by_cell,
-    _positive,
-    complementary,
     onsets,
     press,
     rounded_kink_pressure,
@@ -25,6 +22,7 @@ from gearcad.contact.shared.local_contact import (
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.line_contact import LineSolution, gaps, plain_widths, solve_lines, start_distances
 from gearcad.contact.solid.pair import KnownResponses
+from gearcad.core.complementarity import _cell_by_cell, _positive, complementary
 from gearcad.core.records import Floats
 from gearcad.geometry import GearPair, ReliefShape
 from gearcad.stiffness import PlaneStrainContact

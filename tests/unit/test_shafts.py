@@ -1,6 +1,5 @@
 """Shafts on bearings: given cases, closed forms, balance, bearing life, and the load over the face of a mesh on its shafts."""
 
-import json
 import math
 import re
 from dataclasses import replace
@@ -9,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.shaft_cases import REFERENCE, mesh_of, shaft_of
 
 from gearcad import check, data
 from gearcad.batch.study import plan_study, write_study
@@ -16,7 +16,6 @@ from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecE
 from gearcad.core.records import PerGear, Role
 from gearcad.designs import PairDesign, ShaftDesign, open_table, read_spec
 from gearcad.designs.spec_writers import pair_text
-from gearcad.geometry import FlankModification, Gear, GearPair, profile_shift_sum
 from gearcad.jobs.shafts import Shafts
 from gearcad.load import Load
 from gearcad.shafts.arrangement import ShaftOptions, bearing_life
@@ -30,26 +29,8 @@ from gearcad.shafts.bearing_life import (
     opposed_axial_loads,
     reference_viscosity,
 )
-from gearcad.shafts.face_load import MeshOnShafts
 
-REFERENCE = json.loads((Path(__file__).parents[1] / "data" / "shafts.json").read_text(encoding="utf-8"))
 SHAFTS, MESHES = REFERENCE["shafts"], REFERENCE["meshes"]
-
-
-def shaft_of(inputs: dict[str, Any], stations: list[float] | None = None) -> SteppedShaft:
-    def plain(value: Any) -> Any:
-        return tuple(map(float, value)) if isinstance(value, list) else value if isinstance(value, str) else float(value)
-
-    parts: dict[str, list[Any]] = {
-        key: [kind(**{name: plain(value) for name, value in each.items()}) for each in inputs.get(key, [])]
-        for key, kind in (("segments", ShaftSegment), ("bearings", ShaftBearing), ("forces", ShaftForce))
-    }
-    return SteppedShaft(
-        **{key: tuple(each) for key, each in parts.items()},
-        coupling=float(inputs["coupling"]),
-        gravity=tuple(inputs.get("gravity", (0.0, 0.0, 0.0))),
-        places=tuple(stations or ()),
-    )
 
 
 def flat(document: Any) -> list[float]:
@@ -210,38 +191,6 @@ def test_a_life_says_what_it_lacks() -> None:
 
 
 # ---------------------------------------------------------------------- the mesh
-
-
-def mesh_of(inputs: dict[str, Any], **changed: Any) -> MeshOnShafts:
-    module, teeth, helix = inputs["normal_module"], inputs["teeth"], inputs["helix_angle"]
-    distance = inputs.get("centre_distance")
-    shift = 0.0
-    if distance is not None:
-        shift = profile_shift_sum(
-            normal_module=module, teeth=PerGear(*teeth), helix_angle=helix, pressure_angle=20.0, centre_distance=distance
-        )
-    gears = [
-        Gear(
-            teeth=z,
-            normal_module=module,
-            helix_angle=sign * helix,
-            face_width=inputs["width"],
-            profile_shift=shift / 2,
-            modification=FlankModification(lead_crowning=crowning),
-        )
-        for z, sign, crowning in zip(teeth, (1, -1), (inputs.get("crowning", 0.0), 0.0), strict=True)
-    ]
-    pair = GearPair(pinion=gears[0], wheel=gears[1], **({} if distance is None else {"centre_distance": distance}))
-    given = {
-        "torque": inputs["torque"],
-        "shafts": PerGear(shaft_of(inputs["pinion"]), shaft_of(inputs["wheel"])),
-        "positions": PerGear(inputs["pinion"]["mesh_position"], inputs["wheel"]["mesh_position"]),
-        "mesh_angle": inputs["mesh_angle"],
-        "stiffness": inputs["stiffness"],
-        "slices": inputs["slices"],
-        "misalignment": inputs.get("misalignment", 0.0),
-    }
-    return MeshOnShafts(pair=pair, **{**given, **changed})
 
 
 @pytest.mark.parametrize("case", MESHES, ids=lambda case: case["name"])

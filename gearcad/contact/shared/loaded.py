@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from operator import attrgetter, itemgetter
 from typing import Any, Generic, Self, TypeAlias, TypeVar
@@ -463,6 +463,8 @@ class LoadedPosition(ABC, Generic[C]):
     `rigid_approach` (mm) is what of the approach needs no load: until teeth touch whose flanks are modified or out of place.
     `force` is the normal force in the transverse section (N per mm of common face width), `torques` (N·m) act on the hubs.
     `tension` and `compression` are the greatest of the roots, `bore_tension` (MPa) that of a bore that nothing keeps round.
+    `support_approach` (mm) is the part of the approach by which the supports of the gears give way under load, `support_turn`
+    (mm) that of their twist up to the middles of the faces.
     """
 
     roll_angle: float
@@ -475,6 +477,8 @@ class LoadedPosition(ABC, Generic[C]):
     compression: PerGear[RootStress]
     bore_tension: PerGear[float | None]
     torques: PerGear[float]
+    support_approach: float = field(default=0.0, kw_only=True)
+    support_turn: float = field(default=0.0, kw_only=True)
 
     @property
     def torque_ratios(self) -> PerGear[float]:
@@ -487,13 +491,13 @@ class LoadedPosition(ABC, Generic[C]):
 
     @property
     def stiffness(self) -> float:
-        """Stiffness (N/(mm·µm)): normal force over the approach under load, per mm of common face width."""
-        return self.force / ((self.approach - self.rigid_approach) * 1000)
+        """Stiffness (N/(mm·µm)) of teeth and bodies: normal force over the approach under load, per mm of common face width."""
+        return self.force / ((self.approach - self.rigid_approach - self.support_approach) * 1000)
 
     @property
     def transmission_error(self) -> float:
-        """Transmission error (µm) along the line of action: the lag of the wheel."""
-        return self.approach * 1000
+        """Transmission error (µm) along the line of action: the lag of the wheel, between the middles of the faces."""
+        return (self.approach - self.support_turn) * 1000
 
     @property
     @abstractmethod

@@ -163,6 +163,8 @@ class SolidCycle(LoadedCycle[SolidPair, SolidPosition, SolidPairContact]):
             compression=PerGear.each(lambda role: _compression(model.fillets.pick(role).behind, loads.pick(role))),
             bore_tension=PerGear.each(lambda role: _bore_tension(model.fillets.pick(role).bore, loads.pick(role))),
             torques=PerGear.each(lambda role: _hub_torque(model.bodies.pick(role), contacts, role)),
+            support_approach=solution.by_supports / flat,
+            support_turn=solution.turn_of_supports / flat,
         )
 
     def contacts_at(self, angle: float) -> tuple[SolidPairContact, ...]:

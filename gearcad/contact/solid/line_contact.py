@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
@@ -27,7 +27,7 @@ from gearcad.core.complementarity import complementary
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Bools, Floats, PerGear, Role, Wholes
 from gearcad.geometry import Gear, GearPair
-from gearcad.mounting import Mounting
+from gearcad.mounting import Mounting, SupportCompliance, SupportedCells
 from gearcad.rating.contact_stress import half_width, peak_pressure
 
 if TYPE_CHECKING:
@@ -51,7 +51,8 @@ class ContactLine:
     of action (mm from T1), `places` on both flanks, `lengths` (n,) of the cells in mm, `aside` (n,) in mm how far beside the
     line of action the flanks are nearest (0 on the line of contact, else an edge touches), `gap` (n,) the transverse gap of the
     exact involutes in mm, `points` (n, 3) on the pinion's flank, `slope` (mm per mm) that of `nominal` over `across`. `edges`
-    are the forces of the cells (n,), as they lie in the transverse section.
+    are the forces of the cells (n,), as they lie in the transverse section. `supported` (n,) is the gap along the normal that
+    the supports of the gears leave without load, in mm.
     """
 
     tooth: int
@@ -65,6 +66,7 @@ class ContactLine:
     edge_distance: Floats
     slope: float
     edges: TipEdges
+    supported: Floats | float = 0.0
 
     @property
     def middle(self) -> float:
@@ -247,9 +249,9 @@ def line_gap(
 
 
 def turned_back(line: ContactLine, pair: GearPair, mounting: Mounting, helix: float) -> Floats:
-    """Return what a misalignment in the plane of action adds to the gap (n,) of the cells along the normal, in mm."""
+    """Return the gap (n,) of the cells along the normal by a misalignment in the plane of action and by supports, in mm."""
     turn = mounting.misalignment / 1000 / pair.common_width.width
-    result: Floats = turn * (line.across * math.cos(helix) - line.places.wheel[0] * math.sin(helix))
+    result: Floats = turn * (line.across * math.cos(helix) - line.places.wheel[0] * math.sin(helix)) + line.supported
     return result
 
 
@@ -356,7 +358,7 @@ class Responses:
     """Responses of both bodies at one position: `smooth` (n, n) normal displacements (mm/N) without the half-space's part.
 
     `apart` (n, n) are the distances (mm) of cells on the same flank, infinite on different ones; `lengths` (n,) of the cells
-    (mm); `modulus` E_r (MPa), 1/E_r = sum (1 - nu^2)/E.
+    (mm); `modulus` E_r (MPa), 1/E_r = sum (1 - nu^2)/E. `supports` are those of the gears, None for rigid ones.
     """
 
     lines: tuple[ContactLine, ...]
@@ -364,11 +366,21 @@ class Responses:
     apart: Floats
     lengths: Floats
     modulus: float
+    supports: SupportedCells | None = None
 
     @property
     def both(self) -> Floats:
-        """`smooth` of both bodies together (n, n)."""
-        return self.smooth.pinion + self.smooth.wheel
+        """`smooth` of both bodies together (n, n), and what their supports give way."""
+        bodies = self.smooth.pinion + self.smooth.wheel
+        return bodies if self.supports is None else bodies + self.supports.matrix
+
+    def on(self, supports: SupportCompliance) -> Responses:
+        """Return the same responses of gears whose supports give way."""
+        across = np.concatenate([line.across for line in self.lines])
+        lengths = PerGear.each(lambda role: np.concatenate([line.places.pick(role)[0] for line in self.lines]))
+        cells = supports.cells(across, lengths)
+        lines = tuple(replace(line, supported=gap) for line, gap in zip(self.lines, self.split(cells.gap), strict=True))
+        return replace(self, lines=lines, supports=cells)
 
     @cached_property
     def arms(self) -> Floats:
@@ -469,7 +481,8 @@ def _tilted(
 class LineSolution:
     """Forces (n,) in N of the cells, the approach along the normal (mm), and the pinion's and the wheel's parts of it.
 
-    `rigid` (mm) is what of the approach needs no load, `starts` are the cells beside the start of a linear relief.
+    `rigid` (mm) is what of the approach needs no load, `starts` are the cells beside the start of a linear relief. Of the
+    approach under load `by_supports` (mm) is the supports' part: the work of the forces on them, over their sum.
     """
 
     given: Responses
@@ -478,7 +491,26 @@ class LineSolution:
     approach: float
     rigid: float
     parts: PerGear[float]
+    by_supports: float = 0.0
     starts: StartCells | None = None
+
+    @property
+    def elastic(self) -> float:
+        """Approach by what teeth and bodies give way under load (mm)."""
+        return self.approach - self.rigid - self.by_supports
+
+    @property
+    def gap_of_supports(self) -> Floats:
+        """Gap (n,) along the normal that supports leave under load (mm)."""
+        if self.given.supports is None:
+            return np.zeros_like(self.forces)
+        return self.given.supports.gap + self.given.supports.matrix @ self.forces
+
+    @property
+    def turn_of_supports(self) -> float:
+        """Lag of the wheel along the normal by the twist of supports, up to the middles of the faces (mm)."""
+        supports = self.given.supports
+        return 0.0 if supports is None else float(supports.turns @ self.forces) + supports.turned
 
     @property
     def half_widths(self) -> Floats:
@@ -553,7 +585,8 @@ def solve_lines(given: Responses, gap: Gaps, force: float, like: Floats | None =
     forces = state.forces
     contact = float(forces @ state.kernel @ forces)
     parts = given.smooth.map(lambda matrix: float(forces @ matrix @ forces + contact / 2) / force)
-    return LineSolution(given, gap, forces, state.approach, float(gap.normal.min()), parts)
+    supports = 0.0 if given.supports is None else float(forces @ given.supports.matrix @ forces) / force
+    return LineSolution(given, gap, forces, state.approach, float(gap.normal.min()), parts, supports)
 
 
 @dataclass(frozen=True)

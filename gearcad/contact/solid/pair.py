@@ -29,7 +29,7 @@ from gearcad.material import Materials, of_both
 from gearcad.meshing.outline import MeshSizes
 from gearcad.meshing.quads import mesh_quads
 from gearcad.meshing.sector import SweptMesh, sweep
-from gearcad.mounting import Mounting
+from gearcad.mounting import MOST_DEVIATION, Mounting, SupportCompliance
 from gearcad.rating.contact_stress import reduced_modulus
 
 POSITION_SECONDS = 0.025
@@ -182,12 +182,14 @@ class KnownSolutions(dict[tuple[float, float, bool], LineSolution]):
 class SolidPair(FlexiblePair[SolidCompliance]):
     """A pair of bodies over their face widths, in contact along lines of `cells` over the common one.
 
-    Modifications and mounting may be changed by `remade`: the bodies are those of the exact gears. Left flanks carry.
+    Modifications and mounting may be changed by `remade`: the bodies are those of the exact gears. Left flanks carry. Bodies
+    are held rigidly where they sit on their `supports`, which give way as a whole; None stands for rigid ones.
     """
 
     mounting: Mounting
     cells: int
     fillets: PerGear[SolidFillets] = field(repr=False)
+    supports: SupportCompliance | None = field(default=None, repr=False)
     known: KnownResponses = field(default_factory=KnownResponses, repr=False)
     solved: KnownSolutions = field(default_factory=KnownSolutions, repr=False)
 
@@ -201,6 +203,10 @@ class SolidPair(FlexiblePair[SolidCompliance]):
     def with_flanks(self, pair: GearPair) -> SolidPair:
         """Return the same bodies with other modifications of an otherwise equal pair, as it is mounted."""
         return replace(self, pair=pair, line=line_of_action(pair), solved=KnownSolutions())
+
+    def on(self, supports: SupportCompliance | None) -> SolidPair:
+        """Return the same pair on other supports; what is known of its bodies is shared."""
+        return replace(self, supports=supports, solved=KnownSolutions())
 
     def let_go(self) -> None:
         """Keep no factors of the bodies: the next field of a tooth makes them again."""
@@ -236,12 +242,22 @@ class SolidPair(FlexiblePair[SolidCompliance]):
         for gear in self.pair.gears:
             form = gear.flank_form
             depths.append(np.ptp(form.depth(np.linspace(form.first, form.last, 25), np.linspace(0, form.width, 25)[:, None])))
-        return sum(depths) + (abs(self.mounting.misalignment) + abs(self.mounting.pitch_error)) / 1000
+        out_of_place = (abs(self.mounting.misalignment) + abs(self.mounting.pitch_error)) / 1000
+        return sum(depths) + out_of_place + (0.0 if self.supports is None else self.supports.greatest_gap)
+
+    def _mounted(self, torque: float) -> Mounting:
+        """Return the mounting with what supports slide the wheel square to the plane of action at a torque (N·m)."""
+        if self.supports is None:
+            return self.mounting
+        slid = 1000 * self.width * self.supports.slide(self.force(torque) * self.width)
+        most = MOST_DEVIATION - abs(self.mounting.misalignment_across)
+        return replace(self.mounting, misalignment_across=self.mounting.misalignment_across + max(min(slid, most), -most))
 
     def responses(self, roll_angle: float, farthest: float, *, single: bool = False) -> Responses:
         """Return the responses of the bodies for the contact at a roll angle (deg).
 
-        It has cells where the exact flanks are nearer than `farthest` (mm). Raises GeometryError where nothing can touch.
+        It has cells where the exact flanks are nearer than `farthest` (mm), and what supports add. Raises GeometryError where
+        nothing can touch.
         """
         key = (round(roll_angle, 9), farthest, single)
         if (found := self.known.get(key)) is None:
@@ -251,7 +267,7 @@ class SolidPair(FlexiblePair[SolidCompliance]):
             if not lines:
                 raise GeometryError("roll_angle", roll_angle, "must be an angle at which teeth can touch", "deg")
             found = self.known[key] = responses(lines, self.bodies, self.modulus)
-        return found
+        return found if self.supports is None else found.on(self.supports)
 
     def solve(self, roll_angle: float, torque: float, *, single: bool = False) -> LineSolution:
         """Return the contact at a roll angle (deg) and torque (N·m); `single` lets no other pair of teeth touch.
@@ -265,13 +281,15 @@ class SolidPair(FlexiblePair[SolidCompliance]):
 
     def _solved(self, roll_angle: float, torque: float, single: bool) -> LineSolution:
         self.require_narrow_contact(torque, self.modulus)
-        force, farthest = self.force(torque), self.farthest(torque)
+        force, farthest, mounting = self.force(torque), self.farthest(torque), self._mounted(torque)
         while True:
             given = self.responses(roll_angle, farthest, single=single)
-            gap = gaps(given.lines, self.pair, self.mounting, self.helix)
+            gap = gaps(given.lines, self.pair, mounting, self.helix)
             found = solve_lines(given, gap, force * self.width / math.cos(self.helix))
-            found = press_starts(self.pair, self.line, self.mounting, self.helix, found)
-            if found.approach - found.rigid + self._deviation < farthest * math.cos(self.helix):
+            found = press_starts(self.pair, self.line, mounting, self.helix, found)
+            # What supports move all cells alike brings no others into contact.
+            alike = 0.0 if given.supports is None else float((given.supports.matrix @ found.forces).min())
+            if found.approach - found.rigid - alike + self._deviation < farthest * math.cos(self.helix):
                 self._require_in_range(found, torque)
                 return found
             farthest *= 2
@@ -304,7 +322,7 @@ class SolidPair(FlexiblePair[SolidCompliance]):
         solved = (self.solve(angle, torque, single=True) for angle in self.roll_angle(lengths).tolist())
         # Transverse: F cos(beta_b) over the approach delta/cos(beta_b), per mm of width.
         factor = math.cos(self.helix) / 1000
-        return max(self.force(torque) * factor / (each.approach - each.rigid) for each in solved)
+        return max(self.force(torque) * factor / each.elastic for each in solved)
 
 
 def solid_pair(
