@@ -295,7 +295,7 @@ def draw_pair(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, Par
         words=words,
         rows=rows,
         table_title=words["assembly.data"],
-        notes=tuple(_pair_remarks(drawn, words)),
+        notes=tuple(pair_remarks(drawn, words)),
         parts=pair_items(drawn, options, parts or {}, words),
     )
     sheet = AssemblySheet(
@@ -307,10 +307,10 @@ def draw_pair(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, Par
         extent=max(places.front.width, places.front.height, places.extent.width),
         mass=mass_of_pair(drawn),
     )
-    return sheet.drawn(NAME, tuple(_pair_notices(pair)))
+    return sheet.drawn(NAME, tuple(pair_notices(pair)))
 
 
-def _pair_remarks(drawn: DrawnPair, words: SheetWords) -> Iterator[str]:
+def pair_remarks(drawn: DrawnPair, words: SheetWords) -> Iterator[str]:
     """Yield notes on the views: pitch circles that differ from the reference circles, and an outside diameter that is
     assumed.
     """
@@ -328,7 +328,8 @@ def _pair_remarks(drawn: DrawnPair, words: SheetWords) -> Iterator[str]:
         yield words["assembly.note_rim"].format(item=2)
 
 
-def _pair_notices(pair: GearPair | RackPair) -> Iterator[Notice]:
+def pair_notices(pair: GearPair | RackPair) -> Iterator[Notice]:
+    """Yield notices of the sheet of a pair: distances without limits, and an outside diameter that is assumed."""
     if isinstance(pair, RackPair):
         yield Notice(
             "no-limits",

@@ -13,6 +13,7 @@ from gearcad.geometry.spline_part import Spline
 from gearcad.material import Material, MaterialGroup, grade_of
 from gearcad.planetary import PlanetaryTrain
 from gearcad.rating.tolerances import Accuracy
+from gearcad.solids.shaft_plan import SeatedShaft
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,11 +56,12 @@ class DrawnGear:
 
 @dataclass(frozen=True, kw_only=True)
 class DrawnPair:
-    """A pair by its name, and its two parts: the pinion, then what it meshes with (wheel, ring or rack)."""
+    """A pair by its name, its two parts: the pinion, then what it meshes with (wheel, ring or rack), and their shafts."""
 
     name: str
     pair: GearPair | RackPair
     parts: tuple[DrawnGear, DrawnGear]
+    shafts: tuple[SeatedShaft, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -43,9 +43,10 @@ from gearcad.drawing.gear_sheet import Drawing, DrawingSheet, draw_gear
 from gearcad.drawing.mould_sheet import MOULD, draw_mould, is_moulded
 from gearcad.drawing.options import SCALES, DrawingOptions, PartDrawing, SheetSize
 from gearcad.drawing.page_export import unshown, write_pdf, write_svg
+from gearcad.drawing.shaft_sheet import DrawnShaft, draw_shaft, draw_shafted_pair
 from gearcad.drawing.tool_sheet import draw_tool
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
-from gearcad.jobs.build import products_of, require_bodies
+from gearcad.jobs.build import products_of, require_bodies, seated_shafts
 from gearcad.jobs.job import Job, Subject, Writer, as_design
 from gearcad.load import Load
 from gearcad.material import Material
@@ -86,10 +87,15 @@ def drawn_assembly(design: ToothedDesign) -> DrawnPair | DrawnTrain | None:
     """Return the pair or train that the gears of a design make, or None for a single gear or rack."""
     if isinstance(design, PairDesign | RackPairDesign):
         first, second = drawn_gears(design)
-        return DrawnPair(name=design.name, pair=design.pair, parts=(first, second))
+        return DrawnPair(name=design.name, pair=design.pair, parts=(first, second), shafts=seated_shafts(design))
     if isinstance(design, PlanetaryDesign):
         return DrawnTrain(name=design.name, train=design.train, parts=tuple(_gears_of_train(design)))
     return None
+
+
+def drawn_shafts(design: ToothedDesign) -> tuple[DrawnShaft, ...]:
+    """Return the shafts of a pair, each to be drawn by itself."""
+    return tuple(DrawnShaft.of(each) for each in seated_shafts(design))
 
 
 def _of_pair(
@@ -204,7 +210,8 @@ class Draw(Job[ToothedDesign, Drawing]):
                 yield draw_tool(gear, options)
             return
         own = {name: overridden(part, self.given) for name, part in design.drawings.items()}
-        names = [*([] if assembly is None else [ASSEMBLY]), *(gear.role for gear in gears)]
+        shafts = drawn_shafts(design)
+        names = [*([] if assembly is None else [ASSEMBLY]), *(gear.role for gear in gears), *(each.name for each in shafts)]
         if len(set(names)) < len(names):
             raise ParameterError("name", ASSEMBLY, "must be another word: the sheet of all gears has this name")
         if assembly is not None:
@@ -216,6 +223,9 @@ class Draw(Job[ToothedDesign, Drawing]):
                 yield draw_gear(gear, options, own.get(gear.role), alone=alone)
                 if is_moulded(gear):
                     yield draw_mould(gear, options, own.get(gear.role), alone=alone)
+        for shaft in shafts:
+            with _blaming(shaft.name):
+                yield draw_shaft(shaft, options, own.get(shaft.name))
 
     def document(self, result: Drawing) -> JsonObject:
         """Return the content of draw.json: the files of each sheet, and the unrounded values of the numbers on it."""
@@ -279,7 +289,10 @@ def overridden(options: Drawn, given: Mapping[str, Any]) -> Drawn:
 
 
 def _assembled(assembly: DrawnPair | DrawnTrain, options: DrawingOptions, own: Mapping[str, PartDrawing]) -> DrawingSheet:
-    sheet = draw_pair(assembly, options, own) if isinstance(assembly, DrawnPair) else draw_train(assembly, options, own)
+    if isinstance(assembly, DrawnPair):
+        sheet = (draw_shafted_pair if assembly.shafts else draw_pair)(assembly, options, own)
+    else:
+        sheet = draw_train(assembly, options, own)
     return replace(sheet, number=options.number)
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -10,13 +12,14 @@ from gearcad.core.errors import GearcadError
 from gearcad.designs import ToothedDesign
 from gearcad.drawing.drawing_subjects import DrawnGear, DrawnPair, DrawnTrain
 from gearcad.drawing.options import DrawingOptions
+from gearcad.drawing.shaft_sheet import DrawnShaft, shaft_title
 from gearcad.drawing.sheet_template import SheetTemplate
 from gearcad.drawing.words import SheetWords, kind_of, titled
 from gearcad.geometry import Gear, Rack
 from gearcad.geometry.bore_teeth import free_bore
-from gearcad.jobs.draw import ASSEMBLY, Draw, SheetFormat, drawn_assembly, drawn_gears
+from gearcad.jobs.draw import ASSEMBLY, Draw, SheetFormat, drawn_assembly, drawn_gears, drawn_shafts
 from gearcad.verification.claims import Claim, ClaimSubject, Judge, VerificationLevel
-from gearcad.verification.drawing_figures import gear_figures, material_words, pair_figures, train_figures
+from gearcad.verification.drawing_figures import TableFigure, gear_figures, material_words, pair_figures, train_figures
 from gearcad.verification.drawing_sheets import ExpectedSheet, judge_sheet
 from gearcad.verification.exact_parts import ExactPart
 from gearcad.verification.spline_figures import spline_figures
@@ -49,7 +52,8 @@ def judge_sheets(
         yield Judge(ClaimSubject.DRAWING, VerificationLevel.FILES, design.name, "ezdxf").not_judged("drawings", reason)
         return
     gears, assembly = drawn_gears(design), drawn_assembly(design)
-    names = [*([] if assembly is None else [ASSEMBLY]), *(gear.role for gear in gears)]
+    shafts = {each.name: each for each in drawn_shafts(design)}
+    names = [*([] if assembly is None else [ASSEMBLY]), *(gear.role for gear in gears), *shafts]
     paths = {name: folder / ("drawing.dxf" if len(names) == 1 else f"drawing-{name}.dxf") for name in names}
     if not any(path.is_file() for path in paths.values()):
         judge = Judge(ClaimSubject.DRAWING, VerificationLevel.FILES, design.name, "ezdxf")
@@ -61,7 +65,10 @@ def judge_sheets(
             yield judge.holds("is there", False, place=f"no file {path.name}")
             continue
         try:
-            expected = _expected(design, name, gears, assembly, exact, data)
+            if name in shafts:
+                expected = _of_shaft(design, shafts[name])
+            else:
+                expected = _expected(design, name, gears, assembly, exact, data)
             yield from judge_sheet(path, expected)
         except Exception as error:  # what a broken file does to a reader is not known beforehand
             said = f"{type(error).__name__}: {error}"
@@ -112,7 +119,7 @@ def _of_assembly(
     if isinstance(assembly, DrawnPair):
         heading, rows = words["assembly.data"], pair_figures(data, assembly.parts, words)
         masses = [each for part in assembly.parts if (each := _mass(part, exact)) is not None]
-        mass = sum(masses) if len(masses) == len(assembly.parts) else None
+        mass = sum(masses) + _mass_of_shafts(assembly) if len(masses) == len(assembly.parts) else None
         pair = data["pair"]
         sizes = {} if "mounting_distance" in pair else {"centre distance": abs(pair["centre_distance"])}
     else:
@@ -122,6 +129,54 @@ def _of_assembly(
     return ExpectedSheet(
         heading=heading, rows=rows, title=title, sizes=sizes, decimal_mark=options.language.decimal_mark, mass=mass
     )
+
+
+def _mass_of_shafts(assembly: DrawnPair) -> float:
+    """Mass (kg) of the shafts of a pair, without what is within a gear that is one piece with its shaft."""
+    found = 0.0
+    for each in assembly.shafts:
+        within = (each.low - each.z, each.high - each.z) if each.one_piece else (0.0, 0.0)
+        for part, (start, end) in zip(each.shaft.segments, pairwise(each.shaft.ends), strict=True):
+            inside = max(min(end, within[1]) - max(start, within[0]), 0.0)
+            found += part.density * part.area * (end - start - inside) * _PER_CUBIC_MILLIMETRE
+    return found
+
+
+def _of_shaft(design: ToothedDesign, drawn: DrawnShaft) -> ExpectedSheet:
+    """What the sheet of a shaft must show."""
+    options = (design.drawing or DrawingOptions()).of_part(design.drawings.get(drawn.name), alone=drawn.seated is None)
+    words = SheetTemplate.of(options.template).words(options.language)
+    shaft, toothed = drawn.given, drawn.toothed is not None
+    figures = {"length": shaft.length, "coupling": shaft.coupling}
+    if drawn.seated is not None:
+        figures["mesh_position"] = drawn.seated.position
+    rows = [TableFigure(words=words[f"shafts.{key}"], values=((value, 0),)) for key, value in figures.items()]
+    for number, bearing in enumerate(shaft.bearings, 1):
+        label = f"{words['shafts.bearing_position']} {bearing.name or number}"
+        rows.append(TableFigure(words=label, values=((bearing.position, 0),)))
+    within = (
+        None if drawn.seated is None or not toothed else (drawn.seated.low - drawn.seated.z, drawn.seated.high - drawn.seated.z)
+    )
+    sizes = {"length": shaft.length}
+    for number, (each, ends) in enumerate(zip(drawn.plan.shaft.segments, pairwise(drawn.plan.shaft.ends), strict=True)):
+        if within is None or not (within[0] - _END < ends[0] and ends[1] < within[1] + _END):
+            sizes[f"diameter of segment {number + 1}"] = each.outer_diameter
+            if each.inner_diameter and not toothed:
+                sizes[f"bore of segment {number + 1}"] = each.inner_diameter
+    return ExpectedSheet(
+        heading=words["shafts.data"],
+        rows=rows,
+        title=options.title or shaft_title(drawn.seated, words),
+        sizes=sizes,
+        decimal_mark=options.language.decimal_mark,
+        mass=None
+        if toothed
+        else math.fsum(each.density * each.area * each.length for each in drawn.plan.shaft.segments) * _PER_CUBIC_MILLIMETRE,
+    )
+
+
+_END = 1e-6
+"""Distance (mm) up to which ends of segments are those of a gear."""
 
 
 def _mass(drawn: DrawnGear, exact: Mapping[str, ExactPart]) -> float | None:

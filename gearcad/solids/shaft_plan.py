@@ -125,8 +125,8 @@ def diameters_within(shaft: SteppedShaft, low: float, high: float) -> list[float
 class SeatedShaft:
     """A shaft of a gear of a pair: its `role`, the shaft as its spec has it, its gear, and where it stands in the assembly.
 
-    `x` is the position of its axis, `z` that of its left end, `low` and `high` are the ends of its gear with hubs, all in mm;
-    it is turned with its gear by `rotation` (degrees).
+    `x` is the position of its axis, `z` that of its left end, `low` and `high` are the ends of its gear with hubs,
+    `middle` is that of the common face, all in mm; it is turned with its gear by `rotation` (degrees).
     """
 
     role: Role
@@ -136,7 +136,28 @@ class SeatedShaft:
     z: float
     low: float
     high: float
+    middle: float
     rotation: float = 0.0
+
+    @property
+    def position(self) -> float:
+        """Position of the middle of the common face on the shaft (mm from its left end)."""
+        return self.middle - self.z
+
+    @property
+    def one_piece(self) -> bool:
+        """Whether gear and shaft are one piece: the gear has no bore."""
+        return not self.gear.body.bore and bool(self.within)
+
+    @property
+    def own_mass(self) -> float:
+        """Mass (kg) of what is not within a gear that is one piece with it."""
+        if not self.one_piece:
+            return self.plan.mass
+        low, high = self.low - self.z, self.high - self.z
+        spans = zip(self.given.segments, pairwise(self.given.ends), strict=True)
+        outside = ((each, end - start - max(0.0, min(end, high) - max(start, low))) for each, (start, end) in spans)
+        return 1e-9 * math.fsum(each.density * each.area * length for each, length in outside)
 
     @property
     def name(self) -> str:
@@ -234,5 +255,5 @@ def pair_shafts(pair: GearPair, shafts: PerGear[SteppedShaft | None], positions:
             gear, (x, z, turn) = pair.gears.pick(role), places.pick(role)
             back, front = gear.body.hub_ends
             start = middle - positions.pick(role)
-            found.append(SeatedShaft(role, shaft, gear, x, start, z - back, z + gear.face_width + front, turn))
+            found.append(SeatedShaft(role, shaft, gear, x, start, z - back, z + gear.face_width + front, middle, turn))
     return tuple(found)

@@ -454,7 +454,7 @@ _ROUNDING = 1e-6
 _SLANTS = (6.0, -6.0, 12.0, -12.0, 20.0, -20.0)
 """Distances of a ring from its dot along its side: leaders should be neither level nor upright."""
 
-_SIDES = ((Side.LEFT, Side.ABOVE), (Side.LEFT,), (Side.ABOVE,), (Side.LEFT, Side.RIGHT, Side.ABOVE), (Side.RIGHT,))
+BALLOON_SIDES = ((Side.LEFT, Side.ABOVE), (Side.LEFT,), (Side.ABOVE,), (Side.LEFT, Side.RIGHT, Side.ABOVE), (Side.RIGHT,))
 
 _PLACES = ((0.5, 0.5), (0.25, 0.5), (0.75, 0.5), (0.5, 0.75), (0.5, 0.25), (0.1, 0.5), (0.9, 0.5))
 """Positions of a dot in the box of an area, over width and height."""
@@ -471,13 +471,16 @@ def dots(areas: Sequence[Polygon], across: Across) -> tuple[Point, ...]:
     return tuple(found)
 
 
-def balloons(parts: Mapping[int, Sequence[Point]], around: Box) -> Iterator[Figure]:
+def balloons(
+    parts: Mapping[int, Sequence[Point]], around: Box, sides: Sequence[Sequence[Side]] = BALLOON_SIDES
+) -> Iterator[Figure]:
     """Yield all item numbers of a view beside its outlines, in rows that clear each other, in each possible arrangement, best
     first.
 
-    `parts` has points on each part by its item number, `around` is the box of the outlines.
+    `parts` has points on each part by its item number, `around` is the box of the outlines, `sides` are the sides on which
+    the rows may be, best first.
     """
-    ways = (_in_rows(parts, around, *way) for way in product(_OUT, _SIDES, _SLANTS))
+    ways = (_in_rows(parts, around, *way) for way in product(_OUT, sides, _SLANTS))
     crossing: list[tuple[int, list[_Balloon]]] = []
     for way in (way for way in ways if not _hit(way)):
         if crossings := _crossings(way):
