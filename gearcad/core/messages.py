@@ -79,11 +79,24 @@ class _Template:
 
     def values(self, text: str) -> tuple[str, ...] | None:
         """Return what stands in the holes of a text; None for a text of another template."""
+        if not self._has_pieces(text):
+            return None
         if not self._patterns:
             ways = (_FURTHER, _ANY) if "" in self.pieces[1:-1] else (_ANY,)
             self._patterns = tuple(re.compile(self._pattern(way), re.DOTALL) for way in ways)
         found = next((match for each in self._patterns if (match := each.fullmatch(text))), None)
         return found.groups() if found else None
+
+    def _has_pieces(self, text: str) -> bool:
+        """Return whether a text has the pieces between the holes, in their order: few others need the patterns."""
+        if not (text.startswith(self.pieces[0]) and text.endswith(self.pieces[-1])):
+            return False
+        at = 0
+        for piece in self.pieces:
+            if (found := text.find(piece, at)) < 0:
+                return False
+            at = found + len(piece)
+        return True
 
     def _pattern(self, beside: str) -> str:
         """Return the regular expression of the template; `beside` is that of a hole right behind another."""

@@ -15,7 +15,7 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
 
-__all__ = ["MM_PER_INCH", "ShownUnit", "UnitSystem", "inch_units", "module_of_pitch", "shown_unit"]
+__all__ = ["MM_PER_INCH", "ShownUnit", "UnitSystem", "inch_units", "measures_in", "module_of_pitch", "shown_unit"]
 
 MM_PER_INCH = 25.4
 """Millimetres of an inch, exact (ISO 80000-3)."""
@@ -146,3 +146,48 @@ def shown_unit(system: UnitSystem, unit: str, key: str = "") -> ShownUnit | None
 def inch_units() -> Mapping[str, ShownUnit]:
     """Return the units that stand in place of those of the documents, by the latter, where inches are shown."""
     return _INCHES
+
+
+_FEWEST_DIGITS = 4
+"""Least number of significant digits of a number that a message has in inches; it has at least one more than in mm."""
+
+_OF_TEXT = r"[-+±−]?\d+(?:[.,]\d+)?(?:e[-+]?\d+)?"
+_JOINTS, _BOUNDS = ("to", "and", "or", "bis", "und", "oder", "…", "/"), ("at most", "below", "höchstens", "unter")
+_BETWEEN = rf" (?:{'|'.join(_JOINTS)})(?: (?:{'|'.join(_BOUNDS)}))? "
+_UNITS_OF_TEXT = "|".join(map(re.escape, sorted(_INCHES, key=len, reverse=True)))
+_MEASURE = re.compile(
+    rf"(?P<quoted>(?<!\w)'[^']*'(?!\w)|\"[^\"]*\"|`[^`]*`)"
+    rf"|(?<![\w.,/:-])(?P<numbers>{_OF_TEXT}(?:{_BETWEEN}{_OF_TEXT})*) (?P<unit>{_UNITS_OF_TEXT})(?![\w/·²³])"
+)
+"""A text in quotation marks, or numbers of one unit in a message: `12.5 mm`, `0.1 to 4 mm`, `above 3 and at most 5 mm`."""
+
+_OF_MODULE = re.compile(r"(?:_module|[Mm]odul[se]?)(?: of| von| =)? $")
+_OF_MODULE_KEY = re.compile(r"(?:_module|\bmodule) = [^;]*$")
+"""Texts before a number that is a module, and before one that is permitted for a module: modules stay in mm."""
+
+
+def measures_in(system: UnitSystem, text: str, *, comma: bool = False) -> str:
+    """Return a message whose numbers with a unit are in the units of a system; modules stay in mm.
+
+    `comma`: numbers that are converted have a decimal comma.
+    """
+
+    def shown_measure(found: re.Match[str]) -> str:
+        before = text[: found.start()]
+        if found["quoted"] or _OF_MODULE.search(before) or _OF_MODULE_KEY.search(before):
+            return found[0]
+        unit = _INCHES[found["unit"]]
+        told = re.sub(_OF_TEXT, lambda number: _measure_text(number[0], unit), found["numbers"])
+        return f"{told.replace('.', ',') if comma else told} {unit.name}"
+
+    return text if system is UnitSystem.METRIC else _MEASURE.sub(shown_measure, text)
+
+
+def _measure_text(text: str, unit: ShownUnit) -> str:
+    """Return a number of a message in another unit, with the sign that it has."""
+    plain = text.lstrip("±").replace("−", "-").replace(",", ".")
+    exact, own = unit.shown(plain), len(re.sub(r"e.*|[^0-9]", "", plain).lstrip("0"))
+    digits = max(own + 1, _FEWEST_DIGITS)
+    rounded = _plain(float(f"{unit.of(float(plain)):.{digits}g}"))
+    found = ("±" if text.startswith("±") else "") + min(exact, rounded, key=len)
+    return found.replace("-", "−") if text.startswith("−") else found

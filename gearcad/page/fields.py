@@ -372,6 +372,10 @@ class LimitMap:
         return (self.across, self.up, *self.others)
 
 
+LIMITED = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK_PAIR)
+"""Kinds of designs that have a shift diagram."""
+
+
 def limit_map(design: Design, tables: Mapping[str, Any]) -> LimitMap | None:
     """The shift diagram of a design, whose spec has these tables; None for a kind that has none."""
     try:

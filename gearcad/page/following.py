@@ -28,8 +28,7 @@ class Tabs:
         with (
             ui.tabs(on_change=lambda event: self._choose(event.value)).props("dense no-caps align=left").classes("tabs") as row
         ):
-            for key, title in titles.items():
-                ui.tab(key, title)
+            self._titles = {key: ui.tab(key, title) for key, title in titles.items()}
         self._panes = {key: ui.element("div").classes("pane") for key in titles}
         self._row = row
         row.set_value(first)
@@ -37,6 +36,13 @@ class Tabs:
     def choose(self, key: str) -> None:
         """Show the contents under a key."""
         self._row.set_value(key)
+
+    def offer(self, offered: Mapping[str, bool]) -> None:
+        """Show or hide the titles of keys. If the chosen one is hidden, the first of all is chosen."""
+        for key, is_offered in offered.items():
+            self._titles[key].set_visibility(is_offered)
+        if not offered.get(self.chosen, True):
+            self.choose(next(iter(self._titles)))
 
     def on(self, key: str, do: Callable[[], None]) -> None:
         """Call a function each time that the contents under a key are shown again."""

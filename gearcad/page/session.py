@@ -12,11 +12,16 @@ from nicegui import background_tasks, ui
 
 from gearcad.core.units import UnitSystem, inch_units
 from gearcad.designs.keys import DesignKind
+from gearcad.designs.reader import kind_of
+from gearcad.designs.train_designs import TrainDesign
+from gearcad.jobs.draw import Draw
 from gearcad.page.components.elements import BarView
+from gearcad.page.fields import LIMITED
 from gearcad.page.folder import DESIGN, TAB
 from gearcad.page.following import Following, Tabs
 from gearcad.page.panels.compare import ComparePanel
 from gearcad.page.panels.drawing import DrawingPanel
+from gearcad.page.panels.drawn_data import stands_of
 from gearcad.page.panels.limits import LimitsPanel
 from gearcad.page.panels.modifications import ModificationsPanel
 from gearcad.page.panels.results import ResultsPanel
@@ -181,7 +186,8 @@ class Session:
                     right.on("tasks", self._tasks.follow)
                 with right.under("drawing"):
                     drawing = following.with_line(
-                        DrawingPanel(words, lambda: self._files.make("drawing-pdf")), lambda: right.chosen == "drawing"
+                        DrawingPanel(words, lambda: self._files.make("drawing-pdf"), self.change),
+                        lambda: right.chosen == "drawing",
                     )
                     following.band()
                     right.on("drawing", lambda: following.look(drawing))
@@ -333,10 +339,20 @@ class Session:
         self._runs.follow()
         self._results.follow()
         self._show_begin()
-        self._panels.classes(
-            **{"add" if self.bench.design.kind in (DesignKind.TRAIN, DesignKind.SHAFT) else "remove": "gearless"}
-        )
+        kind = kind_of(self.bench.tables) if design is None else design.kind
+        self._offer_tabs(kind)
+        self._panels.classes(**{"add" if self._is_gearless() else "remove": "gearless"})
         self._following.follow()
+
+    def _offer_tabs(self, kind: DesignKind) -> None:
+        """Offer the tabs that have content for a kind of design."""
+        self._left.offer({"limits": kind in LIMITED, "flanks": kind is DesignKind.PAIR})
+        self._right.offer({"drawing": kind in Draw.accepts})
+
+    def _is_gearless(self) -> bool:
+        """Return whether the last good design has no gears to show."""
+        design = self.bench.design
+        return design.kind is DesignKind.SHAFT or (isinstance(design, TrainDesign) and stands_of(design) is None)
 
     def _show_begin(self) -> None:
         """Show only the ways to begin while there is no design, and all panels from the first one on."""

@@ -13,7 +13,7 @@ from typing import Any
 
 from gearcad.core.messages import catalogue
 from gearcad.core.runtime import templates
-from gearcad.core.units import ShownUnit, UnitSystem, shown_unit
+from gearcad.core.units import ShownUnit, UnitSystem, measures_in, shown_unit
 
 __all__ = ["PageLanguage", "PageWords", "language_of"]
 
@@ -78,7 +78,12 @@ class PageWords:
 
     def unit(self, unit: str, key: str = "") -> ShownUnit:
         """Return the unit in which the page shows numbers that documents have in `unit`; `key` is that of the quantity."""
-        return shown_unit(self.units, unit, key) or ShownUnit(unit, Fraction(1))
+        shown = shown_unit(self.units, unit, key) or ShownUnit(unit, Fraction(1))
+        return shown._replace(name=self.unit_name(shown.name))
+
+    def unit_name(self, unit: str) -> str:
+        """Return the name of a unit in the language of the page."""
+        return "°" if unit == "deg" else self[unit]
 
     def measure(self, value: float, decimals: int, unit: str) -> str:
         """Return a number of the documents with its unit, as the page shows it; `decimals` are those in the documents."""
@@ -93,9 +98,10 @@ class PageWords:
         return _LONG_WORD.sub(lambda long: joint.sub(_SOFT_HYPHEN, long[0]), text)
 
     def message(self, english: str) -> str:
-        """Return a notice, reason, verdict or error in the language of the page."""
+        """Return a notice, reason, verdict or error in the language and the units of the page."""
         known = catalogue(self.language.value)
-        return english if known is None else known.text(english)
+        text = english if known is None else known.text(english)
+        return measures_in(self.units, text, comma=self.language is PageLanguage.GERMAN)
 
 
 @cache

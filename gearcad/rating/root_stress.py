@@ -359,6 +359,6 @@ def _generated(gear: Gear, rating: RootRating[float]) -> str:
         return f"{own}; the standard's formulas are of shaper cutters, not of a form root"
     if rating.formula is None:
         return f"{own}; the standard's formulas give no section here"
-    values = f"Y_F {rating.formula.form_factor:.4g}, Y_S {rating.formula.stress_correction_factor:.4g}"
-    here = f"instead of {rating.form_factor:.4g} and {rating.stress_correction_factor:.4g}"
-    return f"{own}; the formulas of 2006 have {values} {here}"
+    form, stress = rating.formula.form_factor, rating.formula.stress_correction_factor
+    here = f"{rating.form_factor:.4g} and {rating.stress_correction_factor:.4g}"
+    return f"{own}; the formulas of 2006 have Y_F {form:.4g}, Y_S {stress:.4g} instead of {here}"

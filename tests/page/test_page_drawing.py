@@ -39,7 +39,7 @@ def test_sheets_are_the_files_of_the_command(
 
 def test_a_train_has_no_drawing_and_the_page_says_so() -> None:
     found = drawn_sheets(read_spec(TEMPLATES / "train-2-stage.toml"))
-    assert found == ((), "This kind of design has no drawing.")
+    assert found == ((), "This kind of design has no drawing.", "")
 
 
 def test_they_are_drawn_beside_the_server() -> None:

@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from gearcad.core.units import ShownUnit, UnitSystem, shown_unit
+from gearcad.core.units import ShownUnit, UnitSystem, measures_in, shown_unit
 
 ROUND_TRIPS = 1000
 
@@ -101,3 +101,38 @@ def test_words_lists_and_half_typed_numbers() -> None:
     assert inch.stored("1.234,5") == "1.234,5"
     assert (inch.stored(""), inch.stored("-"), inch.stored("1e999999")) == ("", "-", "1e999999")
     assert inch.shown("100") == "3.937008"
+
+
+@pytest.mark.parametrize(
+    ("metric", "inches"),
+    [
+        (
+            "face_width = -25.4 mm: must be a number above 0 mm and at most 10000 mm",
+            "face_width = -1 in: must be a number above 0 in and at most 393.701 in",
+        ),
+        ("must be from 6 to 500 mm for a keyway", "must be from 0.2362 to 19.69 in for a keyway"),
+        ("must be above 12.3 and at most 15.0359 mm, the tip", "must be above 0.4843 and at most 0.5919646 in, the tip"),
+        ("tension 430 MPa at 200 N·m, 1450 rpm", "tension 62.37 ksi at 1770 lbf·in, 1450 rpm"),
+        ("a gap of ±12 µm, −2.54 mm", "a gap of ±472.4 µin, −0.1 in"),
+        (
+            "tooth_stiffness = 14.2 N/µm of one pair, 3 N/(mm·µm)",
+            "tooth_stiffness = 0.08108 lbf/µin of one pair, 0.4351 lbf/(in·µin)",
+        ),
+        (
+            "normal_module = 99 mm: must be at most 20 mm; the tip is at 12.7 mm",
+            "normal_module = 99 mm: must be at most 20 mm; the tip is at 0.5 in",
+        ),
+        ("22 teeth of module 1.25 mm on 30.48 mm", "22 teeth of module 1.25 mm on 1.2 in"),
+        ("its backlash is 0.254 mm, 0.08 normal modules", "its backlash is 0.01 in, 0.08 normal modules"),
+        ("face_width = '12 mm': must be a number", "face_width = '12 mm': must be a number"),
+        ("spec.toml line 12, column 3: 5 mm/s, N 30 x 1.25", "spec.toml line 12, column 3: 5 mm/s, N 30 x 1.25"),
+    ],
+)
+def test_messages_have_their_numbers_in_inches(metric: str, inches: str) -> None:
+    """By hand from NIST SP 811: 1 in = 25.4 mm, 1 ksi = 6.894757 MPa, 1 lbf·in = 0.1129848 N·m."""
+    assert measures_in(UnitSystem.METRIC, metric) == metric
+    assert measures_in(UnitSystem.INCH, metric) == inches
+
+
+def test_messages_in_inches_have_a_decimal_comma_where_the_page_has() -> None:
+    assert measures_in(UnitSystem.INCH, "über 12,7 und höchstens 25.4 mm", comma=True) == "über 0,5 und höchstens 1 in"

@@ -265,16 +265,19 @@ class RunsView(Element, component="gear_runs.js", esm={"gear-symbols": "symbols"
 
 
 class DrawingView(Element, component="gear_drawing.js"):
-    """Sheets of a drawing as pictures; calls `make` for a file with all of them. `words` are its own."""
+    """Sheets of a drawing as pictures; calls `make` for a file with all of them, and `speak` with the code of the language that
+    is chosen for them. `words` are its own.
+    """
 
-    def __init__(self, make: Callable[[], None], words: dict[str, str]) -> None:
+    def __init__(self, make: Callable[[], None], speak: Callable[[str], None], words: dict[str, Any]) -> None:
         super().__init__()
         self._props["words"] = words
         self.on("pdf", make)
+        self.on("language", lambda event: speak(str(event.args.get("code", ""))))
 
-    def show(self, sheets: Sequence[Mapping[str, Any]], why_not: str) -> None:
-        """Show sheets, each with its `name`, `title`, `paper` and `svg`, or say why there are none."""
-        self.run_method("show", list(sheets), why_not)
+    def show(self, sheets: Sequence[Mapping[str, Any]], why_not: str, language: str) -> None:
+        """Show sheets, each with its `name`, `title`, `paper` and `svg`, in a language, or say why there are none."""
+        self.run_method("show", list(sheets), why_not, language)
 
     def wait(self) -> None:
         """Tell that what is shown is of an older design."""

@@ -7,6 +7,7 @@ export default {
       <div v-if="sheets.length" class="sheet-tools" role="toolbar" :aria-label="words.title">
         <button v-for="(sheet, at) in sheets" :key="at" type="button" :aria-pressed="at === chosen" :title="sheet.title" @click="choose(at)">{{ sheet.name }}</button>
         <span class="rest"></span><small>{{ sheets[chosen]?.paper }}</small>
+        <label v-if="language" class="of-sheets">{{ words.language }} <select :value="language" @change="$emit('language', { code: $event.target.value })"><option v-for="[code, name] in words.languages" :key="code" :value="code">{{ name }}</option></select></label>
         <button type="button" :title="words.smaller" :aria-label="words.smaller" :disabled="zoom <= least" @click="scale(1 / step)">−</button>
         <button type="button" :title="words.larger" :aria-label="words.larger" :disabled="zoom >= most" @click="scale(step)">+</button>
         <button type="button" @click="fit">{{ words.fit }}</button>
@@ -18,9 +19,9 @@ export default {
       <img v-for="(other, at) in printed" :key="at" class="print-only" :src="other" alt="" />
     </section>`,
   props: { words: Object, dataStale: String },
-  emits: ["pdf"],
+  emits: ["pdf", "language"],
   data() {
-    return { sheets: [], addresses: [], chosen: 0, zoom: LEAST, whyNot: "", waiting: false, step: STEP, least: LEAST, most: MOST };
+    return { sheets: [], addresses: [], chosen: 0, zoom: LEAST, language: "", whyNot: "", waiting: false, step: STEP, least: LEAST, most: MOST };
   },
   computed: {
     address() {
@@ -35,12 +36,12 @@ export default {
     this.release();
   },
   methods: {
-    show(sheets, whyNot) {
+    show(sheets, whyNot, language) {
       const former = this.addresses;
       this.addresses = sheets.map(({ svg }) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })));
       this.sheets = sheets.map(({ name, title, paper }) => ({ name, title, paper }));
       this.chosen = Math.min(this.chosen, Math.max(sheets.length - 1, 0));
-      [this.whyNot, this.waiting] = [whyNot, false];
+      [this.whyNot, this.language, this.waiting] = [whyNot, language, false];
       setTimeout(() => former.forEach((each) => URL.revokeObjectURL(each)), 1000);
     },
     wait() {

@@ -116,6 +116,7 @@ export default {
         const extent = this.extent();
         this.view = { x: extent.x, y: extent.y, scale: 0.94 * Math.min(width / extent.width, height / extent.height) };
       }
+      this.fitted = true; // until somebody moves it
       this.draw();
     },
     place(body, turn) {
@@ -141,7 +142,7 @@ export default {
       if (!width || !height) return;
       const first = !this.sized;
       [canvas.width, canvas.height, this.sized] = [width * ratio, height * ratio, true];
-      if (first) this.fit();
+      if (first || this.fitted) this.fit();
       this.draw();
     },
     draw() {
@@ -350,10 +351,12 @@ export default {
       const [u, v] = [(x - canvas.clientWidth / 2) / this.view.scale, (canvas.clientHeight / 2 - y) / this.view.scale];
       const scale = Math.min(Math.max(this.view.scale * factor, 1e-3), 1e6);
       const kept = 1 - this.view.scale / scale;
+      this.fitted = false;
       this.view = { x: this.view.x + u * kept, y: this.view.y + v * kept, scale };
       this.draw();
     },
     pan(x, y) {
+      this.fitted = false;
       this.view = { ...this.view, x: this.view.x - x / this.view.scale, y: this.view.y + y / this.view.scale };
       this.draw();
     },

@@ -8,6 +8,8 @@ import { GearSymbol } from "gear-symbols";
 const decimal = (text) => (document.documentElement.lang === "de" ? text.replaceAll(".", ",") : text);
 const LIST = /^-?\d+([.]\d+)?([ :]-?\d+([.]\d+)?)+$/; // of numbers, or of lists of them
 
+const LONG = 18; // letters of a text that stands under its words
+
 const MOST = 3; // columns of gears beside each other
 
 const PHONE = "(max-width: 640px)";
@@ -15,7 +17,7 @@ const PHONE = "(max-width: 640px)";
 // One field. Its part of the page stays as it is while all that it is given does.
 const SpecField = {
   template: `
-    <div :data-key="field.key" class="field" :class="{ changed, wrong: !!fault, given: given !== undefined, cell, follows: why && !isNumber }">
+    <div :data-key="field.key" class="field" :class="{ changed, wrong: !!fault, given: given !== undefined, cell, long: isLong, follows: why && !isNumber }">
       <label v-if="!cell" :for="'in-' + field.key" :title="[field.words, field.source].filter(Boolean).join(' · ')"><span>{{ field.words }}</span><i v-if="field.symbol"><gear-symbol :parts="field.parts" /></i></label>
       <span class="box" :title="why || null" :data-gear="gear || null" :style="cell ? { gridColumn: 'span ' + cell } : null">
         <select v-if="field.choices.length" :id="'in-' + field.key" :value="draft ?? given ?? ''" :disabled="readonly" :aria-label="name"
@@ -44,6 +46,10 @@ const SpecField = {
   computed: {
     isNumber() {
       return this.given !== undefined && !Number.isNaN(Number(this.given));
+    },
+    // A long text stands under its words.
+    isLong() {
+      return !this.cell && !this.field.number && !this.field.choices.length && (this.given ?? "").length > LONG;
     },
     name() {
       return this.cell ? [this.field.words, this.gear].filter(Boolean).join(", ") : null;

@@ -103,7 +103,7 @@ def compared_rows(designs: Sequence[ComparedDesign], words: PageWords) -> list[d
                 "words": parts_of(words.divided(quantity_in(words, symbol.words))),
                 "gear": called(words, place[1]),
                 "symbol": symbol.parts,
-                "unit": "°" if symbol.unit == "deg" else symbol.unit,
+                "unit": words.unit_name(symbol.unit),
                 "source": clause_in(words, symbol.source),
                 "cells": [
                     {"text": "–" if cell is None else value_in(words, cell.text), "best": at in best}

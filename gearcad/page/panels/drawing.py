@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gearcad.core.errors import GearcadError
 from gearcad.designs.design import Design
@@ -30,6 +30,8 @@ class DrawnSheets(NamedTuple):
 
     sheets: tuple[DrawnSheet, ...] = ()
     why_not: str = ""
+    language: str = ""
+    """Code of the language of the sheets."""
 
 
 _NO_DRAWING = "This kind of design has no drawing."
@@ -55,25 +57,44 @@ def drawn_sheets(design: Design) -> DrawnSheets:
                 sheets.append(DrawnSheet(sheet["name"], sheet["title"], paper, path.read_text(encoding="utf-8")))
     except GearcadError as error:
         return DrawnSheets(why_not=str(error))
-    return DrawnSheets(tuple(sheets))
+    return DrawnSheets(tuple(sheets), language=_language_of(design))
+
+
+def _language_of(design: Design) -> str:
+    """Return the code of the language in which the sheets of a design are drawn, whatever the language of the page is."""
+    from gearcad.drawing.options import DrawingOptions
+
+    options = getattr(design, "drawing", None)
+    return (options if isinstance(options, DrawingOptions) else DrawingOptions()).language.value
 
 
 class DrawingPanel(Panel[DrawnSheets]):
-    """The sheets of the design, which follow it when the hand rests; calls `make` for the file with all of them."""
+    """The sheets of the design, which follow it when the hand rests; calls `make` for the file with all of them, and `change`
+    with the language that is chosen for them: a drawing has its own, which the page leaves as it is.
+    """
 
-    def __init__(self, words: PageWords, make: Callable[[], None]) -> None:
+    def __init__(self, words: PageWords, make: Callable[[], None], change: Callable[[Mapping[str, str]], None]) -> None:
+        from gearcad.drawing.words import Language
         from gearcad.page.components.elements import DrawingView  # only here: other processes need no NiceGUI
 
-        self._words = words
-        own = {
+        self._words, self._change, self._codes = words, change, {each.value for each in Language}
+        names = {Language.ENGLISH: words["English"], Language.GERMAN: words["German"], Language.SWEDISH: words["Swedish"]}
+        own: dict[str, Any] = {
             "title": words["Drawing"],
             "larger": words["larger"],
             "smaller": words["smaller"],
             "fit": words["all of it"],
             "pdf": words["drawing (PDF)"],
             "waiting": words["being computed"],
+            "language": words["language of the sheets"],
+            "languages": [(each.value, names[each]) for each in Language],
         }
-        self._view = DrawingView(make, own)
+        self._view = DrawingView(make, self._speak, own)
+
+    def _speak(self, code: str) -> None:
+        """Write the language of the sheets into the spec."""
+        if code in self._codes:
+            self._change({"drawing.language": code})
 
     def aside(self, design: Design) -> Callable[[Design], DrawnSheets]:
         return drawn_sheets
@@ -89,7 +110,7 @@ class DrawingPanel(Panel[DrawnSheets]):
         names = {"assembly": words["Assembly"]}
         sheets = [each._asdict() | {"name": names.get(each.name) or called(words, each.name)} for each in found.sheets]
         reasons = {_NO_DRAWING: words["This kind of design has no drawing."]}
-        self._view.show(sheets, reasons.get(found.why_not) or words.message(found.why_not))
+        self._view.show(sheets, reasons.get(found.why_not) or words.message(found.why_not), found.language)
 
     def clear(self) -> None:
-        self._view.show([], "")
+        self._view.show([], "", "")

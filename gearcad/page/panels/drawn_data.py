@@ -17,6 +17,7 @@ from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import RackDesign, SplineDesign, ToothedDesign
 from gearcad.designs.pair_designs import PairDesign, RackPairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
+from gearcad.designs.train_designs import TrainDesign
 from gearcad.geometry import Gear, Rack
 from gearcad.geometry.bore_teeth import bore_teeth
 from gearcad.geometry.curves import parameters_within
@@ -25,10 +26,11 @@ from gearcad.geometry.path_of_contact import PathOfContact
 from gearcad.geometry.spline_standards import HUB
 from gearcad.jobs.build import given_speeds, require_bodies
 from gearcad.jobs.planetary import planetary
+from gearcad.page.panels.train_stands import TrainGear, TrainStands, train_stands
 from gearcad.planetary.members import SetMesh
 from gearcad.planetary.train_data import shafts_of
 from gearcad.solids import FileOptions
-from gearcad.solids.body_plan import PART_COLOURS, STEEL, Colour
+from gearcad.solids.body_plan import PART_COLOURS, STAGE_COLOURS, STEEL, Colour
 from gearcad.solids.facets.tessellation import tessellate, tessellate_rack
 from gearcad.solids.files.train_products import section_angle, turns_of
 from gearcad.solids.train_plan import TrainLayout
@@ -286,10 +288,38 @@ def section_of(design: Design) -> dict[str, Any] | None:
         return train_section(design)
     if isinstance(design, SplineDesign):
         return _of_spline(design)
+    if isinstance(design, TrainDesign):
+        return _of_pairs(stands) if (stands := stands_of(design)) is not None else None
     if isinstance(design, ToothedDesign) and (gear := design.gears.get("gear")) is not None:
         body = body_of("gear", gear, STEEL, (0.0, 0.0), turns(gear, 0.0, 0.0), 1.0)
         return _content([body], [], _heights(gear), 2 * math.pi / gear.tooth_count)
     return None
+
+
+@of_last
+def stands_of(design: TrainDesign) -> TrainStands | None:
+    """Return where the gears of a train of pairs stand; None for a train without, or whose meshes make a circle."""
+    return train_stands(design)
+
+
+def _of_pairs(stands: TrainStands) -> dict[str, Any]:
+    """Return the section of a train of pairs: each gear is cut in the middle of its teeth, as all that mesh are."""
+    bodies, meshes = [], []
+    for each in stands.gears:
+        turned = [[0.0, each.rotation + float(section_turn(each.gear, np.array([each.cut - each.z]))[0])]]
+        place, colour = (each.axis.real, each.axis.imag), _colour_of(each)
+        bodies.append(body_of(each.name, each.gear, colour, place, turned, each.ratio, rest=each.rotation, slack=each.slack))
+    for stand in stands.pairs:
+        pair, angle = stand.pair, stand.pair.working_transverse_pressure_angle
+        drawn = mesh_of(pair.pinion, pair.path_of_contact, angle, pair.base_tangent.length)
+        meshes.append(drawn | {"of": list(stand.gears), "towards": stand.towards, "side": stand.side})
+    return _content(bodies, meshes, (0.0, 0.0), 2 * math.pi / stands.gears[0].gear.tooth_count)
+
+
+def _colour_of(gear: TrainGear) -> Colour:
+    """Return the colour of a gear of a train; stages that are next to each other have different ones."""
+    own = (PART_COLOURS["pinion"], PART_COLOURS["wheel"]) if gear.stage % 2 == 0 else STAGE_COLOURS
+    return own[gear.role is Role.WHEEL]
 
 
 def _of_spline(design: SplineDesign) -> dict[str, Any]:
@@ -393,10 +423,11 @@ class Bodies(NamedTuple):
 
 def bodies_of(design: Design) -> Bodies:
     """Return the bodies of a design with teeth, or the reason why there are none."""
-    if not isinstance(design, ToothedDesign):
+    if not isinstance(design, ToothedDesign | TrainDesign) or (isinstance(design, TrainDesign) and stands_of(design) is None):
         return Bodies(why_not=_NO_BODIES)
     try:
-        require_bodies(design, FileOptions())
+        if isinstance(design, ToothedDesign):
+            require_bodies(design, FileOptions())
         stood = list(_standing(design))
     except GearcadError as error:
         return Bodies(why_not=str(error))
@@ -419,7 +450,7 @@ def _error(cut: Gear | Rack) -> float:
     return _CHORD * cut.normal_module
 
 
-def _standing(design: ToothedDesign) -> Iterator[tuple[Gear | Rack, DrawnBody]]:
+def _standing(design: ToothedDesign | TrainDesign) -> Iterator[tuple[Gear | Rack, DrawnBody]]:
     """Yield each gear and rack with its body, whose surface is not known yet."""
     if isinstance(design, PairDesign):
         pair, pose = design.pair, design.pair.wheel_pose()
@@ -435,6 +466,11 @@ def _standing(design: ToothedDesign) -> Iterator[tuple[Gear | Rack, DrawnBody]]:
         yield from _of_train(design)
     elif isinstance(design, SplineDesign):
         yield from _splined(design)
+    elif isinstance(design, TrainDesign):
+        stands = stands_of(design)
+        for each in () if stands is None else stands.gears:
+            place = (each.axis.real, each.axis.imag, each.z)
+            yield each.gear, DrawnBody(each.name, "", _colour_of(each), place, each.rotation, each.ratio)
     else:
         for name, gear in design.gears.items():
             yield gear, DrawnBody(name, "", STEEL)

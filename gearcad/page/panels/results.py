@@ -342,7 +342,11 @@ def _speed_view(content: JsonObject, words: PageWords) -> dict[str, Any]:
         dotted = {"color": "var(--soft)", "type": "dotted", "width": 2}
         series.append(_line("ISO 6336", "var(--soft)", _over(speeds, content["kv_iso6336"]), lineStyle=dotted))
     at = content["operating"]["speed"]
-    where = f" {words['at']} {words.number(f'{at:g}')} rpm ({words['operating point']})" if told and at is not None else ""
+    where = (
+        f" {words['at']} {words.number(f'{at:g}')} {words['rpm']} ({words['operating point']})"
+        if told and at is not None
+        else ""
+    )
     return {
         "key": "speed",
         "words": words["K_v over speed"],
@@ -352,7 +356,7 @@ def _speed_view(content: JsonObject, words: PageWords) -> dict[str, Any]:
             "grid": {"left": 58, "right": 24, "top": 34, "bottom": 44},
             "title": {"text": "K_v", "left": 58, "top": 6, "textStyle": {**_TEXT, "fontWeight": "normal"}},
             "legend": {"top": 0, "right": 8, "textStyle": _TEXT},
-            "xAxis": _axis(f"{words['speed']} (rpm)", nameLocation="middle", nameGap=24) | {"nameTextStyle": _TEXT},
+            "xAxis": _axis(f"{words['speed']} ({words['rpm']})", nameLocation="middle", nameGap=24) | {"nameTextStyle": _TEXT},
             "yAxis": _axis("", scale=True),
             "tooltip": {"trigger": "axis", "textStyle": {"fontSize": 13}},
             "series": series,

@@ -74,17 +74,13 @@ class FormView:
 
     def summary(self) -> str:
         """Return what was typed, with symbols and units."""
-        typed = self.typed
+        typed, words = self.typed, self._words
         parts = (
-            " ".join(
-                filter(
-                    None, (field.symbol or ("" if field.choices else self._words[field.words]), typed[field.key], field.unit)
-                )
-            )
-            for field in fields_in(self._kind, self._words.units)
+            " ".join(filter(None, (_called(field, words), typed[field.key], words[field.unit])))
+            for field in fields_in(self._kind, words.units)
             if field.key in typed
         )
-        return " · ".join(parts) or self._words["task"]
+        return " · ".join(parts) or words["task"]
 
     def options(self) -> dict[str, Any] | None:
         """Return the options of the search, or None where a field is wrong, which then says so."""
@@ -116,7 +112,7 @@ class FormView:
         said = self._words.divided(self._words[field.words])
         label = f"{self._words['wheel']}: {said}" if field.of_wheel else said
         name = f"task-{self._kind}-{field.key}"
-        with field_row(label, field.symbol, field.unit, name, self._words[field.hint]) as row:
+        with field_row(label, field.symbol, self._words[field.unit], name, self._words[field.hint]) as row:
             row.classes("required" if field.required else "")
             row.classes("wide" if len(field.choices) > _LONG_LIST else "")
             if field.choices:
@@ -128,6 +124,11 @@ class FormView:
             made.props(f'dense outlined for={name} hide-bottom-space no-error-icon input-class="task-input"')
             made.props("options-dense" if field.choices else "autocomplete=off")
         self._fields[field.key] = made
+
+
+def _called(field: FormField, words: PageWords) -> str:
+    """Return the symbol of a field, or its words; nothing for a choice, whose text says what it is."""
+    return field.symbol or ("" if field.choices else words[field.words])
 
 
 @contextmanager

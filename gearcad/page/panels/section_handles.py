@@ -16,8 +16,9 @@ from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import OF_SETS
 from gearcad.designs.pair_designs import PairDesign, RackPairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
+from gearcad.designs.train_designs import TrainDesign
 from gearcad.geometry import Gear, GearPair
-from gearcad.page.panels.drawn_data import layout_of, plain, ratios_of
+from gearcad.page.panels.drawn_data import layout_of, plain, ratios_of, stands_of
 from gearcad.page.section_measures import LARGEST
 from gearcad.solids.train_plan import stage_keys
 
@@ -43,6 +44,8 @@ def section_gears(design: Design, tables: Mapping[str, Any]) -> tuple[SectionGea
         return tuple(_gears_of_set(design, tables))
     if isinstance(design, PairDesign | RackPairDesign):
         return tuple(SectionGear(name, gear, body, name) for body, (name, gear) in enumerate(design.gears.items()))
+    if isinstance(design, TrainDesign) and (stands := stands_of(design)) is not None:
+        return tuple(SectionGear(each.name, each.gear, body, "") for body, each in enumerate(stands.gears))
     if isinstance(design, ToothedDesign) and (gear := design.gears.get("gear")) is not None and len(design.gears) == 1:
         return (SectionGear("gear", gear, 0, "gear"),)
     return ()

@@ -30,7 +30,7 @@ _TEETH = ("spur", "helical", "double helical")
 _KINDS = (
     *(f"{before}{teeth} {kind}" for kind in ("gear", "pair") for before in ("", "internal ") for teeth in _TEETH),
     *(f"{teeth} {kind}" for kind in ("rack", "pinion and rack") for teeth in _TEETH[:2]),
-    *("planetary train of type", "train", "inertias"),
+    *("planetary train of type", "train", "inertias", "splined shaft and hub", "splined shaft", "splined hub"),
 )
 """Words of which titles of designs are made."""
 
@@ -45,8 +45,9 @@ _OF_A_GEAR = re.compile(rf"({'|'.join(_QUANTITIES)}) of the (.+)")
 
 
 def title_in(words: PageWords, title: str) -> str:
-    """Return the title of a design in the language of the page, such as "helical pair, z = 13 / 44"."""
-    return _WORDS.sub(lambda found: words[found[0]] if found[0] in _KINDS else found[0], title)
+    """Return the title of a design in the language and the units of the page, such as "helical pair, z = 13 / 44"."""
+    told = _WORDS.sub(lambda found: words[found[0]] if found[0] in _KINDS else found[0], title)
+    return " ".join(map(words.number, told.split(" ")))
 
 
 _ASSUMED = " (assumed)"
@@ -162,7 +163,7 @@ def _row(row: Row, section: Section, words: PageWords, changed: Mapping[tuple[st
         "words": name,
         "symbol": row.symbol.symbol,
         "parts": [parts_of(name), row.symbol.parts],
-        "unit": "°" if row.symbol.unit == "deg" else row.symbol.unit,
+        "unit": words.unit_name(row.symbol.unit),
         "source": words.message(clause_in(words, row.symbol.source)),
         "cells": [
             {

@@ -135,6 +135,7 @@ class InputsPanel:
             self._units[field["key"]] = unit
             bounds = {name: field[name] for name in ("least", "most", "negative") if field[name] is not None}
             field |= {"unit": unit.name, **{name: float(f"{unit.of(bound):.6g}") for name, bound in bounds.items()}}
+        field["unit"] = self._words.unit_name(field["unit"])
 
 
 class TextPanel:
