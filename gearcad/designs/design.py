@@ -133,12 +133,12 @@ def files_only_in(folder: Path) -> Iterator[None]:
 
 
 def names_file(key: str) -> bool:
-    """Return whether a text under a key is a file: a template, a blank, or the pair of a mesh, `mesh.NAME.pair`."""
+    """Return whether a text under a key is a file: a template, a blank, a mesh's pair, `mesh.NAME.pair`, a shaft's layout."""
     table, _, rest = key.partition(".")
     name, _, field = rest.rpartition(".")
     if key in (_TEMPLATE, _BLANK) or key.endswith(f".{_BLANK}"):
         return True
-    return table == "mesh" and bool(name) and field == "pair"
+    return (table, field) in (("mesh", "pair"), ("shaft", "layout")) and bool(name)
 
 
 def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
@@ -186,8 +186,10 @@ def find_named_files(tables: Mapping[str, Any], folder: Path) -> None:
     """
     _find_tools(tables, folder)
     train, drawing = tables.get("train"), tables.get("drawing")
-    meshes = train.get("mesh") if isinstance(train, Mapping) else None
-    named = [(f"train.mesh[{at}]", mesh, "pair") for at, mesh in enumerate(meshes)] if isinstance(meshes, list) else []
+    named: list[tuple[str, Any, str]] = []
+    for part, key in (("mesh", "pair"), ("shaft", "layout")):
+        listed = train.get(part) if isinstance(train, Mapping) else None
+        named += [(f"train.{part}[{at}]", each, key) for at, each in enumerate(listed)] if isinstance(listed, list) else []
     for where, table, key in (*named, ("drawing", drawing, "template")):
         if isinstance(table, dict) and key in table:
             table[key] = _file_path(f"{where}.{key}", table[key], folder)

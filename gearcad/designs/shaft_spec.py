@@ -237,7 +237,7 @@ def _number(own: Mapping[str, Any], key: str, role: Role, where: Where, default:
 
 
 def _options(tables: Mapping[str, Any], where: Where) -> ShaftOptions:
-    return _made(ShaftOptions, tables.get(SHAFTS, {}), SHAFTS, where)
+    return read_part(ShaftOptions, tables.get(SHAFTS, {}), SHAFTS, where)
 
 
 def _shaft(own: Mapping[str, Any], owner: str, coupling: float, options: ShaftOptions, where: Where) -> SteppedShaft:
@@ -248,7 +248,7 @@ def _shaft(own: Mapping[str, Any], owner: str, coupling: float, options: ShaftOp
         key = f"{owner}{name}"
         if not isinstance(listed, list):
             raise SpecError(f"{where(key)}: {key}: must be headed [[{key}]], once for each", key)
-        parts[name] = tuple(_made(kind, each, f"{key}[{number}]", where) for number, each in enumerate(listed))
+        parts[name] = tuple(read_part(kind, each, f"{key}[{number}]", where) for number, each in enumerate(listed))
     try:
         shaft = SteppedShaft(
             segments=parts["shaft"],
@@ -265,7 +265,7 @@ def _shaft(own: Mapping[str, Any], owner: str, coupling: float, options: ShaftOp
     return shaft
 
 
-def _made(kind: type[Part], content: Any, key: str, where: Where) -> Part:
+def read_part(kind: type[Part], content: Any, key: str, where: Where) -> Part:
     """Return what the table under a key makes. Raises SpecError."""
     if not isinstance(content, Mapping):
         raise SpecError(f"{where(key)}: {shown(key)} = {format_number(content)}: must be a table", key)

@@ -19,12 +19,14 @@ from gearcad.designs.keys import BESIDE, MAIN_TABLES, OF_SETS, DesignKind, permi
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.spec import Given
 from gearcad.designs.train_keys import ALL, MAIN, TORQUES, TRAIN, TRAIN_PARTS, TrainKey, explain_unknown_key_of_train
+from gearcad.designs.train_shafts import LAYOUT_KEYS, read_layout, read_shaft_options, require_faces
 from gearcad.dynamics.options import OF_PAIRS, OF_TRAINS_OF_PAIRS, DynamicsOptions
-from gearcad.dynamics.trains.members import BESIDE_PAIR, MeshPair, ToothMesh
+from gearcad.dynamics.trains.members import BESIDE_PAIR, MeshPair, Shaft, ToothMesh
 from gearcad.dynamics.trains.train import Train, TrainModel, train_document
 from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.rating.options import RatingOptions
+from gearcad.shafts.arrangement import ShaftOptions
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -306,9 +308,12 @@ class TrainDesign(Design):
     other_models: tuple[TrainModel, ...] = ()
     """Models that are studied beside the train's own."""
     dynamics: DynamicsOptions = field(default=DynamicsOptions())
+    shafts: ShaftOptions = field(default=ShaftOptions())
+    """Options of its shafts with segments."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        require_faces(self.train)
         others = tuple(as_choice("model", each, TrainModel) for each in self.other_models)
         object.__setattr__(self, "other_models", others)
         twice = next((each for number, each in enumerate(self.models) if each in self.models[:number]), None)
@@ -328,18 +333,20 @@ class TrainDesign(Design):
     def read(
         cls, tables: Mapping[str, Any], where: Where, default_name: str, names: Mapping[str, str] = MappingProxyType({})
     ) -> Self:
-        """Return the design that [train] describes; only [dynamics] may stand beside it. Raises SpecError.
+        """Return the design that [train] describes; only [dynamics] and [shafts] may stand beside it. Raises SpecError.
 
         `names` holds the user's names for the tables of lists.
         """
         for table in tables:
-            if table not in ("train", "dynamics"):
-                raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [train]: permitted is [dynamics]")
+            if table not in ("train", "dynamics", "shafts"):
+                permitted = "permitted are [dynamics] and [shafts]"
+                raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [train]: {permitted}")
         reader = _Reader(where, names)
         train, others = reader.train(tables["train"], default_name)
         dynamics = reader.dynamics(tables.get("dynamics", {}), train)
+        shafts = read_shaft_options(tables.get("shafts", {}), where)
         with reader.blame("train"):
-            return cls(name=train.name, train=train, other_models=others, dynamics=dynamics)
+            return cls(name=train.name, train=train, other_models=others, dynamics=dynamics, shafts=shafts)
 
     @property
     def notices(self) -> tuple[Notice, ...]:
@@ -362,6 +369,8 @@ class TrainDesign(Design):
             if key in TRAIN["dynamics"] or (value is not None and key in parts_of(DynamicsOptions))
         }
         document = super().to_dict() | train_document(self.train) | {"dynamics": options}
+        if any(shaft.layout is not None for shaft in self.train.shafts):
+            document["shafts"] = asdict(self.shafts)
         if self.other_models:
             document["train"]["model"] = [each.value for each in self.models]
         return with_assumed(document)
@@ -415,9 +424,11 @@ class _Reader:
         schema = schema_of(kind)
         for number, each in enumerate(listed):
             owner = f"train.{key}[{number}]"
-            given = self._table(each, owner, tuple(schema))
+            given = self._table(each, owner, (*schema, *(LAYOUT_KEYS if kind is Shaft else ())))
             if kind is ToothMesh:
                 self._read_pair(given, owner)
+            if kind is Shaft:
+                read_layout(given, self.where, owner)
             with self.blame(owner, str(given.get("name", ""))):
                 missing = [name for name, field in schema.items() if field.needed(given)]
                 if missing:

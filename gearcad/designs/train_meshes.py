@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from gearcad.core.errors import InputError, ParameterError, SolverError
+from gearcad.core.errors import GeometryError, InputError, ParameterError, SolverError
 from gearcad.core.records import JsonObject, Role
 from gearcad.designs.pair_designs import PairDesign
+from gearcad.designs.shaft_spec import ShaftArrangement
 from gearcad.designs.train_designs import DesignedPair, TrainDesign, plain_name
+from gearcad.designs.train_shafts import gears_of, mesh_shafts, train_arrangement
 from gearcad.dynamics.engagement import PinionLoad, pinion_loads
 from gearcad.dynamics.trains.members import MeshPair, ToothMesh
 from gearcad.load import Load
@@ -40,6 +43,31 @@ class TrainMeshes:
     without: tuple[str, ...] = ()
 
 
+def _on_shafts(design: TrainDesign, mesh: TrainMesh, every: Sequence[TrainMesh]) -> PairDesign:
+    """Return the design of a mesh with the train's shafts under its gears, loaded by their other gears.
+
+    Raises GeometryError for a pair that has shafts of its own beside those of the train.
+    """
+    shafts = mesh_shafts(design.train, mesh.name, loads_of(every), design.shafts)
+    if shafts is not None and mesh.design.shafts is not None:
+        permitted = "must be left out where a shaft of the train has segments and the gear on it"
+        raise GeometryError(f"{mesh.name}.pair.pinion.shaft", mesh.design.name, permitted)
+    return mesh.design if shafts is None else replace(mesh.design, shafts=shafts)
+
+
+def loads_of(meshes: Iterable[TrainMesh]) -> dict[str, Load]:
+    """Return the loads of pairs by the names of meshes."""
+    return {each.name: each.design.loaded("a mesh of a train has one") for each in meshes}
+
+
+def shafts_of_train(design: TrainDesign) -> ShaftArrangement | None:
+    """Return the shafts of a train with segments and bearings under the forces of their gears; None without any."""
+    if not any(gears_of(shaft) or shaft.layout for shaft in design.train.shafts):
+        return None
+    loads = loads_of(train_meshes(design).meshes) if has_pairs(design) else {}
+    return train_arrangement(design.name, design.train, loads, design.shafts)
+
+
 def has_pairs(design: TrainDesign) -> bool:
     """Return whether a mesh of a train at least is a pair of gears."""
     return any(mesh.pair is not None for mesh in design.train.meshes)
@@ -59,8 +87,9 @@ def train_meshes(design: TrainDesign) -> TrainMeshes:
         if mesh.pair is not None:
             folder = free_name(folder_name(mesh.name), taken)
             taken.add(folder.casefold())
-            pair, load = mesh_design(mesh), loads[mesh.name]
-            found.append(TrainMesh(name=mesh.name, folder=folder, design=under_load(pair, load), driver=load.driver))
+            loaded = under_load(mesh_design(mesh), loads[mesh.name])
+            found.append(TrainMesh(name=mesh.name, folder=folder, design=loaded, driver=loads[mesh.name].driver))
+    found = [replace(each, design=_on_shafts(design, each, found)) for each in found]
     return TrainMeshes(meshes=tuple(found), without=tuple(mesh.name for mesh in train.meshes if mesh.pair is None))
 
 

@@ -13,6 +13,8 @@ from gearcad.core.runtime import one_thread
 from gearcad.designs.keys import DesignKind
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.shaft_spec import ShaftArrangement, ShaftDesign
+from gearcad.designs.train_designs import TrainDesign
+from gearcad.designs.train_meshes import shafts_of_train
 from gearcad.jobs.job import ReportedJob, Subject, Writer, as_design
 from gearcad.shafts.arrangement import ArrangementResult, ShaftResult
 from gearcad.version import __version__
@@ -26,17 +28,19 @@ _NO_LOAD = "shafts are loaded by it"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Shafts(ReportedJob[PairDesign | ShaftDesign, ArrangementResult]):
+class Shafts(ReportedJob[PairDesign | ShaftDesign | TrainDesign, ArrangementResult]):
     """Shafts under their loads. Without `report` there is shafts.json alone."""
 
     verb = "shafts"
-    accepts = (DesignKind.PAIR, DesignKind.SHAFT)
+    accepts = (DesignKind.PAIR, DesignKind.SHAFT, DesignKind.TRAIN)
     why = "others have no shafts that bend"
     with_shafts = True
 
     @one_thread()
     def run(self, design: Design, progress: Progress | None = None) -> ArrangementResult:
         design = self.accepted(design, progress)
+        if isinstance(design, TrainDesign):
+            return result_of(_of_train(design))
         if (found := design.arrangement) is None:
             permitted = "must be described: [[pinion.shaft]] and [[pinion.bearing]], or those of the wheel"
             raise ParameterError("pinion.shaft", None, permitted)
@@ -59,6 +63,14 @@ class Shafts(ReportedJob[PairDesign | ShaftDesign, ArrangementResult]):
     def files(self, result: ArrangementResult) -> dict[str, Writer]:
         """Return the document."""
         return {"shafts.json": partial(self.write_document, result)}
+
+
+def _of_train(design: TrainDesign) -> ShaftArrangement:
+    """Return the shafts of a train under the forces of their gears. Raises ParameterError without segments and bearings."""
+    if (found := shafts_of_train(design)) is None:
+        permitted = "must be described: segments, bearings and gears of a [[train.shaft]]"
+        raise ParameterError("train.shaft", None, permitted)
+    return found
 
 
 def result_of(found: ShaftArrangement) -> ArrangementResult:

@@ -59,7 +59,7 @@ def train_sections(document: Mapping[str, Any]) -> Iterator[Section]:
     for table in TRAIN_PARTS:
         if not (parts := document[table]):
             continue
-        known = {key: field.symbol for key, field in TRAIN[table].items()} | symbols.TRAIN_PARTS[table]
+        known = {key: field.symbol for key, field in TRAIN[table].items() if key != "layout"} | symbols.TRAIN_PARTS[table]
         rows = (_train_row(table, key, symbol, [part.get(key) for part in parts.values()]) for key, symbol in known.items())
         yield Section(tuple(parts), (Block(_TITLES[table], _nonzero_rows(rows)),))
 

@@ -27,7 +27,7 @@ PAIRS = [
     VOLVO,
 ]
 STARTERS = [*PAIRS, *PLANETARY, "rack", "spline", "spur", "wire-cut"]
-TRAINS = ["train-1-stage", "train-2-stage", "train-pairs"]
+TRAINS = ["train-1-stage", "train-2-stage", "train-pairs", "two-stage"]
 TABLES = ["gears", "pairs", "planetary-sets", "rings"]
 NAMED = sorted([*STARTERS, *TRAINS, *TABLES, "drawing_title", "measured"])
 LISTED = sorted([*NAMED, "ci-github", "ci-gitlab"])

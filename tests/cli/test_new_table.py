@@ -62,6 +62,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "train-1-stage",
         "train-2-stage",
         "train-pairs",
+        "two-stage",
         "uhlir-19-23",
         "uhlir-19-23-simple",
         "volvo-13-44",

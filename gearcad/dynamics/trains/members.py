@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections import Counter, deque
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Annotated, Any, NamedTuple
 
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.core.errors import GeometryError, ParameterError, format_number, require_name, require_switch
+from gearcad.core.errors import GeometryError, InputError, ParameterError, format_number, require_name, require_switch
 from gearcad.core.quantities import (
     ANGULAR_DAMPING,
     BACKLASH,
@@ -37,6 +37,7 @@ from gearcad.core.quantities import (
     is_given,
 )
 from gearcad.core.records import PerGear, Role, concise
+from gearcad.dynamics.trains.shaft_layout import ShaftLayout, require_distinct
 from gearcad.geometry import GearPair
 from gearcad.geometry.gear import refuse_halves
 from gearcad.load import Load
@@ -153,7 +154,8 @@ class Shaft(NamedPart):
     Either `torsional_stiffness` in N·m/rad - then it has no mass in any model - or `length` and `diameter` in mm, bored out to
     `inner_diameter`, of `shear_modulus` in MPa and `density` in kg/m³. `damping_ratio` is that of the modes of the shaft's line
     (shafts and inertias, without meshes); `damping` a damper in N·m·s/rad that goes with the twist. `modes` is what the shaft
-    adds to the elastic modes that its line keeps in the model "modes"; None keeps all. Raises ParameterError, GeometryError.
+    adds to the elastic modes that its line keeps in the model "modes"; None keeps all. A `layout` - segments, bearings and the
+    gears on the shaft - stands in the place of both stiffness and shape. Raises ParameterError, GeometryError.
     """
 
     name: str
@@ -168,6 +170,7 @@ class Shaft(NamedPart):
     damping_ratio: Annotated[float, DAMPING_RATIO, Words("damping ratio of the modes of its line", "ζ")] = 0.0
     damping: Annotated[float, ANGULAR_DAMPING, Words("damping of its twist")] = 0.0
     modes: Annotated[int | None, Whole(1, 40), Words("elastic modes that its line keeps of it")] = None
+    layout: Annotated[ShaftLayout | None, Words("segments, bearings and gears of the shaft"), ELSEWHERE] = None
 
     __repr__ = concise
 
@@ -182,6 +185,12 @@ class Shaft(NamedPart):
 
         A hollow shaft must have a wall.
         """
+        if self.layout is not None:
+            for parameter, unit in _SHAPE.items():
+                if (value := getattr(self, parameter)) != getattr(Shaft, parameter):
+                    permitted = "not beside segments: they have the stiffness and the shape of the shaft"
+                    raise GeometryError(f"{self.name}.{parameter}", value, permitted, unit)
+            return
         if self.torsional_stiffness is not None:
             for parameter in ("length", "diameter"):
                 if (value := getattr(self, parameter)) is not None:
@@ -202,7 +211,9 @@ class Shaft(NamedPart):
 
     @property
     def stiffness(self) -> float:
-        """Torsional stiffness G I_p / L (N·m/rad)."""
+        """Torsional stiffness G I_p / L (N·m/rad); of segments that between its ends."""
+        if self.layout is not None:
+            return self.layout.stiffness
         if self.torsional_stiffness is not None:
             return self.torsional_stiffness
         assert self.length is not None
@@ -211,6 +222,8 @@ class Shaft(NamedPart):
     @property
     def inertia(self) -> float:
         """Moment of inertia rho I_p L about the axis (kg·m²); 0 for a shaft that is given by its stiffness."""
+        if self.layout is not None:
+            return self.layout.inertia
         if self.torsional_stiffness is not None:
             return 0.0
         assert self.length is not None
@@ -221,6 +234,40 @@ class Shaft(NamedPart):
         """Polar moment of area of the section (m⁴)."""
         assert self.diameter is not None
         return math.pi / 32 * ((self.diameter / 1000) ** 4 - (self.inner_diameter / 1000) ** 4)
+
+    def on_gears(self, meshes: Sequence[ToothMesh]) -> Shaft:
+        """Return the shaft with the span of its layout, from its start to its end, by the places of the gears on it.
+
+        Raises ParameterError and GeometryError for gears that are not of its ends, or not on it.
+        """
+        if self.layout is None:
+            return self
+        known = {mesh.name: mesh for mesh in meshes}
+        places: dict[str, float] = {}  # of the ends that are gears on it
+        for number, gear in enumerate(self.layout.gears):
+            key = f"{self.name}.gears[{number}]"
+            if gear.mesh not in known:
+                raise ParameterError(f"{key}.mesh", gear.mesh, f"must be one of the meshes {', '.join(known)}")
+            inertia = known[gear.mesh].gears.pick(gear.role)
+            if inertia not in (self.start, self.end):
+                permitted = f"is {inertia}, which is at neither end of the shaft: {self.start} and {self.end}"
+                raise ParameterError(f"{key}.role", gear.role.value, permitted)
+            places.setdefault(inertia, gear.position)
+        coupling = self.layout.coupling
+        if coupling is None:
+            coupling = self.layout.length if self.start in places and self.end not in places else 0.0
+        span = (places.get(self.start, coupling), places.get(self.end, coupling)) if places else (0.0, self.layout.length)
+        layout = replace(self.layout, coupling=coupling, span=span)
+        try:
+            require_distinct(layout.gears)
+            layout.require_span()
+        except InputError as error:
+            raise error.within(self.name) from None
+        return replace(self, layout=layout)
+
+
+_SHAPE = {"torsional_stiffness": "N·m/rad", "length": "mm", "diameter": "mm", "inner_diameter": "mm"}
+"""Fields of a shaft that its segments stand for, and their units."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -254,6 +301,7 @@ class ToothMesh(NamedPart):
     preload: Annotated[float, PRELOAD, Words("force that presses the flanks beside the load's")] = 0.0
     pitch_deviations: Annotated[tuple[float, ...], DEVIATION, Words("pitch deviations of the pinion's teeth", "f_pt")] = ()
     internal: Annotated[bool, Words("whether the wheel is a ring gear")] = False
+    mesh_angle: Annotated[float, Range("deg", -360.0, 360.0), Words("angle of the wheel's axis, seen from the pinion's")] = 0.0
 
     __repr__ = concise
 

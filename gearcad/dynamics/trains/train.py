@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from enum import Enum
 from functools import cached_property
 from typing import Annotated, Any
@@ -62,6 +62,7 @@ class Train:
         for inertia, torque in self.torques.items():
             TORQUE.require(f"torques.{inertia}", torque)
         self._graph.require_one_train(self.torques)
+        object.__setattr__(self, "shafts", tuple(shaft.on_gears(self.meshes) for shaft in self.shafts))
         if self.model is TrainModel.ISOLATED and not self.meshes:
             raise GeometryError(
                 "model", self.model, "must be a model with shafts: this one leaves shafts out, and the train has no meshes"
@@ -355,19 +356,19 @@ def _waiting(train: Train) -> bool:
 
 
 def _fields(part: Any) -> dict[str, Any]:
-    return {each.name: _plain(getattr(part, each.name)) for each in fields(part) if each.name != "name"}
+    return {each.name: _plain(getattr(part, each.name)) for each in fields(part) if each.name not in ("name", "layout")}
 
 
 def _plain(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return dict(value)
+        return {key: _plain(each) for key, each in value.items()}
     if isinstance(value, MeshPair):
         return value.pair.name
     if isinstance(value, float):
         return None if math.isnan(value) else float(value)
     if isinstance(value, int) and not isinstance(value, bool):
         return int(value)
-    return value.value if isinstance(value, Enum) else list(value) if isinstance(value, tuple) else value
+    return value.value if isinstance(value, Enum) else list(map(_plain, value)) if isinstance(value, tuple) else value
 
 
 def _of_inertia(train: Train, inertia: Inertia) -> dict[str, Any]:
@@ -378,7 +379,8 @@ def _of_inertia(train: Train, inertia: Inertia) -> dict[str, Any]:
 
 def _of_shaft(shaft: Shaft) -> dict[str, Any]:
     """Return the document of a shaft, with stiffness and inertia also where it is given by its shape."""
-    return {**_fields(shaft), "torsional_stiffness": shaft.stiffness, "inertia": shaft.inertia}
+    layout = {} if shaft.layout is None else {"layout": _plain(asdict(shaft.layout))}
+    return {**_fields(shaft), "torsional_stiffness": shaft.stiffness, "inertia": shaft.inertia, **layout}
 
 
 def _of_mesh(train: Train, mesh: ToothMesh, force: float | None) -> dict[str, Any]:
@@ -389,7 +391,8 @@ def _of_mesh(train: Train, mesh: ToothMesh, force: float | None) -> dict[str, An
     inertias = {each.name: each.inertia for each in train.inertias}
     reduced = 1 / sum(radius**2 / inertias[gear] for gear, radius in zip(mesh.gears, mesh.radii, strict=True))
     speed = {"tooth_frequency": train.tooth_frequencies[mesh.name]} if train.speed else {}
-    of_waves = () if mesh.pair is None else ("variation", "shape", "contact_ratio")  # a pair has a stiffness of its own
+    # A pair has a stiffness of its own, and other meshes no place.
+    of_waves = ("mesh_angle",) if mesh.pair is None else ("variation", "shape", "contact_ratio")
     return {
         **{key: value for key, value in _fields(mesh).items() if key not in of_waves},
         "gear_ratio": mesh.base_radii.wheel / mesh.base_radii.pinion,
