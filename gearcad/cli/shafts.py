@@ -55,7 +55,7 @@ def _lines(result: ArrangementResult) -> Iterator[str]:
         across = (bent["deflection"][0] ** 2 + bent["deflection"][1] ** 2) ** 0.5
         yield f"  greatest deflection {across:.4g} µm at {bent['position']:g} mm"
         yield f"  greatest equivalent stress {max(each['equivalent_stress'] for each in stressed):.4g} MPa (nominal)"
-        speeds = ", ".join(f"{each:.4g}" for each in shaft.state.shaft.critical_speeds())
+        speeds = ", ".join(f"{each:.4g}" for each in shaft.speeds["critical_speeds"])
         yield f"  critical speeds {speeds} rpm"
     if (mesh := result.mesh) is not None:
         yield f"mesh: f_sh {mesh['f_sh']:.4g} µm, K_Hbeta {mesh['K_Hbeta_end_of_face']:.4g} at the end of the face"

@@ -12,7 +12,7 @@ from gearcad.core.records import JsonObject, PerGear, Role
 from gearcad.designs.design import Design, Where
 from gearcad.designs.keys import OF_SHAFTED_GEARS, SHAFTS, DesignKind, has_shafts
 from gearcad.designs.shaft_keys import SHAFT_LISTS
-from gearcad.geometry import GearPair
+from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
@@ -22,6 +22,7 @@ from gearcad.rating.tooth_stiffness import mesh_stiffness
 from gearcad.shafts.arrangement import ShaftOptions, with_stations
 from gearcad.shafts.beam import SteppedShaft
 from gearcad.shafts.face_load import MeshOnShafts, require_modelled
+from gearcad.shafts.whirl import ShaftDisc, ring_disc
 
 if TYPE_CHECKING:
     from gearcad.drawing.options import DrawingOptions
@@ -67,6 +68,8 @@ class ShaftArrangement:
     options: ShaftOptions
     positions: Mapping[str, float] = field(default_factory=dict)
     mesh: MeshOnShafts | None = None
+    discs: Mapping[str, tuple[ShaftDisc, ...]] = field(default_factory=dict)
+    """Gears on the shafts, as full discs up to their reference diameters around the shaft."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,6 +167,8 @@ def pair_arrangement(
         shafts.options,
         {name: each.mesh_position for name, each in mounted.items()},
     )
+    discs = {role.value: _discs(own, pair.gears.pick(role), materials.pick(role)) for role, own in shafts.mounted.items()}
+    found = replace(found, discs=discs)
     if load is None:
         return found
     mounting = mounting or Mounting()
@@ -177,6 +182,18 @@ def pair_arrangement(
         misalignment=mounting.misalignment,
     )
     return replace(found, mesh=loaded_mesh(mesh, rating or RatingOptions(), materials))
+
+
+def _discs(mounted: MountedShaft, gear: Gear, material: Material) -> tuple[ShaftDisc, ...]:
+    """Return a gear as a disc around its shaft, if it is larger."""
+    disc = ring_disc(
+        mounted.mesh_position,
+        outer_diameter=gear.reference_diameter,
+        inner_diameter=mounted.shaft.segment_at(mounted.mesh_position).outer_diameter,
+        width=gear.face_width,
+        density=material.density,
+    )
+    return () if disc is None else (disc,)
 
 
 def loaded_mesh(mesh: MeshOnShafts, options: RatingOptions, materials: PerGear[Material]) -> MeshOnShafts:

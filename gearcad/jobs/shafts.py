@@ -39,14 +39,9 @@ class Shafts(ReportedJob[PairDesign | ShaftDesign | TrainDesign, ArrangementResu
     @one_thread()
     def run(self, design: Design, progress: Progress | None = None) -> ArrangementResult:
         design = self.accepted(design, progress)
-        if isinstance(design, TrainDesign):
-            return result_of(_of_train(design))
-        if (found := design.arrangement) is None:
-            permitted = "must be described: [[pinion.shaft]] and [[pinion.bearing]], or those of the wheel"
-            raise ParameterError("pinion.shaft", None, permitted)
-        if isinstance(design, PairDesign):
-            design.loaded(_NO_LOAD)
-        return result_of(found)
+        result = result_of(_of_train(design) if isinstance(design, TrainDesign) else _arrangement_of(design))
+        result.notices  # noqa: B018 - what they need is computed here, in one thread
+        return result
 
     def document(self, result: ArrangementResult) -> JsonObject:
         """Return reactions, stations, lives and critical speeds of each shaft, and the load over the face of a pair."""
@@ -65,6 +60,16 @@ class Shafts(ReportedJob[PairDesign | ShaftDesign | TrainDesign, ArrangementResu
         return {"shafts.json": partial(self.write_document, result)}
 
 
+def _arrangement_of(design: PairDesign | ShaftDesign) -> ShaftArrangement:
+    """Return the shafts of a pair under its load, or a shaft by itself. Raises ParameterError without shafts or a load."""
+    if (found := design.arrangement) is None:
+        permitted = "must be described: [[pinion.shaft]] and [[pinion.bearing]], or those of the wheel"
+        raise ParameterError("pinion.shaft", None, permitted)
+    if isinstance(design, PairDesign):
+        design.loaded(_NO_LOAD)
+    return found
+
+
 def _of_train(design: TrainDesign) -> ShaftArrangement:
     """Return the shafts of a train under the forces of their gears. Raises ParameterError without segments and bearings."""
     if (found := shafts_of_train(design)) is None:
@@ -78,7 +83,9 @@ def result_of(found: ShaftArrangement) -> ArrangementResult:
     results = {}
     for name, shaft in found.shafts.items():
         state = None if found.mesh is None else found.mesh.state(Role(name))
-        results[name] = ShaftResult(shaft.solve() if state is None else state, found.speeds[name], found.options)
+        results[name] = ShaftResult(
+            shaft.solve() if state is None else state, found.speeds[name], found.options, found.discs.get(name, ())
+        )
     return ArrangementResult(found.name, results, None if found.mesh is None else found.mesh.to_dict())
 
 

@@ -27,6 +27,7 @@ from gearcad.shafts.bearing_life import (
     reliability_factor,
     two_factor_load,
 )
+from gearcad.shafts.whirl import ShaftDisc, ShaftWhirl
 
 _FEWEST_STATIONS = 100
 _STEPS = (1.0, 2.0, 5.0, 10.0)
@@ -161,6 +162,7 @@ class ShaftResult:
     state: ShaftState
     speed: float
     options: ShaftOptions
+    discs: tuple[ShaftDisc, ...] = ()
 
     @cached_property
     def lives(self) -> tuple[BearingLife, ...]:
@@ -177,8 +179,18 @@ class ShaftResult:
         """Return reactions, stations, bearings and critical speeds."""
         return self.state.to_dict() | {
             "bearings": [each.to_dict() for each in self.lives],
-            "critical_speeds": self.state.shaft.critical_speeds(),
+            **self.speeds,
         }
+
+    @cached_property
+    def speeds(self) -> JsonObject:
+        """Critical speeds and natural frequencies of bending."""
+        return self.whirl.to_dict(self.speed)
+
+    @cached_property
+    def whirl(self) -> ShaftWhirl:
+        """Whirl of the shaft with the discs of its gears."""
+        return ShaftWhirl.of(self.state.shaft, self.discs)
 
 
 _NO_FORCE = 1e-9
@@ -201,7 +213,7 @@ class ArrangementResult:
     def _found(self) -> Iterator[Notice]:
         yield Notice("no-clearance", "bearings have neither clearance nor preload")
         for name, shaft in self.shafts.items():
-            speeds = shaft.state.shaft.critical_speeds(1)
+            speeds = shaft.speeds["critical_speeds"]
             if speeds and abs(shaft.speed) > _NEAR * speeds[0]:
                 text = f"{name}: its speed of {abs(shaft.speed):.0f} rpm is near or above its first critical speed,"
                 yield Notice("critical-speed", f"{text} {speeds[0]:.0f} rpm")

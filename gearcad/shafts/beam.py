@@ -36,9 +36,6 @@ _ENDS = 1e-6
 _DOFS = 6
 """Displacements along x, y, z and turns about them of each node."""
 
-_TONNES = 1e-12
-"""t/mm³ of a density of 1 kg/m³: with N and mm times are seconds."""
-
 _GRAVITY = 1e-9
 """N/mm³ of a density of 1 kg/m³ at 1 m/s²."""
 
@@ -89,32 +86,10 @@ class ShaftSegment:
         inner = (1 + ratio) ** 2
         return 6 * (1 + nu) * inner / ((7 + 6 * nu) * inner + (20 + 12 * nu) * ratio)
 
-    def stiffness(self, length: float) -> Floats:
-        """Return the stiffness (12, 12) of a part of so much length (mm): dofs of its left node, then of its right one."""
-        modulus, inertia = self.youngs_modulus, self.second_moment
-        shear = 12 * modulus * inertia / (self.shear_coefficient * self.shear_modulus * self.area * length**2)
-        far = 6 * length
-        bending = (
-            modulus
-            * inertia
-            / ((1 + shear) * length**3)
-            * np.array(
-                [
-                    [12, far, -12, far],
-                    [far, (4 + shear) * length**2, -far, (2 - shear) * length**2],
-                    [-12, -far, 12, -far],
-                    [far, (2 - shear) * length**2, -far, (4 + shear) * length**2],
-                ]
-            )
-        )
-        found = np.zeros((2 * _DOFS, 2 * _DOFS))
-        pairs = np.array([[1.0, -1.0], [-1.0, 1.0]])
-        found[np.ix_([2, 8], [2, 8])] = modulus * self.area / length * pairs
-        found[np.ix_([5, 11], [5, 11])] = 2 * self.shear_modulus * inertia / length * pairs
-        found[np.ix_([0, 4, 6, 10], [0, 4, 6, 10])] = bending
-        turned = np.array([1.0, -1.0, 1.0, -1.0])
-        found[np.ix_([1, 3, 7, 9], [1, 3, 7, 9])] = bending * np.outer(turned, turned)
-        return found
+    def shear_deflection(self, length: float) -> float:
+        """Return Phi = 12 E I/(kappa G A L^2) of a part of so much length (mm): deflection by shear over that by bending."""
+        stiffness = self.shear_coefficient * self.shear_modulus * self.area * length**2
+        return 12 * self.youngs_modulus * self.second_moment / stiffness
 
     def weight(self, length: float, gravity: Sequence[float]) -> Floats:
         """Return the nodal forces (12,) of the weight of a part of so much length (mm); `gravity` in m/s²."""
@@ -125,6 +100,36 @@ class ShaftSegment:
         found[4], found[10] = line[0] * couple, -line[0] * couple
         found[3], found[9] = -line[1] * couple, line[1] * couple
         return found
+
+
+def beam_stiffness(parts: Sequence[ShaftSegment], lengths: Floats) -> Floats:
+    """Return the stiffness (n, 12, 12) of parts of these lengths (mm): dofs of the left node, then of the right one."""
+    kinds = {id(part): part for part in parts}
+    of_kind = {
+        key: (part.youngs_modulus * part.second_moment, part.youngs_modulus * part.area, part.shear_deflection(1.0))
+        for key, part in kinds.items()
+    }
+    bending, axial, shear = np.array([of_kind[id(part)] for part in parts]).T
+    torsion = bending / np.array([1 + part.poisson_ratio for part in parts])
+    shear = shear / lengths**2
+    factor, far = bending / ((1 + shear) * lengths**3), 6 * lengths
+    near, cross = (4 + shear) * lengths**2, (2 - shear) * lengths**2
+    twelve = np.full_like(lengths, 12.0)
+    rows = [
+        [twelve, far, -twelve, far],
+        [far, near, -far, cross],
+        [-twelve, -far, twelve, -far],
+        [far, cross, -far, near],
+    ]
+    plane = np.moveaxis(factor * np.array(rows), 2, 0)
+    found = np.zeros((len(lengths), 2 * _DOFS, 2 * _DOFS))
+    turned = np.array([1.0, -1.0, 1.0, -1.0])
+    for places, block in (([0, 4, 6, 10], plane), ([1, 3, 7, 9], plane * np.outer(turned, turned))):
+        found[np.ix_(range(len(lengths)), places, places)] = block
+    pairs = np.array([[1.0, -1.0], [-1.0, 1.0]])
+    for first, spring in ((2, axial / lengths), (5, torsion / lengths)):
+        found[np.ix_(range(len(lengths)), [first, first + _DOFS], [first, first + _DOFS])] = spring[:, None, None] * pairs
+    return found
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -285,19 +290,28 @@ class SteppedShaft:
         """Return the number of the node at a position (mm)."""
         return int(np.argmin(np.abs(self.nodes - position)))
 
+    def segment_at(self, position: float) -> ShaftSegment:
+        """Return the segment at a position (mm); at a step that on its left."""
+        return self.segments[min(max(bisect_left(self.ends, position) - 1, 0), len(self.segments) - 1)]
+
     @cached_property
     def parts(self) -> tuple[ShaftSegment, ...]:
         """The segment of each part between two nodes."""
         middles = (self.nodes[1:] + self.nodes[:-1]) / 2
-        return tuple(self.segments[min(bisect_left(self.ends, middle) - 1, len(self.segments) - 1)] for middle in middles)
+        return tuple(map(self.segment_at, middles.tolist()))
+
+    @cached_property
+    def elements(self) -> Floats:
+        """Stiffness (n - 1, 12, 12) of the parts between the nodes."""
+        return beam_stiffness(self.parts, np.diff(self.nodes))
 
     @cached_property
     def _body(self) -> Floats:
         """Stiffness (6 n, 6 n) of the shaft without its supports."""
         found = np.zeros((_DOFS * len(self.nodes),) * 2)
-        for number, (part, length) in enumerate(zip(self.parts, np.diff(self.nodes).tolist(), strict=True)):
+        for number, part in enumerate(self.elements):
             own = slice(_DOFS * number, _DOFS * (number + 2))
-            found[own, own] += part.stiffness(length)
+            found[own, own] += part
         return found
 
     @cached_property
@@ -343,19 +357,11 @@ class SteppedShaft:
         scales = np.outer(scale, scale)
         return part / scales, scales
 
-    def critical_speeds(self, count: int = 3) -> list[float]:
-        """Return the lowest critical speeds of bending (rpm), without gyroscopic moments: of masses lumped on the nodes."""
-        lumped = np.zeros(_DOFS * len(self.nodes))
-        for number, (part, length) in enumerate(zip(self.parts, np.diff(self.nodes).tolist(), strict=True)):
-            half = part.density * _TONNES * length / 2  # times the section's area, or its second moment
-            for first in (_DOFS * number, _DOFS * (number + 1)):
-                lumped[first : first + 2] += half * part.area
-                lumped[first + 3 : first + 5] += half * part.second_moment
-        across = lumped > 0
-        weights = np.sqrt(lumped[across])
-        matrix = self.compliance[np.ix_(across, across)] * np.outer(weights, weights)
-        values = np.linalg.eigvalsh((matrix + matrix.T) / 2)[::-1]
-        return [30 / math.pi / math.sqrt(each) for each in values[: 2 * count : 2].tolist() if each > 0]
+    def plane_stiffness(self) -> tuple[Floats, set[int]]:
+        """Return the stiffness (2 n, 2 n) of displacements and turns in one plane with elastic bearings, and what is held."""
+        matrix, free = self._supported
+        bending = np.flatnonzero(np.isin(np.arange(len(matrix)) % _DOFS, _PLANES[0]))
+        return matrix[np.ix_(bending, bending)], set(np.flatnonzero(~np.isin(bending, free)).tolist())
 
     @cached_property
     def loads(self) -> Floats:
@@ -453,7 +459,7 @@ class ShaftState:
         lengths = np.diff(self.shaft.nodes).tolist()
         for number, (part, length) in enumerate(zip(self.shaft.parts, lengths, strict=True)):
             own = slice(_DOFS * number, _DOFS * (number + 2))
-            ends = part.stiffness(length) @ self.moved[own] - part.weight(length, self.shaft.gravity)
+            ends = self.shaft.elements[number] @ self.moved[own] - part.weight(length, self.shaft.gravity)
             found[number, 0], found[number, 1] = -ends[:_DOFS], ends[_DOFS:]
         return found
 

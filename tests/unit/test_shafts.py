@@ -1,5 +1,6 @@
 """Shafts on bearings: given cases, closed forms, balance, bearing life, and the load over the face of a mesh on its shafts."""
 
+import json
 import math
 import re
 from dataclasses import replace
@@ -29,6 +30,7 @@ from gearcad.shafts.bearing_life import (
     opposed_axial_loads,
     reference_viscosity,
 )
+from gearcad.shafts.whirl import ShaftDisc, ShaftWhirl, ring_disc
 
 SHAFTS, MESHES = REFERENCE["shafts"], REFERENCE["meshes"]
 
@@ -99,7 +101,67 @@ def test_the_first_critical_speed_of_a_slender_beam() -> None:
     rigid = (ShaftBearing(position=0.0, axial_stiffness="rigid"), ShaftBearing(position=1000.0))
     shaft = SteppedShaft(segments=(part,), bearings=rigid, places=tuple(np.linspace(0.0, 1000.0, 101)))
     slender = math.pi**2 * math.sqrt(part.youngs_modulus * part.second_moment / (part.density * 1e-12 * part.area)) / 1e6
-    assert shaft.critical_speeds(1)[0] == pytest.approx(30 / math.pi * slender, rel=5e-3)
+    assert ShaftWhirl(shaft).critical_speeds(1)[0] == pytest.approx(30 / math.pi * slender, rel=5e-3)
+
+
+ROSS = json.loads((Path(__file__).parents[1] / "data" / "ross_shafts.json").read_text(encoding="utf-8"))["cases"]
+
+
+@pytest.mark.parametrize("case", ROSS, ids=lambda case: f"{len(case['bearings'])} bearings, {len(case['discs'])} discs")
+def test_shafts_bend_and_whirl_as_in_ross(case: dict[str, Any]) -> None:
+    """To 1e-6, on the same nodes; their positions are rounded to 1e-6 mm there."""
+    steps = np.cumsum([0.0, *(each["length"] for each in case["segments"])])
+    shaft = SteppedShaft(
+        segments=tuple(ShaftSegment(**each) for each in case["segments"]),
+        bearings=tuple(ShaftBearing(**each, axial_stiffness="rigid") for each in case["bearings"]),
+        forces=tuple(ShaftForce(position=each["position"], force=tuple(each["force"])) for each in case["forces"]),
+        places=tuple(place for place in case["nodes"] if np.abs(steps - place).min() > 1e-5),
+    )
+    moved, expected = 1000 * shaft.solve().moved.reshape(-1, 6)[:, :2], np.array(case["deflection"])
+    assert np.abs(moved - expected).max() < 1e-6 * np.abs(expected).max()
+    whirl = ShaftWhirl(shaft, tuple(ShaftDisc(**each) for each in case["discs"]))
+    assert whirl.frequencies()["forward"] == pytest.approx(case["rest"], rel=1e-6)
+    turning = whirl.frequencies(case["speed"])
+    assert turning["forward"] == pytest.approx(case["forward"], rel=1e-6)
+    assert turning["backward"] == pytest.approx(case["backward"], rel=1e-6)
+
+
+def test_critical_speeds_of_a_thick_bar_by_the_closed_form() -> None:
+    """Half waves of Timoshenko's beam: (kappa G A k^2 - rho A w^2)(E I k^2 + kappa G A - s rho I w^2) = (kappa G A k)^2.
+
+    s = 1 at rest, -1 where the whirl turns with the shaft as fast as this, 3 where it turns against it.
+    """
+    part = ShaftSegment(length=600.0, outer_diameter=90.0)
+    rigid = (ShaftBearing(position=0.0, axial_stiffness="rigid"), ShaftBearing(position=600.0))
+    whirl = ShaftWhirl.of(SteppedShaft(segments=(part,), bearings=rigid))
+    shear, bending = part.shear_coefficient * part.shear_modulus * part.area, part.youngs_modulus * part.second_moment
+    line, turning = part.density * 1e-12 * part.area, part.density * 1e-12 * part.second_moment
+
+    def speed(waves: int, sense: float) -> float:
+        k = waves * math.pi / 600.0
+        square = sense * line * turning
+        linear = -(shear * k**2 * sense * turning + line * (bending * k**2 + shear))
+        roots = np.roots([square, linear, shear * k**2 * bending * k**2])
+        return 30 / math.pi * math.sqrt(min(each for each in roots.real.tolist() if each > 0))
+
+    expected = {sense: [speed(waves, sense) for waves in (1, 2, 3)] for sense in (1.0, -1.0, 3.0)}
+    forward, backward = whirl.critical_speeds(), whirl.critical_speeds(forward=False)
+    assert forward == pytest.approx(expected[-1.0], rel=6e-4) and forward[0] == pytest.approx(expected[-1.0][0], rel=1e-5)
+    assert backward == pytest.approx(expected[3.0], rel=6e-4)
+    assert [60 * each for each in whirl.frequencies()["forward"]] == pytest.approx(expected[1.0], rel=6e-4)
+    assert 60 * whirl.frequencies(forward[0], 1)["forward"][0] == pytest.approx(forward[0], rel=1e-9)
+    finer = ShaftWhirl(replace(whirl.shaft, places=tuple(np.linspace(0, 600, 97).tolist()))).critical_speeds()
+    limit = [(4 * fine - coarse) / 3 for fine, coarse in zip(finer, forward, strict=True)]  # the error falls with the square
+    assert limit == pytest.approx(expected[-1.0], rel=1e-6)
+
+
+def test_the_disc_of_a_ring() -> None:
+    found = ring_disc(5.0, outer_diameter=100.0, inner_diameter=40.0, width=20.0, density=7850.0)
+    assert found is not None
+    assert found.mass == pytest.approx(7850 * math.pi / 4 * (0.1**2 - 0.04**2) * 0.02)
+    assert found.polar_inertia == pytest.approx(found.mass * (0.05**2 + 0.02**2) / 2)
+    assert found.transverse_inertia == pytest.approx(found.mass * (3 * (0.05**2 + 0.02**2) + 0.02**2) / 12)
+    assert ring_disc(5.0, outer_diameter=40.0, inner_diameter=40.0, width=20.0, density=7850.0) is None
 
 
 def test_reactions_balance_forces_and_weight_and_energy_is_half_the_work() -> None:
