@@ -74,6 +74,9 @@ _DIGITS, _USED_DIGITS = 15, 7
 _INTERNAL, _EXTERNAL = ("ring",), ("pinion", "sun", "planet")
 """Gears that have internal, or external teeth in every spec."""
 
+NO_PINION = {"torque": Symbol("T", "N·m", "", "torque"), "speed": Symbol("n", "rpm", "", "speed")}
+"""Symbols of the load of a design that has no pinion."""
+
 _OWN_PARTS = tuple(role.value for role in Role)
 """Parts of a family that are seen before any of it is given: the gears of a pair."""
 
@@ -164,6 +167,8 @@ def _tables(kind: DesignKind, tables: Mapping[str, Any], members: tuple[str, ...
     if "pair" in found:
         others = OF_GEAR_PAIRS if kind is DesignKind.RACK_PAIR else OF_RACK_PAIRS
         found["pair"] = {key: field for key, field in found["pair"].items() if key not in others}
+    if "load" in found and not found.keys() & {role.value for role in Role}:
+        found["load"] = {key: replace(field, symbol=NO_PINION.get(key, field.symbol)) for key, field in found["load"].items()}
     return found
 
 

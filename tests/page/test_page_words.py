@@ -13,7 +13,7 @@ from gearcad.core.quantities import schema_of
 from gearcad.core.runtime import PACKAGE
 from gearcad.designs.keys import FIELDS, SHAFTS, SPEEDS
 from gearcad.designs.train_keys import MAIN, PLANETARY, TRAIN, TRAIN_PARTS
-from gearcad.page.fields import part_title, table_title, words_of
+from gearcad.page.fields import NO_PINION, part_title, table_title, words_of
 from gearcad.page.forms import REQUIRED, form_fields
 from gearcad.page.panels import drawn_data, sheet_content
 from gearcad.page.panels import sheet_content as rating
@@ -62,7 +62,7 @@ def test_germans_are_words_of_their_own() -> None:
 
 def _words_of_inputs() -> set[str]:
     """Tables, parts and keys of all specs."""
-    found = {part_title(SPEEDS)}
+    found = {part_title(SPEEDS), *(symbol.words for symbol in NO_PINION.values())}
     of_shafts = {SHAFTS: schema_of(ShaftOptions)}
     for tables in (FIELDS, PLANETARY, {table: TRAIN[table] for table in (MAIN, "dynamics")}, of_shafts):
         for table, fields in tables.items():

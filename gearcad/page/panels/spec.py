@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -11,8 +12,7 @@ from typing import Any
 from nicegui import background_tasks, ui
 
 from gearcad.core.errors import GearcadError, printable
-from gearcad.core.units import ShownUnit, UnitSystem, shown_unit
-from gearcad.designs.design import Design
+from gearcad.core.units import MM_PER_INCH, ShownUnit, UnitSystem, shown_unit
 from gearcad.designs.keys import GEAR_FIELDS
 from gearcad.designs.reader import NO_DESIGNS, kind_of, starter_text, starters
 from gearcad.page.components.elements import FilesView, InputsView, TextView
@@ -26,6 +26,9 @@ from gearcad.page.runs import Run, Runs, RunState, await_files
 from gearcad.page.words import PageWords
 from gearcad.page.workbench import BesideDesign, DesignStatus, Workbench
 from gearcad.solids import Format
+
+_WIDE = 3
+"""Largest number of gears whose columns have room for the unit of what stands beside a value."""
 
 
 class InputsPanel:
@@ -81,7 +84,7 @@ class InputsPanel:
         changed = sorted(key for key in given.keys() | former.keys() if given.get(key) != former.get(key))
         ranked = self._first_inputs(ranked_fields(design, bench.tables))
         own = {"given": self._shown(given), "used": self._shown(used), "faults": faults, "changed": changed, "reveal": reveal}
-        self._view.show(own | ranked | self.holds.state() | {"beside": self._pitches(design)})
+        self._view.show(own | ranked | self.holds.state() | {"beside": self._pitches({**used, **given})})
 
     def stored(self, key: str, text: str) -> str:
         """Return what was typed for a key in the units of specs. The text that is shown means the value behind it."""
@@ -94,15 +97,17 @@ class InputsPanel:
         """Return texts of values by their keys, in the units of the page."""
         return {key: self._units[key].shown(text) if key in self._units else text for key, text in texts.items()}
 
-    def _pitches(self, design: Design | None) -> dict[str, Any]:
-        """Return what stands beside modules in inches, by the keys of these: the normal diametral pitch of the first gear."""
-        gear = next(iter(design.gears.values()), None) if design is not None else None
-        if self._words.units is UnitSystem.METRIC or gear is None:
+    def _pitches(self, modules: Mapping[str, str]) -> dict[str, Any]:
+        """Return what stands beside modules in inches, by the keys of these: the normal diametral pitch (1/inch) of each."""
+        if self._words.units is UnitSystem.METRIC:
             return {}
-        pitch = GEAR_FIELDS["normal_diametral_pitch"].symbol
-        text = self._words.number(f"{gear.normal_diametral_pitch:.5g}")
-        parts = [*pitch.parts, (f" = {text} {pitch.unit}", "")]
-        return {key: parts for row in self._ranked["rows"] for key in row["keys"] if key.endswith(".normal_module")}
+        symbol, found = GEAR_FIELDS["normal_diametral_pitch"].symbol, dict[str, Any]()
+        unit = f" {symbol.unit}" if len(self._ranked["columns"]) <= _WIDE else ""
+        for key in (key for row in self._ranked["rows"] for key in row["keys"] if key.endswith(".normal_module")):
+            with suppress(KeyError, ValueError, ZeroDivisionError):
+                pitch = self._words.number(f"{MM_PER_INCH / float(modules[key]):.5g}")
+                found[key] = [*symbol.parts, (f" = {pitch}{unit}", "")]
+        return found
 
     def _first_inputs(self, ranked: dict[str, Any]) -> dict[str, Any]:
         """Return the part of the state that says which inputs come first, if these are other ones than before."""

@@ -57,8 +57,8 @@ def _open(tab: Tab, name: str, text: str) -> None:
 def _settle(tab: Tab) -> None:
     """Wait until nothing in the page has changed for a while."""
     tab.page.evaluate("""() => new Promise((done) => {
-      let timer = setTimeout(done, 1200);
-      new MutationObserver(() => { clearTimeout(timer); timer = setTimeout(done, 1200); })
+      let timer = setTimeout(done, 500);
+      new MutationObserver(() => { clearTimeout(timer); timer = setTimeout(done, 500); })
         .observe(document.body, { subtree: true, childList: true, attributes: true, characterData: true });
     })""")
 
@@ -187,3 +187,16 @@ def test_gears_of_a_train_of_pairs_turn_and_are_measured(tab: Tab) -> None:
     tab.page.wait_for_selector(".section-tools select >> nth=1")
     gears = tab.page.locator(".section-tools select").nth(1).locator("option").all_inner_texts()
     assert gears == ["pinion 1", "wheel 1", "pinion 2", "wheel 2"]
+
+
+def test_each_module_has_its_own_diametral_pitch(tab: Tab) -> None:
+    """P_nd = 25.4 mm/m_n: of 2.8 and 2.6 mm."""
+    tab.page.goto("about:blank")
+    tab.page.goto(f"{tab.address}?lang=en&units=in&design={pack('planetary-alm', STARTERS['planetary-alm'])}")
+    tab.page.wait_for_selector(".inputs .used.pitch >> nth=3")
+    told = [each.replace("\n", "").partition("= ")[2] for each in tab.page.locator(".inputs .used.pitch").all_inner_texts()]
+    assert told == ["9.0714", "9.0714", "9.7692", "9.7692"]
+    tab.field("planetary.centre_distance").fill("0.1")
+    fault = tab.page.locator(".inputs .field .fault")
+    fault.wait_for()
+    assert fault.inner_text().endswith("must be below -2.486118 in, where the base circles touch")
