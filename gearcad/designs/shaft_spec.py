@@ -77,7 +77,7 @@ class ShaftDesign(Design):
     """A shaft by itself on its bearings, under given forces, with its options."""
 
     kind: ClassVar[DesignKind] = DesignKind.SHAFT
-    elsewhere: ClassVar[str] = "a shaft by itself is for `gearcad data` and `gearcad shafts`"
+    elsewhere: ClassVar[str] = "a shaft by itself is for `gearcad data`, build, draw, picture and shafts"
 
     shaft: SteppedShaft
     shafts: ShaftOptions = field(default_factory=ShaftOptions)

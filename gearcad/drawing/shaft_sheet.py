@@ -28,6 +28,8 @@ class DrawnShaft:
     name: str
     plan: TurnedPlan
     seated: SeatedShaft | None = None
+    title: str = ""
+    """Name of a shaft by itself."""
 
     @classmethod
     def of(cls, seated: SeatedShaft) -> DrawnShaft:
@@ -75,7 +77,7 @@ def draw_shaft(drawn: DrawnShaft, options: DrawingOptions, own: PartDrawing | No
         furniture=furniture,
         rows=rows,
         views=lambda draughting: (shaft_view(drawn.plan, draughting, toothed),),
-        title=shaft_title(drawn.seated, words),
+        title=f"{shaft_title(drawn.seated, words)} {drawn.title}".rstrip(),
         document_type=words["frame.document_part"],
         extent=drawn.plan.shaft.length,
         mass=None if drawn.toothed else drawn.mass,

@@ -22,12 +22,13 @@ from gearcad.solids.body_plan import require_rim
 from gearcad.solids.facets.tessellation import gear_chord_error
 from gearcad.solids.files.formats import formats_minding
 from gearcad.solids.files.products import GearProduct, MadeProduct, PairProduct, RackProduct, SplineProduct
-from gearcad.solids.files.shaft_products import shaft_chord_error
-from gearcad.solids.shaft_plan import SeatedShaft, pair_shafts
+from gearcad.solids.files.shaft_products import ShaftProduct, shaft_chord_error
+from gearcad.solids.shaft_plan import SeatedShaft, TurnedPlan, pair_shafts
 from gearcad.version import __version__
 
 if TYPE_CHECKING:
     from gearcad.designs import PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, SplineDesign
+    from gearcad.designs.shaft_spec import ShaftDesign
     from gearcad.solids.files.products import RackPairProduct
     from gearcad.solids.files.train_products import TrainProduct
 
@@ -50,6 +51,11 @@ def products_of(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[st
     if design.kind in (DesignKind.RACK, DesignKind.RACK_PAIR):
         return _with_rack(cast("RackDesign | RackPairDesign", design), options)
     return {name: GearProduct(gear=gear, name=design.name, options=options) for name, gear in design.gears.items()}, None
+
+
+def shaft_alone(design: Design, options: FileOptions) -> ShaftProduct:
+    """Return the product of a shaft by itself. Raises GeometryError for one that is no solid."""
+    return ShaftProduct(plan=TurnedPlan(cast("ShaftDesign", design).shaft), name=design.name, options=options)
 
 
 def seated_shafts(design: ToothedDesign) -> tuple[SeatedShaft, ...]:
@@ -86,6 +92,8 @@ def require_bodies(design: ToothedDesign, options: FileOptions) -> None:
         _require_body(name, gear)
     if design.kind is DesignKind.PLANETARY:
         _train_product(cast("PlanetaryDesign", design), options).require_room()
+    if design.kind is DesignKind.SHAFT:
+        shaft_alone(design, options)
     for shaft in seated_shafts(design):
         _ = shaft.plan
 
@@ -94,6 +102,8 @@ def require_facets(design: ToothedDesign, options: FileOptions) -> None:
     """Raise ParameterError for a chord error that the facets of some gear or rack cannot have, before any is made."""
     for gear in design.gears.values():
         gear_chord_error(gear, options.chord_error)
+    if design.kind is DesignKind.SHAFT:
+        shaft_chord_error(shaft_alone(design, options).plan, options.chord_error)
     for shaft in seated_shafts(design):
         with naming(shaft.role):
             shaft_chord_error(shaft.plan, options.chord_error)
@@ -146,12 +156,15 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     train, also gets `assembly.*`, posed in mesh, in the formats that have assemblies. The `stage` "precut" makes each gear as
     it is before its flanks are finished, and no assembly. With `as_made` there are also `gear-as-made.step` and so on of each
     gear with a table making: what its mould or print is made to, or as DXF the path of the wire or beam; and
-    `assembly-as-made.*` of a planetary train that is printed as a whole.
+    `assembly-as-made.*` of a planetary train that is printed as a whole. A shaft by itself is `shaft.step` and so on.
     Raises ParameterError without a format.
     """
 
     verb = "build"
-    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE)
+    accepts = (
+        *(DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE),
+        DesignKind.SHAFT,
+    )
     why = "there are no teeth"
     with_shafts = True
 
@@ -169,8 +182,14 @@ class Build(Job[ToothedDesign, ToothedDesign]):
 
     def run(self, design: Design, progress: Progress | None = None) -> ToothedDesign:
         design = self.accepted(design, progress)
+        if design.kind is DesignKind.SHAFT:
+            self._require_shaft_formats()
         if self.options.bracket and design.kind is not DesignKind.PAIR:
-            alone = "a single gear has no assembly" if design.assembly is None else "it stands on the shafts of both"
+            alone = (
+                "a single gear has no assembly"
+                if getattr(design, "assembly", None) is None
+                else "it stands on the shafts of both"
+            )
             alone = "a planetary train has a carrier" if design.kind is DesignKind.PLANETARY else alone
             alone = "shaft and hub have one axis" if design.kind is DesignKind.SPLINE else alone
             raise GeometryError("bracket", True, f"needs a pair of gears: {alone}")
@@ -190,6 +209,15 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         if set(self.formats).intersection(formats_minding("chord_error")):
             require_facets(design, self.options)
         return design
+
+    def _require_shaft_formats(self) -> None:
+        """Raise ParameterError unless all formats have bodies without teeth."""
+        of_shafts = [kind.value for kind in Format if kind.entry.write_body is not None]
+        for kind in self.formats:
+            if kind.value not in of_shafts:
+                raise ParameterError(
+                    "format", kind.value, f"must be one or more of {', '.join(of_shafts)} for a shaft by itself"
+                )
 
     def _require_made(self, design: ToothedDesign) -> None:
         """Raise GeometryError unless some gear says how it is made, and there are files of it as made."""
@@ -231,10 +259,16 @@ class Build(Job[ToothedDesign, ToothedDesign]):
                 found |= _train_writers(kind, cast("TrainProduct", assembly))
             elif assembly is not None and kind.entry.write_pair is not None:
                 found[f"assembly.{kind.value}"] = partial(kind.entry.write_pair, assembly)
-            if isinstance(assembly, PairProduct) and kind.entry.write_body is not None:
-                bodies = assembly.bodies.items()
-                found |= {f"{name}.{kind.value}": partial(kind.entry.write_body, body) for name, body in bodies}
+            if kind.entry.write_body is not None:
+                writer, bodies = kind.entry.write_body, self._bodies(result, assembly)
+                found |= {f"{name}.{kind.value}": partial(writer, body) for name, body in bodies.items()}
         return found | (self._made_files(result, parts) if self.as_made else {})
+
+    def _bodies(self, design: ToothedDesign, assembly: AssemblyProduct | None) -> Mapping[str, ShaftProduct]:
+        """Return the shafts of a pair, or the shaft by itself, by the names of their files."""
+        if design.kind is DesignKind.SHAFT:
+            return {"shaft": shaft_alone(design, self.options)}
+        return assembly.bodies if isinstance(assembly, PairProduct) else {}
 
     def _made_files(self, design: ToothedDesign, parts: Mapping[str, PartProduct]) -> dict[str, Writer]:
         """Return the files of the gears as they are made, and of a train that is printed as a whole."""

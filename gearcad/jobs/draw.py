@@ -46,7 +46,7 @@ from gearcad.drawing.page_export import unshown, write_pdf, write_svg
 from gearcad.drawing.shaft_sheet import DrawnShaft, draw_shaft, draw_shafted_pair
 from gearcad.drawing.tool_sheet import draw_tool
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
-from gearcad.jobs.build import products_of, require_bodies, seated_shafts
+from gearcad.jobs.build import products_of, require_bodies, seated_shafts, shaft_alone
 from gearcad.jobs.job import Job, Subject, Writer, as_design
 from gearcad.load import Load
 from gearcad.material import Material
@@ -57,11 +57,13 @@ from gearcad.solids import FileOptions
 from gearcad.solids.files.cutaway import Cutaway, SceneView
 from gearcad.solids.files.shot import Shot, loop_of
 from gearcad.solids.files.studio import Animation
+from gearcad.solids.shaft_plan import TurnedPlan
 from gearcad.version import __version__
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
 
+    from gearcad.designs import ShaftDesign
     from gearcad.solids.files.shot import Product
 
 
@@ -181,7 +183,10 @@ class Draw(Job[ToothedDesign, Drawing]):
     """
 
     verb = "draw"
-    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE)
+    accepts = (
+        *(DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY, DesignKind.SPLINE),
+        DesignKind.SHAFT,
+    )
     why = "there are no teeth"
     with_shafts = True
 
@@ -202,7 +207,10 @@ class Draw(Job[ToothedDesign, Drawing]):
         return Drawing(name=design.name, sheets=sheets)
 
     def _sheets(self, design: ToothedDesign) -> Iterator[DrawingSheet]:
-        """Yield the sheet of the assembly, then those of the gears. Raises InputError."""
+        """Yield the sheet of the assembly, then those of the gears and of shafts. Raises InputError."""
+        if design.kind is DesignKind.SHAFT:
+            yield self._of_shaft(cast("ShaftDesign", design))
+            return
         gears, assembly = drawn_gears(design), drawn_assembly(design)
         options = overridden(design.drawing or DrawingOptions(), self.given)
         if self.what == "tool":
@@ -226,6 +234,13 @@ class Draw(Job[ToothedDesign, Drawing]):
         for shaft in shafts:
             with _blaming(shaft.name):
                 yield draw_shaft(shaft, options, own.get(shaft.name))
+
+    def _of_shaft(self, design: ShaftDesign) -> DrawingSheet:
+        """Return the sheet of a shaft by itself. Raises InputError."""
+        if self.what != "parts":
+            raise GeometryError("what", self.what, "needs teeth that are cut: a shaft by itself has none")
+        drawn = DrawnShaft(name="shaft", plan=TurnedPlan(design.shaft), title=design.name)
+        return draw_shaft(drawn, overridden(design.drawing or DrawingOptions(), self.given))
 
     def document(self, result: Drawing) -> JsonObject:
         """Return the content of draw.json: the files of each sheet, and the unrounded values of the numbers on it."""
@@ -399,7 +414,10 @@ class Picture(Job[ToothedDesign, PictureShot]):
     """
 
     verb = "picture"
-    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
+    accepts = (
+        *(DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY),
+        DesignKind.SHAFT,
+    )
     why = "there are no teeth"
     with_shafts = True
     writes_long = True
@@ -423,11 +441,11 @@ class Picture(Job[ToothedDesign, PictureShot]):
     def run(self, design: Design, progress: Progress | None = None) -> PictureShot:
         design = self.accepted(design, progress)
         self._require_parts(design)
-        module = min(each.normal_module for each in _toothed(design))
-        options = FileOptions(chord_error=_FINE * module, exploded=self.explode and isinstance(design, PlanetaryDesign))
+        options = FileOptions(
+            chord_error=_FINE * _module_of(design), exploded=self.explode and isinstance(design, PlanetaryDesign)
+        )
         require_bodies(design, options)
-        parts, assembly = products_of(design, options)
-        product = cast("Product", assembly or next(iter(parts.values())))  # a spline is not accepted
+        product = _pictured(design, options)
         loop = loop_of(product, self.view) if self.turning else None
         self._require_memory(loop.frames if loop else 1)
         shot = Shot(
@@ -453,7 +471,7 @@ class Picture(Job[ToothedDesign, PictureShot]):
 
     def _require_parts(self, design: ToothedDesign) -> None:
         """Raise GeometryError for what a single part cannot show."""
-        if design.assembly is not None or isinstance(design, PlanetaryDesign):
+        if getattr(design, "assembly", None) is not None or isinstance(design, PlanetaryDesign):
             return
         if self.explode:
             raise GeometryError("explode", True, "needs a pair or a train: there is only one part")
@@ -512,6 +530,25 @@ class Picture(Job[ToothedDesign, PictureShot]):
     def part_of(self, file: str) -> str:
         """Image and document."""
         return self.verb if file in (self.file, "picture.json") else ""
+
+
+def _pictured(design: ToothedDesign, options: FileOptions) -> Product:
+    """Return what a picture shows: what parts make together, or the only part."""
+    if design.kind is DesignKind.SHAFT:
+        return shaft_alone(design, options)
+    parts, assembly = products_of(design, options)
+    return cast("Product", assembly or next(iter(parts.values())))  # a spline is not accepted
+
+
+_SHAFT_MODULE = 0.1
+"""Share of the largest diameter of a shaft by itself that stands for a module."""
+
+
+def _module_of(design: ToothedDesign) -> float:
+    """Return the least normal module (mm) of a design, of a shaft by itself what stands for it."""
+    if design.kind is DesignKind.SHAFT:
+        return _SHAFT_MODULE * TurnedPlan(cast("ShaftDesign", design).shaft).largest
+    return min(float(each.normal_module) for each in _toothed(design))
 
 
 def _toothed(design: ToothedDesign) -> list[Any]:

@@ -227,3 +227,25 @@ def test_a_hub_is_cut_where_it_stands_on_its_shaft() -> None:
     assert hub["rest"] == pytest.approx(math.pi / 22) and shaft["rest"] == 0.0
     assert hub["slack"] == pytest.approx(0.022 / 27.5)  # 8f at 30 mm: 22 µm, without known tolerances
     assert found["pitch"] == pytest.approx(2 * math.pi / 22)
+
+
+def test_shafts_stand_beside_the_gears_they_carry(tmp_path: Path) -> None:
+    """After the gears, whose numbers stresses are coloured by; each turns with its gear, the left end below the face."""
+    reducer = (templates() / "reducer-21-43.toml").read_text(encoding="utf-8")
+    shaft = "[[pinion.shaft]]\nlength = 90.0\nouter_diameter = 20.0\ninner_diameter = 5.0\n"
+    bearings = '[[pinion.bearing]]\nposition = 5.0\naxial_stiffness = "rigid"\n[[pinion.bearing]]\nposition = 85.0\n'
+    spec = tmp_path / "on-shafts.toml"
+    spec.write_text(reducer.replace("[pinion]", "[pinion]\nmesh_position = 40.0", 1) + shaft + bearings, encoding="utf-8")
+    design = read_spec(spec)
+    assert isinstance(design, PairDesign)
+    found = bodies_of(design)
+    assert [body.name for body in found.bodies] == ["pinion", "wheel", "pinion shaft"]
+    body, width = found.bodies[2], design.pair.pinion.face_width
+    assert body.ratio == 1.0 and body.place == pytest.approx((0.0, 0.0, width / 2 - 40.0))
+    content = found.surfaces[body.surface]
+    vertices, triangles = np.frombuffer(content, "<u4", 2)
+    points = np.frombuffer(content, "<f4", 3 * int(vertices), 8).reshape(-1, 3).astype(float)
+    faces = np.frombuffer(content, "<u2", 3 * int(triangles), 8 + 12 * int(vertices)).reshape(-1, 3)
+    a, b, c = (points[faces[:, corner]] for corner in range(3))
+    volume = float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
+    assert volume == pytest.approx(math.pi / 4 * (20.0**2 - 5.0**2) * 90.0, rel=5e-3)

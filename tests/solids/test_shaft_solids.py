@@ -13,7 +13,7 @@ import pytest
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.designs import PairDesign, read_spec
 from gearcad.jobs.build import Build, seated_shafts
-from gearcad.jobs.draw import Picture
+from gearcad.jobs.draw import Draw, Picture
 from gearcad.shafts.beam import ShaftBearing, ShaftSegment, SteppedShaft
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.exact.inertia import moments
@@ -223,3 +223,35 @@ def test_a_scene_has_the_shafts_of_its_gears(tmp_path: Path) -> None:
 def test_a_chord_error_below_single_precision_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match="chord_error"):
         Build(formats=(Format.STL,), options=FileOptions(chord_error=1e-7)).run(design_of(tmp_path))
+
+
+ALONE = """
+[[shaft]]
+length = 40.0
+outer_diameter = 20.0
+inner_diameter = 8.0
+[[shaft]]
+length = 60.0
+outer_diameter = 30.0
+[[bearing]]
+position = 10.0
+axial_stiffness = "rigid"
+[[bearing]]
+position = 90.0
+"""
+
+
+def test_a_shaft_by_itself_has_files_a_sheet_and_a_picture(tmp_path: Path) -> None:
+    spec = tmp_path / "alone.toml"
+    spec.write_text(ALONE, encoding="utf-8")
+    design = read_spec(spec)
+    job = Build(formats=(Format.STEP, Format.STL))
+    names = {path.name for path in job.write(job.run(design), tmp_path / "out")}
+    assert names == {"data.json", "shaft.step", "shaft.stl"}
+    (found,) = cadquery.importers.importStep(str(tmp_path / "out" / "shaft.step")).vals()
+    assert found.Volume() == pytest.approx(closed_form((40.0, 20.0, 8.0), (60.0, 30.0, 0.0)), rel=VOLUME)
+    assert [(sheet.name, sheet.title) for sheet in Draw().run(design).sheets] == [("shaft", "Shaft alone")]
+    assert [part.name for part in Picture().run(design).shot.scene(0.0)] == ["alone"]
+    for refused in (Build(formats=(Format.DXF,)), Build(options=FileOptions(bracket=True)), Draw(what="tool")):
+        with pytest.raises((GeometryError, ParameterError)):
+            refused.run(design)

@@ -8,6 +8,7 @@ const AXES = { x: [-1, 0, 0], y: [0, 1, 0], z: [0, 0, -1] }; // where a cut look
 const VIEWS = { front: [0, 0, 1, 0, 1, 0], top: [0, 1, 0.001, 0, 0, -1], iso: [0.5, -0.75, 0.6, 0, 0, 1] };
 const SENT = "gear_bodies"; // the message that has bodies
 const COLOURED = "gear_colours"; // the message that has stresses of their teeth
+const LONG = 0.9; // length over the diagonal of the box of a shaft
 const CLICK = 4; // pixels that a pointer may move, and still click
 const REST = 400; // ms after which what is drawn without a graphics card is drawn once more, smoothly
 
@@ -279,10 +280,12 @@ export default {
     fit(from) {
       const box = this.box();
       if (box.isEmpty()) return;
-      const [centre, reach] = [box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3()).length() / 2];
+      const [centre, size] = [box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3())];
+      const reach = size.length() / 2;
+      const share = Math.max(...size.toArray()) > LONG * 2 * reach ? 1.05 : 0.82; // what is long reaches the corners of its box
       const direction = from ?? this.camera.position.clone().sub(this.controls.target);
       const narrow = Math.min(1, this.camera.aspect);
-      const away = (0.82 * reach) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+      const away = (share * reach) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
       this.camera.position.copy(centre).add(direction.normalize().multiplyScalar(away));
       Object.assign(this.camera, { near: away / 200, far: away * 20 });
       this.camera.updateProjectionMatrix();

@@ -6,17 +6,18 @@ import hashlib
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache, wraps
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 
 from gearcad.core.errors import GearcadError
 from gearcad.core.quantities import assumed_values
-from gearcad.core.records import Floats, Role
+from gearcad.core.records import Floats, PerGear, Role
 from gearcad.designs.design import Design
 from gearcad.designs.gear_designs import RackDesign, SplineDesign, ToothedDesign
 from gearcad.designs.pair_designs import PairDesign, RackPairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
+from gearcad.designs.shaft_spec import ShaftDesign
 from gearcad.designs.train_designs import TrainDesign
 from gearcad.geometry import Gear, Rack
 from gearcad.geometry.bore_teeth import bore_teeth
@@ -24,15 +25,17 @@ from gearcad.geometry.curves import parameters_within
 from gearcad.geometry.gear_data import first_touch, section_turn
 from gearcad.geometry.path_of_contact import PathOfContact
 from gearcad.geometry.spline_standards import HUB
-from gearcad.jobs.build import given_speeds, require_bodies
+from gearcad.jobs.build import given_speeds, require_bodies, seated_shafts
 from gearcad.jobs.planetary import planetary
 from gearcad.page.panels.train_stands import TrainGear, TrainStands, train_stands
 from gearcad.planetary.members import SetMesh
 from gearcad.planetary.train_data import shafts_of
 from gearcad.solids import FileOptions
-from gearcad.solids.body_plan import PART_COLOURS, STAGE_COLOURS, STEEL, Colour
+from gearcad.solids.body_plan import PART_COLOURS, SHAFT_COLOURS, STAGE_COLOURS, STEEL, Colour
 from gearcad.solids.facets.tessellation import tessellate, tessellate_rack
+from gearcad.solids.files.shaft_products import turned_facets
 from gearcad.solids.files.train_products import section_angle, turns_of
+from gearcad.solids.shaft_plan import TurnedPlan
 from gearcad.solids.train_plan import TrainLayout
 
 if TYPE_CHECKING:
@@ -422,12 +425,14 @@ class Bodies(NamedTuple):
 
 
 def bodies_of(design: Design) -> Bodies:
-    """Return the bodies of a design with teeth, or the reason why there are none."""
-    if not isinstance(design, ToothedDesign | TrainDesign) or (isinstance(design, TrainDesign) and stands_of(design) is None):
+    """Return the bodies of a design with teeth, or of a shaft, or the reason why there are none."""
+    if not isinstance(design, ToothedDesign | TrainDesign | ShaftDesign):
+        return Bodies(why_not=_NO_BODIES)
+    if isinstance(design, TrainDesign) and stands_of(design) is None:
         return Bodies(why_not=_NO_BODIES)
     try:
-        if isinstance(design, ToothedDesign):
-            require_bodies(design, FileOptions())
+        if not isinstance(design, TrainDesign):
+            require_bodies(cast("ToothedDesign", design), FileOptions())
         stood = list(_standing(design))
     except GearcadError as error:
         return Bodies(why_not=str(error))
@@ -437,27 +442,40 @@ def bodies_of(design: Design) -> Bodies:
 
 
 @lru_cache(maxsize=_MOST_KEPT)
-def surface_of(cut: Gear | Rack) -> DrawnSurface:
-    """Return the surface of a gear or a rack. Raises GeometryError for a ring without a rim."""
-    facets = tessellate(cut, _error(cut)) if isinstance(cut, Gear) else tessellate_rack(cut, _error(cut))
+def surface_of(cut: Gear | Rack | TurnedPlan) -> DrawnSurface:
+    """Return the surface of a gear, a rack or a shaft. Raises GeometryError for a ring without a rim."""
+    if isinstance(cut, TurnedPlan):
+        facets = turned_facets(cut, _error(cut))
+    else:
+        facets = tessellate(cut, _error(cut)) if isinstance(cut, Gear) else tessellate_rack(cut, _error(cut))
     counts = np.array([len(facets.vertices), len(facets.faces)], "<u4")
     corners = facets.faces.astype("<u2" if len(facets.vertices) < _SHORT else "<u4")
     content = counts.tobytes() + facets.vertices.astype("<f4").tobytes() + corners.tobytes()
     return DrawnSurface(hashlib.blake2b(content, digest_size=12).hexdigest(), content)
 
 
-def _error(cut: Gear | Rack) -> float:
-    return _CHORD * cut.normal_module
+_CHORD_OF_SHAFT = 5e-4
+"""Error of the facets of a shaft, in its largest diameter."""
 
 
-def _standing(design: ToothedDesign | TrainDesign) -> Iterator[tuple[Gear | Rack, DrawnBody]]:
-    """Yield each gear and rack with its body, whose surface is not known yet."""
-    if isinstance(design, PairDesign):
+def _error(cut: Gear | Rack | TurnedPlan) -> float:
+    return _CHORD_OF_SHAFT * cut.largest if isinstance(cut, TurnedPlan) else _CHORD * cut.normal_module
+
+
+def _standing(design: ToothedDesign | TrainDesign | ShaftDesign) -> Iterator[tuple[Gear | Rack | TurnedPlan, DrawnBody]]:
+    """Yield each gear, rack and shaft with its body, whose surface is not known yet; gears first."""
+    if isinstance(design, ShaftDesign):
+        yield TurnedPlan(design.shaft), DrawnBody("shaft", "", STEEL)
+    elif isinstance(design, PairDesign):
         pair, pose = design.pair, design.pair.wheel_pose()
         place, rotation = (pose.x, 0.0, pose.z), math.radians(pose.rotation)
         ratio = -pair.pinion.teeth / pair.wheel.teeth
         yield pair.pinion, DrawnBody("pinion", "", PART_COLOURS["pinion"])
         yield pair.wheel, DrawnBody("wheel", "", PART_COLOURS["wheel"], place, rotation, ratio)
+        for shaft in seated_shafts(design):
+            colour, own = PerGear(*SHAFT_COLOURS).pick(shaft.role), (shaft.x, 0.0, shaft.z)
+            turned = 1.0 if shaft.role is Role.PINION else ratio
+            yield shaft.plan, DrawnBody(shaft.name, "", colour, own, math.radians(shaft.rotation), turned)
     elif isinstance(design, RackPairDesign):
         yield from _with_rack(design)
     elif isinstance(design, RackDesign):

@@ -21,6 +21,7 @@ from gearcad.planetary.train_data import shafts_of
 from gearcad.solids.files.cutaway import Camera, Cutaway, CutPlanes, SceneView, ViewDirection, close_up, framed, points_of
 from gearcad.solids.files.products import GearProduct, PairProduct, RackPairProduct, RackProduct
 from gearcad.solids.files.scenes import ScenePart
+from gearcad.solids.files.shaft_products import ShaftProduct
 from gearcad.solids.files.studio import Animation, Pixels, studio, write_animation, write_png
 from gearcad.solids.files.train_products import TrainProduct, turns_of
 from gearcad.solids.train_plan import Standing, TrainLayout
@@ -275,7 +276,7 @@ def _symmetry(train: PlanetaryTrain) -> int:
     return 1
 
 
-Product = GearProduct | PairProduct | RackProduct | RackPairProduct | TrainProduct
+Product = GearProduct | PairProduct | RackProduct | RackPairProduct | TrainProduct | ShaftProduct
 
 _FIXED = {
     SceneView.FRONT: ViewDirection((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
@@ -311,6 +312,8 @@ def direction_of(product: Product, view: SceneView) -> ViewDirection:
         return _OF_RING if product.pair.internal else _OF_PAIR
     if isinstance(product, GearProduct):
         return _OF_RING if product.gear.internal else _OF_GEAR
+    if isinstance(product, ShaftProduct):
+        return _OF_GEAR
     return _SETTINGS_OF_RACK if isinstance(product, RackProduct) else _OF_RACK_PAIR
 
 
@@ -372,7 +375,7 @@ def close_by(product: Product) -> Close:
 
     Raises GeometryError without a mesh.
     """
-    if isinstance(product, GearProduct | RackProduct):
+    if isinstance(product, GearProduct | RackProduct | ShaftProduct):
         raise GeometryError("view", SceneView.MESH, "needs a pair or a train: one part has no mesh")
     if isinstance(product, TrainProduct):
         mesh, planet = product.train.meshes[0], product.plan.layout.planets[0][0]
@@ -480,6 +483,8 @@ def loop_of(product: Product, view: SceneView) -> Loop:
         return rack_loop(product)
     if isinstance(product, GearProduct):
         return gear_loop(product)
+    if isinstance(product, ShaftProduct):
+        raise GeometryError("turning", True, "needs teeth: a round shaft looks the same as it turns")
     raise GeometryError("turning", True, "needs something that turns: a rack by itself does not")
 
 
