@@ -28,7 +28,8 @@ from gearcad.designs import Design
 from gearcad.designs.table import DesignRow
 from gearcad.jobs import VERBS
 from gearcad.jobs.job import Data, Job, write_inside
-from gearcad.jobs.train import figures_of, suited
+from gearcad.jobs.train import figures_of
+from gearcad.jobs.train_bodies import suited_to_train
 from gearcad.version import __version__
 
 MANIFEST = "manifest.json"
@@ -173,7 +174,7 @@ def stages(wanted: Sequence[Job[Any, Any]]) -> tuple[Job[Any, Any], ...]:
 
 def make_parts(job: Job[Any, Any], design: Design, parts: Sequence[str], folder: Path) -> None:
     """Make some of a job's parts in an empty folder."""
-    maker = suited(job.for_row(design, parts), design).headed(design)
+    maker = suited_to_train(job.for_row(design, parts), design).headed(design)
     for name, write in maker.files(maker.run(design)).items():
         if job.part_of(name.rpartition("/")[2]):
             write_inside(folder, name, write)

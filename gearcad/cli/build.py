@@ -84,19 +84,22 @@ def build(
     from gearcad.designs.reader import read_spec
     from gearcad.jobs.build import Build
     from gearcad.jobs.job import with_summary
+    from gearcad.jobs.train_bodies import suited_to_train
 
-    job = Build(formats=parse_choices("format", formats, Format), options=options, stage=stage, as_made=as_made)
-    design = job.run(read_spec(spec))
+    wanted = Build(formats=parse_choices("format", formats, Format), options=options, stage=stage, as_made=as_made)
+    design = read_spec(spec)
+    job = suited_to_train(wanted, design)
+    result = job.run(design)
     folder = folder_of(output, design.name)
     with file_progress(shown=not quiet) as progress:
-        files = job.write(design, folder, progress)
+        files = job.write(result, folder, progress)
     if as_json:
-        found = {"output": str(folder), "files": [str(file) for file in files], "warnings": texts(job.notices(design))}
-        click.echo(json_text(with_summary(job.document(design) | found)), nl=False)
+        found = {"output": str(folder), "files": [str(file) for file in files], "warnings": texts(job.notices(result))}
+        click.echo(json_text(with_summary(job.document(result) | found)), nl=False)
     else:
         click.echo("".join(f"{file}\n" for file in files), nl=False)
     if not quiet:
-        echo_warnings(job.notices(design), err=True)
+        echo_warnings(job.notices(result), err=True)
 
 
 @click.command(short_help="Draw SPEC's gears and what they make, with gear data: DXF, SVG, PDF.")

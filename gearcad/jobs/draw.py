@@ -35,7 +35,9 @@ from gearcad.designs import (
     RackPairDesign,
     SplineDesign,
     ToothedDesign,
+    TrainDesign,
 )
+from gearcad.designs.train_meshes import has_pairs
 from gearcad.drawing.assembly_sheets import draw_pair, draw_train
 from gearcad.drawing.drawing_subjects import DrawnGear, DrawnPair, DrawnTrain, Mate
 from gearcad.drawing.dxf_export import sheet_document
@@ -48,6 +50,7 @@ from gearcad.drawing.tool_sheet import draw_tool
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.jobs.build import products_of, require_bodies, seated_shafts, shaft_alone
 from gearcad.jobs.job import Job, Subject, Writer, as_design
+from gearcad.jobs.train_bodies import gear_train_plan
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.planetary import TrainLoad
@@ -55,6 +58,7 @@ from gearcad.planetary.members import material_of
 from gearcad.rating.options import RatingOptions
 from gearcad.solids import FileOptions
 from gearcad.solids.files.cutaway import Cutaway, SceneView
+from gearcad.solids.files.gear_train_products import GearTrainProduct
 from gearcad.solids.files.shot import Shot, loop_of
 from gearcad.solids.files.studio import Animation
 from gearcad.solids.shaft_plan import TurnedPlan
@@ -402,7 +406,7 @@ class Background(Enum):
 class PictureShot:
     """A design, and the shot that is taken of it."""
 
-    design: ToothedDesign
+    design: ToothedDesign | TrainDesign
     shot: Shot
 
 
@@ -439,6 +443,8 @@ class Picture(Job[ToothedDesign, PictureShot]):
             self._require_memory(1)
 
     def run(self, design: Design, progress: Progress | None = None) -> PictureShot:
+        if isinstance(design, TrainDesign) and has_pairs(design):
+            return self._of_train(design)
         design = self.accepted(design, progress)
         self._require_parts(design)
         options = FileOptions(
@@ -456,6 +462,23 @@ class Picture(Job[ToothedDesign, PictureShot]):
             exploded=self.explode,
             transparent=self.background is Background.TRANSPARENT,
             loop=loop,
+        )
+        return PictureShot(design, shot)
+
+    def _of_train(self, design: TrainDesign) -> PictureShot:
+        """Return the shot of a train of pairs, still. Raises GeometryError for one that is to turn or to be moved apart."""
+        for name, asked in (("explode", self.explode), ("turning", self.turning is not None)):
+            if asked:
+                raise GeometryError(name, True, "needs a gear, a pair or a planetary train: a train of pairs is shown in mesh")
+        plan = gear_train_plan(design)
+        module = min(each.gear.normal_module for each in plan.gears)
+        product = GearTrainProduct(plan, FileOptions(chord_error=_FINE * module))
+        shot = Shot(
+            product=product,
+            view=self.view,
+            size=self.pixels,
+            cutaway=self.cutaway,
+            transparent=self.background is Background.TRANSPARENT,
         )
         return PictureShot(design, shot)
 
@@ -509,7 +532,8 @@ class Picture(Job[ToothedDesign, PictureShot]):
         }
 
     def notices(self, result: PictureShot) -> Sequence[Notice]:
-        return result.shot.loop.notices if result.shot.loop else ()
+        found = result.shot.loop.notices if result.shot.loop else ()
+        return (*found, *result.shot.product.plan.notices) if isinstance(result.shot.product, GearTrainProduct) else found
 
     def files(self, result: PictureShot) -> dict[str, Writer]:
         """Return the image and the document."""

@@ -15,13 +15,14 @@ from gearcad.solids.exact.solid import AssembledProduct
 from gearcad.solids.facets.tessellation import Facets
 
 if TYPE_CHECKING:
+    from gearcad.solids.files.gear_train_products import GearTrainProduct
     from gearcad.solids.files.products import FileOptions, GearProduct, PairProduct, RackPairProduct, RackProduct, SplineProduct
     from gearcad.solids.files.shaft_products import ShaftProduct
     from gearcad.solids.files.train_products import CarrierProduct, TrainProduct
 
     PartProduct: TypeAlias = GearProduct | RackProduct
     BodyProduct: TypeAlias = CarrierProduct | ShaftProduct
-    AssemblyProduct: TypeAlias = PairProduct | RackPairProduct | SplineProduct | TrainProduct
+    AssemblyProduct: TypeAlias = PairProduct | RackPairProduct | SplineProduct | TrainProduct | GearTrainProduct
 
 
 class Format(Enum):

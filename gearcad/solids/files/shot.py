@@ -19,6 +19,7 @@ from gearcad.geometry.bore_teeth import bore_teeth, with_round_bore
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.train_data import shafts_of
 from gearcad.solids.files.cutaway import Camera, Cutaway, CutPlanes, SceneView, ViewDirection, close_up, framed, points_of
+from gearcad.solids.files.gear_train_products import GearTrainProduct
 from gearcad.solids.files.products import GearProduct, PairProduct, RackPairProduct, RackProduct
 from gearcad.solids.files.scenes import ScenePart
 from gearcad.solids.files.shaft_products import ShaftProduct
@@ -276,7 +277,7 @@ def _symmetry(train: PlanetaryTrain) -> int:
     return 1
 
 
-Product = GearProduct | PairProduct | RackProduct | RackPairProduct | TrainProduct | ShaftProduct
+Product = GearProduct | PairProduct | RackProduct | RackPairProduct | TrainProduct | GearTrainProduct | ShaftProduct
 
 _FIXED = {
     SceneView.FRONT: ViewDirection((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
@@ -310,6 +311,8 @@ def direction_of(product: Product, view: SceneView) -> ViewDirection:
         return _OF_TRAIN_APART if product.options.exploded else _OF_TRAIN
     if isinstance(product, PairProduct):
         return _OF_RING if product.pair.internal else _OF_PAIR
+    if isinstance(product, GearTrainProduct):
+        return _OF_PAIR
     if isinstance(product, GearProduct):
         return _OF_RING if product.gear.internal else _OF_GEAR
     if isinstance(product, ShaftProduct):
@@ -331,6 +334,8 @@ def cuts_of(product: Product, parts: Sequence[ScenePart], cutaway: Cutaway) -> d
     found = {}
     for part in parts:
         if isinstance(product, PairProduct) and part.name in product.shaft_roles:
+            continue
+        if isinstance(product, GearTrainProduct) and part.name in product.bodies:
             continue
         point, normals = np.array(part.offset), (near, aside)
         if isinstance(product, TrainProduct):
@@ -371,7 +376,7 @@ class Close(NamedTuple):
 
 
 def close_by(product: Product) -> Close:
-    """Return the pitch point of the mesh; of a train that of its first central with the first planet.
+    """Return the pitch point of the mesh; of a train that of its first central with the first planet, or of its first mesh.
 
     Raises GeometryError without a mesh.
     """
@@ -382,6 +387,8 @@ def close_by(product: Product) -> Close:
         central, rim = mesh.central.gear, mesh.rim.gear
         share = central.teeth / (central.teeth + rim.teeth)  # a ring has negative teeth
         return Close(planet.axle.x * share, planet.axle.y * share, central.normal_module)
+    if isinstance(product, GearTrainProduct):
+        return Close(*product.plan.pitch_point, product.plan.meshes[0].pair.pinion.normal_module)
     pair = product.pair
     radius = pair.working_pitch_diameters.pinion / 2 if isinstance(pair, GearPair) else pair.pitch_radius
     return Close(radius, 0.0, pair.pinion.normal_module)
