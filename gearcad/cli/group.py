@@ -15,6 +15,7 @@ import click
 from gearcad.cli.language import require_language, say
 from gearcad.core.errors import GearcadError, ParameterError, SolverError, as_choice, out_of_memory, printable, shortened, shown
 from gearcad.core.output import source_date
+from gearcad.core.runtime import distribution_of
 from gearcad.jobs import VERBS
 
 __all__ = ["Commands", "debug_option", "job_commands", "parse_choices", "require_new_file", "spec_argument"]
@@ -46,7 +47,8 @@ class Commands(click.Group):
 
     def list_commands(self, _ctx: click.Context) -> list[str]:
         """Return the names of the commands in the order of use, not in alphabetical order."""
-        return ["new", *job_commands(), "size", "identify", "tools", "study", "batch", "plot", "open", "completion"]
+        beside = ["size", "identify", "tools", "study", "batch", "plot", "open", "doctor", "completion"]
+        return ["new", *job_commands(), *beside]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """Return a command, whose module is imported now: a command is as quick to start as what it needs."""
@@ -93,20 +95,9 @@ class Commands(click.Group):
             ctx.exit(1)
 
 
-_DISTRIBUTIONS = {
-    "OCP": "cadquery-ocp",
-    "PIL": "pillow",
-    "fontTools": "fonttools",
-    "skfem": "scikit-fem",
-    "vtkmodules": "vtk",
-}
-"""The distribution of each module that is called otherwise."""
-
-
 def _missing(module: str) -> str:
     """Return the sentence for a module that is not installed, with the command that installs it."""
-    top = module.partition(".")[0]
-    package = _DISTRIBUTIONS.get(top, top)
+    package = distribution_of(module)
     return f"the package {package} is not installed, and this command needs it: pip install {package}"
 
 

@@ -243,6 +243,7 @@ def perform_on(
     if isinstance(job, OverMeshes):
         show = partial(_show_meshes, job)
     require_folder(folder_of(output, design.name))  # before a long job
+    job, missing = job.without_missing()
     with job_progress(shown=not quiet, expected=None if quiet else job.expected(design)) as progress:
         result = job.run(design, progress)
     with file_progress(shown=not quiet and job.writes_long) as progress:
@@ -252,6 +253,8 @@ def perform_on(
     else:
         show(design.name, result)
         click.echo("".join(f"{file}\n" for file in files), nl=False)
+    if missing:
+        say(f"{job.verb}.html is left out: the package {missing} is not installed: pip install {missing}", err=True)
     if not quiet:
         told = {notice.text for notice in job.notices(result)}
         echo_warnings((notice for notice in job.design_notices(design) if notice.text not in told), err=True)

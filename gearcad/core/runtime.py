@@ -7,6 +7,7 @@ import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, TypeVar
 
@@ -38,6 +39,30 @@ def one_thread() -> Iterator[None]:
         for each in ThreadpoolController().select(user_api="blas").lib_controllers:
             if each.filepath not in known:
                 each.set_num_threads(_usual())
+
+
+_DISTRIBUTIONS = {
+    "OCP": "cadquery-ocp",
+    "PIL": "pillow",
+    "fontTools": "fonttools",
+    "skfem": "scikit-fem",
+    "vtkmodules": "vtk",
+}
+"""The distribution of each module that is called otherwise."""
+
+
+def distribution_of(module: str) -> str:
+    """Return the name of the package that has a module."""
+    top = module.partition(".")[0]
+    return _DISTRIBUTIONS.get(top, top)
+
+
+def installed(module: str) -> bool:
+    """Return whether a module can be imported, without importing it."""
+    try:
+        return find_spec(module) is not None
+    except ImportError:
+        return False
 
 
 def _usual() -> int:

@@ -11,7 +11,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cache
-from importlib.util import find_spec
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, Self
@@ -152,10 +151,8 @@ class Reach(NamedTuple):
 
 
 def font_file() -> Path:
-    """Return the path of the font file, without an import of matplotlib."""
-    package = find_spec("matplotlib")
-    assert package is not None and package.submodule_search_locations is not None  # a dependency
-    return Path(package.submodule_search_locations[0], "mpl-data", "fonts", "ttf", "DejaVuSans.ttf")
+    """Return the path of the font file, DejaVu Sans, which ships with the package."""
+    return Path(__file__).with_name("DejaVuSans.ttf")
 
 
 def has_glyph(letter: str) -> bool:

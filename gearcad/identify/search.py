@@ -328,6 +328,17 @@ def identify_gear(measured: Measured, count: int = 10, folder: Path | None = Non
 
 
 def _chance(measured: Measured, chi_square: float) -> float:
-    from scipy.special import chdtrc
+    """Return the chance of a sum of squares at least as great, by the chi-square distribution of the number of readings.
 
-    return float(chdtrc(len(measured.readings), chi_square))
+    For whole numbers of degrees of freedom it is a finite sum (Abramowitz and Stegun, 26.4.4 and 26.4.5).
+    """
+    half, freedom = chi_square / 2, len(measured.readings)
+    first = math.erfc(math.sqrt(half)) if freedom % 2 else math.exp(-half)
+    powers = (math.exp(-half + k * math.log(half) - math.lgamma(k + 1)) if half else float(k == 0) for k in _steps(freedom))
+    return first + sum(powers)
+
+
+def _steps(freedom: int) -> list[float]:
+    """Return the exponents of the terms beside the first: 1/2, 3/2 ... or 1, 2 ... below half the degrees of freedom."""
+    begin = 0.5 if freedom % 2 else 1.0
+    return [begin + step for step in range(int(freedom / 2 - begin + 0.5))]

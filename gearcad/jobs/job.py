@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeAlias, TypeV
 from gearcad.core.errors import ParameterError, as_path
 from gearcad.core.output import json_text, staged_files
 from gearcad.core.records import JsonObject, Notice, PerGear, texts
-from gearcad.core.runtime import Agenda, Expected, Progress
+from gearcad.core.runtime import Agenda, Expected, Progress, installed
 from gearcad.designs.design import Design
 from gearcad.designs.keys import RIGID_SHAFTS, DesignKind
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
@@ -137,6 +137,10 @@ class Job(ABC, Generic[Accepted, Result]):
         """Return the job whose report has the heading that the design's [drawing] gives."""
         return self
 
+    def without_missing(self) -> tuple[Self, str]:
+        """Return the job without what a package that is not installed would have to make, and the name of that package."""
+        return self, ""
+
     # ------------------------------------------------------------------ rows of a table
 
     @property
@@ -173,6 +177,11 @@ class ReportedJob(Job[Accepted, Result]):
         from gearcad.report.document import heading
 
         return replace(self, head=heading(getattr(design, "drawing", None))) if self.report else self
+
+    def without_missing(self) -> tuple[Self, str]:
+        """Return the job without its report where a package that it needs is not installed, and that package, "" if none."""
+        missing = next((each for each in ("jinja2", "matplotlib") if self.report and not installed(each)), "")
+        return (replace(self, report=False), missing) if missing else (self, "")
 
     @property
     def parts(self) -> dict[str, dict[str, Any]]:

@@ -64,32 +64,48 @@ def read_facets(path: Path) -> list[FacetPart]:
     """Return the bodies of an STL, 3MF or GLB file in mm, z along the gear's axis. Raises what trimesh raises."""
     import trimesh
 
-    scene = trimesh.load_scene(path) if path.suffix != ".stl" else None
-    if scene is None:
+    if path.suffix == ".stl":
         return [FacetPart("", trimesh.load_mesh(path), np.eye(4))]
+    if path.suffix == ".3mf":
+        return _read_3mf(path)
+    scene = trimesh.load_scene(path)
     # A GLB has its vertices in mm below a node that turns y up and scales to metres.
-    to_world = np.linalg.inv(_GLB) if path.suffix == ".glb" else np.eye(4)
-    found, colours = [], _colours_of_3mf(path) if path.suffix == ".3mf" else {}
+    found, to_world = [], np.linalg.inv(_GLB)
     for node in scene.graph.nodes_geometry:
         place, geometry = scene.graph[node]
         mesh = scene.geometry[geometry]
-        colour = colours.get(str(geometry), "") if colours else _colour_of_glb(mesh)
-        found.append(FacetPart(str(geometry), mesh, to_world @ place, colour, str(scene.units or "")))
+        found.append(FacetPart(str(geometry), mesh, to_world @ place, _colour_of_glb(mesh), str(scene.units or "")))
     return found
 
 
-def _colours_of_3mf(path: Path) -> dict[str, str]:
-    """Return the colours of a 3MF by the names of its objects: trimesh does not read them."""
+def _read_3mf(path: Path) -> list[FacetPart]:
+    """Return the bodies of a 3MF file, an item of its build each, from its XML (3MF Core Specification 1.3).
+
+    trimesh would need two further packages for it, and reads no colours.
+    """
+    import trimesh
+
     with zipfile.ZipFile(path) as archive:
         model = next(name for name in archive.namelist() if name.endswith(".model"))
         root = ElementTree.fromstring(archive.read(model))
-    space = root.tag.partition("}")[0].removeprefix("{")
-    of_groups = {
-        group.get("id"): [base.get("displaycolor", "")[:7] for base in group]
-        for group in root.iter(f"{{{space}}}basematerials")
+    space = root.tag.partition("}")[0] + "}"
+    colours = {
+        group.get("id"): [base.get("displaycolor", "")[:7] for base in group] for group in root.iter(f"{space}basematerials")
     }
-    objects = [each for each in root.iter(f"{{{space}}}object") if each.get("pid") in of_groups]
-    return {each.get("name", ""): of_groups[each.get("pid")][int(each.get("pindex", "0"))] for each in objects}
+    objects = {each.get("id"): each for each in root.iter(f"{space}object")}
+    found = []
+    for item in root.iter(f"{space}item"):
+        body = objects[item.get("objectid")]
+        vertices = np.array([[float(each.get(axis, "nan")) for axis in "xyz"] for each in body.iter(f"{space}vertex")])
+        corners = [[int(each.get(corner, "-1")) for corner in ("v1", "v2", "v3")] for each in body.iter(f"{space}triangle")]
+        place = np.eye(4)
+        if given := item.get("transform"):
+            place[:3] = np.array(given.split(), float).reshape(4, 3).T
+        shades = colours.get(body.get("pid"))
+        colour = "" if shades is None else shades[int(body.get("pindex", "0"))]
+        mesh = trimesh.Trimesh(vertices, np.array(corners, int))
+        found.append(FacetPart(body.get("name", ""), mesh, place, colour, root.get("unit", "millimeter")))
+    return found
 
 
 def _colour_of_glb(mesh: Trimesh) -> str:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TypeVar
 
 from gearcad.core.errors import InputError, ParameterError, SolverError
-from gearcad.core.runtime import Agenda, Progress
+from gearcad.core.runtime import Agenda, Progress, distribution_of
 from gearcad.dynamics.options import AUTO, DynamicsOptions
 from gearcad.dynamics.planetary.gyroscopic_modes import GyroscopicModes, gyroscopic_modes
 from gearcad.dynamics.planetary.load_sharing import share_load
@@ -44,7 +44,7 @@ class _Findings:
     def part(self, name: str, needs: tuple[str, ...], make: Callable[[], Part]) -> Part | None:
         """Return the result of `make`, or None and note why.
 
-        It is None where a part that it needs is missing, or where `make` raises InputError or SolverError.
+        It is None where a part that it needs is missing, or where `make` raises InputError or SolverError, or lacks a package.
         """
         for need in needs:
             if need in self.why_not:
@@ -54,7 +54,10 @@ class _Findings:
             return make()
         except (InputError, SolverError) as error:
             self.why_not[name] = str(error)
-            return None
+        except ModuleNotFoundError as error:
+            package = distribution_of(str(error.name))
+            self.why_not[name] = f"the package {package} is not installed: pip install {package}"
+        return None
 
 
 def study_planetary(
