@@ -193,6 +193,8 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             alone = "a planetary train has a carrier" if design.kind is DesignKind.PLANETARY else alone
             alone = "shaft and hub have one axis" if design.kind is DesignKind.SPLINE else alone
             raise GeometryError("bracket", True, f"needs a pair of gears: {alone}")
+        if self.options.bracket and seated_shafts(design):
+            raise GeometryError("bracket", True, "must be left out with shafts in the spec: the gears stand on these")
         if self.stage == "precut" and not _precut(design):
             raise GeometryError("stage", self.stage, "needs a gear with a table premachining, such as [pinion.premachining]")
         if self.as_made:

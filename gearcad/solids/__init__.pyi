@@ -3,6 +3,7 @@ from .exact.assemblies import pair_assembly as pair_assembly
 from .exact.assemblies import rack_assembly as rack_assembly
 from .exact.assemblies import spline_assembly as spline_assembly
 from .exact.rack_solid import rack_solid as rack_solid
+from .exact.shaft_solid import shaft_solid as shaft_solid
 from .exact.solid import gear_solid as gear_solid
 from .facets.tessellation import Facets as Facets
 from .facets.tessellation import tessellate as tessellate

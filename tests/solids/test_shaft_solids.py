@@ -220,6 +220,11 @@ def test_a_scene_has_the_shafts_of_its_gears(tmp_path: Path) -> None:
     assert parts["stepped pinion shaft"].offset[:2] == (0.0, 0.0)
 
 
+def test_no_bracket_stands_beside_shafts(tmp_path: Path) -> None:
+    with pytest.raises(GeometryError, match="bracket = True: must be left out with shafts"):
+        Build(options=FileOptions(bracket=True)).run(design_of(tmp_path))
+
+
 def test_a_chord_error_below_single_precision_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match="chord_error"):
         Build(formats=(Format.STL,), options=FileOptions(chord_error=1e-7)).run(design_of(tmp_path))
