@@ -27,7 +27,7 @@ def shafts(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
 
     SPEC has [[shaft]] segments, [[bearing]] and [[force]] of one shaft, or a pair with [[pinion.shaft]], [[pinion.bearing]] and
     pinion.mesh_position, and the same of the wheel: then the load over the face and K_Hbeta on these shafts follow too. Writes
-    shafts.json.
+    shafts.json and shafts.html.
     """
     from gearcad.jobs.shafts import Shafts
 

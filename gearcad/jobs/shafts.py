@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
 from gearcad.core.errors import ParameterError
@@ -56,8 +57,9 @@ class Shafts(ReportedJob[PairDesign | ShaftDesign | TrainDesign, ArrangementResu
         return shaft_columns(document)
 
     def files(self, result: ArrangementResult) -> dict[str, Writer]:
-        """Return the document."""
-        return {"shafts.json": partial(self.write_document, result)}
+        """Return the document and the report."""
+        found: dict[str, Writer] = {"shafts.json": partial(self.write_document, result)}
+        return {**found, "shafts.html": partial(_write_report, result, self.head)} if self.report else found
 
 
 def _arrangement_of(design: PairDesign | ShaftDesign) -> ShaftArrangement:
@@ -87,6 +89,12 @@ def result_of(found: ShaftArrangement) -> ArrangementResult:
             shaft.solve() if state is None else state, found.speeds[name], found.options, found.discs.get(name, ())
         )
     return ArrangementResult(found.name, results, None if found.mesh is None else found.mesh.to_dict())
+
+
+def _write_report(result: ArrangementResult, head: Mapping[str, str], path: Path) -> None:
+    from gearcad.report import write_shafts_report
+
+    write_shafts_report(result, result.name, path, head)
 
 
 def shaft_columns(document: Mapping[str, Any]) -> JsonObject:

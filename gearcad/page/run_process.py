@@ -210,7 +210,7 @@ ANALYSES = {
     "stiffness": RunKind(job=_stiffness, report="stiffness.html"),
     "dynamics": RunKind(job=_dynamics, report="dynamics.html", shown=_shown_dynamics),
     "planetary": RunKind(job=_planetary, report="planetary.html"),
-    "shafts": RunKind(job=_shafts, takes=_has_shafts),
+    "shafts": RunKind(job=_shafts, report="shafts.html", takes=_has_shafts),
     "mesh": RunKind(job=_mesh, foreseen=False),
     "verify": RunKind(job=_verify, report="verify.html"),
 }

@@ -6,5 +6,7 @@ from .dynamics import dynamics_html as dynamics_html
 from .dynamics import write_dynamics_report as write_dynamics_report
 from .planetary import planetary_html as planetary_html
 from .planetary import write_planetary_report as write_planetary_report
+from .shafts import shafts_html as shafts_html
+from .shafts import write_shafts_report as write_shafts_report
 from .strength import rate_html as rate_html
 from .strength import write_rate_report as write_rate_report

@@ -175,6 +175,19 @@ class ShaftResult:
             found.append(bearing_life(named, radial, axial, self.speed, self.options))
         return tuple(found)
 
+    @property
+    def greatest_deflection(self) -> tuple[float, float]:
+        """Greatest deflection (µm) and its position (mm)."""
+        across = 1000 * np.hypot(*self.state.moved.reshape(-1, 6)[:, :2].T)
+        return float(across.max()), float(self.state.shaft.nodes[across.argmax()])
+
+    @property
+    def greatest_stress(self) -> tuple[float, float]:
+        """Greatest nominal equivalent stress (MPa) and its position (mm)."""
+        stresses, nodes = self.state.stresses, self.state.shaft.nodes
+        part, end = np.unravel_index(int(stresses.argmax()), stresses.shape)
+        return float(stresses.max()), float(nodes[part + end])
+
     def to_dict(self) -> JsonObject:
         """Return reactions, stations, bearings and critical speeds."""
         return self.state.to_dict() | {
@@ -219,6 +232,18 @@ class ArrangementResult:
                 yield Notice("critical-speed", f"{text} {speeds[0]:.0f} rpm")
 
     @property
+    def least_life(self) -> float | None:
+        """Least basic life (h) of all bearings of which it is known."""
+        hours = (life.hours for shaft in self.shafts.values() for life in shaft.lives)
+        return min((each for each in hours if each is not None), default=None)
+
+    @property
+    def unconfirmed(self) -> list[str]:
+        """What rests on memory, if anything does."""
+        lives = any(life.revolutions is not None for shaft in self.shafts.values() for life in shaft.lives)
+        return [RECALLED] if lives else []
+
+    @property
     def not_judged(self) -> list[str]:
         """What was not judged, and why."""
         found = [
@@ -229,8 +254,7 @@ class ArrangementResult:
     def to_dict(self) -> dict[str, Any]:
         """Return the content of shafts.json."""
         found: dict[str, Any] = {"shafts": {name: shaft.to_dict() for name, shaft in self.shafts.items()}}
-        lives = any(life.revolutions is not None for shaft in self.shafts.values() for life in shaft.lives)
-        unconfirmed = {"unconfirmed": [RECALLED] if lives else []}
+        unconfirmed = {"unconfirmed": self.unconfirmed}
         return found | ({} if self.mesh is None else {"mesh": self.mesh}) | unconfirmed
 
 

@@ -453,6 +453,15 @@ class ShaftState:
         return float(self._on_nodes[self.shaft.node_at(self.shaft.coupling), 5]) / 1000
 
     @cached_property
+    def stresses(self) -> Floats:
+        """Nominal equivalent stress (n - 1, 2) in MPa at both ends of each part: (M_b/W + |N|/A)^2 + 3 (T/2W)^2, root."""
+        modulus, area = (np.array([getattr(part, name) for part in self.shaft.parts])[:, None] for name in _OF_STRESS)
+        cuts = self.cuts
+        bending = np.hypot(cuts[..., 3], cuts[..., 4]) / modulus + np.abs(cuts[..., 2]) / area
+        found: Floats = np.sqrt(bending**2 + 3 * (cuts[..., 5] / (2 * modulus)) ** 2)
+        return found
+
+    @cached_property
     def cuts(self) -> Floats:
         """Forces and moments (n - 1, 2, 6) which the part right of a cut puts on that left of it, at both ends of each part."""
         found = np.zeros((len(self.shaft.parts), 2, _DOFS))
@@ -476,7 +485,7 @@ class ShaftState:
             }
             for name, part, end in (("left", number - 1, 1), ("right", number, 0)):
                 if 0 <= part < len(self.shaft.parts):
-                    station[name] = _cut_document(self.cuts[part, end], self.shaft.parts[part])
+                    station[name] = _cut_document(self.cuts[part, end], float(self.stresses[part, end]))
             found.append(station)
         return found
 
@@ -489,14 +498,17 @@ class ShaftState:
         return {"reactions": reactions, "coupling_torque": self.coupling_torque, "stations": self.stations()}
 
 
-def _cut_document(cut: Floats, part: ShaftSegment) -> JsonObject:
-    """Return the forces of a cut, and the nominal stress (MPa): (M_b/W + |N|/A)^2 + 3 (T/2W)^2, root."""
+_OF_STRESS = ("section_modulus", "area")
+"""Properties of a section that decide the stress."""
+
+
+def _cut_document(cut: Floats, stress: float) -> JsonObject:
+    """Return the forces of a cut, and the nominal equivalent stress (MPa)."""
     shear_x, shear_y, axial, about_x, about_y, torque = cut.tolist()
-    bending = math.hypot(about_x, about_y) / part.section_modulus + abs(axial) / part.area
     return {
         "shear": [shear_x, shear_y],
         "axial_force": axial,
         "bending_moment": [about_x / 1000, about_y / 1000],
         "torque": torque / 1000,
-        "equivalent_stress": math.sqrt(bending**2 + 3 * (torque / (2 * part.section_modulus)) ** 2),
+        "equivalent_stress": stress,
     }

@@ -426,6 +426,21 @@ def test_faults_of_shafts_are_told_by_every_command(tmp_path: Path, change: tupl
     assert words in str(caught.value) and "\n" not in str(caught.value)
 
 
+def test_the_report_has_a_picture_of_each_shaft_and_the_lives(tmp_path: Path) -> None:
+    design = replace(pair_design(tmp_path), load=Load(torque=50.0, speed=600.0))
+    result = Shafts().run(design)
+    Shafts(head={"company": "Works"}).write(result, tmp_path / "out")
+    text = (tmp_path / "out" / "shafts.html").read_text(encoding="utf-8")
+    assert text.count("data:image/svg+xml") == 3 and "Works" in text  # one shaft, load and gap over the face
+    document = json.loads((tmp_path / "out" / "shafts.json").read_text(encoding="utf-8"))
+    state, stations = result.shafts["pinion"], document["shafts"]["pinion"]["stations"]
+    greatest = max(math.hypot(*each["deflection"][:2]) for each in stations)
+    assert state.greatest_deflection[0] == pytest.approx(greatest, rel=1e-12)
+    sides = [each[side]["equivalent_stress"] for each in stations for side in ("left", "right") if side in each]
+    assert state.greatest_stress[0] == pytest.approx(max(sides), rel=1e-12)
+    assert "No life of a bearing is judged" in text and "life: kind and C are not given" in text
+
+
 def test_options_of_shafts_need_a_shaft(tmp_path: Path) -> None:
     text = "[pair]\nnormal_module = 2\nface_width = 20\n[pinion]\nteeth = 20\n[wheel]\nteeth = 30\n[shafts]\nslices = 10\n"
     with pytest.raises(SpecError, match=r"line 8: \[shafts\]: needs a shaft: segments headed \[\[pinion.shaft\]\]"):
