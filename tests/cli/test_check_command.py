@@ -154,6 +154,7 @@ def test_what_cannot_be_checked_is_one_line(here: Path, text: str, message: str)
     assert not Path("output").exists()
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_report")
 def test_absurd_load_and_thin_rim_are_warnings_with_their_numbers(here: Path) -> None:
     result = invoke("check", spec_file(QUICK.replace("torque = 50.0", "torque = 50000.0")), "--quiet")
@@ -251,6 +252,7 @@ def modify_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_report")
 def test_the_written_spec_does_what_the_proposal_says(modify_here: Path) -> None:
     result = invoke("modify", spec_file(SPEC), "--json", "--quiet", "--shape", "parabolic")

@@ -244,6 +244,7 @@ def test_spur_gears_as_solids_carry_as_in_the_plane(tmp_path: Path, monkeypatch:
     assert not Path("output").joinpath("spur", "stress_pinion.vtu").exists()  # the plane check came last
 
 
+@pytest.mark.long
 def test_helical_rows_of_a_table_are_checked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     keys = {

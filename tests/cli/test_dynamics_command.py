@@ -70,6 +70,7 @@ def test_a_train(here: Path) -> None:
         assert arrays["kv"][:, 0].tolist() == document["chart"]["kv"]["mesh"]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_report")
 def test_the_greatest_factor_where_the_machine_runs_stands_first(here: Path) -> None:
     """A resonance beyond the operating range is none of its headline, nor is the course that is drawn."""
@@ -108,6 +109,7 @@ def test_one_word_changes_the_model(here: Path) -> None:
     assert found["elements"][:5] == pytest.approx(found["exact"][:5], rel=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_report")
 def test_a_pair_without_further_data(here: Path) -> None:
     """Inertias of its own solids, FE contact, K_v of ISO 6336 beside its own; at rest the load is the static one."""
@@ -154,6 +156,7 @@ def test_a_train_without_teeth(here: Path) -> None:
     assert "Natural modes" in page and "Without teeth in mesh nothing shakes the train" in page
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_pictures")
 def test_a_pair_on_bearings(here: Path, request: pytest.FixtureRequest) -> None:
     """Stiff bearings leave the torsional pair; soft ones bring frequencies of their own."""
@@ -194,6 +197,7 @@ def test_pitch_deviations_given_or_drawn(here: Path) -> None:
     assert found[2] == found[3] != found[4]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_report")
 def test_a_chart_that_begins_where_flanks_part_is_integrated_in_time(here: Path) -> None:
     """The branch of motions turns back before the first speed of the chart: both runs are in time."""
@@ -206,6 +210,7 @@ def test_a_chart_that_begins_where_flanks_part_is_integrated_in_time(here: Path)
     assert "integrated-in-time" in [each["code"] for each in document["notices"]]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_report")
 def test_tooth_errors_and_flanks_that_part_are_integrated_in_time(here: Path) -> None:
     text = PAIR.replace("speeds = 40", "speeds = 3\nspeed_from = 24000.0\nspeed_to = 27000.0\ntooth_errors = 'on'")
@@ -213,6 +218,7 @@ def test_tooth_errors_and_flanks_that_part_are_integrated_in_time(here: Path) ->
     assert re.search(r"Warning: flanks part at tooth frequencies .* are integrated in time", result.stdout)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_pictures")
 def test_the_contact_model_of_the_thesis(here: Path) -> None:
     text = (TEMPLATES / "uhlir-19-23.toml").read_text(encoding="utf-8")

@@ -199,6 +199,7 @@ def test_what_cannot_be_laid_over_each_other(here: Path, text: str, variations: 
     assert message in fault(text, *variations)
 
 
+@pytest.mark.long
 def test_errors_of_teeth_are_laid_over_each_other(here: Path) -> None:
     """With errors that are drawn several times the first chart is that of teeth without: theirs stand beside."""
     text = ONE_STAGE.replace("speeds = 20", 'speeds = 5\nspeed_from = 5000.0\ntooth_errors = "on"\nerror_samples = 2')

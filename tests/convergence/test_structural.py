@@ -100,6 +100,7 @@ def test_hybrid_is_the_converged_brute_force(body: BodyModel) -> None:
     assert ours[:, 1:] == pytest.approx(theirs[:, 1:], rel=3e-3)
 
 
+@pytest.mark.long
 def test_hybrid_is_near_a_coarser_brute_force() -> None:
     """Flank edges of 18 µm, a quarter of the half width: it is itself 0.3 % off in stiffness, 0.5 % in the range."""
     assert_agree(

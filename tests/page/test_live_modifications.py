@@ -44,6 +44,7 @@ def _design(bench: Workbench) -> PairDesign:
     return bench.design
 
 
+@pytest.mark.long
 def test_the_error_of_kept_bodies_is_that_of_a_check(tmp_path: Path) -> None:
     bench = _bench(tmp_path)
     live_error(_design(bench))

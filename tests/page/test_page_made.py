@@ -55,6 +55,7 @@ def client() -> Callable[[str], Any]:
     return lambda path: awaited(get(path))
 
 
+@pytest.mark.long
 def test_figures_stand_beside_each_other(runs: Runs) -> None:
     first, second = runs.all[:2]
     assert (verb_of(first), first.line) == ("rate", "reducer-21-43 at 200 N·m, 1450 rpm: strength passed")

@@ -143,6 +143,7 @@ def test_few_planets_have_a_report(planets: int) -> None:
     assert any(each.startswith("room between tips") for each in words) == (planets > 1)
 
 
+@pytest.mark.long
 def test_a_differential_has_no_efficiency_from_end_to_end() -> None:
     study = starter("differential")
     text = planetary_html(study, "differential")
@@ -152,6 +153,7 @@ def test_a_differential_has_no_efficiency_from_end_to_end() -> None:
     assert planetary_html(locked, "differential") == text
 
 
+@pytest.mark.long
 def test_loads_over_speed_are_there_where_they_were_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     """By the method itself: a mean alone shakes nothing."""
     monkeypatch.setitem(METHODS, QUICK, OWN)

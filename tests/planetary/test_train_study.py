@@ -244,6 +244,7 @@ def test_the_data_sheet_has_the_train_and_a_column_for_each_mesh() -> None:
     assert "ring_4-rim_3 ring_5-rim_3p pre_stage" in " ".join(sheet.split())
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("quick")
 def test_rows_of_a_table_have_the_figures(tmp_path: Path) -> None:
     lines = (TEMPLATES / "planetary-sets.csv").read_text(encoding="utf-8").splitlines()

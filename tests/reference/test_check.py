@@ -233,6 +233,7 @@ def test_high_teeth_pass_hertzs_gates_and_rows_are_those_told() -> None:
     assert tuple(each.values[1] for each in found.convergence) == told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("youngs_modulus", "torque", "ends"), [(206000.0, 400.0, False), (206000.0, 4800.0, True)])
 def test_a_load_far_beyond_elasticity_is_told(youngs_modulus: float, torque: float, ends: bool) -> None:
     """Rolling contact along lines leaves marks from 4,000 MPa on (ISO 76); the hardest steels tear at about 2,500 MPa."""

@@ -165,6 +165,7 @@ def tooth_resonance(drive: Drive, mode: int) -> float:
     return float(modes.rpm[mode, int(modes.potential_meshes[mode].argmax())])
 
 
+@pytest.mark.long
 def test_flanks_that_part_by_hand() -> None:
     """At the resonance of the second pair's teeth."""
     drive = random_drive(4)

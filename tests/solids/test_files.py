@@ -60,6 +60,7 @@ def write_all(folder: str) -> None:
         write_scene([ScenePart(name="gear", facets=facets)], f"{folder}/gear.{suffix}")
 
 
+@pytest.mark.long
 def test_equal_bytes_from_processes_that_hash_differently(tmp_path: Path) -> None:
     made = []
     for seed in ("1", "here"):

@@ -264,6 +264,7 @@ def _ring_measure(gear: Gear, shape: cadquery.Shape) -> None:
 _LONG = ("spur, form root", "right hand, shaped", "chamfered", "chamfered beyond the root")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in _LONG)) for name in RINGS])
 def test_all_modifications_before_and_after_step(name: str, tmp_path: Path) -> None:
     gear = modified(RINGS[name])

@@ -67,6 +67,7 @@ def nodes_of(mesh: ElementMesh, *words: str) -> np.ndarray:
     return mesh.points[np.unique(np.concatenate([mesh.nodes(name) for name in names]))]
 
 
+@pytest.mark.long
 def test_nodes_are_on_the_modified_flanks(part: ElementMesh) -> None:
     """Those between vertices too; and those of fillets and tip chamfers are turned with the ends of the flanks."""
     flanks, fillets = nodes_of(part, "flank"), nodes_of(part, "fillet")

@@ -73,6 +73,7 @@ def run(search: Search, bound: float, *, edges: bool = True) -> FoundModificatio
     return search._settled(bound, search._survey(bound), edges=edges)
 
 
+@pytest.mark.long
 def test_tip_relief_halves_the_transmission_error_as_the_rules_of_the_field_say(fine: Search) -> None:
     found = best(fine, _GENEROUS)
     model = coarse_model("FZG C")
@@ -184,6 +185,7 @@ def test_a_bound_of_the_pressure_is_kept_and_one_that_cannot_be_gives_way_to_the
     assert found.peak_to_peak < 0.6 * search.plain.peak_to_peak[0]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("few")
 def test_the_helix_is_turned_after_a_misaligned_wheel(search: Search, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("gearcad.contact.modification_search._GENERATIONS", 3)

@@ -363,6 +363,7 @@ SAME = 1e-4
 """Relative: pressures at and away from the starts of reliefs, whatever the length over which slope and curvature are taken."""
 
 
+@pytest.mark.long
 def test_pressure_beside_the_start_of_a_relief_has_no_internal_length(monkeypatch: pytest.MonkeyPatch) -> None:
     """The transition makes it finite; within three half widths of it cells are pressed by their exact gap."""
     relief = FlankModification(tip_relief=40.0, tip_relief_length=4.5)

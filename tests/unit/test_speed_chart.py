@@ -212,6 +212,7 @@ def test_force_over_time_is_that_of_the_motion(parting: OverSpeed) -> None:
     assert damping == pytest.approx(found.damping_forces[:, 0], abs=2e-3)
 
 
+@pytest.mark.long
 def test_few_speeds_begin_with_flanks_apart() -> None:
     """No motion below the first speed to begin with: integrated in time, as from any other first speed."""
     of, excitation = oscillator(0.02), cosine(0.3, phase=180.0, backlash=math.inf)
@@ -245,6 +246,7 @@ def test_loads_where_flanks_part_are_those_of_an_integration_by_events(damping_r
         assert np.isnan(value) or value == pytest.approx(true[nu], rel=SAME_MOTION)
 
 
+@pytest.mark.long
 def test_a_motion_that_does_not_repeat_is_told_with_its_greatest_load() -> None:
     """A stretch of it by DOP853 from rest."""
     of, excitation, nu = oscillator(0.05), cosine(0.7, phase=180.0, backlash=math.inf), 0.49

@@ -197,6 +197,7 @@ def test_smooth_errors_are_those_of_the_harmonic_balance(grade: int | None) -> N
     assert found.factors[:, 0, 0] == pytest.approx(exact, rel=STEPS)
 
 
+@pytest.mark.long
 def test_smooth_flanks_that_part_are_those_of_the_harmonic_balance() -> None:
     of = system(one_stage("modes"))
     excitation = Excitation(meshes=(MeshExcitation(stiffness=CosineStiffness(variation=0.7), backlash=math.inf),))

@@ -128,6 +128,7 @@ def test_a_sweep_passes_the_resonance_behind_its_place_and_below_its_height() ->
 # ---------------------------------------------------------------------- flanks that part: the charts run through
 
 
+@pytest.mark.long
 def test_slow_runs_up_and_down_jump_where_the_charts_do() -> None:
     train = pair(variation=0.25, damping_ratio=0.04, backlash=100.0)
     centre = resonance(train) * 60 / (2 * np.pi * 20)

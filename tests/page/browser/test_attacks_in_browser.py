@@ -135,6 +135,7 @@ def test_script_in_any_field_that_takes_text_is_only_words(tab: Tab) -> None:
         tab.page.wait_for_selector(f'[data-key="{key}"] .fault', state="detached")
 
 
+@pytest.mark.long
 def test_messages_that_are_none_harm_nobody(tab: Tab, folder: Path) -> None:
     """What no page sends, and what its own elements never do: each is a line on the terminal, and all goes on."""
     tab.page.evaluate(
@@ -195,6 +196,7 @@ def test_the_last_of_rapid_changes_is_shown(tab: Tab) -> None:
     assert tab.field(TEETH).input_value() == "22"
 
 
+@pytest.mark.long
 def test_two_tabs_do_not_see_each_other(lent: Tab, browser: Any, address: str) -> None:
     context = browser.new_context()
     other = Tab(context.new_page(), address)

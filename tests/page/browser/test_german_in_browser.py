@@ -127,6 +127,7 @@ def test_faults_are_german(tab: Any, tmp_path: Path) -> None:
         assert english_texts(tab.page.evaluate(_SHOWN)) == [], what
 
 
+@pytest.mark.long
 def test_lists_of_lists_have_decimal_commas(tab: Any) -> None:
     text = STARTERS["reducer-21-43"].replace("[rating]", "[rating]\nspectrum = [[0.1, 1.25], [0.9, 0.8]]", 1)
     _open(tab, "spectrum", text)

@@ -110,6 +110,7 @@ def test_a_change_that_is_lost_is_sent_again(tab: Any) -> None:
     tab.page.wait_for_function("[...document.querySelectorAll('.cm-line')].some(line => /= 0.32/.test(line.textContent))")
 
 
+@pytest.mark.long
 def test_what_is_half_typed_stays(tab: Any) -> None:
     teeth, module = "pinion.teeth", "pair.normal_module"
     tab.field(teeth).press("Control+a")
@@ -127,6 +128,7 @@ def test_what_is_half_typed_stays(tab: Any) -> None:
     _has(tab, module, "3.5")
 
 
+@pytest.mark.long
 def test_a_key_is_taken_out_and_what_is_used_stands_there(tab: Any) -> None:
     tab.field("pinion.face_width").fill("31")
     _has(tab, "pinion.face_width", "31")
@@ -160,6 +162,7 @@ def test_the_text_follows_and_is_followed(tab: Any) -> None:
     _has(tab, "pinion.teeth", "23")
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="stops the server")
 def test_a_slow_server_overtakes_no_key_of_the_text(tab: Any, served: tuple[subprocess.Popen[str], str]) -> None:
     """What is wrong is told while one types on, and an undo leaves what is typed after it."""
@@ -182,6 +185,7 @@ def test_a_slow_server_overtakes_no_key_of_the_text(tab: Any, served: tuple[subp
     assert line.text_content().startswith("   teeth = 21")
 
 
+@pytest.mark.long
 def test_the_design_is_moved_in_its_shift_diagram(tab: Any) -> None:
     was = tab.field(SHIFT).input_value()
     tab.page.click(".left .q-tab:nth-child(3)")
@@ -212,6 +216,7 @@ def test_german_by_the_switch_with_the_design_that_stands(tab: Any) -> None:
     assert tab.page.get_attribute("html", "lang") == "de"
 
 
+@pytest.mark.long
 def test_a_phone_reads_only(tab: Any) -> None:
     tab.page.set_viewport_size({"width": 390, "height": 844})
     tab.page.wait_for_function("document.querySelector('[data-key=\"pinion.teeth\"] input').readOnly")
@@ -274,6 +279,7 @@ def test_main_inputs_come_first_and_the_rest_is_found(tab: Any) -> None:
     assert tab.page.locator(".inputs .ranked sub").count() > 2
 
 
+@pytest.mark.long
 def test_switches_hold_by_the_keyboard_and_say_what_follows(tab: Any) -> None:
     hold = tab.page.locator(".inputs .holds button")
     wheel = tab.page.locator('[data-key="wheel.profile_shift"]')
@@ -296,6 +302,7 @@ def test_switches_hold_by_the_keyboard_and_say_what_follows(tab: Any) -> None:
         _has(tab, key, value)
 
 
+@pytest.mark.long
 def test_inches_are_shown_and_typed_and_the_spec_stays_in_mm(tab: Any) -> None:
     tab.page.get_by_role("button", name="inches and pounds").click()
     tab.page.wait_for_function("document.querySelector('[data-key=\"pair.centre_distance\"] input')?.value === '3.818898'")

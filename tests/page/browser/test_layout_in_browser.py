@@ -173,6 +173,7 @@ def test_enter_goes_on_from_a_list(tab: Any) -> None:
     assert tab.page.evaluate("document.activeElement.closest('[data-key]')?.dataset.key") not in ("rating.standard", None)
 
 
+@pytest.mark.long
 def test_numbers_of_the_german_page_have_commas(tab: Any) -> None:
     tab.page.goto(f"{tab.address}?lang=de")
     tab.page.wait_for_selector(".scene[data-shown]")
@@ -193,6 +194,7 @@ def test_numbers_of_the_german_page_have_commas(tab: Any) -> None:
     assert shift.input_value() == "0,3"
 
 
+@pytest.mark.long
 def test_a_finger_scrolls_a_phone_past_the_pictures(browser: Any, address: str) -> None:
     context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     page = context.new_page()

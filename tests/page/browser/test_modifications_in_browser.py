@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import pytest
+
 ENOUGH = 60_000  # ms
 
 
@@ -15,6 +17,7 @@ def _changed(page: Any, before: str) -> None:
     )
 
 
+@pytest.mark.long
 def test_a_handle_is_dragged_and_moved_by_keys(tab: Any) -> None:
     page = tab.page
     page.click(".left >> text=Flanks")

@@ -76,6 +76,7 @@ def test_a_spec_goes_round_with_its_comments_and_the_address_holds_it(tab: Any, 
     _wait_for_name(tab, "volvo-13-44")
 
 
+@pytest.mark.long
 def test_files_are_taken_along(tab: Any) -> None:
     page = tab.page
     page.click(".files > summary")
@@ -84,6 +85,7 @@ def test_files_are_taken_along(tab: Any) -> None:
     assert taken.value.suggested_filename == "reducer-21-43.json"
 
 
+@pytest.mark.long
 def test_names_that_are_none_are_told(tab: Any) -> None:
     page = tab.page
     page.click(".files > summary")
@@ -95,6 +97,7 @@ def test_names_that_are_none_are_told(tab: Any) -> None:
         assert "must be a plain file name" in page.inner_text(".files-menu .fault")
 
 
+@pytest.mark.long
 def test_a_row_of_results_is_opened_and_its_words_are_only_words(tab: Any, tmp_path: Path) -> None:
     page = tab.page
     (tmp_path / "results.csv").write_text(RESULTS, encoding="utf-8")

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import pytest
+
 ENOUGH = 60_000  # ms
 
 
@@ -22,6 +24,7 @@ def _handle(page: Any, number: int) -> tuple[float, float]:
     return box["x"] + float(x), box["y"] + float(y)
 
 
+@pytest.mark.long
 def test_handles_measures_and_the_tool(tab: Any) -> None:
     page = tab.page
     _mode(page, "draw")

@@ -3,6 +3,8 @@
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from gearcad.designs.reader import starter_text
 from gearcad.page.folder import pack
 
@@ -17,6 +19,7 @@ def value(tab: Any, key: str) -> Any:
     return tab.page.locator(f'{SHEET} tr[data-row="{key}"]').last.locator(".value")
 
 
+@pytest.mark.long
 def test_what_changed_stands_beside_what_it_was(tab: Any) -> None:
     before = value(tab, "pair.transverse_contact_ratio").text_content().strip()
     tab.give("pinion.profile_shift", "0.35")
@@ -35,6 +38,7 @@ def test_folding_stays_over_changes(lent: Any) -> None:
     assert block.get_attribute("open") is None
 
 
+@pytest.mark.long
 def test_rows_are_found_and_walked_and_pinned_by_keys(tab: Any) -> None:
     tab.page.fill(f"{SHEET} .search", "root form")
     rows = tab.page.locator(f"{SHEET} tr[data-row]")
@@ -94,6 +98,7 @@ def test_a_hostile_name_is_shown_as_text(tab: Any) -> None:
     assert tab.page.evaluate("window.hacked") is None
 
 
+@pytest.mark.long
 def test_words_keep_their_room_beside_six_gears(tab: Any) -> None:
     tab.page.goto(f"{tab.address}?lang=en&design={pack('planetary-alm', starter_text('planetary-alm')[1])}")
     words = tab.page.locator(f'{SHEET} tr[data-row="gear.normal_module"] th').first
@@ -146,6 +151,7 @@ def test_space_lets_the_gears_turn_and_stops_them(lent: Any) -> None:
     assert lent.page.get_attribute(".gear-roll button", "aria-pressed") == "false"
 
 
+@pytest.mark.long
 def test_memory_stays_where_it_is_over_many_changes(lent: Any) -> None:
     before = _memory(lent)
     for change in range(CHANGES):
@@ -172,6 +178,7 @@ def test_two_points_are_measured(lent: Any) -> None:
     lent.page.get_by_role("button", name="measure").click()
 
 
+@pytest.mark.long
 def test_without_webgl_it_says_so_and_all_else_works(browser: Any, address: str) -> None:
     context = browser.new_context()
     page = context.new_page()
@@ -182,6 +189,7 @@ def test_without_webgl_it_says_so_and_all_else_works(browser: Any, address: str)
     context.close()
 
 
+@pytest.mark.long
 def test_a_rack_is_drawn_at_once_however_near_one_looks(tab: Any) -> None:
     """Dashes far beyond the view once took half a minute."""
     tab.page.goto(f"{tab.address}?lang=en&design={pack('rack', starter_text('rack')[1])}")
@@ -210,6 +218,7 @@ def test_values_of_the_mesh_stand_across_those_of_gears_under_their_gear(tab: An
     assert "ISO 21771, clause 5.4" in title
 
 
+@pytest.mark.long
 def test_designs_are_compared_swapped_and_let_go(tab: Any) -> None:
     for width in ("28", "30"):
         tab.page.get_by_role("button", name="Beside").click()
@@ -235,6 +244,7 @@ def test_designs_are_compared_swapped_and_let_go(tab: Any) -> None:
     tab.page.wait_for_function("document.querySelectorAll('.compare thead th[scope=col]').length === 2")
 
 
+@pytest.mark.long
 def test_the_drawing_is_seen_magnified_and_taken_as_pdf(tab: Any) -> None:
     tab.page.get_by_role("tab", name="Drawing").click()
     picture = tab.page.locator(".gear-drawing .paper img")
@@ -263,6 +273,7 @@ def test_the_drawing_is_seen_magnified_and_taken_as_pdf(tab: Any) -> None:
     assert Path(taken.value.path()).read_bytes()[:5] == b"%PDF-"
 
 
+@pytest.mark.long
 def test_a_print_is_a_report_of_all_values(tab: Any) -> None:
     tab.page.wait_for_selector(".gear-sheet tr[data-row]", state="attached")
     folded = tab.page.locator(".gear-sheet details:not([open])").count()

@@ -152,6 +152,7 @@ def test_what_is_missing_or_wrong_stands_at_its_field(begun: Tab) -> None:
     assert not page.locator(".found-table").count()
 
 
+@pytest.mark.long
 def test_a_measured_gear_becomes_the_design(begun: Tab) -> None:
     page = begun.page
     page.click(".task-tabs >> text=from a measured gear")
@@ -163,6 +164,7 @@ def test_a_measured_gear_becomes_the_design(begun: Tab) -> None:
     assert page.input_value('[data-key="gear.normal_module"] input >> nth=0') == "2"
 
 
+@pytest.mark.long
 def test_a_starter_and_a_new_design(begun: Tab) -> None:
     page = begun.page
     page.click(".task-tabs >> text=from a starter")
@@ -173,6 +175,7 @@ def test_a_starter_and_a_new_design(begun: Tab) -> None:
     page.wait_for_selector(".panels.empty")
 
 
+@pytest.mark.long
 def test_a_chart_is_fetched_when_it_is_drawn_and_a_cell_of_a_map_is_taken(tab: Tab, folder: Path) -> None:
     page, fetched = tab.page, list[str]()
     page.on("request", lambda request: fetched.append(request.url) if "echart" in request.url else None)
@@ -201,6 +204,7 @@ def test_a_chart_is_fetched_when_it_is_drawn_and_a_cell_of_a_map_is_taken(tab: T
     assert page.input_value('[data-key="pair.face_width"] input >> nth=0') == "33"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("language", [pytest.param("en", marks=pytest.mark.long), "de"])
 def test_no_number_is_cut_and_nothing_is_small(begun: Tab, language: str) -> None:
     page = begun.page
