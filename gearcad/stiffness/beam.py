@@ -1,8 +1,8 @@
 """Mesh stiffness with the tooth as a beam on an elastic body: potential energy, and Weber and Banaschek.
 
 The section is that of the virtual spur gear in the normal section (ISO 6336-3:2006, 6.2.2); a spur gear is its own.
-x runs along the centre line of the tooth from the gear's axis, h is the half thickness there (mm). Angles in radians: these
-are the locals of the formulas of beam methods.
+x runs along the centre line of the tooth from its root to its tip, 0 on the gear's axis, h is the half thickness there (mm);
+on the tooth of a ring x is negative. Angles in radians: these are the locals of the formulas of beam methods.
 
 In a helical pair a slice is cut across the lines of contact: the tooth's normal section under F_n/l = F_bt/b, whose
 deflection delta_n is delta_t = delta_n/cos beta_b along the transverse line of action. Compliances of the section over
@@ -69,21 +69,26 @@ class BeamLoad:
 
 @dataclass(frozen=True)
 class BeamTooth:
-    """A tooth between its root circle and its tip form circle."""
+    """A tooth between its root circle and its tip form circle; `side` is 1, and -1 on a ring, whose teeth point to its axis."""
 
     base_radius: float
     base_half_angle: float
     root_radius: float
     fillet: Curve
     flank: Involute
+    side: int = 1
 
     @classmethod
     def from_gear(cls, gear: Gear) -> BeamTooth:
         """Return the tooth of a gear. Raises GeometryError where the virtual gear has no tooth."""
+        if gear.internal and gear.helix_angle:
+            permitted = "must be 0 for weber-banaschek on a ring: its beam is that of spur teeth"
+            raise GeometryError("pair.helix_angle", gear.helix_angle, permitted, "deg")
         profile = gear.profile if not gear.helix_angle else _virtual_profile(gear)
         fillet, flank = profile.fillet, profile.involute
         base = profile.base_diameter / 2
-        return cls(base, math.radians(profile.base_half_angle), profile.root_diameter / 2, fillet, flank)
+        side = -1 if gear.internal else 1
+        return cls(base, math.radians(profile.base_half_angle), profile.root_diameter / 2, fillet, flank, side)
 
     # ------------------------------------------------------------------ the root
 
@@ -95,8 +100,13 @@ class BeamTooth:
     @cached_property
     def root_chord(self) -> tuple[float, float]:
         """x and h where the fillet leaves the root circle (mm)."""
-        x, h = self.fillet.points(0.0)
+        x, h = self._points(self.fillet, np.array(0.0))
         return float(x), float(h)
+
+    def _points(self, curve: Curve, s: Floats) -> Floats:
+        """Return x and h (..., 2) of a curve (mm)."""
+        points: Floats = curve.points(s) * np.array([self.side, 1.0])
+        return points
 
     # ------------------------------------------------------------------ the load
 
@@ -105,10 +115,11 @@ class BeamTooth:
 
         At the tip circle a helical flank has a radius of curvature up to 1 % larger than that of its virtual gear.
         """
-        roll = np.minimum(curvature / self.base_radius, self.flank.last)
-        half = self.base_half_angle - involute_at_roll(roll)
+        beyond = np.maximum if self.side < 0 else np.minimum
+        roll = beyond(np.abs(curvature) / self.base_radius, self.flank.last)
+        half = self.base_half_angle - self.side * involute_at_roll(roll)
         radius = self.base_radius * np.hypot(1.0, roll)
-        return BeamLoad(radius * np.cos(half), radius * np.sin(half), np.arctan(roll) - half)
+        return BeamLoad(self.side * radius * np.cos(half), radius * np.sin(half), np.arctan(roll) - self.side * half)
 
     # ------------------------------------------------------------------ integrals along the centre line
 
@@ -117,53 +128,51 @@ class BeamTooth:
 
         Both are 0 for an upper end below the root.
         """
-        bend = float(self.flank.points(0.0)[0])
-        below = np.where(upper < bend, _place(self.fillet, self._fillet_slope, np.minimum(upper, bend)), 1.0)
-        above = np.where(upper > bend, _place(self.flank, self._flank_slope, np.maximum(upper, bend)), 0.0)
+        bend = float(self._points(self.flank, np.array(0.0))[0])
+        below = np.where(upper < bend, self._place(self.fillet, self._fillet_slope, np.minimum(upper, bend)), 1.0)
+        above = np.where(upper > bend, self._place(self.flank, self._flank_slope, np.maximum(upper, bend)), 0.0)
         # All loads beyond the fillet share its points: they are (1, m) then.
         ends = below if (below < 1).any() else np.ones(1)
         pieces = ((self.fillet, self._fillet_slope, ends), (self.flank, self._flank_slope, above))
-        found = [_piece(curve, slope, end, crossing) for curve, slope, end in pieces]
+        found = [self._piece(curve, slope, end, crossing) for curve, slope, end in pieces]
         return found[0][0] + found[1][0], found[0][1] + found[1][1]
 
     @cached_property
     def _fillet_slope(self) -> Slope:
         """Slope dx/ds of the fillet."""
-        fit: Slope = Chebyshev.interpolate(lambda s: self.fillet.points(s)[..., 0], _DEGREE, domain=[0, 1]).deriv()
+        fit: Slope = Chebyshev.interpolate(lambda s: self._points(self.fillet, s)[..., 0], _DEGREE, domain=[0, 1]).deriv()
         return fit
 
     def _flank_slope(self, s: Floats) -> Floats:
         roll = self.flank.roll(s)
-        rate = self.flank.last - self.flank.first
-        result: Floats = self.base_radius * roll * np.cos(self.base_half_angle - roll) * rate
+        rate = self.side * (self.flank.last - self.flank.first)
+        result: Floats = self.base_radius * roll * np.cos(self.base_half_angle - self.side * roll) * rate
         return result
 
+    def _piece(self, curve: Curve, slope: Slope, ends: Floats, crossing: Floats) -> tuple[Floats, Floats]:
+        """Return both integrals along a curve from s = 0 to `ends`."""
+        node, weight = (_GAUSS[0] + 1) / 2, _GAUSS[1] / 2
+        # Two panels, points dense towards the end: there the tooth is thinnest.
+        v = np.r_[node / 2, node / 2 + 0.5]
+        spread, rate = v * (2 - v), np.r_[weight, weight] * (1 - v)
+        s = ends[:, None] * spread
+        points = self._points(curve, s)
+        x, inverse = points[..., 0], 1 / points[..., 1]
+        along = slope(s) * inverse * (ends[:, None] * rate)
+        cubic: Floats = (along * ((crossing[:, None] - x) * inverse) ** 2).sum(-1)
+        return cubic, along.sum(-1)
 
-def _piece(curve: Curve, slope: Slope, ends: Floats, crossing: Floats) -> tuple[Floats, Floats]:
-    """Return both integrals along a curve from s = 0 to `ends`."""
-    node, weight = (_GAUSS[0] + 1) / 2, _GAUSS[1] / 2
-    # Two panels, points dense towards the end: there the tooth is thinnest.
-    v = np.r_[node / 2, node / 2 + 0.5]
-    spread, rate = v * (2 - v), np.r_[weight, weight] * (1 - v)
-    s = ends[:, None] * spread
-    points = curve.points(s)
-    x, inverse = points[..., 0], 1 / points[..., 1]
-    along = slope(s) * inverse * (ends[:, None] * rate)
-    cubic: Floats = (along * ((crossing[:, None] - x) * inverse) ** 2).sum(-1)
-    return cubic, along.sum(-1)
-
-
-def _place(curve: Curve, slope: Slope, x: Floats) -> Floats:
-    """s in [0, 1] where the curve is at x (n,), its nearer end where it is nowhere: Newton's rule within a table's steps."""
-    table = np.linspace(0.0, 1.0, _TABLE + 1)
-    known = curve.points(table)[:, 0]
-    step = np.clip(np.searchsorted(known, x) - 1, 0, _TABLE - 1)
-    low, high = table[step], table[step + 1]
-    s = np.clip(np.interp(x, known, table), low, high)
-    for _ in range(_NEWTON):
-        rate = slope(s)
-        s = np.clip(s - (curve.points(s)[:, 0] - x) / np.where(rate > 0, rate, 1.0), low, high)
-    return s
+    def _place(self, curve: Curve, slope: Slope, x: Floats) -> Floats:
+        """Return s in [0, 1] where the curve is at x (n,), its nearer end where it is nowhere: Newton's rule in a table."""
+        table = np.linspace(0.0, 1.0, _TABLE + 1)
+        known = self._points(curve, table)[:, 0]
+        step = np.clip(np.searchsorted(known, x) - 1, 0, _TABLE - 1)
+        low, high = table[step], table[step + 1]
+        s = np.clip(np.interp(x, known, table), low, high)
+        for _ in range(_NEWTON):
+            rate = slope(s)
+            s = np.clip(s - (self._points(curve, s)[:, 0] - x) / np.where(rate > 0, rate, 1.0), low, high)
+        return s
 
 
 def _virtual_profile(gear: Gear) -> ToothProfile:
@@ -330,6 +339,8 @@ class PotentialEnergy(BeamMethod):
 class WeberBanaschek(BeamMethod):
     """Tooth on its root chord, an elastic half-plane below it, and Hertz's flattening (Weber and Banaschek 1953).
 
+    The tooth of a ring is the same beam, which points to the axis, on a half-plane outside its root; spur rings only.
+
     Beam: (1 - nu^2) cos^2 a_F/E [12 int (u - y)^2/(2 h)^3 dy + (2.4/(1 - nu) + tan^2 a_F) int dy/(2 h)] from the root chord to
     where the force crosses the centre line; contact, once for both teeth: 4 (1 - nu^2)/(pi E)
     [ln(2 sqrt(k_1 k_2)/a) - nu/(2 (1 - nu))] with the half width a under all of the load; of two materials half of either's.
@@ -338,7 +349,6 @@ class WeberBanaschek(BeamMethod):
     name = "weber-banaschek"
     title = "Weber-Banaschek"
     holds = ("contact under all of the load", "bending", "shear", "axial", "foundation in a half-plane")
-    no_internal_form: ClassVar[str] = "its beam and half-plane are those of teeth that stand out from their body"
 
     def tooth_parts(self, role: Role, load: BeamLoad) -> dict[str, Floats]:
         material, tooth = self.materials.pick(role), self.teeth.pick(role)
@@ -386,7 +396,8 @@ class WeberBanaschek(BeamMethod):
         """Bodies that are no half-plane to their teeth."""
         for role, radius in self.body.inner_radii(self.mounted).items():
             gear = self.mounted.gears.pick(role)
-            height = (gear.root_diameter - 2 * radius) / (gear.tip_diameter - gear.root_diameter)
+            root, tip = (math.copysign(each, gear.teeth) for each in (gear.root_diameter, gear.tip_diameter))
+            height = (root - math.copysign(2 * radius, gear.teeth)) / (tip - root)
             if height < RIM_LIMIT:
                 text = f"only {height:.3g} tooth heights of body lie under the root, where the method has a half-plane"
                 yield Notice("thin-rim", text, role.value)

@@ -17,6 +17,9 @@ from gearcad.load import Load
 from gearcad.material import Materials, materials_document
 from gearcad.mesh_cycle import MeshCycle
 
+_PATH_PLACES = 2001
+"""Places over which a mean over the path of contact is taken."""
+
 
 class MeanAtTorque(NamedTuple):
     """Mean secant and tangent stiffness (N/µm) by a method at a torque on the pinion (N·m)."""
@@ -62,6 +65,15 @@ class StiffnessComparison(Pictured):
         """
         result: Floats = self.pair.path_of_contact.C + np.radians(roll_angle) * self.pair.pinion.base_diameter / 2
         return result
+
+    def mean_over_path(self, cycle: MeshCycle) -> float:
+        """Return the mean secant stiffness (N/µm) over the path of contact, which counts double contact twice.
+
+        That is how many papers average their curves; `cycle.mean` is over one base pitch.
+        """
+        path = self.pair.path_of_contact
+        places = np.linspace(path.A, path.E, _PATH_PLACES)
+        return float(cycle.stiffness_at(np.degrees((places - path.C) / (self.pair.pinion.base_diameter / 2))).mean())
 
     # ------------------------------------------------------------------ at a glance
 
@@ -136,6 +148,7 @@ class StiffnessComparison(Pictured):
                 cycle.method: {
                     "title": self.titles[cycle.method],
                     **cycle.to_dict(),
+                    "mean_over_path": self.mean_over_path(cycle),
                     "deviation_from_3d": self.deviation(cycle),
                     "compliance_shares": {name: cycle.part_share(name) for name in cycle.compliance_parts},
                     **({"fourier": cycle.fourier(harmonics).to_dict()} if harmonics and not cycle.mean_only else {}),

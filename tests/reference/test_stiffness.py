@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from alm_listings import BASE_PITCH, Correction, Floats, base_pitch_mean, over_base_pitch, over_path, path, tian, weber
 from support.cases import THESIS_LOAD, stiffness_case, thesis_pair
-from support.listings import BASE_PITCH, Correction, Floats, base_pitch_mean, over_base_pitch, over_path, path, tian, weber
 from support.published import Published
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material

@@ -22,25 +22,37 @@ plane strain is 7.8 % above plane stress, where the thesis has 8.9 %. With both 
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from support.cases import THESIS_LOAD, thesis_pair
 from support.published import Published
+from thesis_conditions import (
+    AS_WIDE,
+    COMMON,
+    PAIR,
+    POSITIONS,
+    STEEL,
+    THREE,
+    WHOLE,
+    WIDEST,
+    EvenPressureInPlaneStress,
+    OfWidths,
+    bodies,
+    cycle,
+    path_mean,
+    row,
+    three_teeth,
+)
 
-from gearcad import Load, Material
-from gearcad.contact.plane.flank import PlaneCompliance
-from gearcad.contact.plane.pair import PlanePair, flank_body
-from gearcad.contact.plane.sector import Plane, PlaneElasticity
+from gearcad.contact.plane.pair import PlanePair
+from gearcad.contact.plane.sector import Plane
 from gearcad.contact.shared.bodies import BodyModel, Cuts
 from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.core.records import PerGear
-from gearcad.mesh_cycle import MeshCycle
-from gearcad.stiffness import METHODS, PlaneStrainContact, PlaneStressContact, SolidContact, StrainEnergy
-from gearcad.stiffness.finite_elements import PlaneContact, WeightedBody
-from gearcad.stiffness.method import SinglePair
+from gearcad.stiffness import METHODS, PlaneStrainContact, PlaneStressContact, SolidContact
+from gearcad.stiffness.finite_elements import PlaneContact
 
 ROW = 0.011
 """Relative, mean, greatest and smallest: the conditions above meet the rows within 1.0 %."""
@@ -58,82 +70,9 @@ PRINTED = {
 }
 """N/µm: mean, greatest, smallest."""
 
-PAIR = thesis_pair()
-STEEL = Material(youngs_modulus=206000.0, poisson_ratio=0.3)
-POSITIONS = 20
-"""A degree apart."""
 
-
-def three_teeth(pinion_depth: float = 4.0, wheel_depth: float = 4.0) -> BodyModel:
-    """Held so many m_n below the root circles."""
-    pinion, wheel = (
-        gear.root_diameter - 2 * depth * gear.normal_module
-        for gear, depth in ((PAIR.pinion, pinion_depth), (PAIR.wheel, wheel_depth))
-    )
-    return BodyModel(teeth=3, cuts=Cuts.FIXED, inner_diameters=PerGear(pinion, wheel))
-
-
-THREE, WHOLE = three_teeth(), BodyModel()
-AS_WIDE, COMMON, WIDEST = (15.0, 10.0), (10.0, 10.0), (15.0, 15.0)
-
-
-@cache
-def bodies(plane: Plane, body: BodyModel, widths: tuple[float, float]) -> PerGear[PlaneCompliance]:
-    """Plane bodies of pinion and wheel, `widths` (mm) thick: on 10 mm in contact, that is a modulus so much greater."""
-    pinion, wheel = (
-        flank_body(gear, radius, PlaneElasticity(replace(STEEL, youngs_modulus=20600.0 * width), plane), body, 1)
-        for gear, radius, width in zip((PAIR.pinion, PAIR.wheel), body.inner_radii(PAIR), widths, strict=True)
-    )
-    return PerGear(pinion, wheel)
-
-
-@dataclass(frozen=True, kw_only=True)
-class OfWidths(StrainEnergy):
-    """Strain energy of bodies of the `widths` (mm)."""
-
-    widths: tuple[float, float] = COMMON
-
-    @cached_property
-    def bodies(self) -> PerGear[list[WeightedBody]]:
-        pinion, wheel = bodies(self.plane, self.body, self.widths)
-        return PerGear([(1.0, pinion)], [(1.0, wheel)])
-
-
-class EvenPressure(OfWidths):
-    """With a pressure that is even over Hertz's width."""
-
-    def single(self, lengths: np.ndarray, load: Load) -> SinglePair:
-        ellipse = super().single(lengths, load)
-        # The mean of ln|x - y| is ln(2 a) - 3/2 over an even pressure, ln(a/2) - 1/4 over an ellipse.
-        softer = 2 / math.pi * (math.log(4) - 1.25) * sum(1 / body.elasticity.modulus for ((_, body),) in self.bodies)
-        return replace(ellipse, parts={**ellipse.parts, "even pressure": np.full(len(lengths), -1000 * softer)})
-
-
-class EvenPressureInPlaneStress(EvenPressure):
-    plane = Plane.STRESS
-
-
-@cache
-def cycle(method: str, body: BodyModel = THREE, widths: tuple[float, float] = AS_WIDE) -> MeshCycle:
-    if method == "strain-energy":
-        energy = EvenPressure(pair=PAIR, material=STEEL, body=body, widths=widths)
-        return energy(THESIS_LOAD)
-    kind = PlaneStressContact if method == "plane-stress" else PlaneStrainContact
-    model = PlanePair(PAIR, line_of_action(PAIR, 0.0), bodies(kind.plane, body, widths))
-    contact = kind(pair=PAIR, material=STEEL, body=body, bodies=model, positions=POSITIONS)
-    return contact(THESIS_LOAD)
-
-
-def path_mean(of: MeshCycle) -> float:
-    """Mean over the path of contact (N/µm), as the thesis plots its curves."""
-    path, base_radius = PAIR.path_of_contact, PAIR.pinion.base_diameter / 2
-    places = np.linspace(path.A, path.E, 2001)
-    return float(np.mean(of.stiffness_at(np.degrees((places - path.C) / base_radius))))
-
-
-def row(of: MeshCycle) -> tuple[float, float, float]:
-    """As in the table (N/µm)."""
-    return path_mean(of), of.maximum, of.minimum
+def test_the_pair_of_the_manual_is_that_of_the_references() -> None:
+    assert thesis_pair() == PAIR
 
 
 @pytest.mark.parametrize("method", PRINTED)

@@ -1,10 +1,14 @@
 """The two mesh-stiffness programs printed in the Alm thesis (appendices 1 and 2), errors included: evidence, never the product.
 
+`python docs/alm_listings.py` prints what they give as they are printed, with each error set right by itself, and with all set
+right, as JSON (N/mm: mean over the path of contact, greatest, smallest).
+
 Each error has a `Correction` that takes it away alone or together with others. Units are those of the listings: mm, N, N/mm,
 radians. Arrays hold the 100 positions of the listing: gear 1 from its foot to its tip, gear 2 likewise, so that gear 2
 meets gear 1 in reverse. The listings' names are kept where they have one.
 """
 
+import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -281,3 +285,29 @@ def over_base_pitch(single: Floats, points: int = 2001) -> Floats:
 def base_pitch_mean(single: Floats) -> float:
     """Mean of `over_base_pitch`: every pair passes once, so the integral of the single stiffness by the base pitch."""
     return float(np.trapezoid(single, path()) / BASE_PITCH)
+
+
+# ---------------------------------------------------------------------- what the manual shows
+
+
+ALL = ~AS_PRINTED
+LISTINGS = {"tian": tian, "weber": weber}
+
+
+def extent(single: Floats) -> dict[str, float]:
+    """Return mean, greatest and smallest of the mesh stiffness over the path of contact (N/mm), as in table 4."""
+    found = over_path(single)
+    return {"mean": float(found.mean()), "max": float(found.max()), "min": float(found.min())}
+
+
+def document() -> dict[str, dict[str, dict[str, float]]]:
+    """Return the rows of both programs: as printed, each error set right by itself, and all of them over one base pitch."""
+    fixes = {"as_printed": AS_PRINTED} | {str(fix.name).lower(): fix for fix in Correction}
+    rows = {name: {key: extent(single(fix)) for key, fix in fixes.items()} for name, single in LISTINGS.items()}
+    return {
+        name: row | {"all_right_over_base_pitch": {"mean": base_pitch_mean(LISTINGS[name](ALL))}} for name, row in rows.items()
+    }
+
+
+if __name__ == "__main__":
+    print(json.dumps(document(), indent=1))
