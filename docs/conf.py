@@ -26,7 +26,7 @@ extensions = [
     "manual.python_pages",
     "manual.validation_pages",
 ]
-exclude_patterns = ["README.md", "manual", "figures/*.py"]
+exclude_patterns = ["README.md", "manual", "paper", "figures/*.py"]
 nitpicky = True
 smartquotes = False
 

@@ -79,3 +79,17 @@ def test_what_the_default_installation_needs_is_listed_with_its_licence() -> Non
     for name, package in ((name, distribution(name)) for name in names):
         said = stated(package)
         assert FAMILIES.get(listed[name], listed[name]).split("-")[0].lower() in said.lower(), (name, said)
+
+
+def test_the_address_of_the_project_stands_once() -> None:
+    """Until there is one it is a placeholder; whoever puts the address there needs to change nothing else."""
+    first = PROJECT["urls"]["Homepage"]
+    assert all(address.startswith(first) for address in PROJECT["urls"].values())
+    pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CITATION.cff", *(ROOT / "docs").rglob("*.md")]
+    assert not [page for page in pages if first in page.read_text(encoding="utf-8")]
+
+
+def test_the_libraries_of_the_manual_on_read_the_docs_are_those_of_the_machine() -> None:
+    listed = set((ROOT / ".ci" / "libraries.txt").read_text(encoding="utf-8").split()) - {"python3-venv"}
+    line = re.search(r"apt_packages: \[(.*)\]", (ROOT / ".readthedocs.yaml").read_text(encoding="utf-8"))
+    assert line and set(line[1].split(", ")) == listed
