@@ -449,8 +449,9 @@ class ShaftState:
 
     @property
     def coupling_torque(self) -> float:
-        """Torque of the coupling on the shaft (N·m)."""
-        return float(self._on_nodes[self.shaft.node_at(self.shaft.coupling), 5]) / 1000
+        """Torque of the coupling on the shaft (N·m); 0 where it is no more than the rounding of the torques in the shaft."""
+        found = float(self._on_nodes[self.shaft.node_at(self.shaft.coupling), 5])
+        return 0.0 if abs(found) <= _ROUNDING * np.abs(self.cuts[..., 5]).max() else found / 1000
 
     @cached_property
     def stresses(self) -> Floats:
@@ -497,6 +498,9 @@ class ShaftState:
         ]
         return {"reactions": reactions, "coupling_torque": self.coupling_torque, "stations": self.stations()}
 
+
+_ROUNDING = 1e-10
+"""Share of the greatest torque in a shaft below which a torque is nothing but rounding."""
 
 _OF_STRESS = ("section_modulus", "area")
 """Properties of a section that decide the stress."""
