@@ -28,6 +28,7 @@ __all__ = [
     "MESH",
     "MODIFY",
     "MODIFY_FIGURES",
+    "MODIFY_ON_SHAFTS",
     "PAIR",
     "PER_GEAR",
     "PLANETARY",
@@ -829,3 +830,11 @@ MODIFY_FIGURES = {
     )
 } | {"edge_positions": Symbol("", "", "", "positions where the edge of a tip touches")}
 """Symbols of a mesh before and after a modification."""
+
+MODIFY_ON_SHAFTS = {
+    "f_sh": LOAD_FACTOR_DETAILS["f_sh"],
+    "f_ma": LOAD_FACTOR_DETAILS["f_ma"],
+    "K_Hbeta_before": Symbol("K_Hβ", "", "ISO 6336-1, annex E", "face load factor on the shafts, before"),
+    "K_Hbeta_after": Symbol("K_Hβ", "", "ISO 6336-1, annex E", "face load factor on the shafts, after", Better.LOWER),
+}
+"""Symbols of the load over the face on shafts, before and after a modification."""

@@ -98,6 +98,7 @@ _COMPUTED = {
     "modify": symbols.MODIFY,
     "modify.before": symbols.MODIFY_FIGURES,
     "modify.after": symbols.MODIFY_FIGURES,
+    "modify.shafts": symbols.MODIFY_ON_SHAFTS,
     "modify.pinion": _INPUTS["pinion"],
     "modify.wheel": _INPUTS["wheel"],
     "": _STATES,

@@ -302,8 +302,8 @@ class Modify(Job[PairDesign, Proposal]):
     def figures(self, document: JsonObject) -> JsonObject:
         """Return the modifications, and what the mesh comes to without and with them."""
         changes = {key: value for key, value in document["changes"].items() if key != "pair.name"}
-        named = ("torque", "pressure_bound", "variants", "before", "after", "warnings")
-        return {**{name: document[name] for name in named}, **changes}
+        named = ("torque", "pressure_bound", "variants", "before", "after", "shafts", "warnings")
+        return {**{name: document[name] for name in named if name in document}, **changes}
 
 
 def modified_spec(text: str, proposal: Proposal) -> str:
