@@ -513,7 +513,7 @@ def _lines(proposal: Proposal) -> list[str]:
     lines.append(f"bound of the contact pressure: {proposal.bound:.4g} MPa{beyond}")
     lines.append(f"figures of solid bodies, as gearcad check --model {proposal.model.value} has them")
     if (lead := proposal.lead) is not None:
-        lines.append(f"turned by f_sh = {lead.f_sh:.3g} µm of the shafts; K_Hβ on them by slices, f_ma = {lead.f_ma:.3g} µm")
+        lines.append(f"K_Hβ on the shafts by slices, f_sh = {lead.f_sh:.3g} µm, f_ma = {lead.f_ma:.3g} µm")
     lines.append("transmission error, peak to peak, under other conditions")
     for each in proposal.robustness:
         of = each.condition

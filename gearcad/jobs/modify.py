@@ -238,14 +238,15 @@ class Modify(Job[PairDesign, Proposal]):
         options, agenda = design.check or CheckOptions(), Agenda(progress, dict.fromkeys(_STEPS, 1.0))
         on_shafts = _lead_on_shafts(design, torque)
         model = _model(design, pair, torque, options, agenda, on_shafts)
-        lead = None if on_shafts is None else on_shafts.amounts(pair, torque)
         agenda(_CYCLE)
         count, limits = options.positions_of(Model.SOLID), self._limits(design.material or Material())
         before = _checked(model, torque, count)
         agenda(_SEARCH)
         shapes = ReliefShape if self.shape is None else (self.shape,)
         tried = [
-            each for shape in shapes for each in _tried(model, torque, shape, limits, count, self.pressure is not None, lead)
+            each
+            for shape in shapes
+            for each in _tried(model, torque, shape, limits, count, self.pressure is not None, on_shafts)
         ]
         best = _polished(model, _best(tried, limits), count)
         agenda(_ROBUSTNESS)
@@ -346,6 +347,12 @@ class _OnShafts(NamedTuple):
     manufacture: float
     found: LeadProposal
 
+    def turned(self, model: SolidPair) -> SolidPair:
+        """Return bodies on rigid shafts that are turned by f_sh: how far all shafts give way is none of a search's business."""
+        mounting = model.mounting
+        off = mounting.misalignment + self.mesh.misalignment_of_shafts
+        return model.on(None).remade(model.pair, replace(mounting, misalignment=off))
+
     @property
     def figures(self) -> LeadOnShafts:
         """The figures that the proposal has."""
@@ -376,11 +383,9 @@ def _lead_on_shafts(design: PairDesign, torque: float) -> _OnShafts | None:
 def _model(
     design: PairDesign, pair: GearPair, torque: float, options: CheckOptions, agenda: Agenda, on_shafts: _OnShafts | None
 ) -> SolidPair:
-    """Return the solid bodies, as `gearcad check --model 3d` makes them, turned by f_sh of the shafts if there are any."""
+    """Return the solid bodies on their shafts, as `gearcad check --model 3d` makes them."""
     mounting = design.mounting or Mounting()
-    if on_shafts is not None:
-        mounting = replace(mounting, misalignment=mounting.misalignment + on_shafts.mesh.misalignment_of_shafts)
-    return solid_pair(
+    made = solid_pair(
         loaded_left(mounting.mounted(pair), torque),
         design.material or Material(),
         body=options.body,
@@ -388,6 +393,7 @@ def _model(
         mounting=replace(mounting, centre_distance_change=0.0),
         tell=agenda.within(_BODIES),
     )
+    return made if on_shafts is None else made.on(on_shafts.mesh.face.supports())
 
 
 class _Tried(NamedTuple):
@@ -423,10 +429,13 @@ def _tried(
     limits: list[float],
     count: int,
     given: bool,
-    lead: tuple[float, float] | None,
+    on_shafts: _OnShafts | None,
 ) -> list[_Tried]:
     """Search with one shape of the tip relief: what it came to for the first bound that is kept, else for the last."""
-    search = start_search(model, torque, shape, lead)
+    if on_shafts is None:
+        search = start_search(model, torque, shape)
+    else:
+        search = start_search(on_shafts.turned(model), torque, shape, on_shafts.amounts(model.pair, torque))
     plain = _modified(model, search.start, shape, torque, count).extreme(PRESSURE)
     seen = float(search.plain.pressures[0])
     greatest = seen if plain is None else plain.value

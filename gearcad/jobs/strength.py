@@ -235,7 +235,7 @@ class Rate(ReportedJob[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRa
     def design_notices(self, design: Design) -> Sequence[Notice]:
         """Return the notices of a design, without that on shafts where K_Hbeta is that on them."""
         options = getattr(design, "rating", None)
-        on_shafts = options is not None and options.face_load_factor == "shafts"
+        on_shafts = options is not None and options.face_load_factor in ("shafts", "fe")
         return [each for each in super().design_notices(design) if not (on_shafts and each.code == RIGID_SHAFTS)]
 
     def document(self, result: StrengthRating | TrainStrength) -> JsonObject:

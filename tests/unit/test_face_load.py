@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearcad import Gear, GearPair, Load, Mounting, rate
+from gearcad import Gear, GearPair, Load, Mounting, modify, rate
 from gearcad.check.task import check_task, face_factors
 from gearcad.core.errors import GearcadError, GeometryError
 from gearcad.core.records import PerGear, Role
@@ -385,3 +385,24 @@ def test_thin_shafts_carry_with_a_part_of_the_face(tmp_path: Path) -> None:
     )
     assert f"only {(mesh.line_load > 0).mean():.0%} of the face width carries on its shafts" in notice.text
     assert found.load_factors.face_flank > 2
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("torque", [60.0, -60.0])
+def test_modify_proposes_for_the_shafts(tmp_path: Path, torque: float) -> None:
+    """Of a spur pair: the design that it proposes has K_Hbeta as told, and bodies on its shafts are loaded more evenly."""
+    spur = SPEC.replace("helix_angle = 14\n", "").replace("modification.lead_crowning = 5", "tooth_thinning = 0.05")
+    text = spur.replace("teeth = 43", "teeth = 43\ntooth_thinning = 0.05").replace("torque = 140", f"torque = {torque}")
+    text = text.replace("position = 150", "position = 165").replace("outer_diameter = 34", "outer_diameter = 26")
+    text += "manufacturing_misalignment = 0\n[check]\npositions = 12\nrefinement = 0.5\nbody_teeth = 3\n"
+    design = design_of(tmp_path, lambda _: text)
+    found = modify(design, pressure=2000.0, shape="linear")
+    assert found.lead is not None
+    assert design.arrangement is not None and design.arrangement.mesh is not None
+    after = replace(design.arrangement.mesh, pair=found.pair)
+    assert found.lead.K_Hbeta_before == pytest.approx(design.arrangement.mesh.face_load_factor, rel=1e-8)
+    assert found.lead.K_Hbeta_after == pytest.approx(after.face_load_factor, rel=1e-8)
+    assert found.lead.K_Hbeta_after < 1.05 < 1.3 < found.lead.K_Hbeta_before  # whole µm are left over
+    assert found.after.face_load_factor < found.before.face_load_factor
+    assert abs(found.pair.pinion.modification.helix_angle_modification) > 2
+    assert found.to_dict()["shafts"] == found.lead._asdict()
