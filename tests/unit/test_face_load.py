@@ -404,5 +404,6 @@ def test_modify_proposes_for_the_shafts(tmp_path: Path, torque: float) -> None:
     assert found.lead.K_Hbeta_after == pytest.approx(after.face_load_factor, rel=1e-8)
     assert found.lead.K_Hbeta_after < 1.05 < 1.3 < found.lead.K_Hbeta_before  # whole µm are left over
     assert found.after.face_load_factor < found.before.face_load_factor
-    assert abs(found.pair.pinion.modification.helix_angle_modification) > 2
+    helix = found.pair.pinion.modification.helix_angle_modification
+    assert abs(helix) == pytest.approx(abs(found.lead.f_sh), abs=1.0)
     assert found.to_dict()["shafts"] == found.lead._asdict()
