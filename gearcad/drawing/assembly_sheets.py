@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 from gearcad.core.records import Notice
 from gearcad.drawing.drawing_subjects import DrawnGear, DrawnPair, DrawnTrain, material_text
@@ -87,7 +87,12 @@ class AssemblySheet:
         found = self._furnished(size, scale)
         return Fixed(found.figure, found.free, found.taken)
 
-    def _furnished(self, size: SheetSize, scale: str) -> Furnished:
+    @cached_property
+    def _furnished(self) -> Callable[[SheetSize, str], Furnished]:
+        """The rest of a sheet by its size and scale, each made once."""
+        return cache(self._furnish)
+
+    def _furnish(self, size: SheetSize, scale: str) -> Furnished:
         options, words = self.furniture.options, self.furniture.words
         values = title_values(
             options,

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from typing import TYPE_CHECKING
 
 from gearcad.core.errors import ParameterError
@@ -294,8 +294,12 @@ class _Content:
         rest = self._roughness(furnished)
         return Fixed(furnished.figure + rest, furnished.free, (*furnished.taken, rest.box))
 
-    def furnished(self, sheet: SheetSize, scale: str) -> Furnished:
-        """Return the sheet's border, title block, revisions, gear data and notes."""
+    @cached_property
+    def furnished(self) -> Callable[[SheetSize, str], Furnished]:
+        """The sheet's border, title block, revisions, gear data and notes by its size and scale, each made once."""
+        return cache(self._furnish)
+
+    def _furnish(self, sheet: SheetSize, scale: str) -> Furnished:
         furniture = Furniture(
             options=self.options,
             template=self.template,

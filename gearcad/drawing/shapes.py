@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import Enum
-from functools import cache
+from functools import cache, cached_property
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, Self
@@ -432,7 +432,7 @@ class Text(Shape):
         along, up = -self.anchor.along * self.width, -self.anchor.up * self.height
         return self._turned(along, up)
 
-    @property
+    @cached_property
     def box(self) -> Box:
         below, above = reach(self.words)
         along, up = -self.anchor.along * self.width, -self.anchor.up * self.height
@@ -484,7 +484,7 @@ class Figure:
         """Return the figure moved to the right and up (mm)."""
         return Figure(tuple(shape.moved(across, up) for shape in self.shapes))
 
-    @property
+    @cached_property
     def box(self) -> Box:
         """The smallest box that holds the figure. Raises ValueError for an empty one."""
         return Box.of_all(shape.box for shape in self.shapes)

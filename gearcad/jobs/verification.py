@@ -313,7 +313,7 @@ class _Judged:
     """Solids and facets that were judged in files before: an assembly has those of its parts."""
 
     solids: JudgedSolids = field(default_factory=JudgedSolids)
-    facets: JudgedFacets = field(default_factory=dict)
+    facets: JudgedFacets = field(default_factory=JudgedFacets)
 
 
 def _of_part(

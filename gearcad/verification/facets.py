@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
@@ -42,8 +42,20 @@ _BODY = 1.05
 """Factor on the chord error for the middle of a triangle: it is bounded for the sides of triangles."""
 
 
-JudgedFacets = dict[tuple[tuple[float, float], str, str], list[Claim]]
-"""Claims about bodies that were judged before, by the rounding of the file, the part and the digest of the facets."""
+_NUMBER = "number"
+"""Attribute of the empty element that stands for a mesh while the tree of a 3MF is read."""
+
+
+@dataclass(frozen=True)
+class JudgedFacets:
+    """Facets in the files of one design that were read and judged before.
+
+    `claims` are those about bodies, by the rounding of the file, the part and the digest of the facets. `meshes` of 3MF files
+    are kept by the digests of their texts: to read these takes longest, and an assembly has those of its parts.
+    """
+
+    claims: dict[tuple[tuple[float, float], str, str], list[Claim]] = field(default_factory=dict)
+    meshes: dict[bytes, Trimesh] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -60,14 +72,17 @@ class FacetPart:
     unit: str = ""
 
 
-def read_facets(path: Path) -> list[FacetPart]:
-    """Return the bodies of an STL, 3MF or GLB file in mm, z along the gear's axis. Raises what trimesh raises."""
+def read_facets(path: Path, judged: JudgedFacets | None = None) -> list[FacetPart]:
+    """Return the bodies of an STL, 3MF or GLB file in mm, z along the gear's axis. Raises what trimesh raises.
+
+    Meshes of 3MF files that are known are not read again.
+    """
     import trimesh
 
     if path.suffix == ".stl":
         return [FacetPart("", trimesh.load_mesh(path), np.eye(4))]
     if path.suffix == ".3mf":
-        return _read_3mf(path)
+        return _read_3mf(path, {} if judged is None else judged.meshes)
     scene = trimesh.load_scene(path)
     # A GLB has its vertices in mm below a node that turns y up and scales to metres.
     found, to_world = [], np.linalg.inv(_GLB)
@@ -78,16 +93,18 @@ def read_facets(path: Path) -> list[FacetPart]:
     return found
 
 
-def _read_3mf(path: Path) -> list[FacetPart]:
+def _read_3mf(path: Path, known: dict[bytes, Trimesh]) -> list[FacetPart]:
     """Return the bodies of a 3MF file, an item of its build each, from its XML (3MF Core Specification 1.3).
 
-    trimesh would need two further packages for it, and reads no colours.
+    trimesh would need two further packages for it, and reads no colours. The tree is read without the meshes, which are nearly
+    all of the text. Those that are not `known` by the digests of their texts are read and added.
     """
-    import trimesh
-
     with zipfile.ZipFile(path) as archive:
         model = next(name for name in archive.namelist() if name.endswith(".model"))
-        root = ElementTree.fromstring(archive.read(model))
+        first, *rest = archive.read(model).split(b"<mesh>")
+    pieces = [each.partition(b"</mesh>") for each in rest]
+    marks = (b'<mesh %b="%d"/>%b' % (_NUMBER.encode(), number, after) for number, (_, _, after) in enumerate(pieces))
+    root = ElementTree.fromstring(first + b"".join(marks))
     space = root.tag.partition("}")[0] + "}"
     colours = {
         group.get("id"): [base.get("displaycolor", "")[:7] for base in group] for group in root.iter(f"{space}basematerials")
@@ -96,16 +113,32 @@ def _read_3mf(path: Path) -> list[FacetPart]:
     found = []
     for item in root.iter(f"{space}item"):
         body = objects[item.get("objectid")]
-        vertices = np.array([[float(each.get(axis, "nan")) for axis in "xyz"] for each in body.iter(f"{space}vertex")])
-        corners = [[int(each.get(corner, "-1")) for corner in ("v1", "v2", "v3")] for each in body.iter(f"{space}triangle")]
         place = np.eye(4)
         if given := item.get("transform"):
             place[:3] = np.array(given.split(), float).reshape(4, 3).T
         shades = colours.get(body.get("pid"))
         colour = "" if shades is None else shades[int(body.get("pindex", "0"))]
-        mesh = trimesh.Trimesh(vertices, np.array(corners, int))
+        number = next((each.get(_NUMBER) for each in body.iter(f"{space}mesh")), None)
+        mesh = _mesh_of(body) if number is None else _known_mesh(pieces[int(number)][0], known)
         found.append(FacetPart(body.get("name", ""), mesh, place, colour, root.get("unit", "millimeter")))
     return found
+
+
+def _known_mesh(text: bytes, known: dict[bytes, Trimesh]) -> Trimesh:
+    """Return the mesh of this text of a 3MF, read unless it is known."""
+    digest = hashlib.sha256(text).digest()
+    if digest not in known:
+        known[digest] = _mesh_of(ElementTree.fromstring(b"<mesh>%b</mesh>" % text))
+    return known[digest]
+
+
+def _mesh_of(element: ElementTree.Element) -> Trimesh:
+    """Return the mesh of the vertices and triangles in an element of a 3MF."""
+    import trimesh
+
+    vertices = np.array([[float(each.get(axis, "nan")) for axis in "xyz"] for each in element.iter("{*}vertex")])
+    corners = [[int(each.get(corner, "-1")) for corner in ("v1", "v2", "v3")] for each in element.iter("{*}triangle")]
+    return trimesh.Trimesh(vertices, np.array(corners, int))
 
 
 def _colour_of_glb(mesh: Trimesh) -> str:
@@ -150,7 +183,7 @@ def judge_facets(
     ending = path.suffix[1:]
     judge = Judge(SUBJECTS[ending], VerificationLevel.FILES, path.name, "trimesh")
     try:
-        found = read_facets(path)
+        found = read_facets(path, judged)
     except Exception as error:  # a reader may raise anything for a broken file
         yield judge.holds("is read", False, place=f"{type(error).__name__}: {error}")
         return
@@ -165,7 +198,7 @@ def judge_facets(
     for name, part in parts.items():
         if name in bodies:
             of_part = Judge(judge.subject, judge.level, path.name if len(parts) == 1 else f"{path.name}: {name}", judge.name)
-            key, before = (_written(ending), name, _digest(bodies[name].mesh)), judged if judged is not None else {}
+            key, before = (_written(ending), name, _digest(bodies[name].mesh)), judged.claims if judged is not None else {}
             if key in before:
                 yield from (replace(claim, subject=of_part.subject, where=of_part.where) for claim in before[key])
                 continue

@@ -130,22 +130,22 @@ class OutlineGauges:
         return float(least.fun)
 
     @cached_property
-    def _space(self) -> Complexes:
-        """Both sides of a space, centred on the real axis."""
-        side = self.outline * np.exp(-1j * self._pitch / 2)
-        return np.concatenate([side, side.conjugate()])
+    def _side(self) -> Complexes:
+        """One side of a space that is centred on the real axis."""
+        side: Complexes = self.outline * np.exp(-1j * self._pitch / 2)
+        return side
 
     def _rest(self, diameter: float, square: Callable[[Floats, Floats], Floats], reach: float) -> float:
         """Return the radius (mm) of the centre of a gauge that touches the space.
 
-        `square` is the square of the distance from the gauge's middle, across the radius, of points at (y, z); it touches
-        within heights z of `reach` (mm).
+        `square` is the square of the distance from the gauge's middle, across the radius, of points at (y, z), the same at
+        (-y, -z); it touches within heights z of `reach` (mm). So it touches the other side of the space at the same radius.
         """
         side = -1.0 if self.internal else 1.0
         low, high, found = -reach, reach, -math.inf
         for _ in range(_GAUGE_ROUNDS):
             heights = np.linspace(low, high, _GAUGE_HEIGHTS) if self.twist else np.zeros(1)
-            points = self._space[:, None] * np.exp(1j * self.twist * heights)
+            points = self._side[:, None] * np.exp(1j * self.twist * heights)
             room = diameter**2 / 4 - square(points.imag, heights[None, :])
             values = np.where(room >= 0, side * points.real + np.sqrt(np.maximum(room, 0.0)), -np.inf)
             centres = peaks_of(values)

@@ -97,6 +97,7 @@ class JudgedSolids:
         texts: dict[int, bytes] = {}
         references: dict[int, tuple[int, ...]] = {}
         forms: dict[int, int] = {}
+        known = self._forms
         for line in content[start:end].split(b";\n")[:-1]:
             name, _, text = line.partition(b"=")
             if not (name.startswith(b"#") and name[1:].isdigit()) or (number := int(name[1:])) in texts:
@@ -111,7 +112,7 @@ class JudgedSolids:
                 except KeyError:
                     return None
             texts[number] = text
-            forms[number] = self._forms.setdefault(form, len(self._forms))
+            forms[number] = known.setdefault(form, len(known))
         return StepEntities(content[:start], content[end:], texts, references, forms)
 
     def known(self, entities: StepEntities | None, products: Sequence[str]) -> bool:

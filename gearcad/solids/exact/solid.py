@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from gearcad.geometry.bore_teeth import bore_teeth
@@ -329,6 +330,7 @@ def _with_hub(gear: Gear, recorder: Recorder, loop: Chain) -> Chain:
     return outer.loop(along=True)
 
 
+@lru_cache(8)  # a gear's files, its assembly and its mass ask for it
 def gear_boundary(gear: Gear) -> Boundary:
     """Return the gear as a closed boundary, within 1 nm of the exact involute and fillet, or of its modified flanks.
 
