@@ -119,7 +119,7 @@ def _read_3mf(path: Path, known: dict[bytes, Trimesh]) -> list[FacetPart]:
         shades = colours.get(body.get("pid"))
         colour = "" if shades is None else shades[int(body.get("pindex", "0"))]
         number = next((each.get(_NUMBER) for each in body.iter(f"{space}mesh")), None)
-        mesh = _mesh_of(body) if number is None else _known_mesh(pieces[int(number)][0], known)
+        mesh = _mesh_of(body, space) if number is None else _known_mesh(pieces[int(number)][0], known)
         found.append(FacetPart(body.get("name", ""), mesh, place, colour, root.get("unit", "millimeter")))
     return found
 
@@ -132,12 +132,12 @@ def _known_mesh(text: bytes, known: dict[bytes, Trimesh]) -> Trimesh:
     return known[digest]
 
 
-def _mesh_of(element: ElementTree.Element) -> Trimesh:
-    """Return the mesh of the vertices and triangles in an element of a 3MF."""
+def _mesh_of(element: ElementTree.Element, space: str = "") -> Trimesh:
+    """Return the mesh of the vertices and triangles in an element of a 3MF; `space` is that of their names."""
     import trimesh
 
-    vertices = np.array([[float(each.get(axis, "nan")) for axis in "xyz"] for each in element.iter("{*}vertex")])
-    corners = [[int(each.get(corner, "-1")) for corner in ("v1", "v2", "v3")] for each in element.iter("{*}triangle")]
+    vertices = np.array([[float(each.get(axis, "nan")) for axis in "xyz"] for each in element.iter(f"{space}vertex")])
+    corners = [[int(each.get(corner, "-1")) for corner in ("v1", "v2", "v3")] for each in element.iter(f"{space}triangle")]
     return trimesh.Trimesh(vertices, np.array(corners, int))
 
 
