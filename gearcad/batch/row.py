@@ -24,12 +24,10 @@ from gearcad.core.output import UNWRITABLE, files_in, json_text, locked, unwrita
 from gearcad.core.records import JsonObject, PerGear
 from gearcad.core.runtime import PACKAGE
 from gearcad.core.symbols import PER_GEAR
-from gearcad.designs import Design
+from gearcad.designs import Design, DesignKind
 from gearcad.designs.table import DesignRow
 from gearcad.jobs import VERBS
 from gearcad.jobs.job import Data, Job, write_inside
-from gearcad.jobs.train import figures_of
-from gearcad.jobs.train_bodies import suited_to_train
 from gearcad.version import __version__
 
 MANIFEST = "manifest.json"
@@ -174,7 +172,12 @@ def stages(wanted: Sequence[Job[Any, Any]]) -> tuple[Job[Any, Any], ...]:
 
 def make_parts(job: Job[Any, Any], design: Design, parts: Sequence[str], folder: Path) -> None:
     """Make some of a job's parts in an empty folder."""
-    maker = suited_to_train(job.for_row(design, parts), design).headed(design)
+    maker = job.for_row(design, parts)
+    if design.kind is DesignKind.TRAIN:
+        from gearcad.jobs.train_sheets import job_for  # with all that trains need
+
+        maker = job_for(maker, design)
+    maker = maker.headed(design)
     for name, write in maker.files(maker.run(design)).items():
         if job.part_of(name.rpartition("/")[2]):
             write_inside(folder, name, write)
@@ -291,8 +294,17 @@ def _document(task: Task, folder: Path) -> JsonObject:
     document = _read(folder, DATA)
     for job in task.stages:
         if job.verb != DATA and job.verb in job.parts:
-            document[job.verb] = document.get(job.verb, {}) | figures_of(job, _read(folder, job.verb))
+            document[job.verb] = document.get(job.verb, {}) | _figures(job, _read(folder, job.verb))
     return document
+
+
+def _figures(job: Job[Any, Any], document: JsonObject) -> JsonObject:
+    """Return the figures of a job's document, which may be that of a train with one for each of its meshes."""
+    if document.get("design") != DesignKind.TRAIN.value:
+        return job.figures(document)
+    from gearcad.jobs.train import figures_of
+
+    return figures_of(job, document)
 
 
 def _read(folder: Path, verb: str) -> dict[str, Any]:

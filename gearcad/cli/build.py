@@ -17,6 +17,7 @@ from gearcad.solids import FileOptions, Format
 
 if TYPE_CHECKING:
     from gearcad.drawing.gear_sheet import Drawing
+    from gearcad.jobs.job import Job
 
 
 _HELP = """Write the solids of SPEC: pinion.step, wheel.stl, assembly.step ... and data.json.
@@ -84,11 +85,14 @@ def build(
     from gearcad.designs.reader import read_spec
     from gearcad.jobs.build import Build
     from gearcad.jobs.job import with_summary
-    from gearcad.jobs.train_bodies import suited_to_train
 
     wanted = Build(formats=parse_choices("format", formats, Format), options=options, stage=stage, as_made=as_made)
     design = read_spec(spec)
-    job = suited_to_train(wanted, design)
+    job: Job[Any, Any] = wanted
+    if design.kind.value == "train":
+        from gearcad.jobs.train_bodies import suited_to_train  # with all that trains need
+
+        job = suited_to_train(wanted, design)
     result = job.run(design)
     folder = folder_of(output, design.name)
     with file_progress(shown=not quiet) as progress:

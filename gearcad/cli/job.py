@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO, TypeVar
+from typing import TYPE_CHECKING, Any, TextIO, TypeVar, cast
 
 import click
 
@@ -237,11 +237,8 @@ def perform_on(
     Warnings about the design that the result does not have itself follow on stderr. Of a train a job of pairs is done with each
     mesh.
     """
-    from gearcad.jobs.train import OverMeshes, suited
-
-    job = suited(job, design)
-    if isinstance(job, OverMeshes):
-        show = partial(_show_meshes, job)
+    if design.kind.value == "train":
+        job, show = _of_train(job, design, show)
     require_folder(folder_of(output, design.name))  # before a long job
     job, missing = job.without_missing()
     with job_progress(shown=not quiet, expected=None if quiet else job.expected(design)) as progress:
@@ -259,6 +256,17 @@ def perform_on(
         told = {notice.text for notice in job.notices(result)}
         echo_warnings((notice for notice in job.design_notices(design) if notice.text not in told), err=True)
     return result
+
+
+def _of_train(
+    job: Job[Any, Result], design: Design, show: Callable[[str, Result], None]
+) -> tuple[Job[Any, Result], Callable[[str, Result], None]]:
+    """Return the job for a train and what shows its result; a job of pairs is done with each mesh of a train of pairs."""
+    from gearcad.jobs.train import OverMeshes
+    from gearcad.jobs.train_sheets import job_for
+
+    found = job_for(job, design)
+    return found, cast("Callable[[str, Result], None]", partial(_show_meshes, found)) if isinstance(found, OverMeshes) else show
 
 
 def _show_meshes(job: OverMeshes, name: str, result: MeshResults) -> None:

@@ -66,6 +66,19 @@ def _lines(train: Train) -> dict[str, int]:
     return found
 
 
+def line_names(design: TrainDesign) -> dict[int, str]:
+    """Return the names of what turns on each line of shafts: its shafts, else its inertias."""
+    lines = _lines(design.train)
+    found: dict[int, list[str]] = {}
+    for shaft in design.train.shafts:
+        line = lines.get(shaft.start, lines.get(shaft.end, -1))
+        found.setdefault(line, []).append(shaft.name)
+    for inertia, line in lines.items():
+        if not found.get(line):
+            found[line] = [inertia]
+    return {line: ", ".join(names) for line, names in found.items()}
+
+
 @dataclass(frozen=True)
 class TrainBuilt:
     """What is built of a train: its design, the product of all gears and shafts, and the files of each pair."""

@@ -71,10 +71,28 @@ def test_wrong_options_are_told(tmp_path: Path) -> None:
         Draw(formats=[])  # type: ignore[arg-type]
 
 
-def test_a_train_of_pairs_is_told_all_that_can_be_drawn(tmp_path: Path) -> None:
-    result = _draw(_spec("train-pairs", tmp_path))
-    kinds = "a gear, a pair, a rack, a rack and pinion, a planetary train or a spline"
-    assert result.exit_code == 2 and f"must be {kinds}: `gearcad dynamics` writes the specs of the pairs" in result.stderr
+def test_a_train_of_pairs_has_an_arrangement_and_a_folder_a_mesh(tmp_path: Path) -> None:
+    """The numbers of the arrangement are those of the pairs and of the train; sheets of pairs are those of the pairs alone."""
+    result = _draw(_spec("two-stage", tmp_path), "--format", "svg", "--language", "de")
+    assert result.exit_code == 0, result.stderr
+    document = read_json(tmp_path / "out" / "draw.json")
+    (sheet,) = document["sheets"]
+    assert sheet["name"] == "arrangement" and sheet["files"] == ["drawing.svg"]
+    assert sheet["numbers"]["train.ratio"] == pytest.approx(61 / 20 * 84 / 25, rel=1e-12)
+    assert sheet["numbers"]["meshes.stage 2.pair.centre_distance"] == pytest.approx(163.5, rel=1e-12)
+    written = (tmp_path / "out" / "drawing.svg").read_text(encoding="utf-8")
+    assert "163,500" in written and "Zähnezahlverhältnis" in written
+    for mesh in ("stage 1", "stage 2"):
+        own = read_json(tmp_path / "out" / mesh / "draw.json")
+        assert own["sheets"] == document["meshes"][mesh]["sheets"]
+        names = [f"drawing-{each['name']}.svg" for each in own["sheets"]]
+        assert {"drawing-pinion.svg", "drawing-wheel.svg", "drawing-assembly.svg"} <= set(names)
+        assert all((tmp_path / "out" / mesh / name).is_file() for name in names)
+
+
+def test_a_train_without_pairs_is_told_all_that_can_be_drawn(tmp_path: Path) -> None:
+    result = _draw(_spec("train-1-stage", tmp_path))
+    assert result.exit_code == 2 and "must be a gear, a pair" in result.stderr and result.stderr.count("\n") == 1
 
 
 def test_a_pair_has_a_sheet_for_each_gear_and_one_for_both(tmp_path: Path) -> None:
