@@ -17,7 +17,7 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.rating.load_factors import FaceLoad, FaceLoadSource
-from gearcad.rating.options import RatingOptions
+from gearcad.rating.options import LoadBin, RatingOptions
 from gearcad.rating.tooth_stiffness import mesh_stiffness
 from gearcad.shafts.arrangement import ShaftOptions, with_stations
 from gearcad.shafts.beam import SteppedShaft
@@ -68,6 +68,9 @@ class ShaftArrangement:
     options: ShaftOptions
     positions: Mapping[str, float] = field(default_factory=dict)
     mesh: MeshOnShafts | None = None
+    spectrum: tuple[LoadBin, ...] = ()
+    """Loads of the rating's spectrum, as shares of the mesh's torque and of the speeds."""
+
     discs: Mapping[str, tuple[ShaftDisc, ...]] = field(default_factory=dict)
     """Gears on the shafts, as full discs up to their reference diameters around the shaft."""
 
@@ -181,7 +184,8 @@ def pair_arrangement(
         slices=found.options.slices,
         misalignment=mounting.misalignment,
     )
-    return replace(found, mesh=loaded_mesh(mesh, rating or RatingOptions(), materials))
+    rating = rating or RatingOptions()
+    return replace(found, mesh=loaded_mesh(mesh, rating, materials), spectrum=rating.bins)
 
 
 def _discs(mounted: MountedShaft, gear: Gear, material: Material) -> tuple[ShaftDisc, ...]:

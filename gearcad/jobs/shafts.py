@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from gearcad.core.runtime import Progress
     from gearcad.designs import Design, Inputs
     from gearcad.load import Load
+    from gearcad.shafts.face_load import MeshOnShafts
 
 _NO_LOAD = "shafts are loaded by it"
 
@@ -82,13 +83,28 @@ def _of_train(design: TrainDesign) -> ShaftArrangement:
 
 def result_of(found: ShaftArrangement) -> ArrangementResult:
     """Return the result of an arrangement: under the load over the face where there is a mesh, otherwise under its forces."""
+    results = _shafts_under(found, found.mesh)
+    mesh = found.mesh
+    if mesh is not None and found.spectrum:
+        bins = [
+            (
+                each.life,
+                _shafts_under(found, replace(mesh, torque=mesh.torque * each.torque) if each.torque else None, each.speed),
+            )
+            for each in found.spectrum
+        ]
+        results = {name: replace(own, bins=tuple((share, of[name]) for share, of in bins)) for name, own in results.items()}
+    return ArrangementResult(found.name, results, None if found.mesh is None else found.mesh.to_dict())
+
+
+def _shafts_under(found: ShaftArrangement, mesh: MeshOnShafts | None, speed: float = 1.0) -> dict[str, ShaftResult]:
+    """Return the shafts under the load of a mesh, or without one, at a share of their speeds."""
     results = {}
     for name, shaft in found.shafts.items():
-        state = None if found.mesh is None else found.mesh.state(Role(name))
-        results[name] = ShaftResult(
-            shaft.solve() if state is None else state, found.speeds[name], found.options, found.discs.get(name, ())
-        )
-    return ArrangementResult(found.name, results, None if found.mesh is None else found.mesh.to_dict())
+        state = None if mesh is None else mesh.state(Role(name))
+        own = found.speeds[name] * speed
+        results[name] = ShaftResult(shaft.solve() if state is None else state, own, found.options, found.discs.get(name, ()))
+    return results
 
 
 def _write_report(result: ArrangementResult, head: Mapping[str, str], path: Path) -> None:

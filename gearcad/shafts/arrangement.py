@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, Any
@@ -16,6 +16,7 @@ from gearcad.core.records import JsonObject, Notice, concise
 from gearcad.shafts.beam import ShaftBearing, ShaftState, SteppedShaft
 from gearcad.shafts.bearing_life import (
     BALL_KINDS,
+    OPPOSED_KINDS,
     RECALLED,
     EquivalentLoad,
     basic_life,
@@ -23,6 +24,8 @@ from gearcad.shafts.bearing_life import (
     fatigue_limit_load,
     life_factor,
     life_in_hours,
+    one_sided_load,
+    opposed_axial_loads,
     reference_viscosity,
     reliability_factor,
     two_factor_load,
@@ -91,10 +94,14 @@ def _finite(value: float | None) -> float | None:
     return None if value is None or math.isinf(value) else value
 
 
-def bearing_life(bearing: ShaftBearing, radial: float, axial: float, speed: float, options: ShaftOptions) -> BearingLife:
-    """Return the life of a bearing under its radial and axial force (N) at a speed (rpm; 0 without hours)."""
-    found = BearingLife(bearing.name, radial, axial)
-    load = _equivalent(bearing, radial, axial)
+def bearing_life(bearing: ShaftBearing, radial: float, axial: float | str, speed: float, options: ShaftOptions) -> BearingLife:
+    """Return the life of a bearing under its radial and axial force (N) at a speed (rpm; 0 without hours).
+
+    A text instead of the axial force says why that is not known.
+    """
+    known = 0.0 if isinstance(axial, str) else axial
+    found = BearingLife(bearing.name, radial, known)
+    load = axial if isinstance(axial, str) else _equivalent(bearing, radial, axial)
     if isinstance(load, str):
         return replace(found, reasons=(load,))
     assert bearing.C is not None
@@ -126,7 +133,9 @@ def _equivalent(bearing: ShaftBearing, radial: float, axial: float) -> Equivalen
         if bearing.e is None or bearing.Y1 is None or bearing.Y2 is None:
             return "life: e, Y1 and Y2 are not given"
         return two_factor_load(radial, axial, limit=bearing.e, below=(1.0, bearing.Y1), beyond=(0.67, bearing.Y2))
-    return f"life: thrust that {bearing.kind} bearings make of radial forces is not in the model"
+    if bearing.e is None or bearing.Y is None:
+        return "life: e and Y are not given"
+    return one_sided_load(bearing.kind, radial, axial, limit=bearing.e, factor=bearing.Y)
 
 
 def _modification(bearing: ShaftBearing, load: float, speed: float, options: ShaftOptions, *, ball: bool) -> float | str:
@@ -163,17 +172,51 @@ class ShaftResult:
     speed: float
     options: ShaftOptions
     discs: tuple[ShaftDisc, ...] = ()
+    bins: tuple[tuple[float, ShaftResult], ...] = ()
+    """Shares of time and the shaft under each load of a spectrum."""
+
+    def is_ball(self, name: str) -> bool:
+        """Return whether the bearing of a name has balls."""
+        found = {each.name or f"bearing {number}": each for number, each in enumerate(self.state.shaft.bearings, 1)}
+        return found[name].kind in BALL_KINDS
 
     @cached_property
     def lives(self) -> tuple[BearingLife, ...]:
-        """Lives of the bearings."""
-        found = []
-        for number, (bearing, force) in enumerate(zip(self.state.shaft.bearings, self.state.reactions, strict=True), 1):
+        """Lives of the bearings, over the spectrum if there is one."""
+        if not self.bins:
+            return tuple(self._lives())
+        shares = [share for share, _ in self.bins]
+        return tuple(_lasting(each, shares, self.bins) for each in zip(*(one.lives for _, one in self.bins), strict=True))
+
+    def _lives(self) -> Iterator[BearingLife]:
+        bearings = self.state.shaft.bearings
+        radial = [float(np.hypot(*force[:2])) for force in self.state.reactions]
+        axial = self._axial_forces(radial)
+        for number, (bearing, across, along) in enumerate(zip(bearings, radial, axial, strict=True), 1):
             named = bearing if bearing.name else replace(bearing, name=f"bearing {number}")
-            radial, axial = float(np.hypot(*force[:2])), abs(float(force[2]))
-            axial = 0.0 if axial < _NO_FORCE * max(radial, 1.0) else axial
-            found.append(bearing_life(named, radial, axial, self.speed, self.options))
-        return tuple(found)
+            yield bearing_life(named, across, along, self.speed, self.options)
+
+    def _axial_forces(self, radial: Sequence[float]) -> list[float | str]:
+        """Return the axial forces (N) of the bearings, or why one is not known: two opposed ones also have their own thrust."""
+        found: list[float | str] = []
+        for force, across in zip(self.state.reactions, radial, strict=True):
+            along = abs(float(force[2]))
+            found.append(0.0 if along < _NO_FORCE * max(across, 1.0) else along)
+        bearings = self.state.shaft.bearings
+        one_sided = [number for number, each in enumerate(bearings) if each.kind in OPPOSED_KINDS]
+        if not one_sided:
+            return found
+        if (why := _not_opposed(bearings, one_sided)) is not None:
+            for number in one_sided:
+                found[number] = f"life: {why}"
+            return found
+        left, right = sorted(one_sided, key=lambda number: bearings[number].pushes or "")
+        outer = -math.fsum(float(force[2]) for force in self.state.reactions)  # thrust on the shaft, taken by what pushes left
+        factors = bearings[left].Y, bearings[right].Y
+        assert factors[0] is not None and factors[1] is not None
+        loads = opposed_axial_loads((radial[left], radial[right]), (factors[0], factors[1]), outer)
+        found[left], found[right] = loads
+        return found
 
     @property
     def greatest_deflection(self) -> tuple[float, float]:
@@ -204,6 +247,51 @@ class ShaftResult:
     def whirl(self) -> ShaftWhirl:
         """Whirl of the shaft with the discs of its gears."""
         return ShaftWhirl.of(self.state.shaft, self.discs)
+
+
+def _not_opposed(bearings: Sequence[ShaftBearing], one_sided: Sequence[int]) -> str | None:
+    """Return why bearings that push to one side are no opposed pair whose thrust is known, or None."""
+    own = [bearings[number] for number in one_sided]
+    if len(own) != 2:
+        return f"{len(own)} bearings push the shaft to one side, two opposed ones are in the model"
+    if any(each.pushes is None for each in own):
+        return 'pushes ("left" or "right") is not given'
+    if own[0].pushes == own[1].pushes:
+        return f"both bearings push the shaft to the {own[0].pushes}: nothing holds it"
+    if any(each.Y is None for each in own):
+        return "e and Y are not given"
+    if any(each.axial_stiffness for number, each in enumerate(bearings) if number not in one_sided):
+        return "a third bearing holds the shaft axially too"
+    return None
+
+
+def _lasting(lives: Sequence[BearingLife], shares: Sequence[float], bins: Sequence[tuple[float, ShaftResult]]) -> BearingLife:
+    """Return the life of a bearing over a spectrum (Miner): 1/L_h is the sum of the shares of time over the lives of each.
+
+    The equivalent load is the cubic mean, or that with the exponent of rollers, over the revolutions.
+    """
+    first = next((each for each in lives if each.revolutions is None), lives[0])
+    if first.revolutions is None or any(each.equivalent is None or each.hours is None for each in lives):
+        return first
+    turns = [share * abs(result.speed) for share, result in zip(shares, (result for _, result in bins), strict=True)]
+    hours = _harmonic([each.hours for each in lives], shares)
+    assert hours is not None
+    modified = _harmonic([each.modified_hours for each in lives], shares)
+    revolutions = hours * 60 * math.fsum(turns) / 1e6
+    most = max(lives, key=lambda each: each.equivalent.load if each.equivalent else 0.0)
+    assert most.equivalent is not None and most.revolutions is not None
+    power = math.log(most.revolutions / revolutions) if math.isfinite(revolutions) and most.revolutions else 0.0
+    exponent = 3.0 if bins[0][1].is_ball(lives[0].name) else 10 / 3
+    load = most.equivalent._replace(load=most.equivalent.load * math.exp(power / exponent))
+    return replace(most, equivalent=load, revolutions=revolutions, hours=hours, modified_hours=modified)
+
+
+def _harmonic(lives: Sequence[float | None], shares: Sequence[float]) -> float | None:
+    """Return the life (h) of parts with shares of time, or None where one is not known."""
+    if any(each is None for each in lives):
+        return None
+    damage = math.fsum(share / life for life, share in zip(lives, shares, strict=True) if life)
+    return 1 / damage if damage else math.inf
 
 
 _NO_FORCE = 1e-9

@@ -20,7 +20,7 @@ from gearcad.core.errors import GeometryError
 from gearcad.core.quantities import DENSITY, LENGTH, MODULUS, POISSON_RATIO, Choice, Range, Words, require_fields
 from gearcad.core.records import Floats, JsonObject, Wholes, concise
 from gearcad.material import STEEL_MODULUS
-from gearcad.shafts.bearing_life import KINDS
+from gearcad.shafts.bearing_life import KINDS, SIDES
 
 _POSITION = Range("mm", 0, 1e7)
 _STIFFNESS = Range("N/µm", 0, 1e9)
@@ -136,10 +136,11 @@ def beam_stiffness(parts: Sequence[ShaftSegment], lengths: Floats) -> Floats:
 class ShaftBearing:
     """A bearing: springs between a place of a shaft and the housing, "rigid" or of a stiffness, 0 where it gives no support.
 
-    `offset` (µm, along x and y) is how far its seat lies off the axis. Neither clearance nor preload is taken into account.
-    `kind`, dynamic and static ratings `C` and `C0` (N), `f0` of a deep groove ball bearing, or `e`, `Y` (beyond e; `Y1` up to
-    e and `Y2` beyond it of a spherical one), the fatigue limit `C_u` (N) and the `pitch_diameter` (mm) are for its life. Raises
-    ParameterError.
+    `offset` (µm, along x and y) is how far its seat lies off the axis. A tapered or angular contact bearing `pushes` the shaft
+    to one side, "right" (towards larger z) or "left": face to face the left one pushes right. Neither clearance nor preload is
+    taken into account. `kind`, dynamic and static ratings `C` and `C0` (N), `f0` of a deep groove ball bearing, or `e`, `Y`
+    (beyond e; `Y1` up to e and `Y2` beyond it of a spherical one), the fatigue limit `C_u` (N) and the `pitch_diameter` (mm)
+    are for its life. Raises ParameterError.
     """
 
     position: Annotated[float, _POSITION, Words("position of the bearing")]
@@ -149,6 +150,7 @@ class ShaftBearing:
     axial_stiffness: Annotated[float | Literal["rigid"], _STIFFNESS, Words("axial stiffness", "k_a")] = 0.0
     tilting_stiffness: Annotated[float | Literal["rigid"], _TILTING, Words("tilting stiffness", "k_φ")] = 0.0
     offset: Annotated[tuple[float, float], Words("offset of the seat")] = (0.0, 0.0)
+    pushes: Annotated[str | None, Choice(SIDES), Words("side to which it pushes the shaft")] = None
     C: Annotated[float | None, _RATING, Words("dynamic load rating", "C", "ISO 281")] = None
     C0: Annotated[float | None, _RATING, Words("static load rating", "C_0", "ISO 76")] = None
     f0: Annotated[float | None, _FACTOR, Words("factor of the axial load", "f_0", "ISO 281")] = None

@@ -17,8 +17,12 @@ BALL_KINDS = ("deep groove", "angular contact")
 ROLLER_KINDS = ("cylindrical", "tapered", "spherical")
 KINDS = (*BALL_KINDS, *ROLLER_KINDS)
 
+SIDES = ("left", "right")
+"""Sides to which a bearing can push its shaft, right towards larger z."""
+
 RECALLED = (
-    "ISO 281: factors e and Y of deep groove ball bearings, Y of tapered ones, a_1, and the constants of a_ISO for rollers"
+    "ISO 281: factors e and Y of deep groove ball bearings, X of angular contact ones by e, the thrust F_r/(2 Y) of opposed"
+    " bearings, a_1, and the constants of a_ISO for rollers"
 )
 """What rests on memory, for the list of unconfirmed figures."""
 
@@ -27,6 +31,12 @@ _RELATIVE = (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89)
 
 _LIMIT = (0.19, 0.22, 0.26, 0.28, 0.30, 0.34, 0.38, 0.42, 0.44)
 _AXIAL = (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00)
+
+_CONTACT = ((0.57, 0.43), (0.68, 0.41), (0.80, 0.39), (0.95, 0.37), (1.14, 0.35), (1.34, 0.33))
+"""Limit e and factor X of single-row angular contact ball bearings of 20 to 45 degrees."""
+
+OPPOSED_KINDS = ("angular contact", "tapered")
+"""Kinds that push their shaft to one side only, and make thrust of radial forces."""
 
 _RELIABILITY = {90.0: 1.0, 95.0: 0.64, 96.0: 0.55, 97.0: 0.47, 98.0: 0.37, 99.0: 0.25}
 """Factor a_1 by the reliability in %."""
@@ -67,8 +77,16 @@ def two_factor_load(
     return EquivalentLoad(factor * radial + along * axial, limit, along)
 
 
+def one_sided_load(kind: str, radial: float, axial: float, *, limit: float, factor: float) -> EquivalentLoad:
+    """P = F_r up to e, else X F_r + Y F_a with X = .4 of tapered bearings, and by e of angular contact ones."""
+    limits, factors = zip(*_CONTACT, strict=True)
+    across = 0.4 if kind == "tapered" else float(np.interp(limit, limits, factors))
+    found = two_factor_load(radial, axial, limit=limit, below=(1.0, 0.0), beyond=(across, factor))
+    return found._replace(axial_factor=factor)
+
+
 def opposed_axial_loads(radial: tuple[float, float], factors: tuple[float, float], outer: float) -> tuple[float, float]:
-    """Return the axial loads (N) of two opposed tapered bearings A and B, `outer` thrust (N) acting towards A.
+    """Return the axial loads (N) of two opposed tapered or angular contact bearings A and B, `outer` thrust (N) towards A.
 
     Each radial load makes F_r/(2 Y) of thrust: F_aA = max(F_rA/2Y_A, F_rB/2Y_B + K_a), F_aB = max(F_rB/2Y_B, F_rA/2Y_A - K_a).
     """

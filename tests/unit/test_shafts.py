@@ -19,7 +19,7 @@ from gearcad.designs import PairDesign, ShaftDesign, open_table, read_spec
 from gearcad.designs.spec_writers import pair_text
 from gearcad.jobs.shafts import Shafts
 from gearcad.load import Load
-from gearcad.shafts.arrangement import ShaftOptions, bearing_life
+from gearcad.shafts.arrangement import BearingLife, ShaftOptions, ShaftResult, bearing_life
 from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
 from gearcad.shafts.bearing_life import (
     ball_deflection,
@@ -27,6 +27,7 @@ from gearcad.shafts.bearing_life import (
     deep_groove_load,
     life_factor,
     life_in_hours,
+    one_sided_load,
     opposed_axial_loads,
     reference_viscosity,
 )
@@ -249,7 +250,64 @@ def test_a_life_says_what_it_lacks() -> None:
     factor = life_factor(20.0 / reference_viscosity(1800.0, 72.5), 0.5 * 31500 / 22 / 4000, ball=True)
     assert known.modified_hours == pytest.approx(0.25 * factor * made.hours)
     assert "kind and C" in bearing_life(ShaftBearing(position=0.0), 1.0, 0.0, 1.0, full).reasons[0]
-    assert "tapered" in bearing_life(replace(bearing, kind="tapered"), 1.0, 0.0, 1.0, full).reasons[0]
+    assert "e and Y" in bearing_life(replace(bearing, kind="tapered"), 1.0, 0.0, 1.0, full).reasons[0]
+
+
+def tapered_shaft(sides: tuple[str, str], thrust: float) -> ShaftResult:
+    """1000 N in the middle between two tapered bearings with Y = 1.6, and a thrust towards larger z."""
+    bearing = ShaftBearing(position=0.0, kind="tapered", C=50000.0, e=0.37, Y=1.6, axial_stiffness=100.0, pushes=sides[0])
+    other = replace(bearing, position=200.0, pushes=sides[1])
+    shaft = SteppedShaft(
+        segments=(ShaftSegment(length=200.0, outer_diameter=40.0),),
+        bearings=(bearing, other),
+        forces=(ShaftForce(position=100.0, force=(0.0, -1000.0, thrust)),),
+    )
+    return ShaftResult(shaft.solve(), 1000.0, ShaftOptions())
+
+
+def test_two_tapered_bearings_push_against_each_other() -> None:
+    """Each makes 500/(2 1.6) = 156.25 N; that which pushes against the thrust takes both."""
+    for sides, thrust, expected in (
+        (("right", "left"), 400.0, (156.25, 556.25)),
+        (("left", "right"), 400.0, (556.25, 156.25)),
+        (("right", "left"), -400.0, (556.25, 156.25)),
+        (("right", "left"), 0.0, (156.25, 156.25)),
+    ):
+        lives = tapered_shaft(sides, thrust).lives
+        assert [each.axial for each in lives] == pytest.approx(expected)
+        for life, axial in zip(lives, expected, strict=True):
+            load = 500.0 if axial / 500 <= 0.37 else 0.4 * 500 + 1.6 * axial
+            assert life.equivalent is not None and life.equivalent.load == pytest.approx(load)
+            assert life.hours == pytest.approx((50000 / load) ** (10 / 3) * 1e6 / 60000)
+    assert "nothing holds it" in tapered_shaft(("left", "left"), 400.0).lives[0].reasons[0]
+
+
+def test_angular_contact_bearings_have_the_factor_of_their_limit() -> None:
+    found = one_sided_load("angular contact", 1000.0, 2000.0, limit=1.14, factor=0.57)
+    assert found.load == pytest.approx(0.35 * 1000 + 0.57 * 2000)
+
+
+def test_lives_over_a_spectrum_by_miner(tmp_path: Path) -> None:
+    """Loads in proportion to the torque: half of the time under twice of it leaves 1/(0.5 + 0.5 8) of the life of balls."""
+    own = 'axial_stiffness = "rigid"\nkind = "deep groove"\nC = 30000.0'
+    force = "[[pinion.force]]\nposition = 150.0\nforce = [0.0, -300.0, 0.0]\n"
+    assert force in PAIR
+    text = PAIR.replace('axial_stiffness = "rigid"', own).replace(force, "").replace("offset = [1.0, 0]\n", "")
+    text += "[load]\ntorque = 50.0\nspeed = 600.0\n[rating]\n"
+
+    def life(rating: str) -> BearingLife:
+        design = pair_design(tmp_path, f"{text}face_mesh_stiffness = 15.0\n{rating}")
+        return Shafts().run(design).shafts["pinion"].lives[0]
+
+    one, plain = life(""), life("spectrum = [[0.4, 1.0], [0.6, 1.0]]")
+    assert one.hours is not None and plain.hours == pytest.approx(one.hours, rel=1e-9)
+    assert plain.revolutions == pytest.approx(one.revolutions, rel=1e-9)
+    two = life("spectrum = [[0.5, 1.0], [0.5, 2.0]]")
+    assert two.hours == pytest.approx(one.hours / 4.5, rel=1e-6)
+    assert one.equivalent is not None and two.equivalent is not None
+    assert two.equivalent.load == pytest.approx(one.equivalent.load * 4.5 ** (1 / 3), rel=1e-6)
+    fast = life("spectrum = [[0.75, 0.0], [0.25, 1.0, 2.0]]")
+    assert fast.hours == pytest.approx(one.hours / (0.25 * 2), rel=1e-6)
 
 
 # ---------------------------------------------------------------------- the mesh
