@@ -115,6 +115,11 @@ def bearing_title(bearing: ShaftBearing, words: SheetWords) -> str:
     return f"{words[f'shafts.{kind}']} {bearing.name}".rstrip()
 
 
+def _ring_text(bearing: ShaftBearing, words: SheetWords) -> str:
+    """Return bore, outside diameter and width of a bearing, "" where they are not given."""
+    return " × ".join(words.shortest(size, 3) for size in bearing.ring or ())
+
+
 def shafted_items(
     drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, PartDrawing], words: SheetWords
 ) -> tuple[list[Item], dict[str, int]]:
@@ -132,10 +137,11 @@ def shafted_items(
         numbers[each.file] = len(lines)
     for each in drawn.shafts:
         for number, bearing in enumerate(each.given.bearings):
-            title = bearing_title(bearing, words)
-            at = next((index for index, line in enumerate(lines) if line.key == f"bearing {title}"), None)
+            title, remarks = bearing_title(bearing, words), _ring_text(bearing, words)
+            key = f"bearing {title} {remarks}"
+            at = next((index for index, line in enumerate(lines) if line.key == key), None)
             if at is None:
-                lines.append(Item(key=f"bearing {title}", item=len(lines) + 1, title=title))
+                lines.append(Item(key=key, item=len(lines) + 1, title=title, remarks=remarks))
                 at = len(lines) - 1
             else:
                 lines[at] = replace(lines[at], quantity=lines[at].quantity + 1)
@@ -179,7 +185,8 @@ def draw_shafted_pair(
 
 
 def _remarks(shafts: tuple[SeatedShaft, ...], words: SheetWords) -> Iterator[str]:
-    yield words["shafts.note_bearings"]
+    sized = all(bearing.ring is not None for each in shafts for bearing in each.given.bearings)
+    yield words["shafts.note_sized_bearings" if sized else "shafts.note_bearings"]
     if len(shafts) < len(Role):
         missing = next(role for role in Role if role not in {each.role for each in shafts})
         yield words["shafts.note_no_shaft"].format(item=list(Role).index(missing) + 1)

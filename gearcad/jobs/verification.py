@@ -125,7 +125,8 @@ class Verify(Job[ToothedDesign, Verification]):
         parts, assembly = products_of(design, FileOptions())
         exact = {product.name: ExactPart(_part(product)) for product in parts.values()}
         bodies = assembly.bodies if isinstance(assembly, PairProduct) else {}
-        exact |= {body.name: ExactShaft(body.plan.shaft) for body in bodies.values()}
+        rings = assembly.rings if isinstance(assembly, PairProduct) else {}
+        exact |= {body.name: ExactShaft(body.plan.shaft) for body in (*bodies.values(), *rings.values())}
         yield from _of_files(design, folder, parts, assembly, exact)
         yield from _of_made(parts, folder, made=not self.folder)
         of_parts = {name: exact[product.name] for name, product in parts.items()}

@@ -140,7 +140,8 @@ class ShaftBearing:
     to one side, "right" (towards larger z) or "left": face to face the left one pushes right. Neither clearance nor preload is
     taken into account. `kind`, dynamic and static ratings `C` and `C0` (N), `f0` of a deep groove ball bearing, or `e`, `Y`
     (beyond e; `Y1` up to e and `Y2` beyond it of a spherical one), the fatigue limit `C_u` (N) and the `pitch_diameter` (mm)
-    are for its life. Raises ParameterError.
+    are for its life. Bore `d`, outside diameter `D` and width `B` (mm) are for solids and drawings. Raises ParameterError, and
+    GeometryError for sizes that do not belong together.
     """
 
     position: Annotated[float, _POSITION, Words("position of the bearing")]
@@ -160,11 +161,25 @@ class ShaftBearing:
     Y2: Annotated[float | None, _FACTOR, Words("axial factor beyond e", "Y_2", "ISO 281")] = None
     C_u: Annotated[float | None, _RATING, Words("fatigue load limit", "C_u", "ISO 281")] = None
     pitch_diameter: Annotated[float | None, LENGTH, Words("pitch diameter of the bearing", "D_pw", "ISO 281")] = None
+    d: Annotated[float | None, LENGTH, Words("bore of the bearing", "d", "ISO 15")] = None
+    D: Annotated[float | None, LENGTH, Words("outside diameter of the bearing", "D", "ISO 15")] = None
+    B: Annotated[float | None, LENGTH, Words("width of the bearing", "B", "ISO 15")] = None
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
         require_fields(self)
+        sizes = {"d": self.d, "D": self.D, "B": self.B}
+        missing = [name for name, size in sizes.items() if size is None]
+        if 0 < len(missing) < len(sizes):
+            raise GeometryError(missing[0], None, "must be given: d, D and B belong together")
+        if self.d is not None and self.D is not None and self.D <= self.d:
+            raise GeometryError("D", self.D, f"must be above {self.d:g} mm, the bore", "mm")
+
+    @property
+    def ring(self) -> tuple[float, float, float] | None:
+        """Bore, outside diameter and width (mm); None where they are not given."""
+        return None if self.d is None or self.D is None or self.B is None else (self.d, self.D, self.B)
 
     def springs(self) -> tuple[float, ...]:
         """Stiffness in the six directions (N/mm, N mm/rad): infinite where rigid; the twist is free."""

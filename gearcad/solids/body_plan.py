@@ -44,6 +44,9 @@ PART_COLOURS: dict[str, Colour] = {
 SHAFT_COLOURS: tuple[Colour, Colour] = ((0.74, 0.76, 0.78), (0.66, 0.68, 0.70))
 """Colours of the shafts of pinion and wheel."""
 
+BEARING_COLOUR: Colour = (0.38, 0.42, 0.47)
+"""Colour of bearings."""
+
 TRAIN_COLOURS: dict[str, tuple[Colour, Colour]] = {
     "suns": ((0.80, 0.55, 0.20), (0.72, 0.38, 0.22)),
     "rings": ((0.45, 0.58, 0.72), (0.27, 0.42, 0.60)),

@@ -18,6 +18,9 @@ from gearcad.shafts.beam import ShaftSegment, SteppedShaft
 _SAME = 1e-9
 """Distance (mm) below which two positions or diameters are one."""
 
+_BESIDE = 1e-6
+"""Distance (mm) to both sides of the middle of a bearing at which the diameter of its seat is taken."""
+
 _UNDER_ROOT = 0.5
 """Normal modules that a shaft without thinner neighbours stays below the root circle of the gear that is one piece with it."""
 
@@ -209,9 +212,34 @@ class SeatedShaft:
                 found.append(replace(each, length=stop - begin, outer_diameter=outer))
         return replace(self.given, segments=tuple(found))
 
+    @cached_property
+    def rings(self) -> dict[int, tuple[TurnedPlan, float]]:
+        """Rings of the bearings whose sizes are given, by their numbers from 1, with the height z (mm) of the lower end."""
+        found = {}
+        for number, bearing in enumerate(self.given.bearings, 1):
+            if (ring := bearing.ring) is not None:
+                inner, outer, width = ring
+                body = ShaftSegment(length=width, outer_diameter=outer, inner_diameter=inner)
+                plan = TurnedPlan(SteppedShaft(segments=(body,), bearings=()))
+                found[number] = plan, self.z + bearing.position - width / 2
+        return found
+
+    def _bearing_notices(self) -> Iterator[Notice]:
+        """Yield notices about bearings whose bore differs from the shaft."""
+        for number, bearing in enumerate(self.given.bearings, 1):
+            seat = diameters_within(self.given, bearing.position - _BESIDE, bearing.position + _BESIDE)
+            if bearing.d is not None and all(abs(each - bearing.d) > _SAME for each in seat):
+                text = f"the bearing has a bore of {bearing.d:g} mm, the shaft {seat[0]:g} mm there"
+                yield Notice("bearing-seat", text, where=f"{self.role.value}: {bearing.name or number}")
+
     @property
     def notices(self) -> Iterator[Notice]:
-        """Notices about the seat of the gear: diameters of shaft and bore that differ, and a pinion shaft."""
+        """Notices about seats: diameters of shaft and bore that differ, a pinion shaft, and bearings."""
+        yield from self._gear_notices()
+        yield from self._bearing_notices()
+
+    def _gear_notices(self) -> Iterator[Notice]:
+        """Yield notices about the seat of the gear."""
         bore, role = self.gear.body.bore and free_bore(self.gear), self.role.value
         if not self.within:
             return

@@ -260,3 +260,29 @@ def test_a_shaft_by_itself_has_files_a_sheet_and_a_picture(tmp_path: Path) -> No
     for refused in (Build(formats=(Format.DXF,)), Build(options=FileOptions(bracket=True)), Draw(what="tool")):
         with pytest.raises((GeometryError, ParameterError)):
             refused.run(design)
+
+
+def test_bearings_of_given_sizes_are_rings_of_the_assembly(tmp_path: Path) -> None:
+    """They have no files of their own. A bore that is not the shaft's diameter is told."""
+    spec = tmp_path / "on-rings.toml"
+    sizes = "position = 90.0\nd = 30.0\nD = 62.0\nB = 16.0\n"
+    text = STEPPED.format(seat=20.0, bore=30.0).replace("position = 90.0\n", sizes)
+    spec.write_text(text, encoding="utf-8")
+    design = read_spec(spec)
+    job = Build(formats=(Format.STEP,))
+    names = {path.name for path in job.write(job.run(design), tmp_path / "out")}
+    assert not [name for name in names if "bearing" in name]
+    (root,) = read_step(tmp_path / "out" / "assembly.step")
+    ring = next(part for part in root.parts() if part.product == "stepped wheel bearing 2")
+    assert ring.place[:, 3] == pytest.approx([DISTANCE, 0.0, MIDDLE - 50.0 + 90.0 - 8.0], abs=1e-9)
+    assert cadquery.Solid(ring.shape).Volume() == pytest.approx(closed_form((16.0, 62.0, 30.0)), rel=VOLUME)
+    spec.write_text(text.replace("d = 30.0", "d = 35.0"), encoding="utf-8")
+    told = [str(each) for each in job.notices(read_spec(spec)) if each.code == "bearing-seat"]
+    assert told == ["wheel: 2: the bearing has a bore of 35 mm, the shaft 30 mm there"]
+
+
+def test_sizes_of_bearings_belong_together() -> None:
+    with pytest.raises(GeometryError, match="must be given: d, D and B belong together"):
+        ShaftBearing(position=0.0, d=20.0, D=47.0)
+    with pytest.raises(GeometryError, match="D = 20 mm: must be above 20 mm, the bore"):
+        ShaftBearing(position=0.0, d=20.0, D=20.0, B=14.0)

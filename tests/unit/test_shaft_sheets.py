@@ -33,16 +33,22 @@ length = 45.0
 outer_diameter = 20.0
 [[pinion.shaft]]
 length = 40.0
-outer_diameter = 15.0
+outer_diameter = 17.0
 [[pinion.bearing]]
 position = 12.0
 kind = "deep groove"
 name = "6203"
+d = 17.0
+D = 40.0
+B = 12.0
 axial_stiffness = "rigid"
 [[pinion.bearing]]
 position = 88.0
 kind = "deep groove"
 name = "6203"
+d = 17.0
+D = 40.0
+B = 12.0
 [wheel]
 teeth = 51
 body.bore = 30.0
@@ -107,20 +113,21 @@ def test_the_assembly_has_the_distances_along_both_shafts(drawing: Drawing) -> N
 def test_the_parts_list_has_gears_shafts_and_bearings(drawing: Drawing) -> None:
     texts = texts_on(drawing, "assembly")
     assert {"Pinion", "Gear wheel", "Shaft of the pinion", "Shaft of the wheel", "Deep groove ball bearing 6203"} <= set(texts)
+    assert texts.count("17 × 40 × 12") == 1
     assert texts.count("Deep groove ball bearing 6203") == 1 and "Rolling bearing" in texts
 
 
 def test_the_assembly_tells_the_mass_of_all_parts(drawing: Drawing) -> None:
     """That of the gears' own sheets, and of the cylinders."""
     masses = {sheet.name: sheet.shown.get("mass") for sheet in drawing.sheets}
-    shafts = math.pi / 4 * DENSITY * (17**2 * 25 + 20**2 * 45 + 15**2 * 40 + (30**2 - 12**2) * 70 + 25**2 * 35)
+    shafts = math.pi / 4 * DENSITY * (17**2 * 25 + 20**2 * 45 + 17**2 * 40 + (30**2 - 12**2) * 70 + 25**2 * 35)
     gears = [sheet.shown["mass"] for sheet in drawing.sheets if sheet.name in ("pinion", "wheel")]
     assert masses["assembly"] == pytest.approx(sum(gears) + shafts, rel=1e-6)
 
 
 def test_a_shaft_has_its_lengths_and_diameters(drawing: Drawing) -> None:
     """The longest piece follows from the others; a diameter between two others stands at a leader."""
-    assert sizes_on(drawing, "pinion-shaft") == pytest.approx(sorted([25, 40, 110, 17, 15]))
+    assert sizes_on(drawing, "pinion-shaft") == pytest.approx(sorted([25, 40, 110, 17, 17]))
     assert any(each.endswith("20") and len(each) <= 3 for each in texts_on(drawing, "pinion-shaft"))
     assert sizes_on(drawing, "wheel-shaft") == pytest.approx(sorted([35, 105, 70, 30, 25, 12]))
 
@@ -142,7 +149,7 @@ def test_a_pinion_shaft_is_drawn_with_its_teeth(drawing: Drawing, tmp_path: Path
     sheet = next(each for each in drawing.sheets if each.name == "pinion-shaft")
     assert sheet.title == "Pinion shaft" and not any(isinstance(each, Hatching) for each in sheet.figure.shapes)
     assert centre_lines(drawing, "pinion-shaft") == centre_lines(plain, "pinion-shaft") + 2
-    assert sizes_on(drawing, "pinion-shaft") == pytest.approx(sorted([25, 20, 20, 5, 110, 17, 15]))
+    assert sizes_on(drawing, "pinion-shaft") == pytest.approx(sorted([25, 20, 20, 5, 110, 17, 17]))
 
 
 @pytest.mark.long

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
+from typing import NamedTuple
 
 from gearcad.core.records import Role
 from gearcad.drawing.dimensions import Side, leader, linear_dimension
@@ -37,16 +38,19 @@ _SPACING = 2.5
 """Distance of hatching lines (mm of paper)."""
 
 _SYMBOL = 0.45
-"""Side of the square of a bearing over the diameter of its seat: its size is not known."""
+"""Side of the square of a bearing whose size is not known, over the diameter of its seat."""
 
 _ARM = 0.3
-"""Half the length of the lines of the cross in it, over the side of the square: they do not touch it."""
+"""Half the length of the lines of the cross in it, over its shorter side: they do not touch it."""
 
 _NEAR = 1e-6
-"""Distance (mm) to both sides of a bearing's middle at which the shaft's diameter is taken."""
+"""Length (mm) below which a stretch is none, and distance to both sides of a bearing at which its seat is taken."""
 
 _AT_LEFT, _AT_RIGHT = ((Side.LEFT,),), ((Side.RIGHT,),)
 """Sides of the rows of item numbers of parts at the left and at the right, best first."""
+
+_RING_ROOM = 14.0
+"""Room for a row of item numbers between the ends of the axes and the centre distance (mm of paper)."""
 
 _TICK = 4.0
 """Length of the centre line in the middle of the face beyond the teeth (mm of paper)."""
@@ -133,29 +137,43 @@ class ShaftFigure:
         return Line(across.point(self._at((z, low))), across.point(self._at((z, high))))
 
 
-def bearing_places(shaft: SteppedShaft) -> Iterator[tuple[float, float]]:
-    """Yield position and radius of the seat (mm) of each bearing: on a shoulder that of the thinner side."""
+class BearingPlace(NamedTuple):
+    """Position of a bearing along the axis, radius of its seat, and height and width of its section (mm)."""
+
+    position: float
+    radius: float
+    high: float
+    width: float
+
+    def rectangles(self, height: float) -> Iterator[tuple[Polygon, Point]]:
+        """Yield the rectangles above and below a shaft whose axis is at a height (mm), each with its middle."""
+        for sign in (1.0, -1.0):
+            near, far = height + sign * self.radius, height + sign * (self.radius + self.high)
+            left, right = self.position - self.width / 2, self.position + self.width / 2
+            yield ((left, near), (right, near), (right, far), (left, far)), (self.position, (near + far) / 2)
+
+    def symbol(self, height: float, across: Across) -> Iterator[Shape]:
+        """Yield the symbol: rectangles with free-standing crosses."""
+        arm = _ARM * min(self.high, self.width)
+        for corners, (x, y) in self.rectangles(height):
+            yield Polyline.straight(across.points(corners), closed=True)
+            yield Line(across.point((x - arm, y)), across.point((x + arm, y)))
+            yield Line(across.point((x, y - arm)), across.point((x, y + arm)))
+
+
+def bearing_places(shaft: SteppedShaft, start: float = 0.0) -> Iterator[BearingPlace]:
+    """Yield the place of each bearing, its position from `start` (mm); on a shoulder the seat is the thinner side.
+
+    Sections are in true size where the sizes of a bearing are given, else squares.
+    """
     for each in shaft.bearings:
+        if (ring := each.ring) is not None:
+            inner, outer, width = ring
+            yield BearingPlace(start + each.position, inner / 2, (outer - inner) / 2, width)
+            continue
         around = diameters_within(shaft, each.position - _NEAR, each.position + _NEAR)
-        yield each.position, min(around or [shaft.segments[0].outer_diameter]) / 2
-
-
-def _bearing(z: float, radius: float, height: float) -> Iterator[tuple[Polygon, Point]]:
-    """Yield the squares of a bearing's symbol above and below the shaft, each with its middle."""
-    side = 2 * radius * _SYMBOL
-    for sign in (1.0, -1.0):
-        near, far = height + sign * radius, height + sign * (radius + side)
-        corners = ((z - side / 2, near), (z + side / 2, near), (z + side / 2, far), (z - side / 2, far))
-        yield corners, (z, (near + far) / 2)
-
-
-def bearing_symbol(z: float, radius: float, height: float, across: Across) -> Iterator[Shape]:
-    """Yield the symbol of a bearing on a seat of a radius (mm), its middle at z: squares with free-standing crosses."""
-    arm = 2 * radius * _SYMBOL * _ARM
-    for corners, (x, y) in _bearing(z, radius, height):
-        yield Polyline.straight(across.points(corners), closed=True)
-        yield Line(across.point((x - arm, y)), across.point((x + arm, y)))
-        yield Line(across.point((x, y - arm)), across.point((x, y + arm)))
+        seat = min(around or [shaft.segments[0].outer_diameter])
+        yield BearingPlace(start + each.position, seat / 2, _SYMBOL * seat, _SYMBOL * seat)
 
 
 @dataclass(frozen=True)
@@ -176,9 +194,9 @@ class PlacedShaft:
         return tuple(ShaftFigure(plan, start, end, z, height) for start, end in spans)
 
     @property
-    def bearings(self) -> list[tuple[float, float]]:
-        """Position (z of the assembly) and radius of the seat of each bearing, mm."""
-        return [(self.seated.z + position, radius) for position, radius in bearing_places(self.seated.given)]
+    def bearings(self) -> list[BearingPlace]:
+        """Places of the bearings, z of the assembly."""
+        return list(bearing_places(self.seated.given, self.seated.z))
 
     @property
     def middle(self) -> float:
@@ -187,9 +205,9 @@ class PlacedShaft:
 
     @property
     def covers(self) -> list[Polygon]:
-        """Outlines of the shaft and of the squares of its bearings."""
-        squares = [corners for z, radius in self.bearings for corners, _ in _bearing(z, radius, self.gear.height)]
-        return [*(each.silhouette for each in self.figures), *squares]
+        """Outlines of the shaft and of the sections of its bearings."""
+        sections = [corners for each in self.bearings for corners, _ in each.rectangles(self.gear.height)]
+        return [*(each.silhouette for each in self.figures), *sections]
 
     def shapes(self, across: Across) -> Iterator[Shape]:
         """Yield the shaft, its bearings and its axis."""
@@ -197,8 +215,8 @@ class PlacedShaft:
             yield from each.shapes(across)
         if self.seated.one_piece:
             yield from self._hidden_bore(across)
-        for z, radius in self.bearings:
-            yield from bearing_symbol(z, radius, self.gear.height, across)
+        for bearing in self.bearings:
+            yield from bearing.symbol(self.gear.height, across)
         ends = [across.point((self.seated.z + end, self.gear.height)) for end in (0.0, self.seated.given.length)]
         (left, y), (right, _) = sorted(ends)
         yield Line((left - BEYOND_AXIS, y), (right + BEYOND_AXIS, y), Pen.CENTRE)
@@ -218,7 +236,7 @@ class PlacedShaft:
         shaft, start = self.seated.given, self.seated.z
         first, last = (each.radius for each in (self.seated.plan.outside[0], self.seated.plan.outside[-1]))
         ends = {0.0: first, shaft.length: last}
-        stations = {position: radius * (1 + 2 * _SYMBOL) for position, radius in bearing_places(shaft)}
+        stations = {each.position: each.radius + each.high for each in bearing_places(shaft)}
         stations = {self.seated.position: gear.tip_diameter / 2, **ends, **stations}
         row = sorted(stations)
         for one, other in [*pairwise(row), (0.0, shaft.length)]:
@@ -283,11 +301,11 @@ def _axes(gears: Iterable[Placed], across: Across) -> Iterator[Line]:
 
 
 def _distance(pair: GearPair, places: PairPlaces, box: Box, draughting: Draughting) -> Iterator[Figure]:
-    """Yield dimensions of the centre distance at the ends of the axes."""
+    """Yield dimensions of the centre distance at the ends of the axes, with room for item numbers before them."""
     for side, edge in ((Side.RIGHT, box.right), (Side.LEFT, box.left)):
         beyond = edge + side.outwards * BEYOND_AXIS
         low, high = ((beyond, draughting.scale * part.height) for part in (places.mate, places.pinion))
-        yield from linear_dimension(low, high, side, distance_size(pair), draughting, clear=beyond)
+        yield from linear_dimension(low, high, side, distance_size(pair), draughting, clear=beyond + side.outwards * _RING_ROOM)
 
 
 def _spots(
@@ -304,10 +322,10 @@ def _spots(
         )
     for each in shafts:
         found[items[each.seated.file]] = [across.point(point) for figure in each.figures for point in figure.middles()]
-        for number, (z, radius) in enumerate(each.bearings):
-            quarter = 0.7 * radius * _SYMBOL  # beside the cross
-            middles = [middle for _, middle in _bearing(z, radius, each.gear.height)]
-            spots = [across.point((x + side * quarter, y + quarter)) for x, y in middles for side in (1, -1)]
+        for number, bearing in enumerate(each.bearings):
+            aside, up = 0.35 * bearing.width, 0.35 * bearing.high  # beside the cross
+            middles = [middle for _, middle in bearing.rectangles(each.gear.height)]
+            spots = [across.point((x + side * aside, y + up)) for x, y in middles for side in (1, -1)]
             found.setdefault(items[f"{each.seated.file}.{number}"], []).extend(spots)
     yield from found.items()
 

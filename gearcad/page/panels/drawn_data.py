@@ -31,7 +31,7 @@ from gearcad.page.panels.train_stands import TrainGear, TrainStands, train_stand
 from gearcad.planetary.members import SetMesh
 from gearcad.planetary.train_data import shafts_of
 from gearcad.solids import FileOptions
-from gearcad.solids.body_plan import PART_COLOURS, SHAFT_COLOURS, STAGE_COLOURS, STEEL, Colour
+from gearcad.solids.body_plan import BEARING_COLOUR, PART_COLOURS, SHAFT_COLOURS, STAGE_COLOURS, STEEL, Colour
 from gearcad.solids.facets.tessellation import tessellate, tessellate_rack
 from gearcad.solids.files.shaft_products import turned_facets
 from gearcad.solids.files.train_products import section_angle, turns_of
@@ -476,6 +476,8 @@ def _standing(design: ToothedDesign | TrainDesign | ShaftDesign) -> Iterator[tup
             colour, own = PerGear(*SHAFT_COLOURS).pick(shaft.role), (shaft.x, 0.0, shaft.z)
             turned = 1.0 if shaft.role is Role.PINION else ratio
             yield shaft.plan, DrawnBody(shaft.name, "", colour, own, math.radians(shaft.rotation), turned)
+            for plan, z in shaft.rings.values():
+                yield plan, DrawnBody("bearing", "", BEARING_COLOUR, (shaft.x, 0.0, z), ratio=0.0)
     elif isinstance(design, RackPairDesign):
         yield from _with_rack(design)
     elif isinstance(design, RackDesign):

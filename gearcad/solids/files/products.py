@@ -172,7 +172,7 @@ class PairProduct:
         return (
             made
             if not self.shafts
-            else replace(made, occurrences=(*made.occurrences, *(each.occurrence() for each in self.shafts)))
+            else replace(made, occurrences=(*made.occurrences, *(made for each in self.shafts for made in each.occurrences())))
         )
 
     def scene(self, pinion_rotation: float = 0.0) -> list[ScenePart]:
@@ -180,13 +180,18 @@ class PairProduct:
         pose = self.pair.wheel_pose(pinion_rotation)
         (pinion,), (wheel,) = self.gears.pinion.scene(pinion_rotation), self.gears.wheel.scene()
         turns = {Role.PINION: pinion_rotation, Role.WHEEL: pose.rotation}
-        shafts = (each.scene_part(turns[each.seated.role]) for each in self.shafts)
+        shafts = (part for each in self.shafts for part in each.scene_parts(turns[each.seated.role]))
         return [pinion, replace(wheel, rotation=pose.rotation, offset=(pose.x, 0.0, pose.z)), *shafts]
 
     @cached_property
     def shaft_roles(self) -> dict[str, Role]:
-        """The gears of the shafts, by the names of the shafts as products."""
-        return {each.name: each.seated.role for each in self.shafts}
+        """The gears of the shafts, by the names of shafts and bearings as products."""
+        return {name: each.seated.role for each in self.shafts for name in (each.name, *each.rings)}
+
+    @property
+    def rings(self) -> dict[str, ShaftProduct]:
+        """The bearings whose sizes are given, by their names as products: bought parts, which have no files of their own."""
+        return {name: product for each in self.shafts for name, (product, _) in each.rings.items()}
 
 
 @dataclass(frozen=True)

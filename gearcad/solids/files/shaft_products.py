@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
@@ -11,7 +12,7 @@ import numpy as np
 
 from gearcad.core.records import PerGear, Wholes
 from gearcad.geometry import Gear
-from gearcad.solids.body_plan import BRIGHT_STEEL, SHAFT_COLOURS, STEEL, Colour
+from gearcad.solids.body_plan import BEARING_COLOUR, BRIGHT_STEEL, SHAFT_COLOURS, STEEL, Colour
 from gearcad.solids.exact.shaft_solid import turned_boundary
 from gearcad.solids.exact.solid import Occurrence, SolidProduct, placed
 from gearcad.solids.facets.tessellation import Facets, permitted_chord_error
@@ -105,6 +106,31 @@ class SeatedProduct:
         """Return the exact solid in its place."""
         part = SolidProduct(self.name, turned_boundary(self.seated.plan), self._colour)
         return Occurrence(self.name, part, placed((self.seated.x, 0.0, self.seated.z), self.seated.rotation))
+
+    @cached_property
+    def rings(self) -> dict[str, tuple[ShaftProduct, tuple[float, float, float]]]:
+        """The bearings whose sizes are given, by their names in the assembly, and their places (mm)."""
+        owner, seated = self.name.removesuffix(" shaft"), self.seated
+        return {
+            (name := f"{owner} bearing {number}"): (
+                ShaftProduct(plan=plan, name=name, options=self.options, colour=BEARING_COLOUR),
+                (seated.x, 0.0, z),
+            )
+            for number, (plan, z) in seated.rings.items()
+        }
+
+    def occurrences(self) -> Iterator[Occurrence]:
+        """Yield the exact solids of the shaft and of its bearings in their places."""
+        yield self.occurrence()
+        for name, (product, place) in self.rings.items():
+            part = SolidProduct(name, turned_boundary(product.plan), product.colour)
+            yield Occurrence(name, part, placed(place, self.seated.rotation))
+
+    def scene_parts(self, rotation: float) -> Iterator[ScenePart]:
+        """Yield the facets of the shaft and of its bearings in their places, turned with the gear (degrees)."""
+        yield self.scene_part(rotation)
+        for name, (product, place) in self.rings.items():
+            yield ScenePart(name=name, facets=product.facets, colour=product.colour, rotation=rotation, offset=place)
 
     def scene_part(self, rotation: float) -> ScenePart:
         """Return the facets in their place, turned with the gear (degrees)."""
