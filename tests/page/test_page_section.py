@@ -103,7 +103,7 @@ def _off(outline: Floats, point: Floats) -> float:
     "name",
     [
         *("reducer-21-43", "volvo-13-44", "fzg-c", "double-23-81", "ring-22-70", "rack"),
-        *("planetary-24-21-66", "planetary-alm", "planetary-differential", "train-pairs", "tree"),
+        *("planetary-24-21-66", "planetary-alm", "planetary-differential", "train-pairs", "tree", "two-stage"),
     ],
 )
 @pytest.mark.parametrize("side", [1, -1], ids=["left", "right"])
@@ -150,6 +150,13 @@ def test_a_train_turns_as_willis_says() -> None:
 
 def test_kinds_without_teeth_have_no_section() -> None:
     assert section_of(read_spec(templates() / "train-1-stage.toml")) is None
+
+
+def test_axes_of_a_train_lie_at_their_angles() -> None:
+    """The second pair of the starter has its wheel at 30 degrees, and teeth of its module without shifts."""
+    second, third = (np.array(_content("two-stage")["bodies"][number]["place"]) for number in (1, 3))
+    assert second[1] == 0.0
+    assert (third - second) / np.linalg.norm(third - second) == pytest.approx([math.sqrt(3) / 2, 0.5], abs=1e-12)
 
 
 def test_plain_numbers_are_sent() -> None:

@@ -1,7 +1,7 @@
 """Places of the gears of a train of pairs: shafts side by side, stages one above the other, teeth in mesh.
 
-A spec of a train says how far axes are apart, and not in which direction: each further axis lies in the direction of the one
-before it, a second one of the same shaft at a right angle to it. Lengths in mm, angles in radians; z is the height.
+Axes lie at the angles that meshes give. Where none does, each further axis lies in the direction of the one before it, and a
+second one of the same shaft at a right angle to it. Lengths in mm, angles in radians; z is the height.
 """
 
 from __future__ import annotations
@@ -97,6 +97,7 @@ class _Standing:
     def __init__(self, design: TrainDesign, lines: Mapping[str, str]) -> None:
         self._meshes, self._line_of = design.train.meshes, lines
         self._ratios = design.train.speed_ratios
+        self._has_angles = any(mesh.mesh_angle for mesh in self._meshes)
         first = self._meshes[0].pinion
         self._lines = {lines[first]: _Line(0j, 0.0, 0.0)}
         self._mates = Counter[str]()
@@ -126,9 +127,13 @@ class _Standing:
         pair = mesh.pair.mounted
         pose, own = pair.wheel_pose(), self._line_of[mesh.gears.pick(driver)]
         line = self._lines[own]
-        direction = line.direction + _DIRECTIONS[self._mates[own] % len(_DIRECTIONS)]
+        if self._has_angles:
+            towards = math.radians(mesh.mesh_angle)
+            direction = towards if driver is Role.PINION else towards + math.pi
+        else:
+            direction = line.direction + _DIRECTIONS[self._mates[own] % len(_DIRECTIONS)]
+            towards = direction if driver is Role.PINION else direction + math.pi
         self._mates[own] += 1
-        towards = direction if driver is Role.PINION else direction + math.pi
         across = cmath.rect(pose.x, towards)
         axes = PerGear(line.axis, line.axis + across) if driver is Role.PINION else PerGear(line.axis - across, line.axis)
         side = self._side(mesh, driver)

@@ -13,14 +13,14 @@ pytestmark = pytest.mark.long
 
 STARTERS = {path.stem: path.read_text(encoding="utf-8") for path in starter_specs()}
 
-TEXTS = ("train-1-stage", "train-2-stage", "train-pairs")
+TEXTS = [name for name, text in STARTERS.items() if re.search(r"(?m)^\[(train|\[shaft)", text)]
 """Starters whose gears are edited as text."""
 
 NOT_DRAWN = ("train-1-stage", "train-2-stage")
 """Starters without teeth: they have no pictures."""
 
 FAULTS = {
-    "out of range": lambda text: re.sub(r"(?m)^((?:[\w.]*teeth|inertia|length)) *= *[-\d.]+", r"\1 = 2e9", text, count=1),
+    "out of range": lambda text: re.sub(r"(?m)^((?:[\w.]*teeth|inertia|length)) *= *[-\d.]+", r"\1 = -2e9", text, count=1),
     "no number": lambda text: re.sub(r"(?m)^((?:[\w.]*teeth|inertia|length)) *= *[-\d.]+", r'\1 = "many"', text, count=1),
     "unknown key": lambda text: re.sub(r"(?m)^name = .*$", r"\g<0>\nnonsense = 3", text, count=1),
     "unknown table": lambda text: text + "\n[nonsense]\nteeth = 3\n",
@@ -98,8 +98,9 @@ def test_a_fault_in_a_field_dims_all_and_is_counted_in_view(tab: Tab, name: str)
     keys = tab.page.eval_on_selector_all(
         ".inputs .ranked [data-key]", "all => all.filter((each) => each.querySelector('input')).map((each) => each.dataset.key)"
     )
-    assert keys
-    for key in keys:
+    numbers = [key for key in keys if not key.startswith("material.")]  # a material may have any name
+    assert numbers
+    for key in numbers:
         field = tab.field(key)
         was = field.input_value()
         field.fill("1.2.3")
