@@ -29,6 +29,7 @@ _OF_MESH = """
 name = "{name}"
 pinion = "{name} pinion"
 wheel = "{name} wheel"
+mesh_angle = {angle}
 pair = {{ normal_module = {module}, face_width = {width}, tooth_thinning = 0.05, {more} }}
 """
 
@@ -36,15 +37,16 @@ pair = {{ normal_module = {module}, face_width = {width}, tooth_thinning = 0.05,
 def _tree(folder: Path) -> Path:
     """Write a train of five pairs on six axes: an idler, two meshes of one shaft, a wheel that drives, and a ring."""
     pairs = {
-        "first": (2.0, 24.0, "helix_angle = 15, pinion = {teeth = 18}, wheel = {teeth = 54}"),
-        "idler": (2.0, 24.0, "helix_angle = -15, pinion = {teeth = 54}, wheel = {teeth = 31}"),
-        "side": (2.5, 20.0, "pinion = {teeth = 20, profile_shift = 0.2}, wheel = {teeth = 33}"),
-        "driven": (3.0, 30.0, "pinion = {teeth = 17, profile_shift = 0.3}, wheel = {teeth = 45}"),
-        "ring": (1.5, 18.0, "pinion = {teeth = 22}, wheel = {teeth = -70}"),
+        "first": (0.0, 2.0, 24.0, "helix_angle = 15, pinion = {teeth = 18}, wheel = {teeth = 54}"),
+        "idler": (70.0, 2.0, 24.0, "helix_angle = -15, pinion = {teeth = 54}, wheel = {teeth = 31}"),
+        "side": (-20.0, 2.5, 20.0, "pinion = {teeth = 20, profile_shift = 0.2}, wheel = {teeth = 33}"),
+        "driven": (200.0, 3.0, 30.0, "pinion = {teeth = 17, profile_shift = 0.3}, wheel = {teeth = 45}"),
+        "ring": (45.0, 1.5, 18.0, "pinion = {teeth = 22}, wheel = {teeth = -70}"),
     }
     names = {"idler pinion": "first wheel"}
     meshes = "".join(
-        _OF_MESH.format(name=name, module=module, width=width, more=more) for name, (module, width, more) in pairs.items()
+        _OF_MESH.format(name=name, angle=angle, module=module, width=width, more=more)
+        for name, (angle, module, width, more) in pairs.items()
     )
     for old, new in names.items():
         meshes = meshes.replace(f'"{old}"', f'"{new}"')

@@ -301,7 +301,7 @@ def section_of(design: Design) -> dict[str, Any] | None:
 
 @of_last
 def stands_of(design: TrainDesign) -> TrainStands | None:
-    """Return where the gears of a train of pairs stand; None for a train without, or whose meshes make a circle."""
+    """Return where the gears of a train of pairs stand; None for a train without, or whose places contradict each other."""
     return train_stands(design)
 
 
@@ -309,13 +309,16 @@ def _of_pairs(stands: TrainStands) -> dict[str, Any]:
     """Return the section of a train of pairs: each gear is cut in the middle of its teeth, as all that mesh are."""
     bodies, meshes = [], []
     for each in stands.gears:
-        turned = [[0.0, each.rotation + float(section_turn(each.gear, np.array([each.cut - each.z]))[0])]]
-        place, colour = (each.axis.real, each.axis.imag), _colour_of(each)
-        bodies.append(body_of(each.name, each.gear, colour, place, turned, each.ratio, rest=each.rotation, slack=each.slack))
+        x, y, z = each.place
+        turned = [[0.0, each.rotation + float(section_turn(each.gear, np.array([each.cut - z]))[0])]]
+        drawn = body_of(
+            each.name, each.gear, _colour_of(each), (x, y), turned, each.ratio, rest=each.rotation, slack=each.slack
+        )
+        bodies.append(drawn)
     for stand in stands.pairs:
         pair, angle = stand.pair, stand.pair.working_transverse_pressure_angle
-        drawn = mesh_of(pair.pinion, pair.path_of_contact, angle, pair.base_tangent.length)
-        meshes.append(drawn | {"of": list(stand.gears), "towards": stand.towards, "side": stand.side})
+        path = mesh_of(pair.pinion, pair.path_of_contact, angle, pair.base_tangent.length)
+        meshes.append(path | {"of": list(stand.gears), "towards": stand.towards, "side": stand.side})
     return _content(bodies, meshes, (0.0, 0.0), 2 * math.pi / stands.gears[0].gear.tooth_count)
 
 
@@ -489,8 +492,10 @@ def _standing(design: ToothedDesign | TrainDesign | ShaftDesign) -> Iterator[tup
     elif isinstance(design, TrainDesign):
         stands = stands_of(design)
         for each in () if stands is None else stands.gears:
-            place = (each.axis.real, each.axis.imag, each.z)
-            yield each.gear, DrawnBody(each.name, "", _colour_of(each), place, each.rotation, each.ratio)
+            yield each.gear, DrawnBody(each.name, "", _colour_of(each), each.place, each.rotation, each.ratio)
+        for body, ratio in () if stands is None else stands.shafts:
+            own, turned = (body.x, body.y, body.z), math.radians(body.rotation)
+            yield body.plan, DrawnBody(body.name, "", SHAFT_COLOURS[0], own, turned, ratio)
     else:
         for name, gear in design.gears.items():
             yield gear, DrawnBody(name, "", STEEL)
