@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -10,12 +11,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gearcad import Gear, GearPair, Load, Mounting, modify, rate
+from gearcad import Gear, GearPair, Load, Mounting, modify, rate, shafts
 from gearcad.check.task import check_task, face_factors
 from gearcad.core.errors import GearcadError, GeometryError
 from gearcad.core.records import PerGear, Role
 from gearcad.designs import PairDesign, read_spec
 from gearcad.geometry import DoubleHelix, FlankModification
+from gearcad.jobs.shafts import Shafts
 from gearcad.material import Material
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import StrengthRating
@@ -230,6 +232,58 @@ def test_rings_and_double_helical_gears_are_refused() -> None:
     ]
     with pytest.raises(GeometryError, match="double helical gears on shafts is not modelled"):
         mesh_of(GearPair(pinion=halves[0], wheel=halves[1]))
+
+
+# ---------------------------------------------------------------------- the given meshes as specs
+
+MESHES = json.loads((Path(__file__).parents[1] / "data" / "shafts.json").read_text(encoding="utf-8"))["meshes"]
+
+
+def spec_of(inputs: dict[str, Any]) -> str:
+    """A given mesh as a spec: all of its inputs under the keys that they have."""
+
+    def shown(value: Any) -> str:
+        return json.dumps(value)
+
+    lines = ["[pair]", f"normal_module = {inputs['normal_module']}", f"face_width = {inputs['width']}"]
+    lines += [f"rack.pressure_angle = {inputs['pressure_angle']}", f"helix_angle = {inputs['helix_angle']}"]
+    lines += [f"centre_distance = {inputs['centre_distance']}"] if "centre_distance" in inputs else []
+    for role, teeth in zip(Role, inputs["teeth"], strict=True):
+        own = inputs[role.value]
+        lines += [f"[{role.value}]", f"teeth = {teeth}", f"mesh_position = {own['mesh_position']}"]
+        lines += [f"coupling = {own['coupling']}"]
+        lines += ['profile_shift = "auto"'] if "centre_distance" in inputs else []
+        if role is Role.PINION and "crowning" in inputs:
+            lines += [f"modification.lead_crowning = {inputs['crowning']}"]
+        for name, listed in (("shaft", own["segments"]), ("bearing", own["bearings"])):
+            for each in listed:
+                lines += [f"[[{role.value}.{name}]]", *(f"{key} = {shown(value)}" for key, value in each.items())]
+    lines += ["[load]", f"torque = {inputs['torque']}", "[shafts]", f"mesh_angle = {inputs['mesh_angle']}"]
+    lines += [f"slices = {inputs['slices']}", f"gravity = {inputs['pinion'].get('gravity', [0, 0, 0])}"]
+    lines += ["[rating]", f"face_mesh_stiffness = {inputs['stiffness']}", 'misalignment_sides = "one"']
+    lines += [f"manufacturing_misalignment = {inputs.get('misalignment', 0.0)}"]
+    return "\n".join([*lines, 'face_load_factor = "shafts"', "dynamic_factor = 1.0", ""])
+
+
+@pytest.mark.parametrize("case", MESHES, ids=lambda case: case["name"].partition(" ")[0])
+def test_given_meshes_run_as_specs(tmp_path: Path, case: dict[str, Any]) -> None:
+    """shafts.json and the rating, to 1e-4; carried on to the end of the face by other slices 2e-3."""
+    design, expected = design_of(tmp_path, lambda _: spec_of(case["inputs"])), case["expected"]
+    document = Shafts().complete_document(shafts(design))
+    found = document["mesh"]
+    for key in ("f_sh", "K_Hbeta_slices", "approach"):
+        assert found[key] == pytest.approx(expected[key], rel=1e-4), key
+    assert found["K_Hbeta_end_of_face"] == pytest.approx(expected["K_Hbeta_end_of_face"], rel=2e-3)
+    assert found["line_load"] == pytest.approx(expected["line_load"], rel=1e-4, abs=1e-3)
+    assert found["gap_at_even_load_at_slices"].keys() == expected["gap_at_even_load_at_slices"].keys()
+    for name, gap in expected["gap_at_even_load_at_slices"].items():
+        assert found["gap_at_even_load_at_slices"][name] == pytest.approx(gap, rel=1e-4, abs=1e-4), name
+    for role, reactions in expected["reactions"].items():
+        for mine, theirs in zip(document["shafts"][role]["reactions"], reactions, strict=True):
+            assert mine["force"] == pytest.approx(theirs["force"], rel=1e-4, abs=1e-2)
+    rated = rating_of(design)
+    assert rated.load_factors is not None
+    assert rated.load_factors.face_flank == pytest.approx(expected["K_Hbeta_slices"], rel=1e-4)
 
 
 # ---------------------------------------------------------------------- modifications for the shafts
