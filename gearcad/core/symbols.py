@@ -745,6 +745,7 @@ STIFFNESS = {
     "tangent_mean": Symbol("", "N/µm", "", "mean tangent mesh stiffness"),
     "c_gamma_beta": Symbol("c_γβ", "N/(mm·µm)", "ISO 6336-1", "mean secant mesh stiffness per common face width"),
     "c_gamma_alpha": Symbol("c_γα", "N/(mm·µm)", "ISO 6336-1", "mean tangent mesh stiffness per common face width"),
+    "mean_over_path": Symbol("", "N/µm", "", "mean over the path of contact, which counts double contact twice"),
     "deviation_from_3d": Symbol("", "", "", "deviation of the mean from that of solid bodies"),
 }
 """Symbols of each method, as stiffness.json has them."""

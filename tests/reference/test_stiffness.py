@@ -15,9 +15,13 @@ from gearcad.contact.shared.bodies import BodyModel
 from gearcad.core.records import PerGear, Role
 from gearcad.rating.tooth_stiffness import mesh_stiffness_alpha, mesh_stiffness_beta
 from gearcad.stiffness import MethodB, PotentialEnergy, WeberBanaschek
+from gearcad.stiffness.methods import compare_methods
 
 COMPONENT, MEAN = 1e-7, 1e-4
 """Relative, as the reference states them: compliances at a position, mean, greatest and least of the mesh."""
+
+JUMPS = 1e-3
+"""Relative: where the stiffness jumps between two of 2,001 places of a path."""
 
 STEEL = Material()
 POSITIONS: list[dict[str, Any]] = stiffness_case("s000_12_components")["verified"]["positions"]
@@ -184,6 +188,19 @@ def test_the_formulas_as_printed_give_table_4(listing: Listing, published: Publi
     for quantity, value, printed in zip(("mean", "greatest", "smallest"), found, TABLE_4[listing], strict=True):
         published(f"{quantity}, N/mm", value, f"{printed:.0f}", PRINTED * printed, source)
     assert extent(over_path(listing())) == pytest.approx(AS_PRINTED[listing], rel=VERIFIED)
+
+
+def test_mean_over_the_path_by_sums_of_single_pairs() -> None:
+    """Of independent springs: what touches at places of the path, from the stiffness of one pair alone."""
+    method = WeberBanaschek(pair=thesis_pair(), material=STEEL)
+    first, last = method.pair.usable_path
+    pitch, places = method.pair.pinion.transverse_base_pitch, np.linspace(first, last, 4001)
+    total = np.zeros(places.shape)
+    for at in (places - pitch, places, places + pitch):
+        touching = (at >= first) & (at <= last)
+        total[touching] += method.single(at[touching], THESIS_LOAD).stiffness * method.width
+    found = compare_methods(thesis_pair(), STEEL, THESIS_LOAD, ["weber-banaschek"])
+    assert found.mean_over_path(found.cycles[0]) == pytest.approx(float(total.mean()), rel=JUMPS)
 
 
 @pytest.mark.parametrize("listing", [tian, weber])
