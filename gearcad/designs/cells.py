@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from gearcad.core.errors import ParameterError, SpecError, shown
+from gearcad.core.shelf_tables import column_letter
 from gearcad.designs.keys import MAIN_TABLES, OF_SETS, SPEEDS, Cell, DesignKind
 from gearcad.designs.shaft_keys import explain_unknown_item, is_of_list, is_of_shaft_alone, shaft_field
 from gearcad.designs.train_keys import (
@@ -270,16 +271,6 @@ def write_found_rows(rows: Sequence[Mapping[str, str]], comment: str, path: Path
 
 
 _MAIN = DesignKind.PLANETARY.value
-
-
-def column_letter(index: int) -> str:
-    """Return the name a spreadsheet gives the column of this index (from 0): A ... Z, AA ..."""
-    letters = ""
-    index += 1
-    while index:
-        index, letter = divmod(index - 1, 26)
-        letters = chr(ord("A") + letter) + letters
-    return letters
 
 
 def kinds_of(keys: Iterable[str]) -> set[DesignKind]:

@@ -20,6 +20,8 @@ from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear
 from gearcad.geometry.tool_shelf import ToolName
 from gearcad.geometry.tool_tables import FILE as TOOLS
+from gearcad.shafts.bearing_shelf import FILE as BEARINGS
+from gearcad.shafts.bearing_shelf import BearingName
 from gearcad.version import __version__
 
 _PART = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
@@ -117,6 +119,9 @@ _TEMPLATE = "drawing.template"
 _BLANK = "body.step"
 """Key of a gear's blank of its own."""
 
+_BEARING = re.compile(r"(?:^|\.)bearings?\[\d+\]\.name$")
+"""Key of the name of a bearing of a shaft."""
+
 _fence: ContextVar[Path | None] = ContextVar("the folder in which files must be", default=None)
 
 
@@ -144,7 +149,13 @@ def names_file(key: str) -> bool:
 def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Return the values with files, which are seen from `folder`, as they are found from here."""
     return {
-        key: _file_path(key, each, folder) if names_file(key) else _tool_name(key, each, folder) if names_tool(key) else each
+        key: _file_path(key, each, folder)
+        if names_file(key)
+        else _tool_name(key, each, folder)
+        if names_tool(key)
+        else _bearing_name(key, each, folder)
+        if names_bearing(key)
+        else each
         for key, each in values.items()
     }
 
@@ -152,6 +163,20 @@ def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
 def names_tool(key: str) -> bool:
     """Return whether a text under a key is the name of a tool, which the folder of the design may have."""
     return key.rpartition(".")[2] == "tool"
+
+
+def names_bearing(key: str) -> bool:
+    """Return whether a text under a key is the name of a bearing, which the folder of the design may have."""
+    return _BEARING.search(key) is not None
+
+
+def _bearing_name(key: str, name: Any, folder: Path) -> Any:
+    """Return the name of a bearing with the folder of its design. What is no text stays as it is."""
+    if not isinstance(name, str):
+        return name
+    if (fence := _fence.get()) is not None and not _resolved(folder / BEARINGS).is_relative_to(fence):
+        raise ParameterError(key, name, "must be of a table in the folder of the page")
+    return BearingName.of(name, folder)
 
 
 def _tool_name(key: str, name: Any, folder: Path) -> Any:
@@ -175,6 +200,8 @@ def _find_tools(tables: Any, folder: Path, before: str = "") -> None:
             full = f"{before}.{key}" if before else key
             if key == "tool":
                 tables[key] = _tool_name(full, each, folder)
+            elif names_bearing(full):
+                tables[key] = _bearing_name(full, each, folder)
             else:
                 _find_tools(each, folder, full)
 

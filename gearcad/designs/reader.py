@@ -102,7 +102,7 @@ NO_DESIGNS = ("drawing_title", "measured")
 """Starters that are no spec and no table of designs."""
 
 
-_NONE = ("drawing_words", "page_words", "messages_de", "tool_shelf")
+_NONE = ("bearing_shelf", "drawing_words", "page_words", "messages_de", "tool_shelf")
 """Templates without a starter."""
 
 

@@ -20,7 +20,8 @@ from gearcad.rating.load_factors import FaceLoad, FaceLoadSource
 from gearcad.rating.options import LoadBin, RatingOptions
 from gearcad.rating.tooth_stiffness import mesh_stiffness
 from gearcad.shafts.arrangement import ShaftOptions, with_stations
-from gearcad.shafts.beam import SteppedShaft
+from gearcad.shafts.beam import ShaftBearing, SteppedShaft
+from gearcad.shafts.bearing_shelf import bearing_of
 from gearcad.shafts.face_load import MeshOnShafts, require_modelled
 from gearcad.shafts.whirl import ShaftDisc, ring_disc
 
@@ -296,6 +297,8 @@ def read_part(kind: type[Part], content: Any, key: str, where: Where) -> Part:
             full = f"{key}.{name}"
             raise SpecError(f"{where(full)}: {shown(full)}: unknown key; permitted are {', '.join(schema)}", full)
     given = {name: _plain(value, whole=schema[name].whole) for name, value in content.items()}
+    if kind is ShaftBearing and isinstance(name := given.get("name"), str):
+        given = {**bearing_of(name), **given}
     missing = {name: None for name, field in schema.items() if field.required and name not in given}
     try:
         return kind(**given | missing)

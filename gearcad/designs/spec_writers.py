@@ -18,6 +18,7 @@ from gearcad.core.errors import InputError, ParameterError, SpecError, shown
 from gearcad.core.output import staged_files
 from gearcad.core.quantities import is_given, schema_of
 from gearcad.core.records import PerGear, Role, is_assumed, is_usual
+from gearcad.core.shelf_tables import Place
 from gearcad.designs.cells import cell_text, write_found_rows
 from gearcad.designs.design import LONGEST_NAME, Where, read_tables
 from gearcad.designs.keys import BESIDE, FIELDS, GEAR_FIELDS, SHAFTS, nearest_key, permitted_words
@@ -37,7 +38,6 @@ from gearcad.dynamics.trains.train import EngagedMesh, Train
 from gearcad.geometry import ISO53_A, Gear, GearPair
 from gearcad.geometry.tool_shelf import ToolName
 from gearcad.geometry.tool_tables import PARTS as TOOL_PARTS
-from gearcad.geometry.tool_tables import Place
 from gearcad.identify.candidates import Candidate as GearCandidate
 from gearcad.identify.candidates import Identification
 from gearcad.identify.measurements import Gauge, Measurements

@@ -14,18 +14,18 @@ from typing import Any
 
 from gearcad.core.errors import GeometryError, ParameterError, SpecError, format_number, printable, shown, shown_path
 from gearcad.core.records import Role
+from gearcad.core.shelf_tables import column_letter
 from gearcad.designs.cells import (
     CellReader,
     Layout,
     RawCell,
-    column_letter,
     is_blank,
     is_comment,
     kinds_of,
     plain_text,
     read_headings,
 )
-from gearcad.designs.design import Design, names_file, names_tool, require_plain_name, with_files_found
+from gearcad.designs.design import Design, names_bearing, names_file, names_tool, require_plain_name, with_files_found
 from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_SETS, SHARED, Cell, DesignKind
 from gearcad.designs.reader import design_from_values
 from gearcad.designs.table_files import Record, RecordFile, open_sheet
@@ -33,6 +33,7 @@ from gearcad.designs.train_designs import missing_fault, missing_keys
 from gearcad.designs.train_keys import ALL, TrainKey, general_key
 from gearcad.geometry.gear_parts import MODULE_OR_PITCH
 from gearcad.geometry.tool_shelf import Shelf
+from gearcad.shafts.bearing_shelf import BearingName, text_of_bearing
 
 Where = Callable[[str], str]
 
@@ -232,6 +233,9 @@ class DesignRow:
         texts = {key: _text_of(Path(str(file))) for key, file in found.items()}
         shelf = Shelf(Path(self.table).parent)
         texts |= {key: shelf.text_of(str(each)) for key, each in self.values.items() if names_tool(key)}
+        folder = Path(self.table).parent
+        bearings = {key: BearingName.of(str(each), folder) for key, each in self.values.items() if names_bearing(key)}
+        texts |= {key: text for key, name in bearings.items() if (text := text_of_bearing(name))}
         return {"name": self.name, **self.values, **{f"{key}: text": text for key, text in texts.items()}}
 
     def all_faults(self) -> list[str]:

@@ -23,8 +23,9 @@ from gearcad.core.errors import (
 )
 from gearcad.core.quantities import is_given
 from gearcad.core.runtime import templates
+from gearcad.core.shelf_tables import Place, user_folder
 from gearcad.core.units import module_of_pitch
-from gearcad.geometry.tool_tables import FILE, OWN_FILE, PARTS, SAME_MODULE, Place, ShelfTool, ToolRow, read_tools
+from gearcad.geometry.tool_tables import FILE, OWN_FILE, PARTS, SAME_MODULE, ShelfTool, ToolRow, read_tools
 
 _NEAREST = 3
 """Number of names that a message suggests."""
@@ -59,9 +60,7 @@ class ToolName(str):
 
 def user_table() -> Path:
     """Return the path of the table of tools in the user's configuration folder, be it there or not."""
-    import platformdirs
-
-    return Path(platformdirs.user_config_dir("gearcad", appauthor=False)) / FILE
+    return user_folder() / FILE
 
 
 class Shelf(NamedTuple):

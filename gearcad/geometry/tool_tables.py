@@ -6,18 +6,17 @@ The columns are `name`, `normal_module` (mm; blank: every module), `source`, and
 
 from __future__ import annotations
 
-import csv
 import difflib
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from enum import Enum
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
-from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, printable, shown, shown_path
+from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, shown
 from gearcad.core.quantities import FieldSchema, schema_of
+from gearcad.core.shelf_tables import Place, ShelfTable, cell_value, column_letter, read_shelf_table
 from gearcad.geometry.gear_parts import BasicRack, NormalModule, ShaperCutter
 from gearcad.geometry.premachining import Premachining
 
@@ -37,14 +36,6 @@ SAME_MODULE = 1e-6
 """Share by which the modules of a tool and a gear may differ: digits of a diametral pitch."""
 
 _PLAIN = ("name", "normal_module", "source")
-
-
-class Place(Enum):
-    """Place of the table of a tool."""
-
-    DESIGN = "design"
-    USER = "user"
-    OWN = "gearcad"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,14 +134,14 @@ _MODULE = next(each for each in get_args(NormalModule) if hasattr(each, "require
 class ToolRow:
     """A row of a table of tools as it is written; `number` counts rows as a spreadsheet does."""
 
-    table: ToolTable
+    table: ShelfTable
     number: int
     name: str
     cells: tuple[str, ...]
 
     def where(self, column: int | None = None) -> str:
         """Return the place for the beginning of a message."""
-        at = "" if column is None else f" column {_letter(column)}"
+        at = "" if column is None else f" column {column_letter(column)}"
         return f"{self.table.shown} row {self.number}{at} ({shown(self.name, 60)})"
 
     @cached_property
@@ -171,13 +162,9 @@ class ToolRow:
         text = self.cells[at].strip() if at < len(self.cells) else ""
         if not text or key in ("name", "source"):
             return text or None
-        plain = text.replace("\N{MINUS SIGN}", "-")
-        if self.table.separator != ",":
-            plain = plain.replace(",", ".")
-        try:
-            number = float(plain)
-        except ValueError:
-            return text
+        number = cell_value(text, self.table.separator)
+        if not isinstance(number, float):
+            return number
         schema = _columns().get(key)
         return int(number) if schema is not None and schema.whole and number.is_integer() else number
 
@@ -244,80 +231,14 @@ def _made(kind: type[DataclassInstance], owner: str, values: Mapping[str, Any]) 
         raise error.within(owner) from None
 
 
-def _letter(index: int) -> str:
-    """Return the name that a spreadsheet gives the column of an index from 0."""
-    letters, index = "", index + 1
-    while index:
-        index, letter = divmod(index - 1, 26)
-        letters = chr(ord("A") + letter) + letters
-    return letters
-
-
-@dataclass(frozen=True)
-class ToolTable:
-    """A table of tools: where it is, its columns by their places, "" under a blank heading, and the sign between cells."""
-
-    path: Path
-    place: Place
-    columns: tuple[str, ...] = ()
-    separator: str = ","
-
-    @property
-    def shown(self) -> str:
-        """The path for messages."""
-        return printable(shown_path(self.path))
-
-    @property
-    def file(self) -> str:
-        """The path for documents: without the folder of a design, and from the home of a user."""
-        if self.place is Place.DESIGN:
-            return FILE
-        if self.place is Place.OWN:
-            return OWN_FILE
-        try:
-            return f"~/{self.path.relative_to(Path.home()).as_posix()}"
-        except (ValueError, RuntimeError):  # another folder, or no home
-            return str(self.path)
-
-
 @lru_cache(maxsize=16)
 def read_tools(path: Path, place: Place, _stamp: tuple[int, int]) -> tuple[ToolRow, ...]:
     """Return the rows of a table, which has this time and size. Raises SpecError."""
-    table = ToolTable(path, place)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise SpecError(f"{table.shown}: is not UTF-8 text (byte {error.start}); save it as CSV UTF-8") from None
-    except OSError as error:
-        raise SpecError(f"{table.shown}: cannot be read ({error.strerror})") from None
-    lines = text.splitlines()
-    heading = next((line for line in lines if line.strip() and not line.lstrip().startswith(("#", "sep="))), "")
-    separator = max(",;\t", key=heading.count)
-    try:
-        records = list(enumerate(csv.reader(lines, delimiter=separator), 1))
-    except csv.Error as error:
-        raise SpecError(f"{table.shown}: cannot be read ({error})") from None
-    filled = [
-        (number, cells)
-        for number, cells in records
-        if any(cell.strip() for cell in cells) and not cells[0].lstrip().startswith(("#", "sep="))
-    ]
-    if not filled:
-        raise SpecError(f"{table.shown}: has no heading; must have name and keys such as rack.dedendum")
-    number, headings = filled[0]
-    columns = _headings(headings, f"{table.shown} row {number}")
-    table = ToolTable(path, place, columns, separator)
-    named = columns.index("name")
-    found = []
-    for number, cells in filled[1:]:
-        name = " ".join(cells[named].split()) if named < len(cells) else ""
-        if not name:
-            raise SpecError(f"{table.shown} row {number} column {_letter(named)}: has no name")
-        found.append(ToolRow(table, number, name, tuple(cells)))
-    return tuple(found)
+    table, rows = read_shelf_table(ShelfTable(path, place, OWN_FILE), _headings, "rack.dedendum")
+    return tuple(ToolRow(table, *row) for row in rows)
 
 
-def _headings(cells: list[str], where: str) -> tuple[str, ...]:
+def _headings(cells: Sequence[str], where: str) -> tuple[str, ...]:
     """Return the key of each column. Raises SpecError, one line for a heading that is none."""
     known = (*_PLAIN, *_columns())
     columns: list[str] = []
@@ -326,9 +247,11 @@ def _headings(cells: list[str], where: str) -> tuple[str, ...]:
         if key and key not in known:
             near = difflib.get_close_matches(key, known, n=1)
             hint = f"did you mean {near[0]}?" if near else "must be name, normal_module, source, or a key such as rack.dedendum"
-            raise SpecError(f"{where} column {_letter(at)}: {shown(cell.strip())}: unknown column; {hint}")
+            raise SpecError(f"{where} column {column_letter(at)}: {shown(cell.strip())}: unknown column; {hint}")
         if key and key in columns:
-            raise SpecError(f"{where} column {_letter(at)}: {key}: is the same as column {_letter(columns.index(key))}")
+            raise SpecError(
+                f"{where} column {column_letter(at)}: {key}: is the same as column {column_letter(columns.index(key))}"
+            )
         columns.append(key)
     if "name" not in columns:
         raise SpecError(f"{where}: has no column name, by which tools are found")

@@ -9,9 +9,10 @@ from pathlib import Path
 from gearcad.core.errors import require_whole
 from gearcad.core.output import json_text, staged_files
 from gearcad.core.records import JsonObject, grouped, texts
+from gearcad.core.shelf_tables import Place
 from gearcad.designs.spec_writers import sized_pair_text, sized_set_text, write_front, write_pairs, write_sized_sets
 from gearcad.geometry.tool_tables import FILE as TOOLS
-from gearcad.geometry.tool_tables import Place, ShelfTool
+from gearcad.geometry.tool_tables import ShelfTool
 from gearcad.identify.candidates import Deciding, Identification
 from gearcad.identify.measurements import ANGLES, Gauge, Measurements, Reading, Value
 from gearcad.identify.search import identify_gear

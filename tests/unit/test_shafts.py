@@ -31,6 +31,7 @@ from gearcad.shafts.bearing_life import (
     opposed_axial_loads,
     reference_viscosity,
 )
+from gearcad.shafts.bearing_shelf import bearing_of
 from gearcad.shafts.whirl import ShaftDisc, ShaftWhirl, ring_disc
 
 SHAFTS, MESHES = REFERENCE["shafts"], REFERENCE["meshes"]
@@ -553,3 +554,74 @@ def test_a_table_of_shafts_by_themselves(tmp_path: Path) -> None:
     table.write_text("name,shaft[0].length,shaft[0].width\none,1,2\n", encoding="utf-8")
     with pytest.raises(SpecError, match=r"column C: shaft\[0\].width: unknown key; permitted behind shaft\[0\]. are length"):
         open_table(table)
+
+
+def test_a_bearing_of_the_shelf_fills_what_the_spec_leaves_open(tmp_path: Path) -> None:
+    """The table of the design's folder counts before that of gearcad, and the spec before both."""
+    named = ALONE.replace('name = "left"', 'name = "6206"').replace(
+        'kind = "deep groove"\nC = 29100\nC0 = 17900\nf0 = 14\n', ""
+    )
+    spec = tmp_path / "alone.toml"
+    spec.write_text(named, encoding="utf-8")
+
+    def bearing() -> ShaftBearing:
+        design = read_spec(spec)
+        assert isinstance(design, ShaftDesign)
+        return design.shaft.bearings[0]
+
+    own = bearing()
+    assert (own.kind, own.d, own.D, own.B, own.pitch_diameter, own.C) == ("deep groove", 30.0, 62.0, 16.0, 46.0, None)
+    assert any("C are not given" in each for each in Shafts().run(read_spec(spec)).not_judged)
+    shelf = tmp_path / "bearings.csv"
+    shelf.write_text("name;kind;d;C;C0;f0\n6206;deep groove;30;20300;11200;13,8\n", encoding="utf-8")
+    own = bearing()
+    assert (own.C, own.C0, own.f0, own.D) == (20300.0, 11200.0, 13.8, None)
+    spec.write_text(named.replace("[[bearing]]", "[[bearing]]\nC = 1000.0", 1), encoding="utf-8")
+    assert bearing().C == 1000.0
+    table = tmp_path / "table.csv"
+    head = "name,shaft[0].length,shaft[0].outer_diameter,bearing[0].position,bearing[0].axial_stiffness,bearing[1].position"
+    table.write_text(f"{head},bearing[0].name\none,100,30,0,rigid,100,6206\n", encoding="utf-8")
+    (row,) = open_table(table).rows()
+    design = row.design()
+    assert isinstance(design, ShaftDesign) and design.shaft.bearings[0].C == 20300.0
+    before = row.inputs
+    shelf.write_text("name,kind,C\n6206,deep groove,20400\n", encoding="utf-8")
+    assert row.inputs != before
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ("name,kind,Dm\n6206,deep groove,3\n", "bearings.csv row 1 column C: Dm: unknown column; did you mean"),
+        ("name,kind\n6206,ball\n", "bearings.csv row 2 column B (6206): kind = 'ball': must be"),
+        ("name,C\n6206,-3\n", "bearings.csv row 2 column B (6206): C = -3 N: must be"),
+        ("name,C\n6206,30\n6206,31\n", "bearings.csv row 3 (6206): is there twice; keep one of them"),
+        ("kind,C\ndeep groove,30\n", "bearings.csv row 1: has no column name, by which bearings are found"),
+    ],
+)
+def test_faults_of_a_table_of_bearings_are_one_line(tmp_path: Path, text: str, words: str) -> None:
+    (tmp_path / "bearings.csv").write_text(text, encoding="utf-8")
+    spec = tmp_path / "alone.toml"
+    spec.write_text(ALONE.replace('name = "left"', 'name = "6206"'), encoding="utf-8")
+    with pytest.raises(SpecError) as caught:
+        read_spec(spec)
+    assert words in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_sizes_of_the_own_shelf_are_those_of_a_public_table() -> None:
+    """BOSL2 (BelfrySCAD), ball_bearings.scad: some that both have; from 04 on the number is a fifth of the bore."""
+    public = {
+        "6000": (10, 26, 8),
+        "6003": (17, 35, 10),
+        "6007": (35, 62, 14),
+        "6200": (10, 30, 9),
+        "6205": (25, 52, 15),
+        "6212": (60, 110, 22),
+        "6301": (12, 37, 12),
+        "6306": (30, 72, 19),
+        "6312": (60, 130, 31),
+    }
+    assert {name: tuple(bearing_of(name)[key] for key in "dDB") for name in public} == public
+    for series in ("60", "62", "63"):
+        for number in range(4, 13):
+            assert bearing_of(f"{series}{number:02d}")["d"] == 5 * number

@@ -13,8 +13,8 @@ from support.batches import ERROR, SHEET_GEARS, faults_of, refusal_of, sheet_row
 from support.specs import TEMPLATES
 
 from gearcad import SpecError
+from gearcad.core.shelf_tables import column_letter
 from gearcad.designs import design_from_tables, open_table, read_spec
-from gearcad.designs.cells import column_letter
 from gearcad.designs.design import require_plain_name
 from gearcad.designs.train_keys import COLUMNS
 

@@ -11,6 +11,7 @@ import pytest
 
 from gearcad import ISO53_A, ISO53_D, BasicRack, Gear, GearPair, read
 from gearcad.core.errors import GeometryError, ParameterError, SpecError
+from gearcad.core.shelf_tables import Place
 from gearcad.designs.design import files_only_in
 from gearcad.designs.reader import read_spec
 from gearcad.designs.spec_writers import pair_text
@@ -21,7 +22,6 @@ from gearcad.drawing.tool_sheet import tool_rows
 from gearcad.drawing.words import Language, SheetWords
 from gearcad.geometry.premachining import Finishing
 from gearcad.geometry.tool_shelf import Shelf, ToolName
-from gearcad.geometry.tool_tables import Place
 from gearcad.sheet import sheet_of
 
 PAIR = """[pair]

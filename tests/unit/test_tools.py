@@ -14,10 +14,11 @@ from scipy.spatial import cKDTree
 from gearcad import ISO53_D, BasicRack, Gear, GearPair, Load, Material, PerGear, identify, rate, tools
 from gearcad.cli import main
 from gearcad.core.errors import ParameterError, SpecError
+from gearcad.core.shelf_tables import Place
 from gearcad.designs.reader import read_spec, starter_text
 from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.tool_outlines import fillet_distance, with_tool
-from gearcad.geometry.tool_tables import Place, ShelfTool
+from gearcad.geometry.tool_tables import ShelfTool
 from gearcad.jobs.searches import pair_spec
 from gearcad.jobs.tools import ShelfTools, ToolChoice, ToolChoices
 from gearcad.rating import RatingOptions
