@@ -573,7 +573,7 @@ def test_a_bearing_of_the_shelf_fills_what_the_spec_leaves_open(tmp_path: Path) 
     assert (own.kind, own.d, own.D, own.B, own.pitch_diameter, own.C) == ("deep groove", 30.0, 62.0, 16.0, 46.0, None)
     assert any("C are not given" in each for each in Shafts().run(read_spec(spec)).not_judged)
     shelf = tmp_path / "bearings.csv"
-    shelf.write_text("name;kind;d;C;C0;f0\n6206;deep groove;30;20300;11200;13,8\n", encoding="utf-8")
+    shelf.write_text("name;kind;C;C0;f0\n6206;deep groove;20300;11200;13,8\n", encoding="utf-8")
     own = bearing()
     assert (own.C, own.C0, own.f0, own.D) == (20300.0, 11200.0, 13.8, None)
     spec.write_text(named.replace("[[bearing]]", "[[bearing]]\nC = 1000.0", 1), encoding="utf-8")
