@@ -1,6 +1,7 @@
 """Data sheet and rating of the page: what `data.json` and `gearcad rate --json` hold, with all digits."""
 
 import time
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -8,11 +9,13 @@ from typing import Any
 import pytest
 from support.specs import TEMPLATES
 
-from gearcad.core.records import Notice
+from gearcad.core.records import Notice, Role
 from gearcad.core.symbols import parts_of
 from gearcad.core.units import UnitSystem
 from gearcad.designs.design import Design
 from gearcad.designs.reader import design_from_tables, read_spec
+from gearcad.designs.train_designs import TrainDesign
+from gearcad.designs.train_meshes import train_meshes
 from gearcad.jobs.strength import Rate
 from gearcad.load import Load
 from gearcad.page.panels.sheet_content import (
@@ -305,3 +308,26 @@ def test_no_symbol_of_a_sheet_has_an_underscore_left_and_clauses_name_their_stan
     assert rows["pair.transverse_contact_ratio"]["source"] == "ISO 21771, Abschnitt 5.4"
     assert rows["gear.span_measurement"]["source"] == "ISO 21771, Annex A"
     assert rows["gear.thickness_limits.allowance_upper"]["source"] == "DIN 3967"
+
+
+def test_a_train_of_pairs_has_the_ratings_of_its_meshes_and_the_verdict_of_the_worst() -> None:
+    """As `gearcad rate` of the pair of each mesh under the load that the train gives it."""
+    design = read_spec(TEMPLATES / "two-stage.toml")
+    assert isinstance(design, TrainDesign)
+    found = strength_figures(design)
+    assert (found.title, found.verdict) == ("strength passed", "passed")
+    pairs = [mesh.design for mesh in train_meshes(design).meshes]
+    assert [pair.load.torque for pair in pairs if pair.load is not None] == pytest.approx([60.0, -60.0 * 61 / 20])
+    for section, name, pair in zip(found.sections, ("stage 1", "stage 2"), pairs, strict=True):
+        (row,) = [row for block in section.blocks for row in block.rows if row.key == f"{name}.safety.flank"]
+        safeties = Rate().document(Rate(report=False).run(pair))["safety"]["flank"]
+        assert list(row.values) == [safeties[role.value] for role in Role]
+    tables = tomllib.loads((TEMPLATES / "two-stage.toml").read_text(encoding="utf-8"))
+    weak = strength_figures(design_from_tables(_weakened(tables), where=lambda key: key, default_name="weak"))
+    assert (weak.title, weak.verdict) == ("strength NOT passed: stage 2", "failed")
+
+
+def _weakened(tables: dict[str, Any]) -> dict[str, Any]:
+    """Ask more of the second mesh than it can bear."""
+    tables["train"]["mesh"][1]["pair"]["rating"]["required_safety_flank"] = 3.0
+    return tables

@@ -14,6 +14,8 @@ from gearcad.core.units import ShownUnit, UnitSystem, shown_unit
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
 from gearcad.designs.planetary_designs import PlanetaryDesign
+from gearcad.designs.train_designs import TrainDesign
+from gearcad.designs.train_meshes import has_pairs
 from gearcad.page.fields import field_keys, members_of
 from gearcad.page.panels import Panel
 from gearcad.page.words import PageWords
@@ -37,7 +39,7 @@ _KINDS = (
 _VALUES = ("yes", "no", "infinite", "spur only")
 """Values that are words; what specs say, as they say it."""
 
-_QUANTITIES = ("single contact factor", "tip clearance")
+_QUANTITIES = ("single contact factor", "tip clearance", "teeth")
 """Quantities of a gear that is called as somebody likes."""
 
 _WORDS = re.compile(r"[a-z][a-z ]+[a-z]")
@@ -454,6 +456,8 @@ def strength_figures(design: Design) -> Figures:
     """Return the figures of the rating of a design. Without a rating, a line gives the reason or the missing input."""
     from gearcad.jobs.strength import KEYS, Rate
 
+    if isinstance(design, TrainDesign) and has_pairs(design):
+        return _rated_train(design)
     if design.kind not in Rate.accepts:
         return Figures((), {}, lines=(("", _NO_RATING),))
     options = getattr(design, "rating", None)
@@ -492,6 +496,28 @@ def _rated(found: StrengthRating | TrainStrength, design: Design) -> Figures:
         folded=FACTORS if train else ("Safety", *FACTORS),
         title=found.verdict,
         verdict=_VERDICTS[found.passed],
+    )
+
+
+def _rated_train(design: TrainDesign) -> Figures:
+    """Return the figures of the ratings of all meshes of a train of pairs, each under the train's load; the worst decides."""
+    from gearcad.jobs.strength import Rate
+    from gearcad.jobs.train import OverMeshes
+
+    try:
+        found = OverMeshes(job=Rate(report=False)).run(design)
+    except GearcadError as error:
+        return _without(str(error), [])
+    ratings: dict[str, StrengthRating] = {each.mesh.name: each.result for each in found.meshes}
+    lines = dict.fromkeys(f"{each.options.standard.value}, {each.options.accuracy.value}" for each in ratings.values())
+    verdict = found.verdict if found.verdict.startswith("strength") else f"strength {found.verdict}"
+    return figures(
+        tuple(section for name, rating in ratings.items() for section in strength_sections(rating, name)),
+        lines=tuple(("", line) for line in lines),
+        notices=shown_notices(found.notices, keys_of(design)),
+        folded=FACTORS,
+        title=verdict,
+        verdict="failed" if found.falls_short else _VERDICTS[found.passed],
     )
 
 
