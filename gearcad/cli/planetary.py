@@ -223,6 +223,9 @@ def planetary(
     sun-planet.toml, which every command of pairs takes: `gearcad check`, `gearcad stiffness` and the others. What cannot be
     had without a load, a speed, a stiffness or a mass is left out, with its reason.
 
+    Of a gearbox of several sets ([[planetary.set]], joined members, [planetary.states]) it tells the ratio, the efficiency
+    and the torques of brakes and clutches of each state.
+
     Without SPEC, and with --ratio and --module, it searches instead: tooth numbers of sets with that ratio that can be
     assembled and mesh, best first: by deviation of the ratio, diameter, planets out of phase, hunting teeth, efficiency.
     -o FILE.csv writes them as a design table.
@@ -231,7 +234,9 @@ def planetary(
     gearcad planetary --ratio 5.2 --module 2 --planets 3:5
     gearcad planetary --ratio -30 --module 2 --type C,D --teeth 17:60 -o sets.csv
     """
+    from gearcad.cli.gearbox import tell_gearbox
     from gearcad.core.errors import ParameterError
+    from gearcad.designs.gearbox_spec import read_gearbox
     from gearcad.jobs.planetary import Planetary
 
     if wanted["ratio"] is not None:
@@ -242,6 +247,9 @@ def planetary(
     require_no_search(wanted, force=force)
     if spec is None:
         raise ParameterError("spec", None, "must be given, a file that `gearcad new planetary` begins; or --ratio, to search")
+    if (gearbox := read_gearbox(spec)) is not None:
+        tell_gearbox(gearbox, output, as_json=as_json)
+        return
     perform(Planetary(response=response), spec, output, _show, as_json=as_json, quiet=quiet)
 
 

@@ -71,6 +71,9 @@ OF_GEAR_PAIRS = ("centre_distance", "centre_distance_tolerance", "axial_offset",
 OF_RACK_PAIRS = ("mounting_distance",)
 """Keys of [pair] that only two gears have, and those that only a pinion and a rack have."""
 
+OF_GEARBOXES = {"set", "states"}
+"""Keys of [planetary] by which a spec is that of a gearbox of several sets."""
+
 SHAFTS = "shafts"
 """The table of the options of shafts."""
 

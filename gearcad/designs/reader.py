@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, cast
 from gearcad.core.errors import ParameterError, SpecError, as_path
 from gearcad.core.runtime import templates
 from gearcad.designs.design import Design, Where, read_tables
-from gearcad.designs.keys import MAIN_TABLES, OF_SETS, Cell, DesignKind
+from gearcad.designs.keys import MAIN_TABLES, OF_GEARBOXES, OF_SETS, Cell, DesignKind
 from gearcad.designs.shaft_keys import with_shaft_lists
 
 if TYPE_CHECKING:
@@ -46,6 +46,10 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
 
     `where` locates a dotted key for messages. Raises SpecError.
     """
+    main = tables.get("planetary")
+    if isinstance(main, Mapping) and OF_GEARBOXES & set(main):
+        key = "planetary.set"
+        raise SpecError(f"{where(key)}: {key}: a gearbox of several planetary sets is read by `gearcad planetary` alone", key)
     return type_of(kind_of(tables)).read(tables, where, default_name)
 
 
