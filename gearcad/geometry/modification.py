@@ -82,6 +82,8 @@ class ReliefShape(Enum):
         inside: Floats = np.maximum(share, 0.0)
         if self is ReliefShape.PARABOLIC:
             return inside**2
+        if isinstance(transition, float) and not transition:
+            return inside
         rounded = (share + transition / 2) ** 2 / np.maximum(2 * transition, _NOTHING)
         return np.where(np.abs(share) < transition / 2, rounded, inside)
 
@@ -235,22 +237,47 @@ class FlankForm:
 
         The result has the shape to which both broadcast. Beyond the ends of the flank the depth is that at the end.
         """
+        # A contact asks many thousand times for a few dozen places: amounts of 0 are left out.
         of = self.modification
-        roll, z = np.clip(lengths, self.first, self.last), np.clip(heights, 0.0, self.width)
-        up, along = (roll - self.first) / (self.last - self.first), z / self.width
-        amount = np.zeros(np.broadcast_shapes(np.shape(roll), np.shape(z)))
-        for name, to_end in (("tip_relief", self.last - roll), ("root_relief", roll - self.first)):
+        roll = np.minimum(np.maximum(lengths, self.first), self.last)
+        amount = np.zeros(np.broadcast(roll, heights).shape)
+        for most, end, length, shape, transition in self._reliefs:
+            amount += most * shape.grown(1 - np.abs(end - roll) / length, transition)
+        if self._on_whole_flank:
+            up = (roll - self.first) / (self.last - self.first)
+            amount += of.profile_crowning * (2 * up - 1) ** 2 + of.pressure_angle_modification * up
+        if self._along_face:
+            amount += self._along(np.clip(heights, 0.0, self.width), roll, left=left)
+        return amount / 1000
+
+    def _along(self, z: Floats, roll: Floats, *, left: bool) -> Floats:
+        """Return the amount (µm) of what changes along the face at heights and roll lengths on the flank."""
+        of, up, along = self.modification, (roll - self.first) / (self.last - self.first), z / self.width
+        amount: Floats = of.lead_crowning * (2 * along - 1) ** 2 + of.twist * (along - 0.5) * (up - 0.5)
+        amount = amount + of.helix_angle_modification * (along - 0.5) * self.hand * (-1 if left else 1)
+        if of.end_relief:
+            to_end = np.minimum(z, self.width - z)
+            amount = amount + of.end_relief * of.end_relief_shape.grown(1 - to_end / of.end_relief_length)
+        return amount
+
+    @cached_property
+    def _along_face(self) -> bool:
+        return self.modification.along_face
+
+    @cached_property
+    def _on_whole_flank(self) -> bool:
+        return bool(self.modification.profile_crowning or self.modification.pressure_angle_modification)
+
+    @cached_property
+    def _reliefs(self) -> tuple[tuple[float, float, float, ReliefShape, float], ...]:
+        """Amounts (µm) of the reliefs of tip and root, their ends and lengths (mm), shapes, and transitions over lengths."""
+        of, found = self.modification, []
+        for name, end in (("tip_relief", self.last), ("root_relief", self.first)):
             if most := getattr(of, name):
                 length, transition = getattr(of, f"{name}_length"), self.transitions.get(name)
                 share = transition.length / length if transition else 0.0
-                amount += most * getattr(of, f"{name}_shape").grown(1 - to_end / length, share)
-        if of.end_relief:
-            to_end = np.minimum(z, self.width - z)
-            amount += of.end_relief * of.end_relief_shape.grown(1 - to_end / of.end_relief_length)
-        amount += of.profile_crowning * (2 * up - 1) ** 2 + of.pressure_angle_modification * up
-        amount += of.lead_crowning * (2 * along - 1) ** 2 + of.twist * (along - 0.5) * (up - 0.5)
-        amount += of.helix_angle_modification * (along - 0.5) * self.hand * (-1 if left else 1)
-        return amount / 1000
+                found.append((most, end, length, getattr(of, f"{name}_shape"), share))
+        return tuple(found)
 
     def lead_depth(self, heights: ArrayLike, *, left: bool = True) -> Floats:
         """Return the depth (mm) at heights z (mm) of what depends on the place along the face alone.

@@ -48,6 +48,9 @@ _ROUNDS, _SETTLED = 8, 1e-4
 _STEP = 1e-4
 """Distance (mm of roll) over which slope and curvature of a depth are taken: a parabola's are exact between its ends."""
 
+_BESIDE = np.array([-_STEP, 0.0, _STEP])[:, None, None]
+"""Distances (3, 1, 1) in mm of roll before, at and behind places (k, m)."""
+
 
 def press_starts(pair: GearPair, action: LineOfAction, mounting: Mounting, helix: float, found: LineSolution) -> LineSolution:
     """Return a contact with the cells beside the starts of linear reliefs pressed by their exact gaps. Raises SolverError."""
@@ -118,15 +121,15 @@ class _Side:
         base = self.flank.base_radius
         length, behind = self.flank.facing(self.touching, place)
         turn = (length - self.touching) / base
-        cosine = np.cos(turn)
+        cosine, tangent = np.cos(turn), np.tan(turn)
         shifted = self.flank.facing(self.touching, place + self.slid)[0] if self.slid.any() else length
         depth, slope, bend = self._depth(shifted)
         # Along the tangent roll grows by r_b/(rho cos t), t the turn, and the flank falls behind by tan t.
         grown = base / (length * cosine)
-        bent = -(grown**2) * (1 / length - np.tan(turn) / base)
+        bent = -(grown**2) * (1 / length - tangent / base)
         return GapCurve(
             behind + depth,
-            np.tan(turn) + slope * grown,
+            tangent + slope * grown,
             1 / (length * cosine**3) + bend * grown**2 + slope * bent,
         )
 
@@ -134,7 +137,7 @@ class _Side:
         """Return the depth (k, m) in mm, its slope and its bend over roll; beyond the ends of the flank it goes on straight."""
         form = self.flank.form
         inside = np.clip(lengths, form.first + 2 * _STEP, form.last - 2 * _STEP)
-        before, here, after = (self._taken_back(form, inside + step) for step in (-_STEP, 0.0, _STEP))
+        before, here, after = self._taken_back(form, inside + _BESIDE)
         slope = (after - before) / (2 * _STEP)
         bend = np.where(inside == lengths, (after - 2 * here + before) / _STEP**2, 0.0)
         return here + slope * (lengths - inside), slope, bend
