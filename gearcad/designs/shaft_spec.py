@@ -44,10 +44,14 @@ class MountedShaft:
 
 @dataclass(frozen=True, kw_only=True)
 class PairShafts:
-    """The shafts of both gears of a pair, None for a rigid one, and their options."""
+    """The shafts of both gears of a pair, None for a rigid one, and their options.
+
+    `forces_torque` is the torque (N·m on the pinion) at which the forces of other meshes on these shafts hold.
+    """
 
     gears: PerGear[MountedShaft | None]
     options: ShaftOptions
+    forces_torque: float | None = None
 
     @property
     def mounted(self) -> dict[Role, MountedShaft]:
@@ -184,6 +188,7 @@ def pair_arrangement(
         mesh_angle=found.options.mesh_angle,
         slices=found.options.slices,
         misalignment=mounting.misalignment,
+        forces_torque=shafts.forces_torque,
     )
     rating = rating or RatingOptions()
     return replace(found, mesh=loaded_mesh(mesh, rating, materials), spectrum=rating.bins)

@@ -17,7 +17,7 @@ from gearcad.dynamics.trains.train import Train
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.shafts.arrangement import ShaftOptions, with_stations
-from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
+from gearcad.shafts.beam import GearForce, ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
 from gearcad.shafts.face_load import FaceOnShafts, require_modelled
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def read_shaft_options(content: Any, where: Where) -> ShaftOptions:
 # ---------------------------------------------------------------------- under the loads of the train
 
 
-def gear_force(pair: GearPair, torque: float, role: Role, mesh_angle: float, position: float) -> ShaftForce:
+def gear_force(pair: GearPair, torque: float, role: Role, mesh_angle: float, position: float) -> GearForce:
     """Return the force of a mesh on one of its gears, in the middle of the face at `position` (mm) of its shaft.
 
     `torque` (N·m) is that on the pinion; it acts at the pitch point, which gives the torque on the gear too. Raises
@@ -125,7 +125,7 @@ def gear_force(pair: GearPair, torque: float, role: Role, mesh_angle: float, pos
     along = face.direction * (base_force if role is Role.WHEEL else -base_force)
     x, y, z = (float(each) for each in along)
     lever_x, lever_y, _ = face.lever(role)
-    return ShaftForce(position=position, force=(x, y, z), at=(float(lever_x), float(lever_y)))
+    return GearForce(position=position, force=(x, y, z), at=(float(lever_x), float(lever_y)))
 
 
 def gears_of(shaft: Shaft) -> tuple[ShaftGear, ...]:
@@ -202,4 +202,7 @@ def mesh_shafts(train: Train, mesh: str, loads: Mapping[str, Load], options: Sha
         return None
 
     found = PerGear.each(mounted)
-    return PairShafts(gears=found, options=replace(options, mesh_angle=angle)) if any(found) else None
+    if not any(found):
+        return None
+    torque = loads[mesh].torque * loads[mesh].application_factor
+    return PairShafts(gears=found, options=replace(options, mesh_angle=angle), forces_torque=torque)

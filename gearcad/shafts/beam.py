@@ -216,6 +216,11 @@ class ShaftForce:
         return np.concatenate([np.asarray(self.force, float), turning])
 
 
+@dataclass(frozen=True, kw_only=True, repr=False)
+class GearForce(ShaftForce):
+    """The force of another mesh on a shaft: it grows with the torque of the train."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class SteppedShaft:
     """A shaft of segments from left to right on its bearings.
@@ -388,8 +393,17 @@ class SteppedShaft:
 
     @cached_property
     def _forces(self) -> Floats:
+        return self.loads_of(self.forces)
+
+    @property
+    def gear_loads(self) -> Floats:
+        """Forces and moments (6 n,) of other meshes on the nodes: the part of `loads` that grows with the torque."""
+        return self.loads_of(tuple(each for each in self.forces if isinstance(each, GearForce)))
+
+    def loads_of(self, forces: tuple[ShaftForce, ...]) -> Floats:
+        """Return the forces and moments (6 n,) of some forces on the nodes."""
         found = np.zeros(_DOFS * len(self.nodes))
-        for each in self.forces:
+        for each in forces:
             first = _DOFS * self.node_at(each.position)
             found[first : first + _DOFS] += each.load()
         return found

@@ -162,6 +162,19 @@ class FaceOnShafts:
 
         return PerGear.each(of)
 
+    @cached_property
+    def gear_gaps(self) -> PerGear[Floats]:
+        """The part (slices,) in mm of `outer_gaps` by forces of other meshes on the shafts."""
+
+        def of(role: Role) -> Floats:
+            beam = self.beams.pick(role)
+            if beam is None or not (loads := beam.gear_loads).any():
+                return np.zeros(self.slices)
+            moved: Floats = self.vectors(role, beam).T @ (beam.compliance @ loads)
+            return moved if role is Role.WHEEL else -moved
+
+        return PerGear.each(of)
+
     def supports(self, stations: int = STATIONS) -> SupportCompliance:
         """Return what both shafts do to a contact at any place of the flanks, by so many stations over the face."""
         places = np.linspace(-self.width / 2, self.width / 2, stations)
@@ -249,6 +262,8 @@ class MeshOnShafts:
     stiffness: float = 20.0
     slices: int = 40
     misalignment: float = 0.0
+    forces_torque: float | None = None
+    """Torque (N·m) at which the shafts' forces of other meshes hold; None: they do not depend on the torque."""
 
     def __post_init__(self) -> None:
         require_modelled(self.pair)
@@ -286,8 +301,17 @@ class MeshOnShafts:
 
     @property
     def outer_gaps(self) -> PerGear[Floats]:
-        """Gap (slices,) in mm by the other forces, the weight and seats of bearings off the axis."""
-        return self.face.outer_gaps
+        """Gap (slices,) in mm by the other forces, the weight and seats of bearings off the axis.
+
+        Forces of other meshes grow with the torque.
+        """
+        every, more = self.face.outer_gaps, self._growth
+        return every if not more else PerGear.each(lambda role: every.pick(role) + more * self.face.gear_gaps.pick(role))
+
+    @property
+    def _growth(self) -> float:
+        """Share by which forces of other meshes are greater than those of the shafts."""
+        return abs(self.torque / self.forces_torque) - 1 if self.forces_torque else 0.0
 
     def lead_gap(self, role: Role, modification: FlankModification | None = None) -> Floats:
         """Return the gap (slices,) in mm of a gear's modifications along the face, or of others in their place.
@@ -372,7 +396,8 @@ class MeshOnShafts:
             return None
         beam = replace(shaft, places=(*shaft.places, *self.face.stations(role)))
         sign, load = 1 if role is Role.WHEEL else -1, self.line_load if line_load is None else line_load
-        return beam.solve(sign * self.face.vectors(role, beam) @ load * self.width / self.slices)
+        own = sign * self.face.vectors(role, beam) @ load * self.width / self.slices
+        return beam.solve(own + self._growth * beam.gear_loads)
 
     def to_dict(self) -> JsonObject:
         """Return f_sh under an even load, K_Hbeta, line loads (N/mm) and gaps (µm) slice by slice."""

@@ -10,18 +10,20 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.specs import TEMPLATES
 
 from gearcad import Gear, GearPair, Load, Mounting, modify, rate, shafts
 from gearcad.check.task import check_task, face_factors
 from gearcad.core.errors import GearcadError, GeometryError
 from gearcad.core.records import PerGear, Role
-from gearcad.designs import PairDesign, read_spec
+from gearcad.designs import PairDesign, TrainDesign, read_spec
+from gearcad.designs.train_meshes import train_meshes
 from gearcad.geometry import DoubleHelix, FlankModification
 from gearcad.jobs.shafts import Shafts
 from gearcad.material import Material
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import StrengthRating
-from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
+from gearcad.shafts.beam import GearForce, ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
 from gearcad.shafts.face_load import MeshOnShafts
 from gearcad.shafts.lead_search import propose_lead
 
@@ -171,6 +173,36 @@ def test_loads_and_stiffnesses_doubled_give_the_same_factor() -> None:
     )
     assert two.face_load_factor == pytest.approx(one.face_load_factor, rel=EXACT)
     assert two.line_load == pytest.approx(2 * one.line_load, rel=1e-8)
+
+
+@pytest.mark.parametrize("torque", [35.0, 280.0])
+def test_forces_of_other_meshes_grow_with_the_torque(torque: float) -> None:
+    """All loads grow alike, and nothing else opens the gap: the factor stays; a force that does not grow changes it."""
+    force: dict[str, Any] = {"position": 20.0, "force": (700.0, -2600.0, 400.0), "at": (31.0, 8.0)}
+    factors = {}
+    for kind in (GearForce, ShaftForce):
+        shaft = replace(shaft_of(), forces=(kind(**force),))
+        mesh = mesh_of(pair_of(14.0), shafts=PerGear(shaft, shaft_of(40.0)), forces_torque=140.0)
+        other = replace(mesh, torque=torque)
+        factors[kind] = other.face_load_factor / mesh.face_load_factor
+        states = [each.state(Role.PINION) for each in (mesh, other)]
+        moved = [each.moved for each in states if each is not None]
+        alike = np.allclose(moved[1], moved[0] * torque / 140, rtol=1e-7, atol=1e-12)
+        assert alike == (kind is GearForce)
+    assert factors[GearForce] == pytest.approx(1.0, rel=EXACT)
+    assert abs(factors[ShaftForce] - 1) > 0.01
+
+
+def test_meshes_of_a_train_know_the_torque_of_its_forces() -> None:
+    """Of both stages of the starter: half the torque halves all loads of the train, so f_sh is half too."""
+    design = read_spec(TEMPLATES / "two-stage.toml")
+    assert isinstance(design, TrainDesign)
+    meshes = [each.design.arrangement for each in train_meshes(design).meshes]
+    for mesh in [each.mesh for each in meshes if each is not None and each.mesh is not None]:
+        half = replace(mesh, torque=mesh.torque / 2)
+        assert half.misalignment_of_shafts == pytest.approx(mesh.misalignment_of_shafts / 2, rel=1e-8)
+        assert any(gap.any() for gap in mesh.face.gear_gaps)
+    assert len(meshes) == 2
 
 
 def by_iteration(mesh: MeshOnShafts, relaxation: float) -> np.ndarray:
