@@ -14,7 +14,8 @@ from gearcad.drawing.options import DrawingOptions, PartDrawing
 from gearcad.drawing.sheet_frame import Furniture
 from gearcad.drawing.sheet_template import SheetTemplate
 from gearcad.drawing.views.assembly_figures import Sectioned, cut_gear, pitch_lines
-from gearcad.drawing.views.shaft_views import shaft_view, shafted_section
+from gearcad.drawing.views.shaft_views import shaft_view
+from gearcad.drawing.views.shafted_pair_views import shafted_section
 from gearcad.drawing.words import SheetWords
 from gearcad.geometry import GearPair
 from gearcad.shafts.beam import ShaftBearing, SteppedShaft

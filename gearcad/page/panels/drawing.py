@@ -108,6 +108,7 @@ class DrawingPanel(Panel[DrawnSheets]):
     def show(self, found: DrawnSheets) -> None:
         words = self._words
         names = {"assembly": words["Assembly"]}
+        names |= {"pinion-shaft": words["Shaft of the pinion"], "wheel-shaft": words["Shaft of the wheel"]}
         sheets = [each._asdict() | {"name": names.get(each.name) or called(words, each.name)} for each in found.sheets]
         reasons = {_NO_DRAWING: words["This kind of design has no drawing."]}
         self._view.show(sheets, reasons.get(found.why_not) or words.message(found.why_not), found.language)
