@@ -3,13 +3,16 @@
 `python docs/thesis_conditions.py` prints as JSON: `table_4`, the finite element rows of Alm's table 4 (N/mm: mean over the
 path of contact, greatest, smallest) under the conditions of `tests/reference/test_stiffness_table4.py`; `impact`, the
 stiffness of his table 2 from his tables 4 and 5; `simulation`, his (69) beside his simulation; `contact`, appendix 4 of the
-Volvo thesis by its own numbers; `teeth`, its tooth stiffness (5.11) by teeth alone, without contact and body.
+Volvo thesis by its own numbers; `teeth`, its tooth stiffness (5.11) by teeth alone, without contact and body. With the
+folder of a check of that pair, `fillets`, the mean stress of its fillets.
 """
 
 import json
 import math
+import sys
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from pathlib import Path
 
 import numpy as np
 
@@ -171,8 +174,8 @@ def contact() -> dict[str, float]:
     }
 
 
-def teeth() -> dict[str, float]:
-    """Return the stiffness of the Volvo pair's teeth at the pitch point, alone and both in series, in N/(mm·µm)."""
+def volvo_pair() -> GearPair:
+    """Return the pair of the Volvo thesis, its table 2."""
     pinion, wheel = (
         Gear(
             teeth=teeth,
@@ -188,7 +191,36 @@ def teeth() -> dict[str, float]:
             (44, 15.1, -28.0, -0.378, 0.16, 0.32),
         )
     )
-    pair = GearPair(pinion=pinion, wheel=wheel, centre_distance=80.0)
+    return GearPair(pinion=pinion, wheel=wheel, centre_distance=80.0)
+
+
+def fillets(folder: Path) -> dict[str, float]:
+    """Return the mean von Mises stress over the fillets of the loaded teeth (MPa at 120 N·m), as the thesis takes it.
+
+    `folder` is that of `gearcad check` at 220 N·m. The nodes are those of the surface between root and form circle.
+    """
+    import meshio
+
+    found = {}
+    for role, gear in volvo_pair().gears.items():
+        mesh = meshio.read(folder / f"stress_{role.value}.vtu")
+        cells, (x, y, z) = mesh.cells[0].data, mesh.points.T
+        corners = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+        faces, times = np.unique(np.sort(cells[:, corners].reshape(-1, 4), axis=1), axis=0, return_counts=True)
+        outside = np.unique(faces[times == 1])
+        radius, inside = np.hypot(x, y)[outside], (z[outside] > _EDGE) & (z[outside] < gear.face_width - _EDGE)
+        on_fillet = inside & (radius > gear.root_diameter / 2 - _CHORD) & (radius < gear.form_diameter / 2)
+        found[role.value] = float(mesh.point_data["von_mises_MPa"][outside[on_fillet]].mean()) * 120 / 220
+    return found
+
+
+_EDGE, _CHORD = 1e-6, 2e-3
+"""Distance (mm) from the ends of a tooth of nodes that are inside, and below the root circle of nodes that are on it."""
+
+
+def teeth() -> dict[str, float]:
+    """Return the stiffness of the Volvo pair's teeth at the pitch point, alone and both in series, in N/(mm·µm)."""
+    pair = volvo_pair()
     method, place = PotentialEnergy(pair=pair, material=Material(youngs_modulus=205000.0)), pair.path_of_contact.C
     parts = method.single(np.array([place]), Load(torque=220.0)).parts
     alone = [sum(float(parts[f"{gear} {part}"][0]) for part in ("bending", "shear", "axial")) for gear in ("pinion", "wheel")]
@@ -202,7 +234,7 @@ def teeth() -> dict[str, float]:
         "printed_in_series": 1 / (1 / 68.3 + 1 / 55.6),
         "radius_pinion": float(next(radii)),
         "radius_wheel": float(next(radii)),
-        "whole_line": pair.common_width.width / math.cos(math.radians(pinion.base_helix_angle)),
+        "whole_line": pair.common_width.width / math.cos(math.radians(pair.pinion.base_helix_angle)),
     }
 
 
@@ -213,5 +245,8 @@ def table_4() -> dict[str, dict[str, float]]:
 
 
 if __name__ == "__main__":
-    found = {"table_4": table_4(), "impact": impact(), "simulation": simulation(), "contact": contact(), "teeth": teeth()}
+    found: dict[str, object] = {"table_4": table_4(), "impact": impact(), "simulation": simulation(), "contact": contact()}
+    found["teeth"] = teeth()
+    if sys.argv[1:]:
+        found["fillets"] = fillets(Path(sys.argv[1]))
     print(json.dumps(found, indent=1))
