@@ -58,9 +58,14 @@ def draw_resonances(path: Path) -> None:
     save_plot(plot_factors, gearcad.dynamics(read(TEMPLATES / "train-pairs.toml")), path)
 
 
+def draw_two_stage(path: Path) -> None:
+    picture(read(TEMPLATES / "two-stage.toml"), path, size=(900, 640))
+
+
 FIGURES = {
     "printed-planetary.png": draw_printed,
     "root-stress.png": draw_root_stress,
     "quiet-pair.png": draw_quiet,
     "resonances.png": draw_resonances,
+    "two-stage.png": draw_two_stage,
 }

@@ -9,6 +9,7 @@ from gearcad.core.quantities import FieldSchema, schema_of
 from gearcad.designs.keys import FIELDS, OF_SHAFTS, SHAFTS, SHARED
 from gearcad.designs.shaft_keys import shaft_fields
 from gearcad.designs.train_keys import PLANETARY, PRE_STAGE, TRAIN
+from gearcad.dynamics.trains.shaft_layout import ShaftGear
 from gearcad.identify import Measurements
 
 __all__ = ["key_tables"]
@@ -34,6 +35,7 @@ def key_tables() -> Mapping[str, Mapping[str, FieldSchema]]:
         "part_drawing": own_drawing,
         "train": dict(TRAIN["train"]),
         **{f"train.{part}": dict(TRAIN[part]) for part in ("inertia", "shaft", "mesh")},
+        "train.shaft.gears": dict(schema_of(ShaftGear)),
         **_planetary(mates),
         "measured": dict(schema_of(Measurements)),
     }

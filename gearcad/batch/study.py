@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from gearcad.core.errors import ParameterError, require_whole
 from gearcad.core.output import staged_files
 from gearcad.designs.cells import guarded_text, list_text
-from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, names_file
+from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, is_inline, names_file
 from gearcad.designs.keys import Cell, DesignKind
 from gearcad.designs.table import open_table
 from gearcad.designs.variations import MOST_ROWS, Choices, KeyRange, read_variations, spec_values, without_varied
@@ -114,7 +114,11 @@ class Study:
         varied, files = [variation.key for variation in self.variations], [key for key in self.keys if names_file(key)]
         for number, point in enumerate(self.points(), 1):
             cells.update((key, _cell_text(_seen(each, folder))) for key, each in zip(varied, point, strict=True))
-            seen = {key: _cell_text(os.path.relpath(cells[key], folder)) for key in files if cells[key]}
+            seen = {
+                key: _cell_text(os.path.relpath(cells[key], folder))
+                for key in files
+                if cells[key] and not is_inline(cells[key])
+            }
             yield [_cell_text(f"{stem}-{number:0{width}}"), *(cells | seen).values()]
 
     def comments(self, table: str) -> Iterator[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import tomllib
 from abc import ABC, abstractmethod
@@ -146,18 +147,55 @@ def names_file(key: str) -> bool:
     return (table, field) in (("mesh", "pair"), ("shaft", "layout")) and bool(name)
 
 
+def is_inline(value: Any) -> bool:
+    """Return whether the value of a key that may name a file is a table in one line of TOML, as a cell may hold it."""
+    return isinstance(value, str) and value.lstrip().startswith("{")
+
+
+def inline_toml(value: Any) -> str:
+    """Return a value as one line of TOML, tables as inline tables."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{json.dumps(key)} = {inline_toml(each)}" for key, each in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(inline_toml, value))}]"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return json.dumps(str(value), ensure_ascii=False) if isinstance(value, str) else str(value)
+
+
+def inline_table(key: str, text: str, folder: Path = Path()) -> dict[str, Any]:
+    """Return the table that one line of TOML holds; files that it names are seen from `folder`. Raises ParameterError."""
+    try:
+        found: dict[str, Any] = tomllib.loads(f"{_CELL}={text}")[_CELL]
+    except tomllib.TOMLDecodeError as error:
+        raise ParameterError(key, text, "must be the name of a file, or a table in one line, as in TOML") from error
+    find_named_files(found, folder)
+    return found
+
+
+_CELL = "cell"
+"""Key of the table that one line holds."""
+
+
 def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Return the values with files, which are seen from `folder`, as they are found from here."""
-    return {
-        key: _file_path(key, each, folder)
-        if names_file(key)
-        else _tool_name(key, each, folder)
-        if names_tool(key)
-        else _bearing_name(key, each, folder)
-        if names_bearing(key)
-        else each
-        for key, each in values.items()
-    }
+    return {key: _found_value(key, each, folder) for key, each in values.items()}
+
+
+def _found_value(key: str, value: Any, folder: Path) -> Any:
+    """Return a value with the files that it names as they are found from here; a table in one line as a table."""
+    if names_file(key) and is_inline(value):
+        try:
+            return inline_table(key, value, folder)
+        except ParameterError as error:
+            if error.parameter != key:
+                raise
+            return value  # no TOML: who reads it says so, and where it is
+    if names_file(key):
+        return _file_path(key, value, folder)
+    if names_bearing(key):
+        return _bearing_name(key, value, folder)
+    return _tool_name(key, value, folder) if names_tool(key) else value
 
 
 def names_tool(key: str) -> bool:
@@ -238,7 +276,7 @@ def _file_path(key: str, name: Any, folder: Path) -> Any:
     """Return the path of a file as seen from here. A name that no file can have stays as it is: whoever reads the file refuses
     it.
     """
-    if not isinstance(name, str) or not name.strip() or "\0" in name:
+    if not isinstance(name, str) or not name.strip() or "\0" in name or is_inline(name):
         return name
     fence, found = _fence.get(), folder / name
     if fence is not None and not _resolved(found).is_relative_to(fence):

@@ -25,7 +25,15 @@ from gearcad.designs.cells import (
     plain_text,
     read_headings,
 )
-from gearcad.designs.design import Design, names_bearing, names_file, names_tool, require_plain_name, with_files_found
+from gearcad.designs.design import (
+    Design,
+    is_inline,
+    names_bearing,
+    names_file,
+    names_tool,
+    require_plain_name,
+    with_files_found,
+)
 from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_SETS, SHARED, Cell, DesignKind
 from gearcad.designs.reader import design_from_values
 from gearcad.designs.table_files import Record, RecordFile, open_sheet
@@ -228,7 +236,7 @@ class DesignRow:
     @property
     def inputs(self) -> dict[str, Any]:
         """Everything that decides what the row makes: its name and values, and the contents of the files that they name."""
-        files = {key: each for key, each in self.values.items() if names_file(key)}
+        files = {key: each for key, each in self.values.items() if names_file(key) and not is_inline(each)}
         found = with_files_found(files, Path(self.table).parent)
         texts = {key: _text_of(Path(str(file))) for key, file in found.items()}
         shelf = Shelf(Path(self.table).parent)

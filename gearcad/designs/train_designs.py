@@ -12,9 +12,17 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 from gearcad.check.options import CheckOptions
 from gearcad.core.errors import InputError, ParameterError, SpecError, as_choice, format_number, printable, shown
-from gearcad.core.quantities import FieldSchema, parts_of, schema_of, with_assumed
+from gearcad.core.quantities import ELSEWHERE, FieldSchema, parts_of, schema_of, with_assumed
 from gearcad.core.records import JsonObject, Notice, Role
-from gearcad.designs.design import Design, Where, kinds_in_words, read_tables, require_plain_name
+from gearcad.designs.design import (
+    Design,
+    Where,
+    inline_table,
+    is_inline,
+    kinds_in_words,
+    read_tables,
+    require_plain_name,
+)
 from gearcad.designs.keys import BESIDE, MAIN_TABLES, OF_SETS, DesignKind, permitted_words
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.spec import Given
@@ -63,6 +71,8 @@ def values_of(tables: Mapping[str, Any], where: Where) -> dict[str, Given]:
             found |= _value(TrainKey(MAIN, "", key), value, None, where)
     for table in TRAIN_PARTS:
         for name, owner, content in _parts(main, table, where):
+            if table == "shaft" and (layout := {key: content[key] for key in LAYOUT_KEYS if key in content}):
+                content = {**{key: each for key, each in content.items() if key not in layout}, "layout": layout}
             for key, value in content.items():
                 found |= _value(TrainKey(table, name, key), value, f"{owner}.{key}", where) if key != "name" else {}
     for key, value in _table(tables.get("dynamics", {}), "dynamics", where).items():
@@ -157,11 +167,21 @@ def tables_of(values: Mapping[str, Any], where: Where) -> TrainTables:
             if not chosen:
                 raise SpecError(f"{where(key)}: {key}: the train has no {found.table} at all", key)
             for name in chosen:
-                parts[found.table, name][found.field] = _typed(values[key], found.schema)
+                parts[found.table, name][found.field] = _part_value(key, values[key], found.schema, where)
     for table in TRAIN_PARTS:
         main[table] = [part for (home, _), part in parts.items() if home == table]
     owners = {f"{MAIN}.{t}[{number}]": f"{t}.{name}" for t in TRAIN_PARTS for number, name in enumerate(names[t])}
     return TrainTables({MAIN: main, "dynamics": other}, owners)
+
+
+def _part_value(key: str, value: Any, field: FieldSchema, where: Where) -> Any:
+    """Return the value of a part as a spec has it; a pair or a layout may stand in one line of TOML. Raises SpecError."""
+    if ELSEWHERE not in field.marks or not is_inline(value):
+        return _typed(value, field)
+    try:
+        return inline_table(key, value)
+    except ParameterError as error:
+        raise SpecError(f"{where(key)}: {error}", key) from error
 
 
 def _typed(value: Any, field: FieldSchema) -> Any:

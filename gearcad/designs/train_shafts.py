@@ -45,6 +45,9 @@ def read_layout(given: dict[str, Any], where: Where, owner: str) -> None:
     """Replace the keys of a shaft's layout, or the name of their file, by the layout itself, in place. Raises SpecError."""
     if (file := given.get("layout")) is not None:
         key = f"{owner}.layout"
+        if isinstance(file, Mapping):
+            given["layout"] = _layout(file, where, key)
+            return
         if not isinstance(file, str) or not file.strip() or "\0" in file:
             permitted = 'must be a file with segments, bearings and gears, as in layout = "shaft-2.toml"'
             raise SpecError(f"{where(key)}: {shown(key)} = {format_number(file)}: {permitted}", key)

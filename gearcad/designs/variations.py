@@ -19,7 +19,7 @@ from gearcad.core.quantities import schema_of, symbols_of
 from gearcad.core.records import Role
 from gearcad.core.symbols import Symbol
 from gearcad.designs.cells import CellReader, Layout, nested_text, texts_cell
-from gearcad.designs.design import Design, Where, names_file, read_tables, with_files_found
+from gearcad.designs.design import Design, Where, inline_toml, names_file, read_tables, with_files_found
 from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import FIELDS, KEYS, MAIN_TABLES, SPEEDS, Cell, DesignKind, Fields
 from gearcad.designs.reader import design_from_values, kind_of, type_of
@@ -229,6 +229,8 @@ def read_values(path: Path | str) -> SpecValues:
     tables, where = read_tables(path)
     kind = kind_of(tables)
     made, main = type_of(kind), MAIN_TABLES[kind][0]
+    if kind is DesignKind.TRAIN and "shafts" in tables:
+        raise SpecError(f"{where('shafts')}: [shafts]: no table holds the options of a train's shafts", "shafts")
     if kind is DesignKind.SHAFT:
         spec = Spec({}, where)
     else:
@@ -260,7 +262,7 @@ def _cell(key: str, given: Given, where: Where) -> Cell:
             f"{where(key)}: {key} = {format_number(value)}: no cell of a table holds several models: give one word", key
         )
     if isinstance(value, Mapping) and names_file(key):
-        raise SpecError(f"{where(given.key)}: {given.key}: no table holds a pair: write it to a file, and its name here", key)
+        return inline_toml(value)
     if general_key(key) in NESTED and isinstance(value, list | tuple):
         return nested_text(value) if all(isinstance(each, list | tuple) for each in value) else format_number(value)
     if key in TEXT_LISTS and isinstance(value, list | tuple):

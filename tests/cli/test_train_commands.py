@@ -8,10 +8,13 @@ import pytest
 from support.commands import invoke, read_json
 
 from gearcad.batch import run_table
+from gearcad.core.errors import ParameterError, SpecError
 from gearcad.designs import read_spec
-from gearcad.designs.reader import starter_text
+from gearcad.designs.design import files_only_in, with_files_found
+from gearcad.designs.reader import design_from_values, starter_text
 from gearcad.designs.spec_writers import pair_text
 from gearcad.designs.train_designs import DesignedPair, TrainDesign
+from gearcad.designs.variations import spec_values
 from gearcad.jobs.strength import Rate
 
 PAIRS = "train-pairs"
@@ -99,3 +102,37 @@ def test_a_table_of_trains(here: Path, tmp_path: Path) -> None:
     assert {path for path in made if after[path] == made[path]} == {
         Path("out/t40") / f"stage {n}" / "rate.html" for n in meshes
     }
+
+
+@pytest.mark.parametrize("name", ["train-pairs", "two-stage"])
+def test_pairs_and_shafts_in_cells(name: str, tmp_path: Path) -> None:
+    """A study writes pairs, segments, bearings and gears of a spec into cells: the row of the table makes the same train."""
+    file, text = starter_text(name)
+    (tmp_path / file).write_text(text, encoding="utf-8")
+    kind, own, values = spec_values(tmp_path / file)
+    made = design_from_values(values, kind, where=lambda key: key, default_name=own)
+    read = read_spec(tmp_path / file)
+    assert isinstance(made, TrainDesign) and isinstance(read, TrainDesign)
+    for table in ("inertias", "shafts", "torques", "speed", "model"):
+        assert getattr(made.train, table) == getattr(read.train, table)
+    for mesh, other in zip(made.train.meshes, read.train.meshes, strict=True):
+        assert isinstance(mesh.pair, DesignedPair) and isinstance(other.pair, DesignedPair)
+        assert (mesh.pair.design, mesh.mesh_angle) == (other.pair.design, other.mesh_angle)
+
+
+def test_a_cell_that_is_no_toml_is_told(tmp_path: Path) -> None:
+    file, text = starter_text("two-stage")
+    (tmp_path / file).write_text(text, encoding="utf-8")
+    kind, own, values = spec_values(tmp_path / file)
+    values["mesh.stage 1.pair"] = "{teeth = }"
+    with pytest.raises(SpecError, match=r"mesh.stage 1.pair.*must be the name of a file, or a table in one line"):
+        design_from_values(values, kind, where=lambda key: key, default_name=own)
+
+
+def test_files_in_cells_stay_in_the_folder_of_the_page(tmp_path: Path) -> None:
+    """A table in one line names no file that a table by itself could not name."""
+    values = {"mesh.m.pair": '{pinion = {body = {step = "../blank.step"}}}'}
+    found = with_files_found(values, tmp_path)["mesh.m.pair"]
+    assert found["pinion"]["body"]["step"] == str(tmp_path / "../blank.step")
+    with files_only_in(tmp_path), pytest.raises(ParameterError, match="must be a file in the folder of the page"):
+        with_files_found(values, tmp_path)
