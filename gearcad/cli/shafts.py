@@ -55,6 +55,9 @@ def _lines(result: ArrangementResult) -> Iterator[str]:
         across = (bent["deflection"][0] ** 2 + bent["deflection"][1] ** 2) ** 0.5
         yield f"  greatest deflection {across:.4g} µm at {bent['position']:g} mm"
         yield f"  greatest equivalent stress {max(each['equivalent_stress'] for each in stressed):.4g} MPa (nominal)"
+        for each in shaft.shoulders:
+            if not each.reason:
+                yield f"  shoulder at {each.position:g} mm: S_D {each.fatigue:.4g}, S_F {each.static:.4g} (DIN 743)"
         speeds = ", ".join(f"{each:.4g}" for each in shaft.speeds["critical_speeds"])
         yield f"  critical speeds {speeds} rpm"
     if (mesh := result.mesh) is not None:

@@ -352,6 +352,8 @@ SHAFTS = {
     "Lnmh": Symbol("L_nmh", "h", "ISO 281", "least modified life of the bearings", Better.HIGHER),
     "deflection": Symbol("", "µm", "", "greatest deflection of the shafts", Better.LOWER),
     "equivalent_stress": Symbol("σ_v", "MPa", "", "greatest nominal stress of the shafts", Better.LOWER),
+    "S_D": Symbol("S_D", "", "DIN 743", "least safety of shoulders against fatigue", Better.HIGHER),
+    "S_F": Symbol("S_F", "", "DIN 743", "least safety of shoulders against yield", Better.HIGHER),
     "critical_speed": Symbol("n_1", "rpm", "", "lowest critical speed of bending", Better.HIGHER),
     "f_sh": Symbol("f_sh", "µm", "ISO 6336-1", "deformation of the shafts over the face"),
     "K_Hbeta": Symbol("K_Hβ", "", "ISO 6336-1", "face load factor on the shafts", Better.LOWER),

@@ -125,6 +125,10 @@ def shaft_columns(document: Mapping[str, Any]) -> JsonObject:
         **{key: min((value for value in found if value is not None), default=None) for key, found in lives.items()},
         "deflection": max((each["deflection"][0] ** 2 + each["deflection"][1] ** 2) ** 0.5 for each in stations),
         "equivalent_stress": max(each["equivalent_stress"] for each in sides),
+        **{
+            key: min((each[key] for shaft in shafts for each in shaft["shoulders"] if each[key] is not None), default=None)
+            for key in ("S_D", "S_F")
+        },
         "critical_speed": min(speeds, default=None),
         **{key: mesh[name] for key, name in (("f_sh", "f_sh"), ("K_Hbeta", "K_Hbeta_end_of_face")) if name in mesh},
         "warnings": document["warnings"],

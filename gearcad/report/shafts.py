@@ -25,6 +25,7 @@ class ReportedShaft(NamedTuple):
     result: ShaftResult
     bearings: list[tuple[str, ...]]
     segments: list[tuple[str, ...]]
+    shoulders: list[tuple[str, str, str, str]]
     speeds: list[tuple[str, ...]]
     figure: ReportFigure
 
@@ -67,6 +68,7 @@ def _reported(name: str, shaft: ShaftResult) -> ReportedShaft:
         tuple(map(short, (start, each.length, each.outer_diameter, each.inner_diameter)))
         for start, each in zip(shaft.state.shaft.ends, shaft.state.shaft.segments, strict=False)
     ]
+    shoulders = [(short(each.position), _text(each.fatigue), _text(each.static), each.reason or "") for each in shaft.shoulders]
     frequencies = shaft.speeds["natural_frequencies"]
     speeds = [
         ("critical speed, forward whirl", "rpm", *map(short, shaft.speeds["critical_speeds"])),
@@ -76,7 +78,7 @@ def _reported(name: str, shaft: ShaftResult) -> ReportedShaft:
     ]
     address = figure_address(partial(plot_shaft, shaft.state), "svg", SHAFT_INCHES)
     figure = ReportFigure(f"The shaft {name} under load", address, sentences("captions_shafts.txt", "shaft", shaft))
-    return ReportedShaft(name, shaft, bearings, segments, speeds, figure)
+    return ReportedShaft(name, shaft, bearings, segments, shoulders, speeds, figure)
 
 
 def _mesh_figures(result: ArrangementResult) -> list[ReportFigure]:

@@ -30,6 +30,8 @@ from gearcad.shafts.bearing_life import (
     reliability_factor,
     two_factor_load,
 )
+from gearcad.shafts.strength import RECALLED as RECALLED_STRENGTH
+from gearcad.shafts.strength import ShoulderSafety, shoulder_safeties
 from gearcad.shafts.whirl import ShaftDisc, ShaftWhirl
 
 _FEWEST_STATIONS = 100
@@ -231,10 +233,16 @@ class ShaftResult:
         part, end = np.unravel_index(int(stresses.argmax()), stresses.shape)
         return float(stresses.max()), float(nodes[part + end])
 
+    @cached_property
+    def shoulders(self) -> list[ShoulderSafety]:
+        """Safeties at the shoulders by DIN 743."""
+        return shoulder_safeties(self.state)
+
     def to_dict(self) -> JsonObject:
-        """Return reactions, stations, bearings and critical speeds."""
+        """Return reactions, stations, bearings, safeties of shoulders and critical speeds."""
         return self.state.to_dict() | {
             "bearings": [each.to_dict() for each in self.lives],
+            "shoulders": [each.to_dict() for each in self.shoulders],
             **self.speeds,
         }
 
@@ -329,7 +337,8 @@ class ArrangementResult:
     def unconfirmed(self) -> list[str]:
         """What rests on memory, if anything does."""
         lives = any(life.revolutions is not None for shaft in self.shafts.values() for life in shaft.lives)
-        return [RECALLED] if lives else []
+        strength = any(not each.reason for shaft in self.shafts.values() for each in shaft.shoulders)
+        return [*([RECALLED] if lives else []), *([RECALLED_STRENGTH] if strength else [])]
 
     @property
     def not_judged(self) -> list[str]:
@@ -337,7 +346,18 @@ class ArrangementResult:
         found = [
             f"{name}: {life.name}: {why}" for name, shaft in self.shafts.items() for life in shaft.lives for why in life.reasons
         ]
-        return [*found, "static and fatigue strength of the shafts (DIN 743)"]
+        shoulders = [(name, each) for name, shaft in self.shafts.items() for each in shaft.shoulders]
+        unjudged = [(name, each) for name, each in shoulders if each.reason]
+        found += [f"{name}: shoulder at {each.position:g} mm (DIN 743): {each.reason}" for name, each in unjudged]
+        return [*found, "strength of the shafts at keys, grooves, press fits and splines (DIN 743)"]
+
+    @property
+    def least_safeties(self) -> tuple[float | None, float | None]:
+        """Least safeties of all shoulders against fatigue and yield, as far as they are known."""
+        known = [each for shaft in self.shafts.values() for each in shaft.shoulders if not each.reason]
+        fatigue = min((each.fatigue for each in known if each.fatigue is not None), default=None)
+        static = min((each.static for each in known if each.static is not None), default=None)
+        return fatigue, static
 
     def to_dict(self) -> dict[str, Any]:
         """Return the content of shafts.json."""

@@ -27,6 +27,7 @@ _STIFFNESS = Range("N/µm", 0, 1e9)
 _TILTING = Range("N·m/rad", 0, 1e15)
 _RATING = Range("N", 1, 1e9)
 _FACTOR = Range("", 0, 100)
+_STRENGTH = Range("MPa", 1, 5000)
 _SAME = 1e-9
 """Distance (mm) below which two positions are one."""
 
@@ -42,7 +43,11 @@ _GRAVITY = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class ShaftSegment:
-    """A cylinder of a shaft, solid or hollow. Raises ParameterError, or GeometryError for a bore that leaves no wall."""
+    """A cylinder of a shaft, solid or hollow. Raises ParameterError, or GeometryError for a bore that leaves no wall.
+
+    Strengths (MPa, of a bar of 16 mm), `roughness` Rz (µm) and the `fillet_radius` (mm) of the step to the segment on its right
+    are for its strength (DIN 743).
+    """
 
     length: Annotated[float, LENGTH, Words("length of the segment")]
     outer_diameter: Annotated[float, LENGTH, Words("outer diameter", "d")]
@@ -50,6 +55,10 @@ class ShaftSegment:
     youngs_modulus: Annotated[float, MODULUS, Words("Young's modulus", "E")] = STEEL_MODULUS
     poisson_ratio: Annotated[float, POISSON_RATIO, Words("Poisson's ratio", "ν")] = 0.3
     density: Annotated[float, DENSITY, Words("density", "ρ")] = 7850.0
+    tensile_strength: Annotated[float | None, _STRENGTH, Words("tensile strength", "R_m")] = None
+    yield_strength: Annotated[float | None, _STRENGTH, Words("yield strength", "R_e")] = None
+    roughness: Annotated[float | None, Range("µm", 0.01, 1000), Words("roughness of the surface", "Rz")] = None
+    fillet_radius: Annotated[float | None, LENGTH, Words("fillet radius of the step on its right", "r")] = None
 
     __repr__ = concise
 

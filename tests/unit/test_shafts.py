@@ -32,6 +32,7 @@ from gearcad.shafts.bearing_life import (
     reference_viscosity,
 )
 from gearcad.shafts.bearing_shelf import bearing_of
+from gearcad.shafts.strength import Shoulder, shoulder_safeties
 from gearcad.shafts.whirl import ShaftDisc, ShaftWhirl, ring_disc
 
 SHAFTS, MESHES = REFERENCE["shafts"], REFERENCE["meshes"]
@@ -625,3 +626,39 @@ def test_sizes_of_the_own_shelf_are_those_of_a_public_table() -> None:
     for series in ("60", "62", "63"):
         for number in range(4, 13):
             assert bearing_of(f"{series}{number:02d}")["d"] == 5 * number
+
+
+EXAMPLE = Shoulder(d=42.0, D=50.0, r=5.0, tensile_strength=1000.0, yield_strength=800.0, roughness=5.0)
+
+
+def test_a_shoulder_of_a_published_example() -> None:
+    """Shoulder 50/42, r 5 mm, 34CrMo4, Rz 5 µm: sydgtfzguhgfhtr/ME_Wellennachweis, Berechnung_Beispiel_Absatz.ipynb (GitHub).
+
+    Its mean stresses are 500 MPa and 100 MPa of torsion, its amplitude of bending 50 MPa, its greatest torsion 130 MPa.
+    """
+    assert EXAMPLE.size_of_strength == pytest.approx(0.8713389943631755)
+    assert EXAMPLE.size_of_yield == pytest.approx(0.8317509926287681)
+    assert EXAMPLE.notch_factors == pytest.approx((1.5179405596067481, 1.2615866715165054))
+    assert EXAMPLE.factors == pytest.approx((1.8242139172304368, 1.4854446175401899))
+    assert EXAMPLE.alternating_limits == pytest.approx((238.82588169430872, 175.9753916250467))
+    assert EXAMPLE.yield_limits == pytest.approx((838.4050005697983, 461.00319311323943))
+    assert EXAMPLE.safeties(50.0, 100.0, 500.0)[0] == pytest.approx(154.79183517414634 / 50)
+    assert EXAMPLE.safeties(50.0, 130.0, 500.0)[1] == pytest.approx(1.4004636102593677)
+    assert EXAMPLE.safeties(0.0, 0.0, 0.0) == (math.inf, math.inf)
+
+
+def test_a_stepped_shaft_is_judged_at_its_shoulder() -> None:
+    """The moment at the shoulder is 1000 N 40 mm; what is not given is named."""
+    strong = {"tensile_strength": 1000.0, "yield_strength": 800.0, "roughness": 5.0}
+    parts = (
+        ShaftSegment(length=80.0, outer_diameter=42.0, fillet_radius=5.0, **strong),
+        ShaftSegment(length=120.0, outer_diameter=50.0),
+    )
+    rigid = (ShaftBearing(position=0.0, axial_stiffness="rigid"), ShaftBearing(position=200.0))
+    force = ShaftForce(position=100.0, force=(0.0, -1000.0, 0.0))
+    shaft = SteppedShaft(segments=parts, bearings=rigid, forces=(force,))
+    (found,) = shoulder_safeties(shaft.solve())
+    expected = EXAMPLE.safeties(500 * 80 / (math.pi * 42**3 / 32), 0.0, 0.0)
+    assert (found.fatigue, found.static) == pytest.approx(expected)
+    bare = replace(shaft, segments=(replace(parts[0], roughness=None, fillet_radius=None), parts[1]))
+    assert shoulder_safeties(bare.solve())[0].reason == "fillet_radius, roughness not given"
