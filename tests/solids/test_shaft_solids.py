@@ -14,6 +14,7 @@ from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.designs import PairDesign, read_spec
 from gearcad.jobs.build import Build, seated_shafts
 from gearcad.jobs.draw import Draw, Picture
+from gearcad.jobs.verification import Verify
 from gearcad.shafts.beam import ShaftBearing, ShaftSegment, SteppedShaft
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.exact.inertia import moments
@@ -21,6 +22,7 @@ from gearcad.solids.exact.shaft_solid import shaft_boundary, shaft_solid
 from gearcad.solids.files.shaft_products import ShaftProduct
 from gearcad.solids.files.step import write_product
 from gearcad.solids.shaft_plan import TurnedPlan
+from gearcad.verification.claims import VerificationLevel
 from gearcad.verification.step import judge_step, read_step
 from gearcad.verification.turned_parts import ExactShaft
 
@@ -286,3 +288,16 @@ def test_sizes_of_bearings_belong_together() -> None:
         ShaftBearing(position=0.0, d=20.0, D=47.0)
     with pytest.raises(GeometryError, match="D = 20 mm: must be above 20 mm, the bore"):
         ShaftBearing(position=0.0, d=20.0, D=20.0, B=14.0)
+
+
+@pytest.mark.long
+def test_all_files_of_a_pair_on_shafts_and_bearings_are_verified(tmp_path: Path) -> None:
+    """STEP, STL, 3MF, GLB and sheets of gears, shafts and rings; nothing of the shafts is left without a judge."""
+    spec = tmp_path / "verified.toml"
+    sizes = "position = 90.0\nd = 30.0\nD = 62.0\nB = 16.0\n"
+    spec.write_text(STEPPED.format(seat=20.0, bore=30.0).replace("position = 90.0\n", sizes), encoding="utf-8")
+    found = Verify(level=VerificationLevel.FILES).run(read_spec(spec))
+    assert not found.failed
+    judged = {claim.where for claim in found.claims if claim.passed}
+    assert {"pinion-shaft.step", "wheel-shaft.stl", "drawing-pinion-shaft.dxf"} <= judged
+    assert any("wheel bearing 2" in where for where in judged)
