@@ -199,6 +199,8 @@ def factor_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> di
         for group, (title, before, after) in _GROUPS.items()
     }
     written, details = symbols.LOAD_FACTOR_DETAILS, document["load_factors"] or {}
+    if "K_Hbeta_end_of_face" in details:  # f_sh is that of the shafts, not of Method C
+        written = written | {"f_sh": written["f_sh"]._replace(source=written["K_Hbeta_end_of_face"].source)}
     behind = [Quantity(f"load_factors.{key}", written[key], value) for key, value in details.items() if key in written]
     first, *others = found.items()
     return {title: of for title, of in (first, (_BEHIND, behind), *others) if of}
