@@ -95,6 +95,11 @@ class DrawTrain(Job[TrainDesign, TrainDrawn]):
 
 def job_for(job: Job[Any, Result], design: Design) -> Job[Any, Result]:
     """Return the job for a design: of a train of pairs the one that does the same with it and with each of its meshes."""
-    if isinstance(job, Draw) and design.kind is DesignKind.TRAIN and has_pairs(cast("TrainDesign", design)):
-        return cast("Job[Any, Result]", DrawTrain(job=job))
+    if design.kind is DesignKind.TRAIN and has_pairs(cast("TrainDesign", design)):
+        if isinstance(job, Draw):
+            return cast("Job[Any, Result]", DrawTrain(job=job))
+        if job.verb == "verify":
+            from gearcad.jobs.train_verification import VerifyTrain  # with all that judges
+
+            return cast("Job[Any, Result]", VerifyTrain(job=cast("Any", job)))
     return suited_to_train(job, design)

@@ -104,8 +104,8 @@ class Verify(Job[ToothedDesign, Verification]):
             claims=tuple(claims),
             contents=contents,
             spec=Data().document(design),
-            judges=_versions(claims),
-            strength=_strength(claims),
+            judges=versions_of(claims),
+            strength=strength_of(claims),
             notices=design.notices,
             heading=heading(design.drawing or DrawingOptions()),
             pictured=_pictured(design),
@@ -402,7 +402,7 @@ def _of_strength(design: ToothedDesign) -> Iterator[Claim]:
         yield from judge_rating(Rate(report=False).run(design), design.name)
 
 
-def _strength(claims: Sequence[Claim]) -> bool | None:
+def strength_of(claims: Sequence[Claim]) -> bool | None:
     """The verdict on strength: of the rating's claims, None where not all were judged and none failed."""
     verdicts = [claim.passed for claim in claims if claim.subject is About.STRENGTH]
     if False in verdicts:
@@ -414,7 +414,7 @@ _JUDGES = {"Open CASCADE": "cadquery-ocp", "trimesh": "trimesh", "ezdxf": "ezdxf
 """Programs that judge, and the distributions that they come from."""
 
 
-def _versions(claims: Sequence[Claim]) -> dict[str, str]:
+def versions_of(claims: Sequence[Claim]) -> dict[str, str]:
     """Versions of the programs that judge, by their names; of CalculiX if it has judged one of the claims."""
     found = {}
     for name, distribution in _JUDGES.items():

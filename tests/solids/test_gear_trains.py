@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.commands import read_json
 
 from gearcad import Gear, GearPair
 from gearcad.core.errors import GeometryError, ParameterError
@@ -17,6 +18,8 @@ from gearcad.designs.reader import starter_text
 from gearcad.geometry import Body
 from gearcad.jobs.build import Build
 from gearcad.jobs.train_bodies import gear_train_plan, suited_to_train
+from gearcad.jobs.train_sheets import job_for
+from gearcad.jobs.verification import Verify
 from gearcad.shafts.beam import ShaftSegment, SteppedShaft
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.gear_train_products import GearTrainProduct
@@ -172,3 +175,20 @@ def test_a_mesh_without_a_pair_is_refused(tmp_path: Path) -> None:
     design = starter(tmp_path, "train-2-stage")
     with pytest.raises(ParameterError, match="must be given, the spec of a pair"):
         gear_train_plan(replace(design))
+
+
+@pytest.mark.long
+def test_files_of_a_train_are_verified(tmp_path: Path) -> None:
+    """STEP by Open CASCADE, facets by trimesh, places by exact outlines; claims of pairs in the folders of their meshes."""
+    design = starter(tmp_path)
+    job = job_for(Verify(), design)
+    result = job.run(design)
+    assert not result.failed and result.passed
+    of_all = [claim for claim in result.claims if claim.where.startswith("assembly")]
+    backlash = [claim.where for claim in of_all if claim.quantity == "circumferential backlash"]
+    assert len(backlash) == 6 and sum("wheel 2" in where for where in backlash) == 3
+    files = {file.relative_to(tmp_path / "out").as_posix() for file in job.write(result, tmp_path / "out")}
+    assert {"verify.json", "assembly.step", "stage 1/verify.json", "stage 2/verify.pdf", "stage 2/wheel.stl"} <= files
+    document = read_json(tmp_path / "out" / "verify.json")
+    own = [read_json(tmp_path / "out" / f"stage {n}" / "verify.json")["counts"]["passed"] for n in (1, 2)]
+    assert document["counts"]["passed"] == len([claim for claim in of_all if claim.passed]) + sum(own)
