@@ -19,10 +19,11 @@ if TYPE_CHECKING:
 @click.command(short_help="Deflection, reactions and bearing life of SPEC's shafts.")
 @spec_argument
 @output_option
+@click.option("--no-report", is_flag=True, help="Without shafts.html, whose pictures take most of the time.")
 @json_option
 @quiet_option
 @debug_option
-def shafts(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
+def shafts(spec: Path, output: Path | None, no_report: bool, as_json: bool, quiet: bool) -> None:
     """Show how the shafts of SPEC bend under their loads: reactions, deflection, stresses, bearing life, critical speeds.
 
     SPEC has [[shaft]] segments, [[bearing]] and [[force]] of one shaft, or a pair with [[pinion.shaft]], [[pinion.bearing]] and
@@ -31,7 +32,7 @@ def shafts(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
     """
     from gearcad.jobs.shafts import Shafts
 
-    perform(Shafts(), spec, output, _show, as_json=as_json, quiet=quiet)
+    perform(Shafts(report=not no_report), spec, output, _show, as_json=as_json, quiet=quiet)
 
 
 def _show(_name: str, result: ArrangementResult) -> None:

@@ -347,8 +347,9 @@ class ArrangementResult:
             f"{name}: {life.name}: {why}" for name, shaft in self.shafts.items() for life in shaft.lives for why in life.reasons
         ]
         shoulders = [(name, each) for name, shaft in self.shafts.items() for each in shaft.shoulders]
-        unjudged = [(name, each) for name, each in shoulders if each.reason]
-        found += [f"{name}: shoulder at {each.position:g} mm (DIN 743): {each.reason}" for name, each in unjudged]
+        for name, why in dict.fromkeys((name, each.reason) for name, each in shoulders if each.reason):
+            places = ", ".join(f"{each.position:g}" for own, each in shoulders if (own, each.reason) == (name, why))
+            found.append(f"{name}: shoulders at {places} mm (DIN 743): {why}")
         return [*found, "strength of the shafts at keys, grooves, press fits and splines (DIN 743)"]
 
     @property
