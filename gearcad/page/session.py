@@ -193,7 +193,7 @@ class Session:
                     right.on("drawing", lambda: following.look(drawing))
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
-        following.begin((section, tools, roll, bodies, sheet, strength, flanks, limits, shares, compare, drawing))
+        following.begin((section, tools, roll, sheet, bodies, strength, flanks, limits, shares, compare, drawing))
         self.open.add(self)
         ui.context.client.on_delete(self.leave)
         self.follow()
