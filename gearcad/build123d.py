@@ -3,10 +3,11 @@
 >>> from gearcad import Gear, GearPair, build123d
 >>> pinion = Gear(teeth=20, normal_module=2, face_width=20)
 >>> part = build123d.gear(pinion)  # doctest: +SKIP
->>> small, large = build123d.pair(GearPair(pinion=pinion, wheel=Gear(teeth=41, normal_module=2, face_width=18)))  # doctest: +SKIP
+>>> wheel = Gear(teeth=41, normal_module=2, face_width=18)
+>>> small, large = build123d.pair(GearPair(pinion=pinion, wheel=wheel))  # doctest: +SKIP
 
-The package build123d is not one of gearcad's requirements: `pip install build123d`. CadQuery shares its kernel, so that nothing is
-converted.
+The package build123d is not one of gearcad's requirements: `pip install "build123d<0.13"`. CadQuery shares its kernel, so that
+nothing is converted.
 """
 
 from __future__ import annotations
