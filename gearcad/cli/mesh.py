@@ -34,7 +34,7 @@ _FORMATS = f"Comma-separated list of {', '.join(kind.value for kind in MeshForma
 @click.option("--fillet-elements", type=int, metavar="N", help="About so many over 30° of a fillet.  [default: 4]")
 @click.option("--refined-teeth", metavar="LIST", help="Numbers of teeth that have finer tetrahedra: 0,1.")
 @click.option("--roll", type=float, metavar="DEG", help="Where a pair stands in mesh, 0 at the pitch point.")
-@click.option("--deck", metavar="LIST", help="For CalculiX: pair, tooth, or both.  [default: none]")
+@click.option("--deck", metavar="LIST", help="For CalculiX: pair, tooth, shafts.  [default: none]")
 @click.option("--positions", type=int, metavar="N", help="Decks over one base pitch.  [default: 1]")
 @click.option("--format", metavar="LIST", help=_FORMATS)
 @json_option
@@ -53,7 +53,8 @@ def mesh(spec: Path, output: Path | None, as_json: bool, quiet: bool, **options:
     Writes a file for each gear, or one for the pair, in each format, and mesh.json, which says how good the elements are and
     how far they are from the exact gear. Exit status 1 if that is too bad. The flanks of a pair are fine where its [load]
     presses them. --deck pair adds *_deck.inp, the loaded pair in mesh as CalculiX runs it, --deck tooth each gear under the
-    contact loads that our own check finds, whose figures are in mesh.json. [mesh] in SPEC holds the same options.
+    contact loads that our own check finds, whose figures are in mesh.json, --deck shafts the pair as whole rings on its shafts.
+    [mesh] in SPEC holds the same options.
     """
     from gearcad.jobs.mesh import Mesh
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from gearcad.core.records import Floats, PerGear, Role, Wholes
 from gearcad.material import Material
 from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.files import element_type, write_elements, write_node_set, write_nodes, write_surface
+
+if TYPE_CHECKING:
+    from gearcad.decks.shafts import DeckShaft
 
 REFERENCE = "reference"
 """The node that carries the torque: its first degree of freedom is the angle (rad) by which the pinion turns."""
@@ -39,12 +42,14 @@ class Flanks:
     """Sides of the joined mesh that may touch, as the names of `sides`.
 
     CalculiX presses along the normals of the master surface. So the flank whose edge touches is the slave: the wheel's where
-    `wheel_tip` says that the edge of its tip touches, otherwise the pinion's.
+    `wheel_tip` says that the edge of its tip touches, otherwise the pinion's. `parts` are the sides of which the slave surface
+    is made, if the force of each is wanted.
     """
 
     pinion: str
     wheel: str
     wheel_tip: bool = False
+    parts: tuple[str, ...] = ()
 
     @property
     def slave(self) -> str:
@@ -56,6 +61,11 @@ class Flanks:
         """Name of the master surface."""
         return self.pinion if self.wheel_tip else self.wheel
 
+    @property
+    def slaves(self) -> tuple[str, ...]:
+        """Names of the slave surface, or of its parts."""
+        return self.parts or (self.slave,)
+
 
 @dataclass(frozen=True, kw_only=True)
 class LoadedPairDeck:
@@ -64,7 +74,7 @@ class LoadedPairDeck:
     `mesh` has both gears, posed; `held` are the nodes of each that its hub holds: those of the wheel stand, those of the
     pinion turn about the z axis by the turn of a node of reference, on which the `torque` (N·m) is. `flanks` may touch, with
     pressures of `contact_stiffness` (MPa/mm) times their overlap. `width` (mm) is the thickness of sections, None for solids.
-    `words` stand in the deck as comments.
+    `words` stand in the deck as comments. Gears with one of the `shafts` are held by it.
     """
 
     mesh: ElementMesh
@@ -75,6 +85,7 @@ class LoadedPairDeck:
     contact_stiffness: float
     words: Sequence[str] = ()
     width: float | None = None
+    shafts: Mapping[Role, DeckShaft] = field(default_factory=dict)
 
     @property
     def reference(self) -> int:
@@ -87,10 +98,18 @@ class LoadedPairDeck:
             write_heading(file, self.words)
             write_nodes(file, self.mesh.points)
             write_reference(file, self.reference)
+            for shaft in self.shafts.values():
+                shaft.write_nodes(file)
             write_elements(file, self.mesh, element_type(self.mesh.element))
             self._write_sets(file)
+            element = len(self.mesh.cells) + 1
+            for shaft in self.shafts.values():
+                element = shaft.write_springs(file, element)
             write_material(file, self.material, self.mesh.parts, self.width)
-            write_turned(file, self.held.pinion, self.mesh.points, self.reference)
+            for shaft in self.shafts.values():
+                shaft.write_equations(file, self.mesh.points)
+            if Role.PINION not in self.shafts:
+                write_turned(file, self.held.pinion, self.mesh.points, self.reference)
             write_contact(file, self.flanks, self.contact_stiffness)
             self._write_supports(file)
             self._write_step(file)
@@ -102,12 +121,14 @@ class LoadedPairDeck:
     def _write_sets(self, file: TextIO) -> None:
         for role, nodes in self.held.items():
             write_held(file, role, nodes)
-        for name in dict.fromkeys(name for each in self.flanks for name in (each.pinion, each.wheel)):
+        for name in dict.fromkeys(name for each in self.flanks for name in (*each.slaves, each.master)):
             write_surface(file, name, self.mesh.sides[name])
 
     def _write_supports(self, file: TextIO) -> None:
-        file.write(f"*BOUNDARY\n{HELD.format(Role.WHEEL.value)}, 1, {3 if self._solid else 2}\n")
-        if self._solid:
+        file.write("*BOUNDARY\n")
+        if Role.WHEEL not in self.shafts:
+            file.write(f"{HELD.format(Role.WHEEL.value)}, 1, {3 if self._solid else 2}\n")
+        if self._solid and Role.PINION not in self.shafts:
             file.write(f"{HELD.format(Role.PINION.value)}, 3\n")
         file.write(f"{REFERENCE}, 2, 3\n")
 
@@ -116,12 +137,16 @@ class LoadedPairDeck:
         # own for the last 5 % of the load moves transmission errors by 0.06 to 0.13 %, shares by 0.11 to 0.16 % of the load
         # and root stresses by 0.07 to 0.22 % (FZG C, measured).
         file.write("*STEP, INC=100\n*STATIC\n1., 1., 1.e-5, 1.\n")
+        for shaft in self.shafts.values():
+            shaft.write_supports(file)
         file.write(f"*CLOAD\n{REFERENCE}, 1, {number(self.torque * 1000)}\n")
+        for shaft in self.shafts.values():
+            shaft.write_loads(file)
         file.write("*NODE FILE, NSET=nodes\nU\n*EL FILE\nS\n*CONTACT FILE\nCDIS, CSTR\n")
         file.write(f"*NODE PRINT, NSET={REFERENCE}\nU\n")
         file.write(f"*NODE PRINT, NSET={HELD.format(Role.WHEEL.value)}, TOTALS=ONLY\nRF\n")
         for each in self.flanks:
-            file.write(f"*CONTACT PRINT, SLAVE={each.slave}, MASTER={each.master}\nCF\n")
+            file.writelines(f"*CONTACT PRINT, SLAVE={slave}, MASTER={each.master}\nCF\n" for slave in each.slaves)
         file.write("*CONTACT PRINT\nCSTR\n*END STEP\n")
 
 
@@ -180,7 +205,8 @@ def write_contact(file: TextIO, flanks: Iterable[Flanks], stiffness: float) -> N
     file.write(f"*SURFACE INTERACTION, NAME={_INTERACTION}\n")
     file.write(f"*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{number(stiffness)}\n")
     for each in flanks:
-        file.write(f"*CONTACT PAIR, INTERACTION={_INTERACTION}, TYPE=SURFACE TO SURFACE\n{each.slave}, {each.master}\n")
+        pair = f"*CONTACT PAIR, INTERACTION={_INTERACTION}, TYPE=SURFACE TO SURFACE\n"
+        file.writelines(f"{pair}{slave}, {each.master}\n" for slave in each.slaves)
 
 
 _COLUMN = 12

@@ -15,7 +15,7 @@ from gearcad.check.task import CheckTask
 from gearcad.contact.shared.bodies import Cuts, Hold
 from gearcad.contact.shared.loaded import Cycle, LoadedPosition, PairContact
 from gearcad.core.errors import GeometryError, ParameterError, format_number
-from gearcad.core.records import Floats, PerGear, Role, Wholes
+from gearcad.core.records import Floats, JsonObject, PerGear, Role, Wholes
 from gearcad.decks.calculix import (
     HELD,
     Flanks,
@@ -26,6 +26,7 @@ from gearcad.decks.calculix import (
     write_held,
     write_material,
 )
+from gearcad.decks.shafts import DeckShaft
 from gearcad.geometry import GearPair
 from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.bodies.body_mesh import posed, poses
@@ -47,6 +48,13 @@ iteration. The transmission error is that and the angle times the base radius, {
 
 gearcad's own check of the same gears: transmission error {transmission_error:.5g} um, angle {reference_turn:.6e} rad,
 greatest tension along the fillets, pinion {root_pinion:.5g} MPa, wheel {root_wheel:.5g} MPa."""
+
+_ON_SHAFTS = """\
+
+Gears on shafts are not held: the nodes of a bore move with the section of the shaft at their height. The sets NAME_shaft have
+two nodes for each station of a shaft, the first with its displacement, the second with its turn (rad) in three degrees of
+freedom; beams and bearings are springs between them and to the ground. The node "reference" turns with the coupling of the
+pinion's shaft, the coupling of the wheel's is held. Each layer of elements of a flank is a surface with its own force."""
 
 _TOOTH = """\
 The {gear} under the loads that gearcad's own check has found on its flanks at the roll angle {roll_angle:.6g} deg,
@@ -203,26 +211,43 @@ class PairDecks(ABC):
         pinion, wheel = (self.side(role, self.tooth(role, tooth), "flank") for role in Role)
         return Flanks(pinion, wheel, wheel_tip)
 
+    def divided(self, mesh: ElementMesh, flanks: list[Flanks]) -> tuple[ElementMesh, list[Flanks]]:
+        """Return mesh and flanks with the parts of which the slave surfaces are made, where forces are wanted part by part."""
+        return mesh, flanks
+
+    def over_face(self, _position: LoadedPosition[PairContact]) -> JsonObject:
+        """Return our own figures of the load over the face, where a deck tells it part by part."""
+        return {}
+
+    def shafts(self, _mesh: ElementMesh) -> dict[Role, DeckShaft]:
+        """Return the shafts that hold the gears of a posed mesh; gears without one are held rigidly."""
+        return {}
+
     def at(self, roll_angle: float) -> PairDeck:
         """Return the pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
         position = self.cycle.solve(roll_angle)
-        approach = position.rigid_approach + self.begun * (position.approach - position.rigid_approach)
+        elastic = position.approach - position.rigid_approach - position.support_approach
+        approach = position.rigid_approach + self.begun * elastic
         zones = PerGear(*(self.zones(roll_angle, role) for role in Role))  # what they refuse is neither gear's own
         meshes = PerGear.each(lambda role: self.mesh(role, zones.pick(role)))
         mesh = posed(self.pair, meshes, roll_angle, approach, left=self.left)
         edge = min(zone.edge for each in zones for zone in each.values())
         tips = {contact.tooth for contact in position.contacts if contact.arms.wheel != 1}
+        flanks = [self.flanks(tooth, wheel_tip=tooth in tips) for tooth in self.teeth_near(roll_angle)]
+        mesh, flanks = self.divided(mesh, flanks)
         deck = LoadedPairDeck(
             mesh=mesh,
             held=PerGear.each(lambda role: held_nodes(mesh, f"{role.value}_")),
             material=self.task.materials.pinion,
             torque=self.task.torque,
-            flanks=[self.flanks(tooth, wheel_tip=tooth in tips) for tooth in self.teeth_near(roll_angle)],
+            flanks=flanks,
             contact_stiffness=_STIFFNESS * self.task.materials.pinion.youngs_modulus / edge,
             width=self.width,
+            shafts=self.shafts(mesh),
         )
         made = PairDeck(self, deck, position, approach)
         words = pair_words(made.expected, distance=self.pair.centre_distance, base_radius=self.pair.pinion.base_diameter / 2)
+        words += _ON_SHAFTS.splitlines() if deck.shafts else []
         return replace(made, deck=replace(deck, words=words))
 
 
@@ -253,7 +278,7 @@ class PairDeck:
             "torque": self.deck.torque,
             "body": self.decks.task.body.describe(pair),
             "approach_in_mesh": self.approach * 1000,
-            "transmission_error": of.transmission_error,
+            "transmission_error": of.approach * 1000,
             "reference_turn": math.copysign(turn, self.deck.torque),
             "normal_force": of.force * pair.common_width.width / math.cos(math.radians(pair.pinion.base_helix_angle)),
             "pairs": [
@@ -266,6 +291,7 @@ class PairDeck:
                 for contact, flanks in ((each, self.decks.flanks(each.tooth)) for each in of.contacts)
             ],
             "root_stress": {role.value: root.stress for role, root in of.tension.items()},
+            **self.decks.over_face(of),
         }
 
     def write(self, path: Path) -> None:
@@ -276,22 +302,24 @@ class PairDeck:
         """Return the figures to compare as CalculiX has left them in the files of a job, named without suffix. Raises
         SolverError.
         """
-        mesh, flanks = self.deck.mesh, {each.slave: each for each in self.deck.flanks}
-        printed = printed_contact(job.with_name(f"{job.name}.dat"), mesh, flanks)
+        mesh, every = self.deck.mesh, self.deck.flanks
+        printed = printed_contact(job.with_name(f"{job.name}.dat"), mesh, [slave for each in every for slave in each.slaves])
+        forces = [math.fsum(printed.forces[slave] for slave in each.slaves) for each in every]
+        total = math.fsum(forces)
         moved = displacements(job.with_name(f"{job.name}.frd"), len(mesh.points))
         turn = math.copysign(printed.turn, printed.turn * self.deck.torque)
         return {
             "transmission_error": (turn * self._base_radius + self.approach) * 1000,
             "reference_turn": printed.turn,
-            "normal_force": math.fsum(printed.forces.values()),
+            "normal_force": total,
             "pairs": [
                 {
-                    "pinion": flanks[name].pinion,
-                    "wheel": flanks[name].wheel,
-                    "load_share": printed.shares[name],
-                    "contact_pressure": printed.pressures[name],
+                    "pinion": each.pinion,
+                    "wheel": each.wheel,
+                    "load_share": force / total,
+                    "contact_pressure": max(printed.pressures[slave] for slave in each.slaves),
                 }
-                for name, force in printed.forces.items()
+                for each, force in zip(every, forces, strict=True)
                 if force
             ],
             "root_stress": {role.value: self._root_tension(role, moved) for role in Role},

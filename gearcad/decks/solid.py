@@ -6,26 +6,29 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar, TextIO
+from itertools import pairwise
+from pathlib import Path
+from typing import ClassVar, TextIO, cast
 
 import numpy as np
 
 from gearcad.check.options import Model
 from gearcad.check.run import solid_model
 from gearcad.check.task import CheckTask
-from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, roll_lengths
+from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, LoadedPosition, PairContact, roll_lengths
 from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact
 from gearcad.contact.solid.flank import Places
 from gearcad.contact.solid.pair import teeth_moved
 from gearcad.core.errors import ParameterError
-from gearcad.core.records import Floats, Role, Wholes
-from gearcad.decks.calculix import number
-from gearcad.decks.pair import PairDecks, ToothDeck
+from gearcad.core.records import Bools, Floats, JsonObject, Role, Wholes
+from gearcad.decks.calculix import Flanks, number, printed_contact
+from gearcad.decks.pair import PairDeck, PairDecks, ToothDeck, held_nodes
+from gearcad.decks.shafts import DeckShaft, with_bare_section
 from gearcad.geometry.gear_data import twist
 from gearcad.material import Material
 from gearcad.meshing.bodies import Element, ElementMesh
 from gearcad.meshing.bodies.body_mesh import mesh_body
-from gearcad.meshing.bodies.element_mesh import joined, rises
+from gearcad.meshing.bodies.element_mesh import Faces, joined, rises
 from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.fem import quadrature, shape_slopes, shape_values
 from gearcad.meshing.outline import MeshSizes
@@ -114,12 +117,22 @@ body; a deck has tooth 0 there. With 5 teeth that changes the approach by up to 
 
 
 def solid_task(task: CheckTask) -> CheckTask:
-    """Return the task with solid bodies.
+    """Return the task with solid bodies on rigid shafts.
 
     Where it asks for rings, they have so few teeth that CalculiX has done within minutes.
     """
     teeth = task.options.body_teeth or max(_FEWEST_TEETH, 2 * teeth_moved(task.pair) + 1)
-    return replace(task, options=replace(task.options, model=Model.SOLID.value, body_teeth=teeth))
+    return replace(task, shafts=None, options=replace(task.options, model=Model.SOLID.value, body_teeth=teeth))
+
+
+def shaft_task(task: CheckTask) -> CheckTask:
+    """Return the task with solid bodies on the shafts of the pair. The bodies are whole rings, as they bend with their shafts.
+
+    Raises ParameterError for a pair without shafts.
+    """
+    if task.shafts is None:
+        raise ParameterError("mesh.deck", "shafts", "must be pair or tooth: a shaft is described of neither gear")
+    return replace(task, options=replace(task.options, model=Model.SOLID.value, body_teeth=0))
 
 
 @dataclass(frozen=True)
@@ -190,6 +203,87 @@ class SolidDecks(PairDecks):
         planes[[0, -1]] = 0.0, gear.face_width
         return planes
 
+    def divided(self, mesh: ElementMesh, flanks: list[Flanks]) -> tuple[ElementMesh, list[Flanks]]:
+        """Return mesh and flanks; of a pair on its shafts each layer of elements of a slave surface is a part of it."""
+        if self.task.on_shafts is None:
+            return mesh, flanks
+        sides, found = dict(mesh.sides), list[Flanks]()
+        for each in flanks:
+            names = []
+            for layer, inside in enumerate(self._layers_of(mesh, each.slave)):
+                name, faces = f"{each.slave}_layer_{layer}", mesh.sides[each.slave]
+                sides[name] = Faces(faces.elements[inside], faces.sides[inside])
+                names.append(name)
+            found.append(replace(each, parts=tuple(names)))
+        return replace(mesh, sides=sides), found
+
+    def _layers_of(self, mesh: ElementMesh, side: str) -> list[Bools]:
+        """Return which faces (n,) of a flank are in each layer of the common face width, the lowest first."""
+        edges = self.station_edges + self.pair.pinion.face_width / 2 + self.pair.common_width.offset
+        heights = mesh.points[mesh.face_cells(side)[:, :4], 2].mean(axis=1)
+        return [(heights > low) & (heights < high) for low, high in pairwise(edges.tolist())]
+
+    @cached_property
+    def station_edges(self) -> Floats:
+        """Heights (n,) in mm from the middle of the common face width between which line loads are told."""
+        low, high = self.cycle.model.common_heights(Role.PINION)
+        planes = self.planes(Role.PINION)
+        inside = planes[(planes > low - _SAME) & (planes < high + _SAME)]
+        return np.asarray(inside - (low + high) / 2, float)
+
+    def over_face(self, position: LoadedPosition[PairContact]) -> JsonObject:
+        if self.task.on_shafts is None:
+            return {}
+        return {"station_edges": self.station_edges.tolist(), "line_load": self.line_loads(position).tolist()}
+
+    def line_loads(self, position: LoadedPosition[PairContact]) -> Floats:
+        """Return our own loads (n,) between the station edges in N/mm: transverse, of all pairs of teeth."""
+        width, cells = self.cycle.model.width, self.cycle.model.cells
+        total = np.zeros(cells)
+        for contact in cast("Sequence[SolidPairContact]", position.contacts):
+            np.add.at(total, np.floor(contact.line.across / (width / cells) + cells / 2).astype(int), contact.forces)
+        so_far = np.interp(self.station_edges, np.linspace(-width / 2, width / 2, cells + 1), np.r_[0.0, np.cumsum(total)])
+        return np.asarray(np.diff(so_far) * math.cos(self.cycle.model.helix) / np.diff(self.station_edges), float)
+
+    def found_line_loads(self, deck: PairDeck, job: Path) -> Floats:
+        """Return the same (n,) in N/mm as CalculiX has left it in the files of a job, named without suffix. Raises
+        SolverError.
+        """
+        flanks = deck.deck.flanks
+        names = [slave for each in flanks for slave in each.slaves]
+        printed = printed_contact(job.with_name(f"{job.name}.dat"), deck.deck.mesh, names)
+        forces = np.sum([[printed.forces[slave] for slave in each.slaves] for each in flanks], axis=0)
+        return np.asarray(forces * math.cos(self.cycle.model.helix) / np.diff(self.station_edges), float)
+
+    def shafts(self, mesh: ElementMesh) -> dict[Role, DeckShaft]:
+        """Return the shafts that hold the gears of a posed mesh."""
+        on, found = self.task.on_shafts, dict[Role, DeckShaft]()
+        if on is None:
+            return found
+        first, reference = len(mesh.points) + 2, len(mesh.points) + 1
+        middle = self.pair.pinion.face_width / 2 + self.pair.common_width.offset
+        radii = self.task.body.inner_radii(self.pair)
+        for role in Role:
+            shaft = on.shafts.pick(role)
+            if shaft is None:
+                continue
+            held = held_nodes(mesh, f"{role.value}_")
+            start = middle - on.positions.pick(role)
+            heights = _distinct(mesh.points[held, 2]) - start
+            beam = with_bare_section(shaft, float(heights[0]), float(heights[-1]), 2 * radii.pick(role), heights)
+            found[role] = DeckShaft(
+                name=role.value,
+                beam=beam,
+                x=self.pair.centre_distance if role is Role.WHEEL else 0.0,
+                start=start,
+                turn=-math.radians(on.mesh_angle),
+                first=first,
+                held=held,
+                driver=reference if role is Role.PINION else None,
+            )
+            first += found[role].count
+        return found
+
     def mesh(self, role: Role, zones: Mapping[int, ContactRefinement]) -> ElementMesh:
         body, gear = self.task.body, self.pair.gears.pick(role)
         return mesh_body(
@@ -208,6 +302,16 @@ class SolidDecks(PairDecks):
         upward, around = -1 if gear.internal else 1, turn + 2 * math.pi * tooth / gear.tooth_count
         fillet = FilletFace(mesh, self.side(role, tooth, "fillet"), around, twist(gear), upward)
         return root_tension(fillet, moved, self.task.materials.pick(role))
+
+
+_SAME = 1e-6
+"""Distance (mm) below which two heights are one."""
+
+
+def _distinct(heights: Floats) -> Floats:
+    """Return heights (n,) in order, each once."""
+    ordered = np.sort(heights)
+    return np.asarray(ordered[np.r_[True, np.diff(ordered) > _SAME]], float)
 
 
 def _beyond(low: float, high: float, thickness: float) -> Floats:

@@ -14,7 +14,7 @@ from gearcad.core.records import JsonObject, Notice, PerGear, Role
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.decks.pair import PairDecks
 from gearcad.decks.plane import PlaneDecks, plane_tooth_deck
-from gearcad.decks.solid import SolidDecks, solid_task, solid_tooth_deck
+from gearcad.decks.solid import SolidDecks, shaft_task, solid_task, solid_tooth_deck
 from gearcad.designs import Design, DesignKind, GearedDesign, Inputs, PairDesign, SplineDesign
 from gearcad.geometry import Gear, GearPair
 from gearcad.jobs.job import Job, Writer, as_design
@@ -72,7 +72,12 @@ def make_decks(design: PairDesign, plan: MeshPlan, progress: Progress | None) ->
     """
     if not plan.options.decks:
         return {}
-    makers = dict(_makers(plan.options, *_decks(design, plan)))
+    makers = dict[str, Callable[[], Deck]]()
+    if set(plan.options.decks) - {DeckKind.SHAFTS}:
+        makers |= dict(_makers(plan.options, *_decks(design, plan)))
+    if DeckKind.SHAFTS in plan.options.decks:
+        on_shafts = SolidDecks(shaft_task(_task(design, Model.SOLID)))
+        makers |= {f"shafts_deck{place}.inp": partial(on_shafts.at, angle) for place, angle in _places(plan.options, on_shafts)}
     agenda = Agenda(progress, dict.fromkeys(makers, 1.0))
     made: dict[str, Deck] = {}
     for name, make in makers.items():
@@ -96,14 +101,19 @@ def _makers(
     """Yield the names of files, and what makes their decks: at the roll angle of the options, or at so many over one base
     pitch.
     """
-    count, pitch = options.positions, 360 / decks.pair.pinion.teeth
-    for number in range(count):
-        place = "" if count == 1 else f"_{number + 1:0{len(str(count))}}"
-        angle = options.roll + pitch * ((number + 0.5) / count - 0.5)
+    for place, angle in _places(options, decks):
         if DeckKind.PAIR in options.decks:
             yield f"pair_deck{place}.inp", partial(decks.at, angle)
         if DeckKind.TOOTH in options.decks:
             yield from ((f"{role.value}_deck{place}.inp", partial(tooth, angle, role)) for role in Role)
+
+
+def _places(options: MeshOptions, decks: PairDecks) -> Iterator[tuple[str, float]]:
+    """Yield the ends of the names of files, and roll angles (deg)."""
+    count, pitch = options.positions, 360 / decks.pair.pinion.teeth
+    for number in range(count):
+        place = "" if count == 1 else f"_{number + 1:0{len(str(count))}}"
+        yield place, options.roll + pitch * ((number + 0.5) / count - 0.5)
 
 
 def _task(design: PairDesign, model: Model) -> CheckTask:

@@ -149,6 +149,9 @@ class DeckKind(Enum):
     TOOTH = "tooth"
     """Each gear under the contact loads that our own check finds."""
 
+    SHAFTS = "shafts"
+    """Both gears in mesh as whole rings on their shafts: beams and bearings as springs. Solid bodies only."""
+
 
 class Extent(NamedTuple):
     """Extent of a mesh: `teeth` of each gear, None for all of them."""
@@ -177,8 +180,8 @@ class MeshOptions:
     (both None: as root stress asks for); about `fillet_elements` of them over 30 degrees of a fillet (None: 4, of tetrahedra
     1). `refined_teeth`, numbers with commas between them, have finer tetrahedra. `roll` (deg, of the pinion) is where a pair
     stands in mesh, 0 at the pitch point. `format` names the formats of the files, with commas between them. `deck` names what
-    is added as input of CalculiX, "pair" (it under its load) and "tooth" (each gear under the contact loads of our own check),
-    at `positions` evenly over one base pitch around `roll`.
+    is added as input of CalculiX, "pair" (it under its load), "tooth" (each gear under the contact loads of our own check) and
+    "shafts" (the pair as whole rings on its shafts), at `positions` evenly over one base pitch around `roll`.
     """
 
     what: Annotated[str, Words("what is meshed: sector, teeth:N, ring, pair, pair:N or part")] = AUTO
@@ -190,7 +193,7 @@ class MeshOptions:
     fillet_elements: Annotated[int | None, Whole(1, 100), Words("elements over 30° of a fillet, about")] = None
     refined_teeth: Annotated[str, Words("teeth with finer tetrahedra, by their numbers")] = ""
     format: Annotated[str, Words("formats of the files, with commas between them")] = "vtu,msh"
-    deck: Annotated[str, Words("decks that CalculiX runs: pair, tooth, or both with a comma between them")] = ""
+    deck: Annotated[str, Words("decks that CalculiX runs: pair, tooth, shafts, with commas between them")] = ""
     positions: Annotated[int, Whole(1, 200), Words("decks over one base pitch")] = 1
     roll: Annotated[float, Range("deg", 0.0, 360.0, signed=True), Words("roll angle of the pinion in mesh")] = 0.0
 
