@@ -62,10 +62,15 @@ def loads_of(meshes: Iterable[TrainMesh]) -> dict[str, Load]:
 
 def shafts_of_train(design: TrainDesign) -> ShaftArrangement | None:
     """Return the shafts of a train with segments and bearings under the forces of their gears; None without any."""
-    if not any(gears_of(shaft) or shaft.layout for shaft in design.train.shafts):
+    if not has_shafts(design):
         return None
     loads = loads_of(train_meshes(design).meshes) if has_pairs(design) else {}
     return train_arrangement(design.name, design.train, loads, design.shafts)
+
+
+def has_shafts(design: TrainDesign) -> bool:
+    """Return whether a shaft of a train has segments or gears at places."""
+    return any(gears_of(shaft) or shaft.layout for shaft in design.train.shafts)
 
 
 def has_pairs(design: TrainDesign) -> bool:

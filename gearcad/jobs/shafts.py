@@ -131,7 +131,7 @@ def shaft_columns(document: Mapping[str, Any]) -> JsonObject:
         },
         "critical_speed": min(speeds, default=None),
         **{key: mesh[name] for key, name in (("f_sh", "f_sh"), ("K_Hbeta", "K_Hbeta_end_of_face")) if name in mesh},
-        "warnings": document["warnings"],
+        "warnings": document.get("warnings", []),
     }
 
 

@@ -29,6 +29,7 @@ from gearcad.designs.keys import DesignKind
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
 from gearcad.designs.reader import design_from_tables
+from gearcad.designs.train_designs import TrainDesign
 from gearcad.jobs.job import Job
 from gearcad.solids import Format
 
@@ -98,6 +99,10 @@ def _shafts() -> Job[Any, Any]:
 
 
 def _has_shafts(design: Design) -> bool:
+    if isinstance(design, TrainDesign):
+        from gearcad.designs.train_meshes import has_shafts
+
+        return has_shafts(design)
     return not isinstance(design, PairDesign) or design.shafts is not None
 
 

@@ -260,6 +260,7 @@ COMMANDS = {
     "stiffness": (COMMAND_PAIR, "stiffness"),
     "dynamics": (COMMAND_PAIR, "dynamics"),
     "planetary": (starter_text("planetary-24-21-66")[1], "planetary"),
+    "shafts": (starter_text("two-stage")[1], "shafts"),
     "verify": (starter_text("fzg-c")[1], "verify"),
     **{each: (RATED, f"build --format {each}") for each in ("step", *FACETED_OR_FLAT)},
     **{f"drawing-{kind.value}": (RATED, f"draw --format {kind.value}") for kind in SheetFormat},
