@@ -254,3 +254,14 @@ def test_a_design_with_shafts_is_checked_on_them() -> None:
     assert changed.on_shafts is not None
     assert changed.on_shafts.pair.centre_distance == pytest.approx(design.pair.centre_distance + 0.05)
     assert replace(design, shafts=None).check_task("", QUICK).supports is None
+
+
+@pytest.mark.long
+def test_finer_bodies_leave_the_face_load_factor_as_it_is() -> None:
+    """Elements a fifth shorter move K_Hbeta on shafts by less than 1 %: 1.2450 and 1.2436 were measured."""
+    supports = mesh(15.0).face.supports()
+    cycles = [
+        run(solid_pair(pair(15.0), Material(), body=BodyModel(teeth=3), sizes=SolidSizes().refined(each)).on(supports))
+        for each in (1.0, 1.25)
+    ]
+    assert cycles[0].face_load_factor == pytest.approx(cycles[1].face_load_factor, rel=1e-2)
