@@ -20,7 +20,7 @@ from gearcad.drawing.sheet_frame import Furniture
 from gearcad.drawing.sheet_template import SheetTemplate
 from gearcad.drawing.views.assembly_figures import BEYOND_AXIS, FrontView, overall_height, overall_width
 from gearcad.drawing.words import Draughting, SheetWords
-from gearcad.solids.gear_train_plan import GearTrainPlan, MeshPlan, StandingGear
+from gearcad.solids.gear_train_plan import GearTrainPlan, StandingGear, TrainMeshPlan
 
 NAME = "arrangement"
 """Name of the sheet, and of its files."""
@@ -155,7 +155,7 @@ def _centre_lines(plan: GearTrainPlan, fronts: list[FrontView], scale: float) ->
             yield centre_line(*ends)
 
 
-def _pitch_point(plan: GearTrainPlan, mesh: MeshPlan) -> Point:
+def _pitch_point(plan: GearTrainPlan, mesh: TrainMeshPlan) -> Point:
     (x, y), radius = plan.axes[mesh.lines.pinion], mesh.pair.working_pitch_diameters.pinion / 2
     angle = math.radians(mesh.angle + (180.0 if mesh.pair.internal else 0.0))
     return x + radius * math.cos(angle), y + radius * math.sin(angle)

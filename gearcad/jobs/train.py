@@ -26,7 +26,7 @@ _LEAST = ("S_H_min", "S_F_min")
 
 
 @dataclass(frozen=True)
-class MeshResult:
+class TrainMeshResult:
     """The result of a job for one mesh of a train, and its document."""
 
     mesh: TrainMesh
@@ -59,7 +59,7 @@ class MeshResults:
 
     verb: str
     name: str
-    meshes: tuple[MeshResult, ...]
+    meshes: tuple[TrainMeshResult, ...]
     without: tuple[str, ...]
     notices: tuple[Notice, ...]
 
@@ -78,7 +78,7 @@ class MeshResults:
         return min(told, key=_WORST_FIRST.index, default=None)
 
     @cached_property
-    def worst(self) -> MeshResult:
+    def worst(self) -> TrainMeshResult:
         """The mesh whose verdict is the worst; of equal ones that with the least safety, else the first."""
         return min(self.meshes, key=_badness)
 
@@ -143,7 +143,7 @@ class MeshResults:
         }
 
 
-def _badness(each: MeshResult) -> tuple[int, int, float]:
+def _badness(each: TrainMeshResult) -> tuple[int, int, float]:
     """Return the order of a mesh, the worst first."""
     strength = len(_WORST_FIRST) if each.strength is None else _WORST_FIRST.index(each.strength)
     safeties = [each.figures[name] for name in _LEAST if isinstance(each.figures.get(name), float)]
@@ -173,7 +173,7 @@ class OverMeshes(Job[TrainDesign, MeshResults]):
         notices = tuple(notice.within(each.mesh.name) for each in results for notice in self.job.notices(each.result))
         return MeshResults(self.job.verb, design.name, tuple(results), found.without, notices)
 
-    def _result(self, mesh: TrainMesh, progress: Progress | None) -> MeshResult:
+    def _result(self, mesh: TrainMesh, progress: Progress | None) -> TrainMeshResult:
         """Return the result for one mesh; the message of an error begins with its name."""
         try:
             result = self.job.run(mesh.design, progress)
@@ -181,7 +181,7 @@ class OverMeshes(Job[TrainDesign, MeshResults]):
             raise error.within(mesh.name) from error
         document = self.job.complete_document(result)
         figures = {key: value for key, value in self.job.figures(document).items() if key not in _NO_FIGURES}
-        return MeshResult(mesh, result, document, figures)
+        return TrainMeshResult(mesh, result, document, figures)
 
     def expected(self, design: Design) -> Expected | None:
         """Return the sum of what the meshes take."""

@@ -19,7 +19,7 @@ from gearcad.jobs.job import Data, Job, Result, Writer
 from gearcad.jobs.train import MeshResults, OverMeshes, suited
 from gearcad.solids import Format
 from gearcad.solids.files.gear_train_products import GearTrainProduct
-from gearcad.solids.gear_train_plan import GearKey, GearTrainPlan, MeshPlan, ShaftPlan
+from gearcad.solids.gear_train_plan import GearKey, GearTrainPlan, ShaftPlan, TrainMeshPlan
 from gearcad.version import __version__
 
 _ALL_PAIRS = "without it the gears have no places"
@@ -34,7 +34,7 @@ def gear_train_plan(design: TrainDesign) -> GearTrainPlan:
     require_pairs(design, _ALL_PAIRS)
     lines = _lines(design.train)
     meshes = tuple(
-        MeshPlan(
+        TrainMeshPlan(
             name=mesh.name,
             pair=mesh_design(mesh).pair,
             gears=mesh.gears,

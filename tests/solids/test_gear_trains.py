@@ -23,7 +23,7 @@ from gearcad.jobs.verification import Verify
 from gearcad.shafts.beam import ShaftSegment, SteppedShaft
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.gear_train_products import GearTrainProduct
-from gearcad.solids.gear_train_plan import GearKey, GearTrainPlan, MeshPlan, ShaftPlan
+from gearcad.solids.gear_train_plan import GearKey, GearTrainPlan, ShaftPlan, TrainMeshPlan
 from gearcad.verification.assemblies import OUTLINES, PlacedMesh, PlacedPart, judge_places
 from gearcad.verification.claims import ClaimSubject, Judge, VerificationLevel
 
@@ -50,8 +50,8 @@ def pair(pinion: Gear, wheel: Gear) -> GearPair:
     return GearPair(pinion=pinion, wheel=wheel)
 
 
-def mesh(name: str, of: GearPair, gears: tuple[str, str], lines: tuple[int, int], angle: float = 0.0) -> MeshPlan:
-    return MeshPlan(name=name, pair=of, gears=PerGear(*gears), lines=PerGear(*lines), angle=angle)
+def mesh(name: str, of: GearPair, gears: tuple[str, str], lines: tuple[int, int], angle: float = 0.0) -> TrainMeshPlan:
+    return TrainMeshPlan(name=name, pair=of, gears=PerGear(*gears), lines=PerGear(*lines), angle=angle)
 
 
 IDLER = gear(31, -12.0, 18.0)

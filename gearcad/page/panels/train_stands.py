@@ -15,9 +15,9 @@ from gearcad.designs.train_designs import TrainDesign
 from gearcad.designs.train_meshes import has_pairs
 from gearcad.geometry import Gear, GearPair
 from gearcad.jobs.train_bodies import gear_train_plan
-from gearcad.solids.gear_train_plan import GearKey, GearTrainPlan, MeshPlan, StandingShaft
+from gearcad.solids.gear_train_plan import GearKey, GearTrainPlan, StandingShaft, TrainMeshPlan
 
-__all__ = ["PairStand", "TrainGear", "TrainShaft", "TrainStands", "train_stands"]
+__all__ = ["PairStand", "PlacedTrainShaft", "TrainGear", "TrainStands", "train_stands"]
 
 
 class TrainGear(NamedTuple):
@@ -38,7 +38,7 @@ class TrainGear(NamedTuple):
     cut: float
 
 
-class TrainShaft(NamedTuple):
+class PlacedTrainShaft(NamedTuple):
     """A shaft of a train, and its turns while the first gear turns once."""
 
     shaft: StandingShaft
@@ -62,7 +62,7 @@ class TrainStands(NamedTuple):
 
     gears: tuple[TrainGear, ...]
     pairs: tuple[PairStand, ...]
-    shafts: tuple[TrainShaft, ...]
+    shafts: tuple[PlacedTrainShaft, ...]
 
 
 def train_stands(design: TrainDesign) -> TrainStands | None:
@@ -92,7 +92,7 @@ class _Turning:
         for mesh in self._in_order():
             self._turn(mesh)
 
-    def _in_order(self) -> Iterator[MeshPlan]:
+    def _in_order(self) -> Iterator[TrainMeshPlan]:
         """Yield the meshes from the first one on, each behind one that turns it."""
         waiting = list(self._plan.meshes)
         while waiting:
@@ -100,7 +100,7 @@ class _Turning:
             waiting.remove(mesh)
             yield mesh
 
-    def _turn(self, mesh: MeshPlan) -> None:
+    def _turn(self, mesh: TrainMeshPlan) -> None:
         """Find which flanks of a mesh touch, and so how far its other line turns.
 
         The first gear drives, and each line the next.
@@ -136,5 +136,5 @@ class _Turning:
             own = PerGear.each(lambda role, mesh=mesh: numbers[self._plan.bodies[GearKey(mesh.name, role)]])  # type: ignore[misc]
             towards = math.radians(mesh.angle + (180.0 if mesh.pair.internal else 0.0))
             pairs.append(PairStand(mesh.pair, own, towards, self._sides[mesh.name]))
-        shafts = tuple(TrainShaft(each, self._ratios[each.line]) for each in self._plan.standing_shafts)
+        shafts = tuple(PlacedTrainShaft(each, self._ratios[each.line]) for each in self._plan.standing_shafts)
         return TrainStands(gears, tuple(pairs), shafts)
