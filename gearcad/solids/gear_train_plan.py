@@ -34,7 +34,7 @@ class GearKey(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeshPlan:
+class TrainMeshPlan:
     """A pair of a train: the names of its gears, the lines of shafts on which they are, and the angle of the mesh."""
 
     name: str
@@ -99,7 +99,7 @@ class GearTrainPlan:
     """Places of all gears and shafts of a train of pairs. Raises GeometryError for places that contradict each other."""
 
     name: str
-    meshes: tuple[MeshPlan, ...]
+    meshes: tuple[TrainMeshPlan, ...]
     shafts: tuple[ShaftPlan, ...] = ()
 
     # ------------------------------------------------------------------ axes
@@ -133,7 +133,7 @@ class GearTrainPlan:
         return found
 
     @staticmethod
-    def _between(mesh: MeshPlan) -> tuple[float, float]:
+    def _between(mesh: TrainMeshPlan) -> tuple[float, float]:
         """Return the way (x, y) from the pinion's axis to the wheel's."""
         distance, angle = abs(mesh.pair.centre_distance), math.radians(mesh.angle)
         return distance * math.cos(angle), distance * math.sin(angle)
@@ -158,7 +158,7 @@ class GearTrainPlan:
         """Return the gear of a mesh."""
         return self.mesh(key.mesh).pair.gears.pick(key.role)
 
-    def mesh(self, name: str) -> MeshPlan:
+    def mesh(self, name: str) -> TrainMeshPlan:
         """Return the mesh of a name."""
         return next(mesh for mesh in self.meshes if mesh.name == name)
 
@@ -258,7 +258,7 @@ class GearTrainPlan:
                 raise GeometryError(f"{mesh.name}.mesh_angle", mesh.angle, permitted, "deg")
         return found
 
-    def _bodies_of(self, mesh: MeshPlan) -> PerGear[GearKey]:
+    def _bodies_of(self, mesh: TrainMeshPlan) -> PerGear[GearKey]:
         return PerGear.each(lambda role: self.bodies[GearKey(mesh.name, role)])
 
     # ------------------------------------------------------------------ what stands
