@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 _HELP = """Write the solids of SPEC: pinion.step, wheel.stl, assembly.step ... and data.json.
 
+Of a train of pairs each pair is in a folder of its mesh, and assembly.step has all gears and shafts.
+
 \b
 """ + "\n".join(f"{kind.value:<6}{kind.entry.words}" for kind in Format)
 
@@ -131,6 +133,8 @@ def draw(
     quiet: bool,
 ) -> None:
     """Draw SPEC for the workshop: a sheet of each gear with its dimensions and gear data, one of the pair or train they make.
+
+    Of a train of pairs there is a sheet of the arrangement, and those of each pair in a folder of its mesh.
 
     [drawing] in SPEC fills the title block, and has what dimensions are toleranced with; a gear may have its own, such as
     [pinion.drawing]. These options win over it.

@@ -27,8 +27,9 @@ def shafts(spec: Path, output: Path | None, no_report: bool, as_json: bool, quie
     """Show how the shafts of SPEC bend under their loads: reactions, deflection, stresses, bearing life, critical speeds.
 
     SPEC has [[shaft]] segments, [[bearing]] and [[force]] of one shaft, or a pair with [[pinion.shaft]], [[pinion.bearing]] and
-    pinion.mesh_position, and the same of the wheel: then the load over the face and K_Hbeta on these shafts follow too. Writes
-    shafts.json and shafts.html.
+    pinion.mesh_position, and the same of the wheel: then the load over the face and K_Hbeta on these shafts follow too. Of a
+    train all [[train.shaft]] with segments and bearings are shown, under the forces of their gears. Writes shafts.json and
+    shafts.html.
     """
     from gearcad.jobs.shafts import Shafts
 

@@ -165,7 +165,8 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     gate is not passed or cannot be evaluated, or if the strength that is asked for is not passed or cannot be judged, as in
     `gearcad rate`: contact_limit and root_limit are further gates and replace none.
 
-    [check] in SPEC sets model, body, torques and bands. Of a spline joint the contact of all its teeth, and mean stresses.
+    [check] in SPEC sets model, body, torques and bands. Of a spline joint the contact of all its teeth, and mean stresses. Of a
+    train of pairs each mesh under the train's load, with its files in a folder of its name; the worst mesh decides.
     """
     from gearcad.designs.design import read_tables
     from gearcad.jobs.strength import Check
@@ -303,7 +304,8 @@ def _hours(value: float | str | None) -> str:
 def rate(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
     """Rate the pair of SPEC under its [load] by ISO 6336 or DIN 3990: safeties of flanks and roots, life, permissible torque.
 
-    Of a planetary train each mesh is rated, under what the planet carries that carries most.
+    Of a planetary train each mesh is rated, under what the planet carries that carries most. Of a train of pairs each mesh is
+    rated under the train's load, with its files in a folder of its name; the worst mesh decides.
 
     [rating] in SPEC sets standard, accuracy, life, oil, shafts and required safeties; [material] what the gears bear, by group,
     quality and hardness of ISO 6336-5. What is not given is assumed and told; without its limit a flank or root is not judged.

@@ -65,6 +65,8 @@ def verify(
     level strength   also contact (Hertz, equilibrium, errors), root stress and stiffness (ISO 6336), safeties
     level full       also meshes in other readers, and the deck run by CalculiX, where ccx is installed
 
+    Of a train of pairs each pair is judged, and the assembly of all gears and shafts.
+
     What nothing judged is named with its reason, and never counts as passed. Writes verify.json, verify.html and verify.pdf
     beside the files; of a table a folder for each row, index.html, results.csv and junit.xml. Exit status 1 if a claim
     failed, a required safety is not reached, or a figure moved from the baseline.

@@ -306,7 +306,9 @@ def test_what_makes_no_dynamics(here: Path, text: str, message: str) -> None:
 @pytest.mark.parametrize("command", ["build", "check", "stiffness", "modify"])
 def test_other_commands_send_a_train_here(here: Path, command: str) -> None:
     result = run(command, spec(TRAIN), status=2)
-    permitted = "a gear, a pair, a rack, a rack and pinion, a planetary train or a spline" if command == "build" else "a pair"
+    permitted = (
+        "a gear, a pair, a rack, a rack and pinion, a planetary train, a spline or a shaft" if command == "build" else "a pair"
+    )
     said = f"Error: kind = 'train': must be {permitted}: a train is for `gearcad dynamics` and `gearcad data`\n"
     assert result.stderr == said
 
