@@ -71,8 +71,8 @@ def draw_shaft(drawn: DrawnShaft, options: DrawingOptions, own: PartDrawing | No
         template=template,
         words=words,
         rows=rows,
-        table_title=words["shafts.data"],
-        notes=() if toothed is None else (words["shafts.note_one_piece"],),
+        table_title=words["of_shafts.data"],
+        notes=() if toothed is None else (words["of_shafts.note_one_piece"],),
     )
     sheet = AssemblySheet(
         furniture=furniture,
@@ -90,8 +90,8 @@ def draw_shaft(drawn: DrawnShaft, options: DrawingOptions, own: PartDrawing | No
 def shaft_title(seated: SeatedShaft | None, words: SheetWords) -> str:
     """Return the title of a shaft: by itself, that of pinion or wheel, or of one with its own teeth."""
     if seated is None:
-        return words["shafts.shaft"]
-    return words[f"shafts.{'toothed' if seated.one_piece and seated.role is Role.PINION else seated.role.value}_shaft"]
+        return words["of_shafts.shaft"]
+    return words[f"of_shafts.{'toothed' if seated.one_piece and seated.role is Role.PINION else seated.role.value}_shaft"]
 
 
 def shaft_rows(drawn: DrawnShaft, words: SheetWords) -> Iterator[GearDataRow]:
@@ -99,7 +99,7 @@ def shaft_rows(drawn: DrawnShaft, words: SheetWords) -> Iterator[GearDataRow]:
 
     def row(key: str, value: float, *, name: str = "", number: int | None = None) -> GearDataRow:
         path = f"shaft.{key}" if number is None else f"shaft.bearing[{number}].position"
-        label = words[f"shafts.{key}"] + (f" {name}" if name else "")
+        label = words[f"of_shafts.{key}"] + (f" {name}" if name else "")
         return GearDataRow(key=key, words=label, text=words.shortest(value, 3), numbers={path: value})
 
     yield row("length", drawn.given.length)
@@ -113,7 +113,7 @@ def shaft_rows(drawn: DrawnShaft, words: SheetWords) -> Iterator[GearDataRow]:
 def bearing_title(bearing: ShaftBearing, words: SheetWords) -> str:
     """Return the title of a bearing: its kind and its name."""
     kind = "bearing" if bearing.kind is None else bearing.kind.replace(" ", "_")
-    return f"{words[f'shafts.{kind}']} {bearing.name}".rstrip()
+    return f"{words[f'of_shafts.{kind}']} {bearing.name}".rstrip()
 
 
 def _ring_text(bearing: ShaftBearing, words: SheetWords) -> str:
@@ -133,7 +133,7 @@ def shafted_items(
     for each in drawn.shafts:
         own = options.of_part(parts.get(each.file), alone=False)
         title = own.title or shaft_title(each, words)
-        remarks = words["shafts.with_item"].format(item=numbers[each.role.value]) if each.one_piece else ""
+        remarks = words["of_shafts.with_item"].format(item=numbers[each.role.value]) if each.one_piece else ""
         lines.append(Item(key=each.file, item=len(lines) + 1, number=own.number, title=title, remarks=remarks))
         numbers[each.file] = len(lines)
     for each in drawn.shafts:
@@ -187,10 +187,10 @@ def draw_shafted_pair(
 
 def _remarks(shafts: tuple[SeatedShaft, ...], words: SheetWords) -> Iterator[str]:
     sized = all(bearing.ring is not None for each in shafts for bearing in each.given.bearings)
-    yield words["shafts.note_sized_bearings" if sized else "shafts.note_bearings"]
+    yield words["of_shafts.note_sized_bearings" if sized else "of_shafts.note_bearings"]
     if len(shafts) < len(Role):
         missing = next(role for role in Role if role not in {each.role for each in shafts})
-        yield words["shafts.note_no_shaft"].format(item=list(Role).index(missing) + 1)
+        yield words["of_shafts.note_no_shaft"].format(item=list(Role).index(missing) + 1)
 
 
 def _notices(shafts: tuple[SeatedShaft, ...]) -> Iterator[Notice]:
