@@ -46,11 +46,22 @@ def test_manifest_names_gearcad_the_parts_and_every_file_with_its_size(tmp_path:
 
 def test_files_may_be_called_as_gears_are(tmp_path: Path) -> None:
     """Else every run would make them again, and none would remove what a changed row has no longer."""
-    names = ("drawing-assembly.dxf", "drawing-rim_3.pdf", "S1.step", "Großrad (2).step")
+    names = ("drawing-assembly.dxf", "drawing-rim_3.pdf", "S1.step", "Großrad (2).step", "stage 1/drawing-pinion.dxf")
     manifest = Manifest("x", {"draw": RowPart({}, dict.fromkeys(names, 7))})
     (tmp_path / MANIFEST).write_text(manifest.text(), encoding="utf-8")
     assert read_manifest(tmp_path) == manifest
-    for name in ("../x.dxf", "a/b.dxf", "a\\b.dxf", ".hidden.dxf", "C:x.dxf", "a\ud800.dxf", "a\x00.dxf", "a.dxf/"):
+    for name in (
+        "../x.dxf",
+        "a/../x.dxf",
+        "a/b/c.dxf",
+        "/a.dxf",
+        "a\\b.dxf",
+        ".hidden.dxf",
+        "C:x.dxf",
+        "a\ud800.dxf",
+        "a\x00.dxf",
+        "a.dxf/",
+    ):
         (tmp_path / MANIFEST).write_text(Manifest("x", {"draw": RowPart({}, {name: 7})}).text(), encoding="utf-8")
         assert read_manifest(tmp_path) is None, name
 
