@@ -129,20 +129,31 @@ def test_a_closed_session_ends_its_run_and_removes_its_files() -> None:
 
 
 def test_sessions_take_turns_in_the_order_in_which_they_came() -> None:
+    """The first has the turn until the two others wait behind each other; it asks again while they do."""
     turns, told, never = RunPermits(1), list[str](), threading.Event()
 
+    def wait_for(count: int) -> None:
+        until = time.monotonic() + 60
+        while len(turns._waiting) < count and time.monotonic() < until:
+            time.sleep(0.001)
+
     def session(name: str, count: int) -> None:
-        for _ in range(count):
+        for number in range(count):
             with turns.taken(never) as has:
                 assert has
                 told.append(name)
-                time.sleep(0.05)
+                if (name, number) == ("a", 0):
+                    wait_for(2)
 
-    threads = [threading.Thread(target=session, args=given) for given in (("a", 4), ("b", 1), ("c", 1))]
-    for thread in threads:
-        thread.start()
-        time.sleep(0.01)
-    for thread in threads:
+    first, second, third = (threading.Thread(target=session, args=given) for given in (("a", 4), ("b", 1), ("c", 1)))
+    first.start()
+    until = time.monotonic() + 60
+    while not told and time.monotonic() < until:
+        time.sleep(0.001)
+    second.start()
+    wait_for(1)
+    third.start()
+    for thread in (first, second, third):
         thread.join()
     assert told == ["a", "b", "c", "a", "a", "a"]
 
