@@ -26,7 +26,7 @@ from gearcad.core.runtime import PACKAGE
 from gearcad.core.symbols import PER_GEAR
 from gearcad.designs import Design, DesignKind
 from gearcad.designs.table import DesignRow
-from gearcad.jobs import VERBS
+from gearcad.jobs import VERBS, job_for
 from gearcad.jobs.job import Data, Job, write_inside
 from gearcad.version import __version__
 
@@ -172,12 +172,7 @@ def stages(wanted: Sequence[Job[Any, Any]]) -> tuple[Job[Any, Any], ...]:
 
 def make_parts(job: Job[Any, Any], design: Design, parts: Sequence[str], folder: Path) -> None:
     """Make some of a job's parts in an empty folder."""
-    maker = job.for_row(design, parts)
-    if design.kind is DesignKind.TRAIN:
-        from gearcad.jobs.train_sheets import job_for  # with all that trains need
-
-        maker = job_for(maker, design)
-    maker = maker.headed(design)
+    maker = job_for(job.for_row(design, parts), design).headed(design)
     for name, write in maker.files(maker.run(design)).items():
         if job.part_of(name.rpartition("/")[2]):
             write_inside(folder, name, write)

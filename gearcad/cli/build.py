@@ -85,16 +85,13 @@ def build(
     from gearcad.core.output import json_text
     from gearcad.core.records import texts
     from gearcad.designs.reader import read_spec
+    from gearcad.jobs import job_for
     from gearcad.jobs.build import Build
     from gearcad.jobs.job import with_summary
 
     wanted = Build(formats=parse_choices("format", formats, Format), options=options, stage=stage, as_made=as_made)
     design = read_spec(spec)
-    job: Job[Any, Any] = wanted
-    if design.kind.value == "train":
-        from gearcad.jobs.train_bodies import suited_to_train  # with all that trains need
-
-        job = suited_to_train(wanted, design)
+    job: Job[Any, Any] = job_for(wanted, design)
     result = job.run(design)
     folder = folder_of(output, design.name)
     with file_progress(shown=not quiet) as progress:

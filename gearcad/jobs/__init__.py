@@ -10,9 +10,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gearcad.jobs.job import Job
+    from gearcad.designs.design import Design
+    from gearcad.jobs.job import Job, Result
 
-__all__ = ["VERBS", "WITHOUT_DESIGN", "job_of"]
+__all__ = ["VERBS", "WITHOUT_DESIGN", "job_for", "job_of"]
 
 VERBS = (
     "data",
@@ -51,4 +52,15 @@ def module_of(verb: str) -> str:
 def job_of(verb: str) -> type[Job[Any, Any]]:
     """Return the class of the job of a verb, imported when it is asked for."""
     found: type[Job[Any, Any]] = getattr(import_module(f"gearcad.jobs.{module_of(verb)}"), verb.capitalize())
+    return found
+
+
+def job_for(job: Job[Any, Result], design: Design) -> Job[Any, Result]:
+    """Return the job for a design: of a train of pairs the one that does the same with it and with each of its meshes.
+
+    What trains need is imported for trains only.
+    """
+    if design.kind.value != "train":
+        return job
+    found: Job[Any, Result] = import_module("gearcad.jobs.train_sheets").job_for(job, design)
     return found

@@ -16,6 +16,7 @@ from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear, Rack
 from gearcad.geometry.making import Making
+from gearcad.jobs import job_for
 from gearcad.jobs.job import Data, Job, Subject, Writer, as_design
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.body_plan import require_rim
@@ -403,4 +404,6 @@ def build(
         chord_error=chord_error, bracket=bracket, circles=circles, carrier=carrier, exploded=exploded, turning=turning
     )
     job = Build(formats=_formats(formats), options=options, as_made=as_made)
-    return job.write(job.run(as_design(subject)), folder, progress)
+    design = as_design(subject)
+    suited = job_for(job, design)
+    return suited.write(suited.run(design), folder, progress)

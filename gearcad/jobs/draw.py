@@ -48,6 +48,7 @@ from gearcad.drawing.page_export import unshown, write_pdf, write_svg
 from gearcad.drawing.shaft_sheet import DrawnShaft, draw_shaft, draw_shafted_pair
 from gearcad.drawing.tool_sheet import draw_tool
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
+from gearcad.jobs import job_for
 from gearcad.jobs.build import products_of, require_bodies, seated_shafts, shaft_alone
 from gearcad.jobs.job import Job, Subject, Writer, as_design
 from gearcad.jobs.train_bodies import gear_train_plan
@@ -379,7 +380,8 @@ def draw(
     """
     asked = {"sheet": sheet, "scale": scale, "language": language, "projection": projection}
     job = Draw(given={name: value for name, value in asked.items() if value is not None})
-    return job.run(as_design(subject, load, **inputs), progress)
+    design = as_design(subject, load, **inputs)
+    return job_for(job, design).run(design, progress)
 
 
 STILL_SIZE, TURNING_SIZE = (1600, 1200), (800, 600)

@@ -19,6 +19,7 @@ from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import DesignKind
 from gearcad.drawing.options import DrawingOptions
 from gearcad.geometry import Gear, GearPair, Rack, RackPair, SplineJoint
+from gearcad.jobs import job_for
 from gearcad.jobs.build import AssemblyProduct, Build, PartProduct, products_of
 from gearcad.jobs.job import Data, Job, Subject, Writer, as_design
 from gearcad.jobs.strength import Check, Rate
@@ -448,4 +449,5 @@ def verify(
     Raises ParameterError and GeometryError for wrong input.
     """
     chosen = as_choice("level", level, VerificationLevel) if isinstance(level, str) else level
-    return Verify(level=chosen).run(as_design(subject, load, **inputs), progress)
+    design = as_design(subject, load, **inputs)
+    return job_for(Verify(level=chosen), design).run(design, progress)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from support.commands import invoke, read_json
 
+import gearcad
 from gearcad.batch import run_table
 from gearcad.core.errors import ParameterError, SpecError
 from gearcad.designs import read_spec
@@ -136,3 +137,30 @@ def test_files_in_cells_stay_in_the_folder_of_the_page(tmp_path: Path) -> None:
     assert found["pinion"]["body"]["step"] == str(tmp_path / "../blank.step")
     with files_only_in(tmp_path), pytest.raises(ParameterError, match="must be a file in the folder of the page"):
         with_files_found(values, tmp_path)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("data",), ("rate",), ("shafts",), ("build", "--format", "step,dxf"), ("draw", "--format", "svg"), ("picture",),
+        ("mesh", "--what", "sector"), ("stiffness", "--method", "iso6336"), ("dynamics",), ("check",),
+    ],
+)  # fmt: skip
+def test_every_command_runs_on_the_reducer(command: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    file, text = starter_text("two-stage")
+    Path(file).write_text(text, encoding="utf-8")
+    verb, *options = command
+    quiet = [] if verb == "data" else ["--quiet"]
+    result = invoke(verb, file, *options, *quiet)
+    assert result.exit_code == 0, result.stderr
+
+
+def test_verbs_of_python_take_a_train(here: Path, tmp_path: Path) -> None:
+    design = gearcad.read(here)
+    assert isinstance(design, TrainDesign)
+    assert next(sheet.name for sheet in gearcad.draw(design).sheets) == "arrangement"
+    made = gearcad.build(design, tmp_path / "made", ["csv", "dxf"])
+    assert {"stage 1/pinion.dxf", "stage 2/wheel.csv"} <= {path.relative_to(tmp_path / "made").as_posix() for path in made}
+    assert [each.mesh.name for each in gearcad.rate(design).meshes] == ["stage 1", "stage 2"]  # type: ignore[union-attr]
