@@ -20,7 +20,7 @@ from gearcad.rating.load_factors import FaceLoad, FaceLoadSource
 from gearcad.rating.options import LoadBin, RatingOptions
 from gearcad.rating.tooth_stiffness import mesh_stiffness
 from gearcad.shafts.arrangement import ShaftOptions, with_stations
-from gearcad.shafts.beam import ShaftBearing, SteppedShaft
+from gearcad.shafts.beam import ShaftBearing, ShaftSegment, SteppedShaft, core_diameter
 from gearcad.shafts.bearing_shelf import bearing_of
 from gearcad.shafts.face_load import MeshOnShafts, require_modelled
 from gearcad.shafts.whirl import ShaftDisc, ring_disc
@@ -304,8 +304,10 @@ def read_part(kind: type[Part], content: Any, key: str, where: Where) -> Part:
     given = {name: _plain(value, whole=schema[name].whole) for name, value in content.items()}
     if kind is ShaftBearing and isinstance(name := given.get("name"), str):
         given = {**bearing_of(name), **given}
-    missing = {name: None for name, field in schema.items() if field.required and name not in given}
     try:
+        if kind is ShaftSegment and isinstance(spline := given.get("spline"), str) and "outer_diameter" not in given:
+            given["outer_diameter"] = core_diameter(spline)
+        missing = {name: None for name, field in schema.items() if field.required and name not in given}
         return kind(**given | missing)
     except InputError as error:
         full = f"{key}.{error.parameter}"

@@ -11,12 +11,12 @@ import math
 from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Annotated, Literal
 
 import numpy as np
 
-from gearcad.core.errors import GeometryError
+from gearcad.core.errors import GeometryError, InputError, ParameterError
 from gearcad.core.quantities import DENSITY, LENGTH, MODULUS, POISSON_RATIO, Choice, Range, Words, require_fields
 from gearcad.core.records import Floats, JsonObject, Wholes, concise
 from gearcad.material import STEEL_MODULUS
@@ -41,12 +41,34 @@ _GRAVITY = 1e-9
 """N/mm³ of a density of 1 kg/m³ at 1 m/s²."""
 
 
+_SAME_CORE = 1e-3
+"""Distance (mm) within which a given outer diameter is the core of a spline."""
+
+
+@lru_cache(64)
+def core_diameter(designation: str) -> float:
+    """Return the root diameter (mm) of a splined shaft by its designation, such as "W 30 x 1.25 x 22 x 8f".
+
+    Raises ParameterError for a designation that names no shaft.
+    """
+    from gearcad.geometry import SplineJoint
+
+    try:
+        parts = SplineJoint(designation=designation).parts
+    except InputError as error:
+        raise ParameterError("spline", designation, error.permitted) from error
+    if "shaft" not in parts:
+        raise ParameterError("spline", designation, 'must name a shaft, such as "W 30 x 1.25 x 22 x 8f"')
+    return float(parts["shaft"].gear.root_diameter)
+
+
 @dataclass(frozen=True, kw_only=True)
 class ShaftSegment:
     """A cylinder of a shaft, solid or hollow. Raises ParameterError, or GeometryError for a bore that leaves no wall.
 
     Strengths (MPa, of a bar of 16 mm), `roughness` Rz (µm) and the `fillet_radius` (mm) of the step to the segment on its right
-    are for its strength (DIN 743).
+    are for its strength (DIN 743). A segment with a `spline`, by its designation, has the core diameter of the splined shaft as
+    its outer diameter: `core_diameter` gives it.
     """
 
     length: Annotated[float, LENGTH, Words("length of the segment")]
@@ -59,11 +81,15 @@ class ShaftSegment:
     yield_strength: Annotated[float | None, _STRENGTH, Words("yield strength", "R_e")] = None
     roughness: Annotated[float | None, Range("µm", 0.01, 1000), Words("roughness of the surface", "Rz")] = None
     fillet_radius: Annotated[float | None, LENGTH, Words("fillet radius of the step on its right", "r")] = None
+    spline: Annotated[str | None, Words("spline on the segment, by its designation")] = None
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
         require_fields(self)
+        if self.spline is not None and abs(self.outer_diameter - (core := core_diameter(self.spline))) > _SAME_CORE:
+            permitted = f"must be left out, or {core:.6g} mm, the core of {self.spline}"
+            raise GeometryError("outer_diameter", self.outer_diameter, permitted, "mm")
         if self.inner_diameter >= self.outer_diameter:
             permitted = f"must be below {self.outer_diameter:g} mm, the outer diameter"
             raise GeometryError("inner_diameter", self.inner_diameter, permitted, "mm")

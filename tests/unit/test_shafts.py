@@ -662,3 +662,38 @@ def test_a_stepped_shaft_is_judged_at_its_shoulder() -> None:
     assert (found.fatigue, found.static) == pytest.approx(expected)
     bare = replace(shaft, segments=(replace(parts[0], roughness=None, fillet_radius=None), parts[1]))
     assert shoulder_safeties(bare.solve())[0].reason == "fillet_radius, roughness not given"
+
+
+def test_a_splined_segment_has_the_core_of_its_spline(tmp_path: Path) -> None:
+    """DIN 5480-1: the root diameter of the shaft is d_B - 2.2 m, 27.25 mm for 30 x 1.25."""
+    spec = """
+[[shaft]]
+length = 40.0
+spline = "W 30 x 1.25 x 22 x 8f"
+[[shaft]]
+length = 60.0
+outer_diameter = 35.0
+[[bearing]]
+position = 45.0
+radial_stiffness = "rigid"
+axial_stiffness = "rigid"
+[[bearing]]
+position = 95.0
+radial_stiffness = "rigid"
+[[force]]
+position = 10.0
+force = [0.0, 100.0, 0.0]
+"""
+    splined, plain = tmp_path / "splined.toml", tmp_path / "plain.toml"
+    splined.write_text(spec, encoding="utf-8")
+    plain.write_text(spec.replace('spline = "W 30 x 1.25 x 22 x 8f"', "outer_diameter = 27.25"), encoding="utf-8")
+    results = [Shafts().complete_document(Shafts().run(read_spec(path))) for path in (splined, plain)]
+    assert results[0]["shafts"] == results[1]["shafts"]
+    for line, words in {
+        'spline = "W 30 x 1.25 x 22 x 8f"\nouter_diameter = 28.0': "outer_diameter = 28 mm: must be left out, or 27.25 mm",
+        'spline = "N 30 x 1.25 x 22 x 9H"': "must name a shaft",
+        'spline = "W 30"': "spline = 'W 30': must",
+    }.items():
+        splined.write_text(spec.replace('spline = "W 30 x 1.25 x 22 x 8f"', line), encoding="utf-8")
+        with pytest.raises(SpecError, match=words):
+            read_spec(splined)
