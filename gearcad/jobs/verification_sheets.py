@@ -150,9 +150,9 @@ def _of_shaft(design: ToothedDesign, drawn: DrawnShaft) -> ExpectedSheet:
     figures = {"length": shaft.length, "coupling": shaft.coupling}
     if drawn.seated is not None:
         figures["mesh_position"] = drawn.seated.position
-    rows = [TableFigure(words=words[f"shafts.{key}"], values=((value, 0),)) for key, value in figures.items()]
+    rows = [TableFigure(words=words[f"of_shafts.{key}"], values=((value, 0),)) for key, value in figures.items()]
     for number, bearing in enumerate(shaft.bearings, 1):
-        label = f"{words['shafts.bearing_position']} {bearing.name or number}"
+        label = f"{words['of_shafts.bearing_position']} {bearing.name or number}"
         rows.append(TableFigure(words=label, values=((bearing.position, 0),)))
     within = (
         None if drawn.seated is None or not toothed else (drawn.seated.low - drawn.seated.z, drawn.seated.high - drawn.seated.z)
@@ -164,7 +164,7 @@ def _of_shaft(design: ToothedDesign, drawn: DrawnShaft) -> ExpectedSheet:
             if each.inner_diameter and not toothed:
                 sizes[f"bore of segment {number + 1}"] = each.inner_diameter
     return ExpectedSheet(
-        heading=words["shafts.data"],
+        heading=words["of_shafts.data"],
         rows=rows,
         title=options.title or shaft_title(drawn.seated, words),
         sizes=sizes,

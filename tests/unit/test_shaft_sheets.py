@@ -152,7 +152,6 @@ def test_a_pinion_shaft_is_drawn_with_its_teeth(drawing: Drawing, tmp_path: Path
     assert sizes_on(drawing, "pinion-shaft") == pytest.approx(sorted([25, 20, 20, 5, 110, 17, 17]))
 
 
-@pytest.mark.long
 def test_the_judge_reads_sheets_of_shafts(tmp_path: Path) -> None:
     """And finds a length that is not the one of the design."""
     design = design_of(tmp_path, language="de")
