@@ -29,7 +29,7 @@ from gearcad.meshing.outline import MeshSizes, NotchPlace
 from gearcad.mounting import Mounting
 from gearcad.rating.load_factors import BodyLoad, LoadedMesh, Misalignment, dynamic_factor
 from gearcad.rating.nominal_rating import require_ratable
-from gearcad.rating.options import HelixModification
+from gearcad.rating.options import ContactPattern, HelixModification
 
 BODIES, CYCLE, SWEEP, RATING = "bodies of pinion and wheel", "mesh cycle", "torque sweep", "rating"
 COARSER, FINER = "coarser bodies, for the error", "finer bodies, for the error"
@@ -352,8 +352,8 @@ def load_distribution(task: CheckTask, tell: Share = unheard) -> LoadDistributio
 
     The flanks stand off by the misalignment of the mounting or, where that is 0, by F_beta_x of Method C, to the worse side,
     with B_1 = B_2 = 1; y_beta runs in. The bodies are held all along their width, so that shafts and the pinion itself give
-    way in f_sh alone or, where the pair has shafts, in the contact alone: f_sh is then 0. The options of the task say how the
-    bodies are held. Raises ParameterError, GeometryError and SolverError.
+    way in f_sh alone or, where the pair has shafts, in the contact alone: the flanks then stand off by f_ma, to its sides. The
+    options of the task say how the bodies are held. Raises ParameterError, GeometryError and SolverError.
     """
     options, mounting = task.rating_options, task.mounting
     plain = replace(options, helix_modification=HelixModification.NONE)  # the flanks have their own
@@ -362,18 +362,29 @@ def load_distribution(task: CheckTask, tell: Share = unheard) -> LoadDistributio
     mesh = LoadedMesh(pair=task.pair, materials=task.materials, load=task.load, options=plain)
     require_ratable(mesh.pair, task.load)
     speed_factor = dynamic_factor(mesh).factors["K_v"]
-    off = _standing_off(mesh, mounting, speed_factor)
+    off = _standing_off(mesh, mounting, speed_factor, on_shafts=task.shafts is not None)
     torque = task.torque * options.mesh_load_factor * speed_factor
     asked = replace(task.options, model=Model.SOLID.value, refinement=COARSE, convergence="off", torques=())
     model = solid_model(replace(task, load=Load(torque=torque), options=asked), tell=tell)
-    sides = (off,) if mounting.misalignment or not off else (off, -off)
+    if mounting.misalignment or not off:
+        sides: tuple[float, ...] = (off,)
+    else:
+        sides = (off, -off) if task.shafts is None else options.sides_of(off)
     found = [_distribution(model, torque, side, mounted=bool(mounting.misalignment)) for side in sides]
     return max(found, key=lambda each: each.face_load_factor)
 
 
-def _standing_off(mesh: LoadedMesh, mounting: Mounting, speed_factor: float) -> float:
-    """F_beta_y (µm): of the mounting, with its sign, or of what Method C takes shafts and manufacture for."""
-    initial = mounting.misalignment or Misalignment.of(mesh, mesh.specific_load * speed_factor).initial
+def _standing_off(mesh: LoadedMesh, mounting: Mounting, speed_factor: float, *, on_shafts: bool) -> float:
+    """Return F_beta_y (µm): of the mounting, with its sign, or of what Method C takes shafts and manufacture for.
+
+    On shafts that give way it is f_ma with its sign, or what a proven contact pattern leaves: the least value holds for f_sh
+    and f_ma together.
+    """
+    initial = mounting.misalignment
+    if not initial:
+        found, options = Misalignment.of(mesh, mesh.specific_load * speed_factor), mesh.options
+        alone = on_shafts and options.contact_pattern is not ContactPattern.PROVEN
+        initial = math.copysign(found.manufacture, options.manufacturing_misalignment or 0.0) if alone else found.initial
     return initial - math.copysign(float(mesh.wear.beta(abs(initial), mesh.speed)), initial)
 
 

@@ -581,7 +581,7 @@ class BodyLoad(NamedTuple):
         source = "[mounting]" if self.mounted else "Method C, as [mounting] has none"
         return (
             f"K_Hbeta: the solid bodies stand off by F_beta_y = {self.misalignment:.3g} µm of {source}; "
-            "their bores are held all along, so that they give way to a tilt less than c_gamma_beta of Method C says"
+            "a force moves the teeth beside it too, so that they give way to a tilt less than c_gamma_beta of Method C says"
         )
 
 

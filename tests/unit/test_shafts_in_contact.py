@@ -13,7 +13,7 @@ from support.shaft_cases import REFERENCE, mesh_of
 from gearcad import Body, FlankModification, Gear, GearPair, Load, Material, Mounting
 from gearcad.check.on_shafts import load_on_shafts, shaft_notices
 from gearcad.check.options import CheckOptions
-from gearcad.check.run import plane_notices, solid_model
+from gearcad.check.run import load_distribution, plane_notices, solid_model
 from gearcad.check.task import check_task
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.cycle import SolidCycle
@@ -22,10 +22,12 @@ from gearcad.core.records import Floats, PerGear
 from gearcad.designs import PairDesign
 from gearcad.designs.shaft_spec import MountedShaft, PairShafts
 from gearcad.jobs.strength import Check
+from gearcad.rating.options import RatingOptions
 from gearcad.shafts.arrangement import ShaftOptions
 from gearcad.shafts.beam import ShaftBearing, ShaftForce, ShaftSegment, SteppedShaft
 from gearcad.shafts.face_load import MeshOnShafts
 
+CASE_HARDENED = Material(group="Eh", contact_endurance_limit=1500.0)  # type: ignore[arg-type]
 WIDTH, TORQUE = 20.0, 200.0
 RELIEVED = FlankModification(lead_crowning=3.0, tip_relief=25.0, tip_relief_length=2.5)
 
@@ -265,3 +267,22 @@ def test_finer_bodies_leave_the_face_load_factor_as_it_is() -> None:
         for each in (1.0, 1.25)
     ]
     assert cycles[0].face_load_factor == pytest.approx(cycles[1].face_load_factor, rel=1e-2)
+
+
+@pytest.mark.long
+def test_flanks_on_shafts_stand_off_by_manufacture_alone() -> None:
+    """The least misalignment of Method C holds for shafts and manufacture together; f_ma has the sides that it is given."""
+
+    def standing(off: float, sides: str = "worse", shafts: MeshOnShafts | None = None) -> tuple[float, float]:
+        rating = RatingOptions(manufacturing_misalignment=off, misalignment_sides=sides, dynamic_factor=1.0)  # type: ignore[arg-type]
+        given = Load(torque=TORQUE, speed=1000.0)
+        found = load_distribution(check_task(pair(0.0), CASE_HARDENED, given, QUICK, rating=rating, shafts=shafts))
+        return found.misalignment, found.face_load_factor
+
+    assert standing(0.0, shafts=mesh())[0] == 0.0
+    assert standing(0.0)[0] != 0.0  # rigid shafts: Method C takes some
+    side, worse = standing(8.0, shafts=mesh())
+    assert abs(side) == pytest.approx(0.85 * 8.0)  # ISO 6336-1: y_beta = 0.15 F_beta_x of case-hardened teeth
+    both = dict(standing(sign * 8.0, "one", mesh()) for sign in (1, -1))
+    assert both[side] == pytest.approx(worse, rel=1e-9)
+    assert both[-side] < worse - 0.02
