@@ -144,10 +144,10 @@ def test_files_in_cells_stay_in_the_folder_of_the_page(tmp_path: Path) -> None:
     "command",
     [
         ("data",), ("rate",), ("shafts",), ("build", "--format", "step,dxf"), ("draw", "--format", "svg"), ("picture",),
-        ("mesh", "--what", "sector"), ("stiffness", "--method", "iso6336"), ("dynamics",),
+        ("mesh", "--what", "sector"), ("stiffness", "--method", "iso6336"), ("dynamics",), ("check",),
     ],
 )  # fmt: skip
-def test_commands_run_on_the_reducer(command: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_command_runs_on_the_reducer(command: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     file, text = starter_text("two-stage")
     Path(file).write_text(text, encoding="utf-8")
