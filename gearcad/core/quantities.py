@@ -290,6 +290,12 @@ class FieldSchema:
         return any(map(_is_list, self.members)) and not (self.nested or self.texts)
 
     @cached_property
+    def count(self) -> int | None:
+        """How many numbers the field always holds; None where it can be something else, or a list of any length."""
+        parts = get_args(self.members[0]) if len(self.members) == 1 and get_origin(self.members[0]) is tuple else ()
+        return len(parts) if set(parts) == {float} else None
+
+    @cached_property
     def nested(self) -> bool:
         """Whether the field is a list of lists of numbers. A cell of a table holds it as text."""
         deep = any(_is_list(member) and any(map(_is_list, get_args(member))) for member in self.members)
@@ -343,6 +349,8 @@ class FieldSchema:
             require_switch(parameter, value)
         if self.choices is not None:
             object.__setattr__(instance, self.name, as_choice(parameter, value, self.choices))
+        if self.count is not None:
+            _require_numbers(parameter, value, self.count)
         if self.permitted is None:
             return
         if not self.several:
@@ -371,6 +379,13 @@ class FieldSchema:
                     self.permitted.require(parameter, None)
             except ParameterError as error:
                 raise ParameterError(parameter, None, f"{error.permitted}, or give {mark.other} instead") from None
+
+
+def _require_numbers(parameter: str, value: Any, count: int) -> None:
+    """Raise ParameterError unless `value` is a list of so many finite numbers."""
+    if not (isinstance(value, list | tuple) and len(value) == count and all(map(is_finite_number, value))):
+        given = list(value) if isinstance(value, tuple) else value
+        raise ParameterError(parameter, given, f"must be a list of {count} numbers")
 
 
 def _has_value(value: Any) -> bool:

@@ -164,7 +164,7 @@ def pair_arrangement(
     mounting: Mounting | None = None,
     rating: RatingOptions | None = None,
 ) -> ShaftArrangement:
-    """Return the arrangement of a pair's shafts, with their mesh under the load where there is one."""
+    """Return the arrangement of a pair's shafts, with their mesh under the load where there is one with a torque."""
     mounted = {role.value: each for role, each in shafts.mounted.items()}
     speed = 0.0 if load is None else load.speed
     speeds = {Role.PINION.value: speed, Role.WHEEL.value: speed / pair.gear_ratio}
@@ -177,7 +177,7 @@ def pair_arrangement(
     )
     discs = {role.value: _discs(own, pair.gears.pick(role), materials.pick(role)) for role, own in shafts.mounted.items()}
     found = replace(found, discs=discs)
-    if load is None:
+    if load is None or not load.torque:
         return found
     mounting = mounting or Mounting()
     mesh = MeshOnShafts(

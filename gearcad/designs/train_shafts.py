@@ -88,7 +88,8 @@ def _layout(given: Mapping[str, Any], where: Where, owner: str) -> ShaftLayout:
         if found.bearings:
             found.stepped().compliance  # noqa: B018 - a loose shaft is told now
     except InputError as error:
-        key, unit = full(_NAMES.get(error.parameter.partition("[")[0], error.parameter)), f" {error.unit}" if error.unit else ""
+        name, bracket, place = error.parameter.partition("[")
+        key, unit = full(_NAMES.get(name, name) + bracket + place), f" {error.unit}" if error.unit else ""
         raise SpecError(f"{where(key)}: {shown(key)} = {format_number(error.value)}{unit}: {error.permitted}", key) from error
     return found
 

@@ -237,7 +237,7 @@ class ShaftForce:
     position: Annotated[float, _POSITION, Words("position of the force")]
     force: tuple[float, float, float] = (0.0, 0.0, 0.0)
     at: tuple[float, float] = (0.0, 0.0)
-    torque: float = 0.0
+    torque: Annotated[float, Range("N·m", -1e9, 1e9)] = 0.0
     moment: tuple[float, float] = (0.0, 0.0)
 
     __repr__ = concise

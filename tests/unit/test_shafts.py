@@ -459,6 +459,8 @@ def test_the_shafts_of_a_pair_are_part_of_its_design_and_are_written_back(tmp_pa
     assert loaded.arrangement is not None and loaded.arrangement.mesh is not None
     assert loaded.arrangement.mesh.torque == 50.0 and loaded.arrangement.speeds == {"pinion": 600.0}
     assert loaded.arrangement is loaded.arrangement
+    unloaded = replace(design, load=Load(torque=0.0, speed=600.0))
+    assert unloaded.arrangement is not None and unloaded.arrangement.mesh is None
     assert replace(design, shafts=None).arrangement is None
 
 
@@ -478,6 +480,12 @@ def test_the_shafts_of_a_pair_are_part_of_its_design_and_are_written_back(tmp_pa
         (("coupling = 150.0", 'coupling = "left"'), "pinion.coupling = 'left': must be a number, in mm"),
         (('axial_stiffness = "rigid"\n', ""), "pinion.bearing = 2: must hold the shaft"),
         (("teeth = 40", "teeth = -80"), "the load over the face of a ring on shafts is not modelled"),
+        (("mesh_angle", "gravity = [0.0, -9.8]\nmesh_angle"), "shafts.gravity = [0.0, -9.8]: must be a list of 3 numbers"),
+        (("position = 130.0", "position = 130.0\noffset = 3.0"), "pinion.bearing[1].offset = 3: must be a list of 2 numbers"),
+        (
+            ("[[pinion.bearing]]", "[[pinion.force]]\nposition = 9.0\nforce = [1.0, nan, 0.0]\n[[pinion.bearing]]"),
+            "pinion.force[0].force = [1.0, nan, 0.0]: must be a list of 3 numbers",
+        ),
     ],
 )
 def test_faults_of_shafts_are_told_by_every_command(tmp_path: Path, change: tuple[str, str], words: str) -> None:

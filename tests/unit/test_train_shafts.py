@@ -149,7 +149,7 @@ WRONG = {
     "off the shaft": ("position = 92.0 },", "position = 200.0 },", "gears[1].position = 200 mm", "must be from 0 to 140 mm"),
     "face off": ("position = 92.0 },", "position = 130.0 },", "middle.gears[1].position = 130 mm", "must be from 20 to 120 mm"),
     "one bearing": ('{ name = "D"', '# { name = "D"', "bearings = 1", "must hold the shaft"),
-    "bearing off": ("position = 130.0, kind", "position = 150.0, kind", "bearings = 150 mm", "on the shaft"),
+    "bearing off": ("position = 130.0, kind", "position = 150.0, kind", "bearings[1].position = 150 mm", "on the shaft"),
     "mesh": (
         'mesh = "stage 2", role = "pinion"',
         'mesh = "stage 3", role = "pinion"',
