@@ -97,6 +97,8 @@ def _next(name: str, text: str, path: Path) -> str:
     if name.endswith(".csv"):
         return f"gearcad batch {path}"
     commands = {"train": "dynamics", "planetary": "planetary", "measured": "identify"}
+    if "\nsegments = [" in text:
+        return f"gearcad shafts {path}"
     command = next((command for table, command in commands.items() if f"\n[{table}]\n" in text), "data")
     return f"gearcad {command} {path}"
 

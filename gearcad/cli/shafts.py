@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -48,8 +49,8 @@ def _lines(result: ArrangementResult) -> Iterator[str]:
         yield f"{name}: length {state.shaft.length:g} mm, torque of the coupling {state.coupling_torque:.5g} N·m"
         for life, force in zip(shaft.lives, state.reactions, strict=True):
             forces = ", ".join(f"{each + 0.0:.5g}" for each in force[:3].round(6))
-            hours = "-" if life.hours is None else f"{life.hours:.5g} h"
-            modified = "" if life.modified_hours is None else f", L_nmh {life.modified_hours:.5g} h"
+            hours = "-" if life.hours is None else _hours(life.hours)
+            modified = "" if life.modified_hours is None else f", L_nmh {_hours(life.modified_hours)}"
             yield f"  {life.name}: reaction {forces} N, L_10h {hours}{modified}"
         stations = state.stations()
         bent = max(stations, key=lambda each: each["deflection"][0] ** 2 + each["deflection"][1] ** 2)
@@ -65,3 +66,8 @@ def _lines(result: ArrangementResult) -> Iterator[str]:
     if (mesh := result.mesh) is not None:
         yield f"mesh: f_sh {mesh['f_sh']:.4g} µm, K_Hbeta {mesh['K_Hbeta_end_of_face']:.4g} at the end of the face"
     yield f"not judged: {'; '.join(result.not_judged)}"
+
+
+def _hours(hours: float) -> str:
+    """Return a life in hours; that of a bearing without a load has no limit."""
+    return f"{hours:.5g} h" if math.isfinite(hours) else "without limit"

@@ -121,8 +121,10 @@ def bearing_life(bearing: ShaftBearing, radial: float, axial: float | str, speed
 
 def _equivalent(bearing: ShaftBearing, radial: float, axial: float) -> EquivalentLoad | str:
     """Return the equivalent load, or why there is none."""
-    if bearing.kind is None or bearing.C is None:
-        return "life: kind and C are not given"
+    if bearing.kind is None:
+        return "life: kind is not given" if bearing.C is not None else "life: kind and C are not given"
+    if bearing.C is None:
+        return "life: C is not given"
     if bearing.kind == "deep groove":
         if axial and (bearing.f0 is None or bearing.C0 is None):
             if bearing.Y is not None and bearing.e is not None:
