@@ -1,0 +1,181 @@
+"""What FreeCAD runs for test_freecad_workbench.py: features made, changed, saved and opened again; the figures as JSON.
+
+The arguments stand in the environment: WORKBENCH_TEST is a folder with files that `gearcad build` wrote, WORKBENCH_PARTS names
+the functions that are called.
+"""
+
+import json
+import os
+import sys
+import traceback
+from pathlib import Path
+
+import FreeCAD
+import Part
+
+FOLDER = Path(os.environ["WORKBENCH_TEST"])
+FILLET_RADIUS = 0.5
+
+
+def volume_in(name):
+    """Return the volume of the solids in a STEP file, as FreeCAD reads it."""
+    return Part.read(str(FOLDER / name)).Volume
+
+
+def bore_edges(shape):
+    """Return the numbers, from 1, of the edges on the bore of 12 mm at z = 0."""
+    found = []
+    for number, edge in enumerate(shape.Edges, 1):
+        if isinstance(edge.Curve, Part.Circle) and abs(edge.Curve.Radius - 6) < 1e-9 and abs(edge.CenterOfMass.z) < 1e-9:
+            found.append(number)
+    return found
+
+
+def end_faces(shape):
+    """Return the numbers, from 1, of the level plane faces by their heights."""
+    level = (face for face in shape.Faces if isinstance(face.Surface, Part.Plane) and abs(face.Surface.Axis.z) > 0.999)
+    return {round(face.CenterOfMass.z, 9): shape_number(shape, face) for face in level}
+
+
+def shape_number(shape, wanted):
+    """Return the number, from 1, of a face in a shape."""
+    return next(number for number, face in enumerate(shape.Faces, 1) if face.isSame(wanted))
+
+
+def single_gear():
+    """Change a gear that has a fillet and a sketch, save and open it; return what was measured at each step."""
+    from gearcad_features import add_feature, open_spec, save_spec
+
+    document = FreeCAD.newDocument("gear")
+    gear = add_feature("Gear", document)
+    document.recompute()
+    top = end_faces(gear.Shape)[20.0]
+    fillet = document.addObject("Part::Fillet", "Fillet")
+    fillet.Base = gear
+    fillet.Edges = [(number, FILLET_RADIUS, FILLET_RADIUS) for number in bore_edges(gear.Shape)]
+    sketch = document.addObject("Sketcher::SketchObject", "Sketch")
+    sketch.Support = [(gear, f"Face{top}")]
+    sketch.MapMode = "FlatFace"
+    document.recompute()
+
+    def measured():
+        return {
+            "volume": gear.Shape.Volume,
+            "valid": [each.isValid() and each.Shape.isValid() for each in (gear, fillet)] + [sketch.isValid()],
+            "removed": gear.Shape.Volume - fillet.Shape.Volume,
+            "edges": bore_edges(gear.Shape),
+            "ends": sorted(end_faces(gear.Shape).items()),
+            "sketch": [*sketch.Placement.Base, sketch.Placement.Rotation.multVec(FreeCAD.Vector(0, 0, 1)).z],
+            "faces": len(gear.Shape.Faces),
+        }
+
+    found = {"20": measured()}
+    gear.Teeth = 31
+    document.recompute()
+    found["31"] = measured()
+    gear.Teeth = 2
+    document.recompute()
+    found["wrong input is invalid"] = not gear.isValid()
+    gear.Teeth = 31
+    document.recompute()
+    found["tooltips"] = {name: gear.getDocumentationOfProperty(name) for name in ("Teeth", "FaceWidth", "HelixAngle")}
+    save_spec(gear, FOLDER / "saved.toml")
+    file = str(FOLDER / "gear.FCStd")
+    document.saveAs(file)
+    FreeCAD.closeDocument(document.Name)
+
+    document = FreeCAD.openDocument(file)
+    gear, fillet, sketch = document.Gear, document.Fillet, document.Sketch
+    found["reopened"] = measured() | {"teeth": gear.Teeth}
+    gear.Teeth, gear.HelixAngle, gear.ProfileShift = 25, 15, 0.25
+    document.recompute()
+    placed = gear.Placement
+    gear.Placement = FreeCAD.Placement(FreeCAD.Vector(60, -7, 0), FreeCAD.Rotation())
+    gear.Teeth = 26
+    document.recompute()
+    found["placed"] = [gear.Shape.CenterOfMass.x, gear.Shape.CenterOfMass.y]
+    gear.Teeth, gear.Placement = 25, placed
+    document.recompute()
+    found["helical"] = measured()
+    found["spec"] = open_spec(FOLDER / "commented.toml", document).Spec
+    return found | {"built": {name: volume_in(f"{name}.step") for name in ("20", "31", "helical")}}
+
+
+def mesh_of_pair():
+    """Turn a pair; return volumes and the directions of the same tooth face of each gear before and after."""
+    from gearcad_features import add_feature
+
+    document = FreeCAD.newDocument("pair")
+    pair = add_feature("Pair", document)
+    document.recompute()
+
+    def directions():
+        pinion, wheel = pair.Shape.Solids
+        distance = wheel.CenterOfMass.x
+        return [
+            (pinion.Faces[-1].CenterOfMass.x, pinion.Faces[-1].CenterOfMass.y),
+            (wheel.Faces[-1].CenterOfMass.x - distance, wheel.Faces[-1].CenterOfMass.y),
+        ]
+
+    found = {"volume": pair.Shape.Volume, "built": volume_in("pair.step"), "before": directions()}
+    found["distance"] = pair.Shape.Solids[1].CenterOfMass.x
+    pair.Angle = 10
+    document.recompute()
+    return found | {"after": directions(), "overlap": pair.Shape.Solids[0].common(pair.Shape.Solids[1]).Volume}
+
+
+def other_kinds():
+    """Return, for the feature of each other kind, whether it is valid, its solids, its volume and that of `gearcad build`."""
+    from gearcad_features import add_feature
+
+    document = FreeCAD.newDocument("kinds")
+    found = {}
+    for kind in ("Ring", "Rack", "Planetary", "Spline"):
+        feature = add_feature(kind, document)
+        document.recompute()
+        shape = feature.Shape
+        found[kind] = [feature.isValid() and shape.isValid(), len(shape.Solids), shape.Volume, volume_in(f"{kind}.step")]
+    return found
+
+
+def twenty_changes():
+    """Change the teeth of a gear, a ring and a pair twenty times; return validity, volume and faces of each change."""
+    from gearcad_features import add_feature
+
+    document = FreeCAD.newDocument("changes")
+    found = {}
+    for kind, name, start in (("Gear", "Teeth", 20), ("Ring", "Teeth", -60), ("Pair", "WheelTeeth", 41)):
+        feature = add_feature(kind, document)
+        if kind == "Ring":
+            feature.BodyRimDiameter = 200  # room for 80 teeth
+        found[kind] = []
+        for change in range(1, 21):
+            setattr(feature, name, start + change if start > 0 else start - change)
+            document.recompute()
+            valid = feature.isValid() and feature.Shape.isValid()
+            found[kind].append([valid, feature.Shape.Volume, len(feature.Shape.Faces)])
+        document.removeObject(feature.Name)
+    return found
+
+
+def random_designs():
+    """Return the label, validity and volume of a feature of every spec random-*.toml, and the volume of `gearcad build`."""
+    from gearcad_features import open_spec
+
+    document = FreeCAD.newDocument("random")
+    found = []
+    for spec in sorted(FOLDER.glob("random-*.toml")):
+        feature = open_spec(spec, document)
+        document.recompute()
+        valid = feature.isValid() and feature.Shape.isValid()
+        found.append([spec.stem, valid, feature.Shape.Volume if valid else None, volume_in(f"{spec.stem}.step")])
+        document.removeObject(feature.Name)
+    return found
+
+
+try:
+    answer = {name: globals()[name]() for name in os.environ["WORKBENCH_PARTS"].split()}
+except Exception:
+    answer = {"error": traceback.format_exc()}
+(FOLDER / "figures.json").write_text(json.dumps(answer), encoding="utf-8")
+sys.exit(0)

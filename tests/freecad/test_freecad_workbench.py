@@ -1,0 +1,173 @@
+"""The FreeCAD workbench in FreeCAD without a window; skipped where there is no FreeCAD."""
+
+import importlib.util
+import json
+import math
+import os
+import runpy
+import shutil
+import subprocess
+import tomllib
+from functools import reduce
+from itertools import pairwise
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+import gearcad
+from gearcad.designs.reader import starter_text
+
+ROOT = Path(__file__).parents[2]
+WORKBENCH = ROOT / "freecad" / "gearcad_workbench"
+FREECAD = shutil.which("freecadcmd") or shutil.which("FreeCADCmd")
+SAME_VOLUME = 1e-9
+"""Relative: both are integrals of one kernel over the same surfaces."""
+
+FILLET_RADIUS, BORE_RADIUS = 0.5, 6.0
+COMMENTED = "[gear]\nteeth = 22  # of the second stage\nnormal_module = 1.5\nface_width = 9.0\n"
+
+
+def install_workbench(home: Path) -> None:
+    """Install the workbench as its manual says, with links to gearcad and to the packages of packages.txt."""
+    mod = home / ".local" / "share" / "FreeCAD" / "Mod" / "gearcad_workbench"
+    shutil.copytree(WORKBENCH, mod, ignore=shutil.ignore_patterns("packages", "__pycache__"))
+    packages = mod / "packages"
+    packages.mkdir()
+    (packages / "gearcad").symlink_to(Path(gearcad.__file__).resolve().parent)
+    (packages / "templates").symlink_to(ROOT / "templates")
+    for line in (WORKBENCH / "packages.txt").read_text(encoding="utf-8").splitlines():
+        if not line.startswith("#"):
+            spec = importlib.util.find_spec(line.partition(">=")[0])
+            assert spec is not None and spec.origin is not None
+            (packages / spec.name).symlink_to(Path(spec.origin).parent)
+
+
+def gear_text(teeth: int, more: str = "") -> str:
+    """Return the spec of the feature Gear with other teeth, written by hand."""
+    return f"[gear]\nteeth = {teeth}\nnormal_module = 2.0\nface_width = 20.0\nbody.bore = 12.0\n{more}"
+
+
+def run_freecad(folder: Path, texts: dict[str, str], parts: str) -> dict[str, Any]:
+    """Build the designs of `texts` with gearcad, run `parts` of lifecycle.py in FreeCAD, and return its figures."""
+    if FREECAD is None:
+        pytest.skip("FreeCAD is not installed")
+    for name, text in texts.items():
+        spec = folder / f"{name}.toml"
+        spec.write_text(text, encoding="utf-8")
+        made = gearcad.build(gearcad.read(spec), folder / f"built-{name}", ["step"])
+        steps = {file.stem: file for file in made if file.suffix == ".step"}
+        shutil.copy(steps.get("assembly") or next(iter(steps.values())), folder / f"{name}.step")
+    home = folder / "home"
+    install_workbench(home)
+    environment = {key: value for key, value in os.environ.items() if not key.startswith(("PYTHON", "XDG_"))}
+    environment |= {"HOME": str(home), "WORKBENCH_TEST": str(folder), "WORKBENCH_PARTS": parts}
+    script = Path(__file__).with_name("lifecycle.py")
+    subprocess.run([FREECAD, str(script)], env=environment, capture_output=True, timeout=1200, check=False, cwd=folder)
+    found: dict[str, Any] = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
+    assert "error" not in found, found["error"]
+    return found
+
+
+def specs() -> dict[str, str]:
+    """Return the specs of new features."""
+    found: dict[str, str] = runpy.run_path(str(WORKBENCH / "gearcad_keys.py"))["SPECS"]
+    return {kind: text if "\n" in text else starter_text(text)[1] for kind, text in found.items()}
+
+
+def test_gear_is_changed_saved_and_reopened(tmp_path):
+    texts = {"20": gear_text(20), "31": gear_text(31), "helical": gear_text(25, "helix_angle = 15.0\nprofile_shift = 0.25\n")}
+    (tmp_path / "commented.toml").write_text(COMMENTED, encoding="utf-8")
+    gear = run_freecad(tmp_path, texts, "single_gear")["single_gear"]
+    _require_body_unchanged(gear)
+    for step, built in (("20", "20"), ("31", "31"), ("reopened", "31"), ("helical", "helical")):
+        assert gear[step]["volume"] == pytest.approx(gear["built"][built], rel=SAME_VOLUME), step
+    saved = gearcad.read(tmp_path / "saved.toml").gears["gear"]
+    assert (saved.teeth, saved.body.bore, gear["reopened"]["teeth"]) == (31, 12.0, 31)
+    assert gear["spec"] == COMMENTED
+    assert gear["placed"] == pytest.approx([60.0, -7.0], abs=1e-6)
+    assert gear["wrong input is invalid"]
+    assert "permitted 3 to 2000; or -2000 to -10 (internal gear)" in gear["tooltips"]["Teeth"]
+    assert "unit mm" in gear["tooltips"]["FaceWidth"]
+    assert "permitted -75 to 75" in gear["tooltips"]["HelixAngle"]
+
+
+def _require_body_unchanged(gear: dict[str, Any]) -> None:
+    """Compare the fillet with Pappus: a corner between two sides and a quarter of a circle, turned about the axis."""
+    area = (1 - math.pi / 4) * FILLET_RADIUS**2
+    centroid = BORE_RADIUS + FILLET_RADIUS * (10 - 3 * math.pi) / (3 * (4 - math.pi))
+    for step in ("20", "31", "reopened", "helical"):
+        found = gear[step]
+        assert found["valid"] == [True, True, True], step
+        assert found["removed"] == pytest.approx(2 * math.pi * centroid * area, rel=1e-6), step
+        assert (found["edges"], found["ends"]) == (gear["20"]["edges"], gear["20"]["ends"]), step
+        assert found["sketch"][2:] == pytest.approx([20.0, 1.0]), step
+    assert gear["31"]["faces"] - gear["20"]["faces"] == 11 * (gear["20"]["faces"] - 3) / 20  # bore and two ends are no teeth
+
+
+STARTERS = ("spur", "reducer-21-43", "double-23-81", "ring-22-70", "rack", "planetary-24-21-66", "spline")
+
+
+@pytest.mark.parametrize("starter", STARTERS)
+def test_properties_have_the_values_of_the_spec(starter):
+    tables = tomllib.loads(starter_text(starter)[1])
+    keys = runpy.run_path(str(WORKBENCH / "gearcad_keys.py"))["keys_of"](tables)
+    assert len({key.name for key in keys}) == len(keys) > 20
+    given = 0
+    for key in keys:
+        table, _, field = key.dotted.partition(".")
+        value = reduce(lambda inner, word: inner.get(word, {}), field.split("."), tables.get(table, {}))
+        if value != {}:
+            assert key.given(key.shown(tables)) == value, key.dotted
+            given += 1
+        elif key.type == "App::PropertyString":
+            assert key.given(key.shown(tables)) is None, key.dotted
+    assert given >= 4
+
+
+@pytest.mark.long
+def test_pair_and_other_kinds(tmp_path):
+    texts = specs()
+    texts["pair"] = texts.pop("Pair")
+    del texts["Gear"]
+    figures = run_freecad(tmp_path, texts, "mesh_of_pair other_kinds")
+    for kind, (valid, _, volume, built) in figures["other_kinds"].items():
+        assert valid, kind
+        assert volume == pytest.approx(built, rel=SAME_VOLUME), kind
+    solids = {kind: found[1] for kind, found in figures["other_kinds"].items()}
+    assert solids == {"Ring": 1, "Rack": 1, "Planetary": 5, "Spline": 2}
+    pair, turns = figures["mesh_of_pair"], []
+    assert pair["volume"] == pytest.approx(pair["built"], rel=SAME_VOLUME)
+    for before, after in zip(pair["before"], pair["after"], strict=True):
+        turn = math.degrees(math.atan2(after[1], after[0]) - math.atan2(before[1], before[0]))
+        turns.append((turn + 180) % 360 - 180)
+    assert turns == pytest.approx([10.0, -10.0 * 20 / 41], abs=1e-6)
+    assert pair["overlap"] == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.long
+def test_twenty_changes(tmp_path):
+    changes = run_freecad(tmp_path, {}, "twenty_changes")["twenty_changes"]
+    for kind, found in changes.items():
+        assert all(valid for valid, _, _ in found), kind
+        steps = {after[2] - before[2] for before, after in pairwise(found)}
+        assert len(steps) == 1 and steps.pop() > 0, kind  # every tooth has as many faces
+        assert len({volume for _, volume, _ in found}) == 20, kind
+
+
+@pytest.mark.long
+def test_random_designs_equal_those_of_build(tmp_path):
+    random, texts = Random(43), {}
+    for number in range(100):
+        module = random.choice([0.5, 1.0, 2.0, 3.5])
+        text = f"[gear]\nteeth = {random.randint(14, 60)}\nnormal_module = {module}\n"
+        text += f"face_width = {module * random.uniform(4, 12):.3f}\nhelix_angle = {random.choice([0.0, 12.5, -25.0])}\n"
+        text += f"profile_shift = {random.uniform(0.25, 0.4):.3f}\nbody.bore = {module * random.uniform(2, 6):.3f}\n"
+        text += f"body.end_chamfer = {module * random.choice([0.0, 0.2]):.3f}\n"
+        texts[f"random-{number:02}"] = text
+    found = run_freecad(tmp_path, texts, "random_designs")["random_designs"]
+    assert len(found) == 100
+    for name, valid, volume, built in found:
+        assert valid, texts[name]
+        assert volume == pytest.approx(built, rel=SAME_VOLUME), texts[name]
