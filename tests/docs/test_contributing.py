@@ -9,6 +9,8 @@ from types import CodeType, FrameType
 import pytest
 from support.commands import run
 
+from gearcad.solids.exact.solid import gear_boundary
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -44,6 +46,7 @@ def test_a_command_goes_the_way_that_the_map_shows(verb: str, tmp_path: Path, mo
     (tmp_path / "pair.toml").write_text(text("templates/fzg-c.toml") + coarse, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     entered: dict[int, CodeType] = {}
+    gear_boundary.cache_clear()  # of a gear that another test has built
 
     def note(frame: FrameType, event: str, _: object) -> None:
         if event == "call":
