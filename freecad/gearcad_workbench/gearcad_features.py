@@ -74,9 +74,11 @@ def spec_text(feature):
     tables = tomllib.loads(feature.Spec)
     changed = {}
     for key in keys_of(tables):
-        value = getattr(feature, key.name)
-        if getattr(value, "Value", value) != key.shown(tables):
-            changed[key.dotted] = key.given(value)
+        if not hasattr(feature, key.name):
+            continue  # a document of an earlier version
+        value = key.given(getattr(feature, key.name))
+        if value != key.given(key.shown(tables)):
+            changed[key.dotted] = value
     return edit_spec(feature.Spec, changed) if changed else feature.Spec
 
 
@@ -128,12 +130,13 @@ def save_spec(feature, path):
 
 
 def insert(path, name):
-    """Add the design in a spec to the document called `name`; FreeCAD calls this for File > Import."""
-    open_spec(path, FreeCAD.getDocument(name)).Document.recompute()
+    """Add the design in a spec to the document called `name`, or to a new one; FreeCAD calls this for File > Import."""
+    document = FreeCAD.getDocument(name) if name in FreeCAD.listDocuments() else FreeCAD.newDocument(Path(path).stem)
+    open_spec(path, document)
+    document.recompute()
+    return document
 
 
 def open(path):
     """Return a new document with the design in a spec; FreeCAD calls this for File > Open."""
-    document = FreeCAD.newDocument(Path(path).stem)
-    insert(path, document.Name)
-    return document
+    return insert(path, "")

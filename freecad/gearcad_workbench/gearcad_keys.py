@@ -124,9 +124,12 @@ class Key:
         return int(value) if self.field.whole else float(value)
 
     def given(self, value):
-        """Return the value in a spec for that of the property; None for a key that is not given."""
+        """Return the value in a spec for that of the property; None for a key that is not given.
+
+        The value alone decides, since the property of a document of an earlier version can have another type.
+        """
         value = getattr(value, "Value", value)
-        if self.type != "App::PropertyString":
+        if not isinstance(value, str):
             return None if self.zero_is_absent and value == 0 else value
         value = value.strip()
         if not value or (self.field.text and not self.field.texts):

@@ -87,6 +87,9 @@ def single_gear():
     document = FreeCAD.openDocument(file)
     gear, fillet, sketch = document.Gear, document.Fillet, document.Sketch
     found["reopened"] = measured() | {"teeth": gear.Teeth}
+    gear.removeProperty("ToothThinning")  # as in a document of another version
+    gear.removeProperty("BodyRimDiameter")
+    gear.addProperty("App::PropertyString", "BodyRimDiameter")
     gear.Teeth, gear.HelixAngle, gear.ProfileShift = 25, 15, 0.25
     document.recompute()
     placed = gear.Placement
@@ -98,6 +101,10 @@ def single_gear():
     document.recompute()
     found["helical"] = measured()
     found["spec"] = open_spec(FOLDER / "commented.toml", document).Spec
+    before = set(FreeCAD.listDocuments())
+    FreeCAD.loadFile(str(FOLDER / "commented.toml"))  # as File > Open does, by the import type that Init.py registers
+    (opened,) = set(FreeCAD.listDocuments()) - before
+    found["opened"] = [(each.Name, each.Teeth, each.isValid()) for each in FreeCAD.getDocument(opened).Objects]
     return found | {"built": {name: volume_in(f"{name}.step") for name in ("20", "31", "helical")}}
 
 
@@ -170,6 +177,36 @@ def random_designs():
         valid = feature.isValid() and feature.Shape.isValid()
         found.append([spec.stem, valid, feature.Shape.Volume if valid else None, volume_in(f"{spec.stem}.step")])
         document.removeObject(feature.Name)
+    return found
+
+
+def bodies():
+    """Return, for every spec body-*.toml, the walls and their edges by number before and after a change of teeth.
+
+    A face is told by its surface and its centre, an edge by its length and its centre: none of them knows of teeth.
+    """
+    from gearcad_features import open_spec
+
+    def told(part, size):
+        return [round(value, 6) for value in (size, *part.CenterOfMass)]
+
+    document = FreeCAD.newDocument("bodies")
+    found = {}
+    for spec in sorted(FOLDER.glob("body-*.toml")):
+        feature = open_spec(spec, document)
+        states = []
+        for more in (0, 11):
+            feature.Teeth += more if feature.Teeth > 0 else -more
+            document.recompute()
+            shape = feature.Shape
+            ends = [number for number, face in enumerate(shape.Faces, 1) if len(face.Edges) > 60]
+            walls = shape.Faces[: ends[0] - 1]
+            edges = shape.Edges[: len(Part.Compound(walls).Edges)]
+            heights = [round(shape.Faces[number - 1].CenterOfMass.z, 6) for number in ends]
+            states.append(
+                [ends, heights, [told(face, face.Area) for face in walls], [told(edge, edge.Length) for edge in edges]]
+            )
+        found[spec.stem] = states
     return found
 
 

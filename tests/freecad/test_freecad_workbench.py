@@ -86,6 +86,7 @@ def test_gear_is_changed_saved_and_reopened(tmp_path):
     saved = gearcad.read(tmp_path / "saved.toml").gears["gear"]
     assert (saved.teeth, saved.body.bore, gear["reopened"]["teeth"]) == (31, 12.0, 31)
     assert gear["spec"] == COMMENTED
+    assert gear["opened"] == [["Gear", 22, True]]
     assert gear["placed"] == pytest.approx([60.0, -7.0], abs=1e-6)
     assert gear["wrong input is invalid"]
     assert "permitted 3 to 2000; or -2000 to -10 (internal gear)" in gear["tooltips"]["Teeth"]
@@ -171,3 +172,25 @@ def test_random_designs_equal_those_of_build(tmp_path):
     for name, valid, volume, built in found:
         assert valid, texts[name]
         assert volume == pytest.approx(built, rel=SAME_VOLUME), texts[name]
+
+
+BODIES = {
+    "keyway": "body.keyway = true\n",
+    "hub": 'body.hub_diameter = 24.0\nbody.hub_length = 8.0\nbody.hub_side = "both"\n',
+    "chamfers": "body.end_chamfer = 0.5\nbody.tip_chamfer = 0.2\n",
+    "helical": "helix_angle = 20.0\n",
+}
+WALLS = {"body-keyway": 4, "body-hub": 5, "body-chamfers": 1, "body-helical": 1, "body-ring": 7}
+"""Number of walls: bore and sides of the keyway; bore, two hubs and their ends; outside and six holes of the ring."""
+
+
+@pytest.mark.long
+def test_numbers_of_faces_and_edges_of_bodies(tmp_path):
+    texts = {f"body-{name}": gear_text(20, more) for name, more in BODIES.items()}
+    ring = "body.rim_diameter = 190.0\nbody.bolt_circle = 178.0\nbody.bolt_holes = 6\nbody.bolt_diameter = 5.0\n"
+    texts["body-ring"] = gear_text(-60, ring).replace("body.bore = 12.0\n", "")
+    found = run_freecad(tmp_path, texts, "bodies")["bodies"]
+    assert {name: len(after[2]) for name, (_, after) in found.items()} == WALLS
+    for name, (before, after) in found.items():
+        assert before == after, name
+        assert len(before[0]) == 2, name  # end faces
