@@ -31,7 +31,7 @@ TRAINS = ("planetary-24-21-66", "planetary-alm", "planetary-alm-in-phase", "plan
 STARTERS = (*THINNED, *TRAINS, "spline")
 """All that have bodies, but those that are typed as text."""
 
-TYPED = {"spline": ("spline.length", 21.0)}
+TYPED = {"spur": ("profile_shift", 0.061), "spline": ("spline.length", 21.0)}
 """Key that is typed into, and its first value; of all others the thickness."""
 
 CHANGES = 15
