@@ -239,6 +239,9 @@ def test_designs_are_compared_swapped_and_let_go(tab: Any) -> None:
     tab.page.wait_for_function(
         "document.querySelector('[data-compared=\"gear.face_width pinion\"] td')?.innerText === '25.0000'"
     )
+    tab.page.wait_for_function(
+        "document.querySelectorAll('[data-compared=\"gear.face_width pinion\"] td')[1]?.innerText === '30.0000'"
+    )
     assert row.locator("td").all_inner_texts() == ["25.0000", "30.0000", "28.0000"]
     tab.page.locator(".compare thead th").nth(2).get_by_role("button").last.click()
     tab.page.wait_for_function("document.querySelectorAll('.compare thead th[scope=col]').length === 2")
