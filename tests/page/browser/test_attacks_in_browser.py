@@ -101,7 +101,7 @@ def test_script_in_every_text_of_a_design_of_any_kind_is_only_words(tab: Tab, st
     page.wait_for_selector(".gear-sheet table:visible")
     for place in ("left", "right"):
         for title in (2, 3, 1):
-            tab_of_kind = page.locator(f".{place} .q-tab:nth-child({title})")
+            tab_of_kind = page.locator(f".{place} .q-tab:nth-child({title})").first
             if tab_of_kind.is_visible():  # some kinds of designs have fewer
                 tab_of_kind.click()
     page.wait_for_function("script => document.body.textContent.includes(script)", arg=SCRIPT)
