@@ -81,7 +81,7 @@ STATIONS = 20
 
 
 class SupportedCells(NamedTuple):
-    """What supports do to cells (n,): displacements (n, n) along the normals (mm/N), a gap (n,) in mm that needs no load.
+    """Effect of supports on cells (n,): displacements (n, n) along the normals (mm/N), a gap (n,) in mm that needs no load.
 
     `turns` (n,) in mm/N are lags of the wheel along the normal by the twist of both supports at the middle of the face,
     `turned` (mm) is the lag without load.

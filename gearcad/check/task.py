@@ -81,7 +81,7 @@ class CheckTask:
 
     @cached_property
     def supports(self) -> SupportCompliance | None:
-        """What the shafts do to the solid contact; None for rigid ones."""
+        """Effect of the shafts on the solid contact; None for rigid ones."""
         return None if self.on_shafts is None else self.on_shafts.face.supports()
 
     @cached_property

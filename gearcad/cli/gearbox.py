@@ -1,4 +1,4 @@
-"""What `gearcad planetary` tells of a gearbox of several sets: a line for each of its states."""
+"""Screen and document of `gearcad planetary` for a gearbox of several sets: a line for each of its states."""
 
 from __future__ import annotations
 

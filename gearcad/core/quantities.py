@@ -291,7 +291,7 @@ class FieldSchema:
 
     @cached_property
     def count(self) -> int | None:
-        """How many numbers the field always holds; None where it can be something else, or a list of any length."""
+        """Count of numbers that the field always holds; None where it can be something else, or a list of any length."""
         parts = get_args(self.members[0]) if len(self.members) == 1 and get_origin(self.members[0]) is tuple else ()
         return len(parts) if set(parts) == {float} else None
 

@@ -227,7 +227,7 @@ class OverMeshes(Job[TrainDesign, MeshResults]):
 
 
 _NO_FIGURES = ("passed", "strength", "warnings")
-"""What stands beside the figures of a mesh."""
+"""Keys that stand beside the figures of a mesh."""
 
 
 def _tell(progress: Progress, mesh: str, before: int, count: int, step: str, done: float, whole: float) -> None:

@@ -81,7 +81,7 @@ def line_names(design: TrainDesign) -> dict[int, str]:
 
 @dataclass(frozen=True)
 class TrainBuilt:
-    """What is built of a train: its design, the product of all gears and shafts, and the files of each pair."""
+    """Bodies of a train: its design, the product of all gears and shafts, and the files of each pair."""
 
     design: TrainDesign
     product: GearTrainProduct

@@ -143,7 +143,7 @@ def _mass_of_shafts(assembly: DrawnPair) -> float:
 
 
 def _of_shaft(design: ToothedDesign, drawn: DrawnShaft) -> ExpectedSheet:
-    """What the sheet of a shaft must show."""
+    """Return the content that the sheet of a shaft must have."""
     options = (design.drawing or DrawingOptions()).of_part(design.drawings.get(drawn.name), alone=drawn.seated is None)
     words = SheetTemplate.of(options.template).words(options.language)
     shaft, toothed = drawn.given, drawn.toothed is not None

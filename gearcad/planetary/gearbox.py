@@ -111,7 +111,7 @@ class GearboxState:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class StateResult:
-    """What a state does: speeds over that of the input, torques over that on the input, powers over the input's.
+    """Result of a state: speeds over that of the input, torques over that on the input, powers over the input's.
 
     `speeds` are by the names of members and shafts, `torques` from outside by those of input, output and held members, and
     `clutches` those that a clutch puts on the second of what it joins, by "first-second"; None where brakes and clutches share

@@ -230,7 +230,7 @@ def shaft_notices(mesh: LoadedMesh) -> Iterator[Notice]:
 
 _NOT_FOUND = 'must be "C" or a number here: a load distribution of our own is found by gearcad rate, before the rating'
 NO_SHAFTS = 'must be "C" or a number here: no gear has a shaft with its bearings, such as [[pinion.shaft]]'
-"""What the face load factor can be without shafts."""
+"""Permitted sources of the face load factor without shafts."""
 
 
 def face_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:

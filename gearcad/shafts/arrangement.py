@@ -337,14 +337,14 @@ class ArrangementResult:
 
     @property
     def unconfirmed(self) -> list[str]:
-        """What rests on memory, if anything does."""
+        """Figures that rest on memory, if any do."""
         lives = any(life.revolutions is not None for shaft in self.shafts.values() for life in shaft.lives)
         strength = any(not each.reason for shaft in self.shafts.values() for each in shaft.shoulders)
         return [*([RECALLED] if lives else []), *([RECALLED_STRENGTH] if strength else [])]
 
     @property
     def not_judged(self) -> list[str]:
-        """What was not judged, and why."""
+        """Reasons why parts were not judged."""
         found = [
             f"{name}: {life.name}: {why}" for name, shaft in self.shafts.items() for life in shaft.lives for why in life.reasons
         ]

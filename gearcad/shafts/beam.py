@@ -492,7 +492,7 @@ class ShaftState:
 
     @cached_property
     def _on_nodes(self) -> Floats:
-        """What holds each node (n, 6): the forces of bearings and coupling on the shaft (N, N mm)."""
+        """Forces that hold each node (n, 6): those of bearings and coupling on the shaft (N, N mm)."""
         return (self.shaft._body @ self.moved - self.loads).reshape(-1, _DOFS)
 
     @cached_property

@@ -24,7 +24,7 @@ RECALLED = (
     "ISO 281: factors e and Y of deep groove ball bearings, X of angular contact ones by e, the thrust F_r/(2 Y) of opposed"
     " bearings, a_1, and the constants of a_ISO for rollers"
 )
-"""What rests on memory, for the list of unconfirmed figures."""
+"""Figures that rest on memory, for the list of unconfirmed figures."""
 
 _RELATIVE = (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89)
 """f_0 F_a/C_0 of deep groove ball bearings."""

@@ -35,7 +35,7 @@ def require_modelled(pair: GearPair) -> None:
 
 
 class _Support(NamedTuple):
-    """What a shaft does at stations: a part of a SupportCompliance."""
+    """Effect of a shaft at stations: a part of a SupportCompliance."""
 
     matrix: Floats
     gap: Floats

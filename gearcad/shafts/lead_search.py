@@ -17,7 +17,7 @@ _MOST_HELIX = 1000
 """Largest amounts (µm)."""
 
 _CROWNING_PRICE = 1e-4
-"""What K_Hbeta may rise by for each µm of crowning that is saved: crowning that nothing asks for is left out."""
+"""Permitted rise of K_Hbeta for each µm of crowning that is saved: crowning that nothing asks for is left out."""
 
 
 @dataclass(frozen=True)

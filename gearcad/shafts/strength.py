@@ -15,7 +15,7 @@ from gearcad.core.records import JsonObject
 from gearcad.shafts.beam import ShaftState
 
 RECALLED = "DIN 743: formulas of shoulders, K_1 of quenched and tempered steel, K_2F, gamma_F and endurance limits from R_m"
-"""What rests on memory, for the list of unconfirmed figures."""
+"""Figures that rest on memory, for the list of unconfirmed figures."""
 
 _HARDENED = 1.05
 """gamma_F of bending for shoulders: alpha_sigma from 1.5 to 2; 1.1 from 2 to 3, 1.15 beyond."""
