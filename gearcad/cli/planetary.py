@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from gearcad.cli.group import debug_option, require_new_file
-from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
+from gearcad.cli.job import echo_warnings, json_option, output_option, perform_on, quiet_option
 from gearcad.cli.language import say
 from gearcad.cli.strength import train_strength_lines
 from gearcad.core.errors import ParameterError, as_choice
@@ -234,9 +234,9 @@ def planetary(
     gearcad planetary --ratio 5.2 --module 2 --planets 3:5
     gearcad planetary --ratio -30 --module 2 --type C,D --teeth 17:60 -o sets.csv
     """
-    from gearcad.cli.gearbox import tell_gearbox
     from gearcad.core.errors import ParameterError
-    from gearcad.designs.gearbox_spec import read_gearbox
+    from gearcad.designs.keys import DesignKind
+    from gearcad.designs.reader import read_spec
     from gearcad.jobs.planetary import Planetary
 
     if wanted["ratio"] is not None:
@@ -247,10 +247,14 @@ def planetary(
     require_no_search(wanted, force=force)
     if spec is None:
         raise ParameterError("spec", None, "must be given, a file that `gearcad new planetary` begins; or --ratio, to search")
-    if (gearbox := read_gearbox(spec)) is not None:
-        tell_gearbox(gearbox, output, as_json=as_json)
+    design = read_spec(spec)
+    if design.kind is DesignKind.GEARBOX:
+        from gearcad.cli.gearbox import show_gearbox
+        from gearcad.jobs.gearbox import PlanetaryGearbox
+
+        perform_on(PlanetaryGearbox(), design, output, show_gearbox, as_json=as_json, quiet=quiet)
         return
-    perform(Planetary(response=response), spec, output, _show, as_json=as_json, quiet=quiet)
+    perform_on(Planetary(response=response), design, output, _show, as_json=as_json, quiet=quiet)
 
 
 def _show(_name: str, found: Studied) -> None:

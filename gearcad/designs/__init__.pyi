@@ -5,6 +5,7 @@ from .gear_designs import Inputs as Inputs
 from .gear_designs import RackDesign as RackDesign
 from .gear_designs import SplineDesign as SplineDesign
 from .gear_designs import ToothedDesign as ToothedDesign
+from .gearbox_spec import PlanetaryGearboxDesign as PlanetaryGearboxDesign
 from .keys import DesignKind as DesignKind
 from .pair_designs import PairDesign as PairDesign
 from .pair_designs import RackPairDesign as RackPairDesign

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from pathlib import Path
-from typing import Any, TypeVar
+from dataclasses import dataclass
+from typing import Any, ClassVar, Self, TypeVar
 
 from gearcad.core.errors import InputError, ParameterError, SpecError, format_number, shown
-from gearcad.designs.design import Where, read_tables, require_plain_name
-from gearcad.designs.keys import OF_GEARBOXES
+from gearcad.core.records import JsonObject
+from gearcad.designs.design import Design, Where
+from gearcad.designs.keys import OF_GEARBOXES, DesignKind
 from gearcad.planetary.gearbox import Gearbox, GearboxState, MemberSet, SetCentral, SetPlanet
 
 _PERMITTED = ("name", "input", "output", "joined", "mesh_efficiency", *sorted(OF_GEARBOXES))
@@ -18,40 +19,47 @@ _OF_CENTRAL, _OF_PLANET = ("teeth", "meshes"), ("name", "teeth", "meshes", "besi
 Part = TypeVar("Part")
 
 
-def is_gearbox(tables: Mapping[str, Any]) -> bool:
-    """Return whether the tables of a spec are those of a gearbox of several sets."""
-    main = tables.get("planetary")
-    return isinstance(main, Mapping) and bool(OF_GEARBOXES & set(main))
+@dataclass(frozen=True, kw_only=True)
+class PlanetaryGearboxDesign(Design):
+    """A gearbox of several planetary sets, whose members are joined, and held by brakes and clutches."""
 
+    kind: ClassVar[DesignKind] = DesignKind.GEARBOX
+    elsewhere: ClassVar[str] = "a gearbox of planetary sets is for `gearcad planetary` and `gearcad data`"
 
-def read_gearbox(path: Path | str) -> Gearbox | None:
-    """Return the gearbox of a spec, None for a spec of anything else. Raises SpecError."""
-    tables, where = read_tables(path)
-    if not is_gearbox(tables):
-        return None
-    for table in tables:
-        if table != "planetary":
-            raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [[planetary.set]]: permitted is [planetary]")
-    main = tables["planetary"]
-    _require_keys(main, "planetary", _PERMITTED, where)
-    name = main.get("name", Path(path).stem)
-    require_plain_name(name)
-    given = {key: main[key] for key in ("mesh_efficiency",) if key in main}
-    sets = main.get("set", [])
-    if not isinstance(sets, list):
-        raise SpecError(f"{where('planetary.set')}: planetary.set: must be headed [[planetary.set]], once for each")
-    return _made(
-        Gearbox,
-        "planetary",
-        where,
-        name=name,
-        sets=tuple(_set(each, number, where) for number, each in enumerate(sets)),
-        input=_text(main, "planetary", "input", where),
-        output=_text(main, "planetary", "output", where),
-        joined=_groups(main.get("joined", []), "planetary.joined", where),
-        states=tuple(_states(main.get("states", {}), where)),
-        **given,
-    )
+    gearbox: Gearbox
+
+    @classmethod
+    def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
+        """Return the design that [planetary] with its sets and states describes. Raises SpecError."""
+        for table in tables:
+            if table != "planetary":
+                raise SpecError(
+                    f"{where(table)}: [{shown(table)}] cannot stand beside [[planetary.set]]: permitted is [planetary]"
+                )
+        main = tables["planetary"]
+        _require_keys(main, "planetary", _PERMITTED, where)
+        name = main.get("name", default_name)
+        given = {key: main[key] for key in ("mesh_efficiency",) if key in main}
+        sets = main.get("set", [])
+        if not isinstance(sets, list):
+            raise SpecError(f"{where('planetary.set')}: planetary.set: must be headed [[planetary.set]], once for each")
+        gearbox = _made(
+            Gearbox,
+            "planetary",
+            where,
+            name=name,
+            sets=tuple(_set(each, number, where) for number, each in enumerate(sets)),
+            input=_text(main, "planetary", "input", where),
+            output=_text(main, "planetary", "output", where),
+            joined=_groups(main.get("joined", []), "planetary.joined", where),
+            states=tuple(_states(main.get("states", {}), where)),
+            **given,
+        )
+        return _made(cls, "planetary", where, name=name, gearbox=gearbox)
+
+    def to_dict(self) -> JsonObject:
+        """Return the document of `data.json`: sets with their teeth, joined members, input and output, states."""
+        return {**super().to_dict(), "planetary": self.gearbox.to_dict()}
 
 
 def _set(content: Any, number: int, where: Where) -> MemberSet:

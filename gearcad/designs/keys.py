@@ -20,7 +20,7 @@ from gearcad.geometry.gear_parts import MODULE_OR_PITCH
 class DesignKind(Enum):
     """Kind of design that a spec makes.
 
-    The value names the main table of the spec; that of a pinion and a rack is [pair].
+    The value names the main table of the spec; that of a pinion and a rack is [pair], that of a gearbox [planetary].
     """
 
     GEAR = "gear"
@@ -31,11 +31,17 @@ class DesignKind(Enum):
     PLANETARY = "planetary"
     SPLINE = "spline"
     SHAFT = "shaft"
+    GEARBOX = "planetary_gearbox"
 
     @property
     def words(self) -> str:
         """Name of the kind for readers, such as "rack and pinion" or "planetary train"."""
-        return {"rack_pair": "rack and pinion", "planetary": "planetary train"}.get(self.value, self.value)
+        words = {
+            "rack_pair": "rack and pinion",
+            "planetary": "planetary train",
+            "planetary_gearbox": "gearbox of planetary sets",
+        }
+        return words.get(self.value, self.value)
 
 
 if TYPE_CHECKING:
@@ -64,6 +70,7 @@ MAIN_TABLES = {
     DesignKind.PLANETARY: ("planetary",),
     DesignKind.SPLINE: ("spline",),
     DesignKind.SHAFT: ("shafts",),
+    DesignKind.GEARBOX: ("planetary",),
 }
 """The tables without which a spec makes no gear, no rack, no pair of them, no train; the first is what bare keys are of."""
 
@@ -73,6 +80,13 @@ OF_RACK_PAIRS = ("mounting_distance",)
 
 OF_GEARBOXES = {"set", "states"}
 """Keys of [planetary] by which a spec is that of a gearbox of several sets."""
+
+
+def is_gearbox(tables: Mapping[str, Any]) -> bool:
+    """Return whether the tables of a spec are those of a gearbox of several planetary sets."""
+    main = tables.get("planetary")
+    return isinstance(main, Mapping) and bool(OF_GEARBOXES & set(main))
+
 
 SHAFTS = "shafts"
 """The table of the options of shafts."""

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, cast
 from gearcad.core.errors import ParameterError, SpecError, as_path
 from gearcad.core.runtime import templates
 from gearcad.designs.design import Design, Where, read_tables
-from gearcad.designs.keys import MAIN_TABLES, OF_GEARBOXES, OF_SETS, Cell, DesignKind
+from gearcad.designs.keys import MAIN_TABLES, OF_SETS, Cell, DesignKind, is_gearbox
 from gearcad.designs.shaft_keys import with_shaft_lists
 
 if TYPE_CHECKING:
@@ -38,19 +38,26 @@ def read_spec(path: Path | str) -> Design:
     Raises SpecError, one line that names the file, the line, the key and what is permitted.
     """
     tables, where = read_tables(as_path("file", path))
+    if is_gearbox(tables):
+        return type_of(DesignKind.GEARBOX).read(tables, where, Path(path).stem)
     return design_from_tables(tables, where=where, default_name=Path(path).stem)
 
 
 def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name: str) -> Design:
     """Return the design that parsed tables describe: {"gear": {"teeth": 20, "rack": {...}, ...}}, one mapping per TOML table.
 
-    `where` locates a dotted key for messages. Raises SpecError.
+    `where` locates a dotted key for messages. The page and tables take no gearbox of planetary sets. Raises SpecError.
     """
-    main = tables.get("planetary")
-    if isinstance(main, Mapping) and OF_GEARBOXES & set(main):
-        key = "planetary.set"
-        raise SpecError(f"{where(key)}: {key}: a gearbox of several planetary sets is read by `gearcad planetary` alone", key)
+    refuse_gearbox(tables, where)
     return type_of(kind_of(tables)).read(tables, where, default_name)
+
+
+def refuse_gearbox(tables: Mapping[str, Any], where: Where) -> None:
+    """Raise SpecError for the spec of a gearbox of planetary sets, which neither the page nor a table takes."""
+    if is_gearbox(tables):
+        key = "planetary.set"
+        words = "a gearbox of planetary sets has no page and no table: use `gearcad planetary` or `gearcad data`"
+        raise SpecError(f"{where(key)}: {key}: {words}", key)
 
 
 def design_from_values(values: Mapping[str, Any], kind: DesignKind, *, where: Where, default_name: str) -> Design:

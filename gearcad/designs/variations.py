@@ -22,7 +22,7 @@ from gearcad.designs.cells import CellReader, Layout, nested_text, texts_cell
 from gearcad.designs.design import Design, Where, inline_toml, names_file, read_tables, with_files_found
 from gearcad.designs.gear_designs import ToothedDesign
 from gearcad.designs.keys import FIELDS, KEYS, MAIN_TABLES, SPEEDS, Cell, DesignKind, Fields
-from gearcad.designs.reader import design_from_values, kind_of, type_of
+from gearcad.designs.reader import design_from_values, kind_of, refuse_gearbox, type_of
 from gearcad.designs.shaft_keys import (
     explain_unknown_item,
     is_of_list,
@@ -227,6 +227,7 @@ class SpecValues(NamedTuple):
 def read_values(path: Path | str) -> SpecValues:
     """Return the values of a spec, which need not make a design. Raises SpecError."""
     tables, where = read_tables(path)
+    refuse_gearbox(tables, where)
     kind = kind_of(tables)
     made, main = type_of(kind), MAIN_TABLES[kind][0]
     if kind is DesignKind.TRAIN and "shafts" in tables:

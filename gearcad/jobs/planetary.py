@@ -6,18 +6,21 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple, Unpack
+from typing import NamedTuple, Unpack, overload
 
 from gearcad.core.errors import ParameterError, require_switch
 from gearcad.core.quantities import with_assumed
 from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Progress, one_thread
 from gearcad.designs import Design, DesignKind, Inputs, PlanetaryDesign
+from gearcad.designs.gearbox_spec import PlanetaryGearboxDesign
 from gearcad.designs.spec_writers import MeshPairs
 from gearcad.dynamics.planetary.planetary_result import PlanetaryStudy, study_document
 from gearcad.dynamics.planetary.planetary_study import study_planetary
+from gearcad.jobs.gearbox import GearboxStudy, PlanetaryGearbox
 from gearcad.jobs.job import Data, ReportedJob, Writer, as_design
 from gearcad.planetary import PlanetaryTrain, TrainLoad
+from gearcad.planetary.gearbox import Gearbox
 from gearcad.version import __version__
 
 __all__ = ["Planetary", "Studied", "planetary"]
@@ -118,6 +121,11 @@ def _write_text(text: str, path: Path) -> None:
     path.write_text(text, encoding="utf-8")
 
 
+@overload
+def planetary(subject: PlanetaryGearboxDesign | Gearbox) -> GearboxStudy: ...  # type: ignore[overload-overlap]
+
+
+@overload
 def planetary(
     subject: Design | PlanetaryTrain,
     load: TrainLoad | None = None,
@@ -126,7 +134,18 @@ def planetary(
     response: bool = False,
     progress: Progress | None = None,
     **inputs: Unpack[Inputs],
-) -> PlanetaryStudy:
+) -> PlanetaryStudy: ...
+
+
+def planetary(
+    subject: Design | PlanetaryTrain | Gearbox,
+    load: TrainLoad | None = None,
+    *,
+    speeds: Mapping[str, float] | None = None,
+    response: bool = False,
+    progress: Progress | None = None,
+    **inputs: Unpack[Inputs],
+) -> PlanetaryStudy | GearboxStudy:
     """Return the speeds, torques, efficiency, phases, forces, load sharing, stiffness and natural modes of a planetary train at
     its load.
 
@@ -135,8 +154,16 @@ def planetary(
     a design. With `response` the loads of the meshes over speed are there too, which may take minutes. What cannot be had
     without a load, a speed or a mass is None, and `why_not` of the result says why.
 
-    Raises ParameterError for what is no planetary train, and for speeds that contradict each other.
+    Of a gearbox of several sets (Gearbox, or a design of one) it returns the results of all states; nothing else is taken with
+    it. Raises ParameterError for what is no planetary train, and for speeds that contradict each other.
     """
+    if isinstance(subject, Gearbox):
+        subject = PlanetaryGearboxDesign(name=subject.name, gearbox=subject)
+    if isinstance(subject, PlanetaryGearboxDesign):
+        beside = {"load": load, "speeds": speeds, **inputs}
+        if given := [name for name, value in beside.items() if value is not None]:
+            raise ParameterError(given[0], beside[given[0]], "must be left out: the states of a gearbox have no load")
+        return PlanetaryGearbox().run(subject, progress)
     design = as_design(subject, load, **inputs)
     if speeds is not None and not isinstance(speeds, Mapping):
         raise ParameterError("speeds", speeds, 'must be speeds by the names of members, such as {"ring": 0.0}')

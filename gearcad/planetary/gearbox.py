@@ -83,6 +83,15 @@ class MemberSet:
         """Names of carrier and centrals with that of the set, such as "set1.sun"."""
         return tuple(f"{self.name}.{each}" for each in (self.carrier, *(central.name for central in self.centrals)))
 
+    def to_dict(self) -> JsonObject:
+        """Return teeth and mates of centrals and planets by their names, and the name of the carrier."""
+        planets = {
+            each.name: {"teeth": each.teeth, "meshes": each.meshes or None, "beside": each.beside or None}
+            for each in self.planets
+        }
+        centrals = {each.name: {"teeth": each.teeth, "meshes": each.meshes} for each in self.centrals}
+        return {"centrals": centrals, "planets": planets, "carrier": self.carrier}
+
     def body_of(self, planet: str) -> str:
         """Return the name of the planet on whose body a planet sits."""
         beside = next(each.beside for each in self.planets if each.name == planet)
@@ -182,6 +191,19 @@ class Gearbox:
     def meshes(self) -> tuple[GearboxMesh, ...]:
         """Meshes of all sets: of centrals, and of planets with planets."""
         return tuple(mesh for each in self.sets for mesh in _meshes_of(each))
+
+    def to_dict(self) -> JsonObject:
+        """Return the sets with their teeth and mates, joined members, and what each state holds and joins."""
+        return {
+            "input": self.input,
+            "output": self.output,
+            "mesh_efficiency": self.mesh_efficiency,
+            "joined": [list(group) for group in self.joined],
+            "sets": {each.name: each.to_dict() for each in self.sets},
+            "states": {
+                each.name: {"held": list(each.held), "joined": [list(group) for group in each.joined]} for each in self.states
+            },
+        }
 
     def state(self, name: str) -> StateResult:
         """Return what a state does. Raises ParameterError for an unknown name, GeometryError and SolverError as `solve`."""

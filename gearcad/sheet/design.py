@@ -46,6 +46,13 @@ def sheet_of(design: Design) -> Sheet:
         title = f"train, {len(document['inertia'])} inertias"
         sections = (*train_sections(document), *mesh_sections(mesh_documents(cast("TrainDesign", design))))
         return Sheet(design.name, title, "lengths in mm", "", sections, design.notices)
+    if design.kind is DesignKind.GEARBOX:
+        from gearcad.sheet.trains import gearbox_sections
+
+        title = f"gearbox of {len(document['planetary']['sets'])} planetary sets"
+        return Sheet(
+            design.name, title, "lengths in mm, angles in degrees", "", gearbox_sections(document["planetary"]), design.notices
+        )
     sections = tuple(section for section in _sections(design, document) if section.blocks)
     units = "lengths in mm, angles in degrees"
     clauses = "" if design.kind in (DesignKind.SPLINE, DesignKind.SHAFT) else "clauses of ISO 21771:2007"

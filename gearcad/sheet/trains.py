@@ -46,6 +46,34 @@ def _planetary_row(of: str, key: str, symbol: Symbol, value: Any) -> Row:
     return Row(f"{of}.{key}", symbol, (value,), (text,))
 
 
+_PLAIN = Symbol("", "", "", "")
+
+
+def gearbox_sections(document: Mapping[str, Any]) -> tuple[Section, ...]:
+    """Return the section of a gearbox of planetary sets: its members and states, then the teeth of each set."""
+    joined = ["-".join(group) for group in document["joined"]]
+    main = {"input": document["input"], "output": document["output"], "joined": ", ".join(joined) or ABSENT}
+    main |= {"mesh_efficiency": value_text(document["mesh_efficiency"])}
+    blocks = list(block("Gearbox", (_text_row(f"planetary.{key}", key.replace("_", " "), text) for key, text in main.items())))
+    for name, each in document["sets"].items():
+        teeth = {part: f"z = {own['teeth']}, meshes {own['meshes']}" for part, own in each["centrals"].items()}
+        for part, own in each["planets"].items():
+            mates = [f"{word} {own[word]}" for word in ("meshes", "beside") if own[word]]
+            teeth[part] = ", ".join([f"z = {own['teeth']}", *mates])
+        blocks += block(name, (_text_row(f"{name}.{part}", part, text) for part, text in teeth.items()))
+    states = {}
+    for name, state in document["states"].items():
+        joined = ["-".join(group) for group in state["joined"]]
+        parts = [f"held: {', '.join(state['held'])}"] if state["held"] else []
+        states[name] = "; ".join([*parts, *([f"joined: {', '.join(joined)}"] if joined else [])]) or ABSENT
+    blocks += block("States", (_text_row(f"states.{name}", name, text) for name, text in states.items()))
+    return (Section((), tuple(blocks)),)
+
+
+def _text_row(key: str, words: str, text: str) -> Row:
+    return Row(key, _PLAIN._replace(words=words), (text,), (text,))
+
+
 _TITLES = {"inertia": "Inertias", "shaft": "Shafts", "mesh": "Meshes"}
 
 

@@ -11,8 +11,11 @@ import pytest
 from click.testing import CliRunner
 from support.planetary_trains import TRAINS
 
+import gearcad
 from gearcad.cli import main
 from gearcad.core.errors import GeometryError, ParameterError, SolverError
+from gearcad.designs import PlanetaryGearboxDesign
+from gearcad.jobs.gearbox import PlanetaryGearbox
 from gearcad.planetary.gearbox import Gearbox, GearboxState, MemberSet, SetCentral, SetPlanet, StateResult
 from gearcad.planetary.members import TrainLoad
 from gearcad.planetary.power import power_flow
@@ -301,6 +304,31 @@ def test_wrong_input_is_one_line(old: str, new: str, message: str, tmp_path: Pat
 def test_other_commands_say_which_reads_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("8hp.toml").write_text(SPEC, encoding="utf-8")
-    done = CliRunner().invoke(main, ["data", "8hp.toml"])
-    assert done.exit_code == 2
-    assert done.stderr.endswith("a gearbox of several planetary sets is read by `gearcad planetary` alone\n")
+    reads = "a gearbox of planetary sets is for `gearcad planetary` and `gearcad data`"
+    for verb in ("build", "draw", "check", "mesh", "rate", "stiffness", "dynamics", "modify", "shafts", "verify", "picture"):
+        done = CliRunner().invoke(main, [verb, "8hp.toml"])
+        assert done.exit_code == 2 and done.stderr.endswith(f"{reads}\n") and done.stderr.count("\n") == 1, (verb, done.stderr)
+    no_table = "a gearbox of planetary sets has no page and no table: use `gearcad planetary` or `gearcad data`"
+    done = CliRunner().invoke(main, ["study", "8hp.toml", "--vary", "mesh_efficiency=0.98,0.99", "-o", "t.csv"])
+    assert done.exit_code == 2 and done.stderr.endswith(f"planetary.set: {no_table}\n") and done.stderr.count("\n") == 1
+    assert not Path("output").exists()
+
+
+def test_the_job_in_python_and_the_data_sheet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("8hp.toml").write_text(SPEC, encoding="utf-8")
+    design = gearcad.read("8hp.toml")
+    assert isinstance(design, PlanetaryGearboxDesign)
+    for subject in (design, design.gearbox):
+        study = gearcad.planetary(subject)
+        assert {name: round(each.ratio, 3) for name, each in study.states.items()} == PRINTED
+    with pytest.raises(ParameterError, match="must be left out: the states of a gearbox have no load"):
+        gearcad.planetary(design, TrainLoad(input_torque=1.0))  # type: ignore[call-overload]
+    job = PlanetaryGearbox()
+    document = job.complete_document(job.run(design))
+    assert [document[key] for key in ("passed", "strength", "not_judged", "warnings")] == [None, None, [], []]
+    assert job.write(job.run(design), Path("found")) == [Path("found/planetary.json")]
+    data = gearcad.data(design)
+    assert data["kind"] == "planetary_gearbox" and data["planetary"]["sets"]["p4"]["centrals"]["ring"]["teeth"] == -85
+    sheet = CliRunner().invoke(main, ["data", "8hp.toml"]).stdout
+    assert "gearbox of 4 planetary sets" in sheet and "z = -111, meshes planet" in sheet and "held: p1.sun, p1.ring" in sheet
