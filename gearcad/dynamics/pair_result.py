@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Pictured, texts
+from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Pictured, Role, texts
 from gearcad.dynamics.options import idle_without_levels, undamped_bearings
 from gearcad.dynamics.result_tables import Tables, campbell_columns, cycle_columns, history_columns, spectrum_columns
 from gearcad.dynamics.time_domain.contact_model import ContactModel
@@ -28,7 +28,8 @@ class PairStudy(Pictured):
 
     `method` is the title of what found the cycle. With `bearings` the charts are those of six degrees of freedom; the natural
     modes are still those of the turning alone.
-    `unrated` says why K_v of ISO 6336-1 is missing, "" if it is not. `wheel_drives`: the load's torque is against its speed.
+    `unrated` says why K_v of ISO 6336-1 is missing, "" if it is not. `driver` is the gear that drives: the wheel if the torque
+    of the load is against its speed.
     """
 
     pair: GearPair
@@ -38,7 +39,7 @@ class PairStudy(Pictured):
     study: TrainStudy
     bearings: PairOnBearings | None
     unrated: str = ""
-    wheel_drives: bool = False
+    driver: Role = Role.PINION
 
     def __repr__(self) -> str:
         return f"<PairStudy of {self.pair.name!r}: {self.study!r}>"
@@ -55,7 +56,7 @@ class PairStudy(Pictured):
         unrated = Notice("no-standard-factor", f"no K_v of ISO 6336-1: {self.unrated}")
         standard = factor.notices if factor is not None else (unrated,)
         own = (*idle_without_levels(self.study.options), *undamped_bearings(self.study.options))
-        of_gears = (*self._driven_pinion(), *self._full_discs(), *self._free_ring())
+        of_gears = (*self._driving_wheel(), *self._full_discs(), *self._free_ring())
         return (*own, *self.study.notices, *self.cycle.notices, *of_gears, *standard)
 
     @property
@@ -63,14 +64,11 @@ class PairStudy(Pictured):
         """The notices in words."""
         return texts(self.notices)
 
-    def _driven_pinion(self) -> Iterator[Notice]:
+    def _driving_wheel(self) -> Iterator[Notice]:
         """Yield a notice if the torque of the load is against its speed."""
-        if self.wheel_drives:
-            text = (
-                "the torque is against the speed: the wheel drives; here flanks are met as if the pinion drove, from its root"
-                " to its tip, and K_v of modified flanks may differ: a train with this pair as its mesh tells them apart"
-            )
-            yield Notice("taken-as-driver", text)
+        if self.driver is Role.WHEEL:
+            text = "the torque is against the speed: the wheel drives, and contact moves from tip to root of the pinion"
+            yield Notice("wheel-drives", text)
 
     def _full_discs(self) -> Iterator[Notice]:
         """Yield a notice for each gear with a web whose moment of inertia is not given."""

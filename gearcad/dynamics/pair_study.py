@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from gearcad.core.errors import InputError, ParameterError
-from gearcad.core.records import PerGear
+from gearcad.core.records import PerGear, Role
 from gearcad.core.runtime import Share, Tell, unheard, untold
 from gearcad.dynamics.options import DynamicsOptions, idle_in_contact
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
@@ -54,7 +54,8 @@ def study_pair(
     """Return the study of a pair by itself: K_v over speed, beside ISO 6336-1 Method B, and the course at the load's speed.
 
     `cycle` is the pair's mesh cycle under the load, `inertias` (kg·m²) those of pinion and wheel; their `masses` (kg) are
-    needed where the options give bearings. The accuracy grade of the options wins over that of the `rating`.
+    needed where the options give bearings. The accuracy grade of the options wins over that of the `rating`. If the torque of
+    the load is against its speed, the wheel drives: contact then moves from tip to root of the pinion, as in a train.
     """
     inertias = PerGear(*inertias)
     options = (options or DynamicsOptions()).graded(rating := rating or RatingOptions())
@@ -62,8 +63,10 @@ def study_pair(
     rating = replace(rating, accuracy_grade=options.accuracy_grade)
     options = replace(options, accuracy_grade=max(map(rating.grade_of, pair.gears)))  # a gear's own counts before it
     train = pair_train(pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio)
-    excitation = pair_excitation(train, cycle, _smooth_errors(pair, rating, options))
-    teeth = _single_teeth(pair, cycle, rating, options) if options.drawn else None
+    driver = Role.WHEEL if load.torque * load.speed < 0 else Role.PINION
+    in_time = cycle if driver is Role.PINION else cycle.backwards
+    excitation = pair_excitation(train, in_time, _smooth_errors(pair, rating, options))
+    teeth = _single_teeth(pair, cycle, rating, options, driver) if options.drawn else None
     factor, unrated = _method_b(pair, material, load, inertias, rating)
     bearings = _on_bearings(train, pair, options, masses)
     study = study_train(
@@ -85,7 +88,7 @@ def study_pair(
         study=study,
         bearings=bearings,
         unrated=unrated,
-        wheel_drives=load.torque * load.speed < 0,
+        driver=driver,
     )
 
 
@@ -96,10 +99,12 @@ def _smooth_errors(pair: GearPair, rating: RatingOptions, options: DynamicsOptio
     return pair_errors(pair, rating, options.seed, options.distribution)
 
 
-def _single_teeth(pair: GearPair, cycle: MeshCycle, rating: RatingOptions, options: DynamicsOptions) -> tuple[MeshTeeth, ...]:
+def _single_teeth(
+    pair: GearPair, cycle: MeshCycle, rating: RatingOptions, options: DynamicsOptions, driver: Role
+) -> tuple[MeshTeeth, ...]:
     """Return the teeth of the only mesh, for errors that are drawn."""
-    errors = rating if options.errors else None
-    return (pair_teeth(pair, cycle, errors, single=options.premature, source=_title(cycle)),)
+    errors, backwards = rating if options.errors else None, driver is Role.WHEEL
+    return (pair_teeth(pair, cycle, errors, single=options.premature, source=_title(cycle), backwards=backwards),)
 
 
 def _title(cycle: MeshCycle) -> str:

@@ -28,6 +28,9 @@ from gearcad.stiffness.beam import PotentialEnergy
 SAME = 1e-9
 """Relative: the same equations on the same numbers, once through the statics of a train."""
 
+RUNS = 1e-3
+"""Relative: loads of runs in time whose steps do not begin at the same place of a tooth."""
+
 MEANS = 1e-5
 """Relative: a cycle has its mean by Simpson's rule, straight lines by the trapezoidal one."""
 
@@ -301,13 +304,55 @@ def test_names_of_specs_do_not_clash() -> None:
     assert design.load == Load(torque=-90.0, speed=-2000.0)
 
 
-def test_a_pair_alone_says_that_it_takes_the_pinion_for_the_driver() -> None:
-    """Where the torque is against the speed, and changes no number for it."""
-    options, codes, charts = replace(CALM, pinion_inertia=J[0], wheel_inertia=J[1]), [], []
-    for torque, speed in [(50.0, 6000.0), (-50.0, -6000.0), (-50.0, 6000.0), (50.0, 0.0)]:
-        study = gearcad.dynamics(gears(), Load(torque=torque, speed=speed), dynamics=options)
-        assert isinstance(study, PairStudy)
-        codes.append("taken-as-driver" in {notice.code for notice in study.notices})
-        charts.append(study.study.up.factors.max())
-    assert codes == [False, False, True, False]
-    assert charts[2] == charts[0]
+def by_itself(pair: GearPair, torque: float, speed: float, **more: Any) -> PairStudy:
+    """The pair alone, about its resonance; a wheel of 20 teeth has the inertia of a pinion of 20."""
+    inertias = {20: J[0], 30: J[1], 24: 0.004}
+    own = {f"{role.value}_inertia": inertias[gear.teeth] for role, gear in pair.gears.items()}
+    last = 6600.0 * 20 / pair.pinion.teeth
+    options = replace(QUICK, speed_from=0.7 * last, speed_to=last, **own, **more)
+    found = gearcad.dynamics(pair, Load(torque=torque, speed=speed), dynamics=options)
+    assert isinstance(found, PairStudy)
+    return found
+
+
+def relieved(first: int, second: int, shift: float) -> GearPair:
+    """Gears of which the smaller one has a profile shift, wherever it stands in the pair."""
+    shared: dict[str, Any] = {"normal_module": 2.0, "face_width": 20.0, "tooth_thinning": 0.03}
+    small = min(first, second)
+    gear = [Gear(teeth=teeth, profile_shift=shift * (teeth == small), **shared) for teeth in (first, second)]
+    return GearPair(pinion=gear[0], wheel=gear[1], name="z")
+
+
+@pytest.mark.parametrize("premature", ["off", "on"])
+def test_a_wheel_that_drives_is_the_pinion_of_the_pair_the_other_way_round(premature: str) -> None:
+    """K_v over tooth frequencies, and loads and approaches at one speed; the pinion driving gives other ones."""
+    more = {"premature_engagement": premature}
+    driven = by_itself(relieved(20, 30, 0.4), -50.0, 6000.0, **more)
+    turned = by_itself(relieved(30, 20, 0.4), 75.0, 4000.0, **more)
+    driving = by_itself(relieved(20, 30, 0.4), 50.0, 6000.0, **more)
+    assert [study.driver for study in (driven, turned, driving)] == [Role.WHEEL, Role.PINION, Role.PINION]
+    np.testing.assert_allclose(driven.study.up.frequencies, turned.study.up.frequencies, rtol=SAME)
+    np.testing.assert_allclose(driven.study.up.factors, turned.study.up.factors, rtol=1e-6)
+    np.testing.assert_allclose(driven.study.course.line, turned.study.course.line, rtol=1e-5, atol=1e-6)
+    if premature == "on":
+        assert driven.study.errors is not None and turned.study.errors is not None
+        np.testing.assert_allclose(driven.study.errors.nominal, turned.study.errors.nominal, rtol=RUNS)
+    off = np.abs(driven.study.course.line[1:9] - driving.study.course.line[1:9]) / driving.study.course.line[1:9]
+    assert off.max() > 500 * 1e-5
+
+
+def test_a_pair_of_equal_gears_does_not_tell_which_of_them_drives() -> None:
+    """Whatever the signs of torque and speed; the wheel drives where they differ, which is told."""
+    studies = [by_itself(gears(24, 24), torque, speed) for torque, speed in ((50.0, 6e3), (-50.0, -6e3), (-50.0, 6e3))]
+    assert ["wheel-drives" in {notice.code for notice in study.notices} for study in studies] == [False, False, True]
+    for study in studies[1:]:
+        np.testing.assert_allclose(study.study.up.factors, studies[0].study.up.factors, rtol=1e-7)
+        np.testing.assert_allclose(study.study.course.line, studies[0].study.course.line, rtol=1e-6, atol=1e-7)
+
+
+def test_a_wheel_that_drives_does_so_in_a_train_of_the_pair_as_alone() -> None:
+    pair = relieved(20, 30, 0.4)
+    alone, train = by_itself(pair, -50.0, 6000.0), one(pair, torque=-50.0)
+    together = study_train(train, alone.study.options)
+    assert together.pairs["m"].course.driver is Role.WHEEL
+    np.testing.assert_allclose(together.up.factors, alone.study.up.factors, rtol=1e-7)
