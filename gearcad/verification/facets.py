@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -128,8 +129,19 @@ def _known_mesh(text: bytes, known: dict[bytes, Trimesh]) -> Trimesh:
     """Return the mesh of this text of a 3MF, read unless it is known."""
     digest = hashlib.sha256(text).digest()
     if digest not in known:
-        known[digest] = _mesh_of(ElementTree.fromstring(b"<mesh>%b</mesh>" % text))
+        known[digest] = _plain_mesh_of(text) or _mesh_of(ElementTree.fromstring(b"<mesh>%b</mesh>" % text))
     return known[digest]
+
+
+def _plain_mesh_of(text: bytes) -> Trimesh | None:
+    """Return the mesh of this text if it is written as plainly as can be, which takes a quarter of the time, else None."""
+    import trimesh
+
+    if _PLAIN_MESH.fullmatch(text) is None:
+        return None
+    vertices, _, triangles = text.partition(b"</vertices>")
+    points, corners = (np.array(each.split(b'"')[1::2]).reshape(-1, 3) for each in (vertices, triangles))
+    return trimesh.Trimesh(points.astype(float), corners.astype(int))
 
 
 def _mesh_of(element: ElementTree.Element, space: str = "") -> Trimesh:
@@ -157,6 +169,11 @@ def _told_colour(colour: Colour, ending: str) -> str:
 def _hex(shares: Sequence[int]) -> str:
     return "#" + "".join(f"{share:02X}" for share in shares)
 
+
+_PLAIN_MESH = re.compile(
+    rb"\s*<vertices>(?:<vertex%b%b%b/>)+</vertices>\s*<triangles>(?:<triangle%b%b%b/>)+</triangles>\s*"
+    % (*[rb' %b="[-+.\deE]+"' % axis for axis in (b"x", b"y", b"z")], *[rb' v%d="\d+"' % corner for corner in (1, 2, 3)])
+)
 
 _GLB = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1]])
 """Matrix of a GLB, whose unit is the metre and whose y axis points up, for points in mm with z up."""
