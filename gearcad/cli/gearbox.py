@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from gearcad.cli.job import aligned_columns
 from gearcad.cli.language import say
 from gearcad.jobs.gearbox import GearboxStudy
+from gearcad.planetary.gearbox_assembly import SetAssembly
 
 
 def show_gearbox(_name: str, study: GearboxStudy) -> None:
@@ -17,7 +19,8 @@ def show_gearbox(_name: str, study: GearboxStudy) -> None:
 def _lines(study: GearboxStudy) -> Iterator[str]:
     """Yield a line for each state under a heading, then what each brake and clutch carries."""
     gearbox = study.gearbox
-    yield f"{gearbox.name}: {len(gearbox.sets)} planetary sets, from {gearbox.input} to {gearbox.output}"
+    sets = "1 planetary set" if len(gearbox.sets) == 1 else f"{len(gearbox.sets)} planetary sets"
+    yield f"{gearbox.name}: {sets}, from {gearbox.input} to {gearbox.output}"
     yield "torques over that of the input; held: on the brake; joined: by the clutch on the second"
     rows: list[tuple[str, ...]] = [("state", "ratio", "step", "efficiency", "held", "joined")]
     before: float | None = None
@@ -29,6 +32,21 @@ def _lines(study: GearboxStudy) -> Iterator[str]:
         efficiency = f"{100 * each.efficiency:.2f} %" if gearbox.mesh_efficiency < 1 else "-"
         rows.append((name, f"{each.ratio:.4f}", step, efficiency, held or "-", clutches or "-"))
     yield from aligned_columns(rows, left=(0, 4, 5))
+    for name, assembly in gearbox.assemblies.items():
+        yield from _assembly_lines(name, assembly)
+
+
+def _assembly_lines(name: str, assembly: SetAssembly) -> Iterator[str]:
+    """Yield the axes of a set's planets, the backlash of its meshes, and the least distance of tips that do not mesh."""
+    axes = ", ".join(
+        f"{body} at {axis.radius:.6g} mm" + (f" and {math.degrees(axis.angle):.6g} deg" if axis.angle else "")
+        for body, axis in assembly.axes.items()
+    )
+    yield f"{name}: {assembly.gearing.planets} planets of each name, {axes}"
+    meshes = ", ".join(f"{mesh} {pair.circumferential_backlash:.4g}" for mesh, pair in assembly.pairs.items())
+    yield f"{name}: backlash {meshes} mm"
+    if (least := assembly.least_clearance) is not None:
+        yield f"{name}: tips that do not mesh are at least {least.distance:.4g} mm apart, {' and '.join(least.between)}"
 
 
 def _number(torque: float | None) -> str:

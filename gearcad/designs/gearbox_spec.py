@@ -2,19 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any, ClassVar, Self, TypeVar
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 
-from gearcad.core.errors import InputError, ParameterError, SpecError, format_number, shown
+from gearcad.core.errors import InputError, SpecError, format_number, shown
 from gearcad.core.records import JsonObject
-from gearcad.designs.design import Design, Where
-from gearcad.designs.keys import OF_GEARBOXES, DesignKind
-from gearcad.planetary.gearbox import Gearbox, GearboxState, MemberSet, SetCentral, SetPlanet
+from gearcad.designs.design import Described, Design, Where
+from gearcad.designs.keys import GEAR_FIELDS, OF_GEARBOXES, PARTS, SHARED, DesignKind, nearest_of
+from gearcad.designs.spec import AUTO, CLEAR, Given, Spec, entries
+from gearcad.geometry import Gear, GearPair
+from gearcad.planetary.gearbox import Gearbox, GearboxState
+from gearcad.planetary.gearbox_assembly import SetAssembly
+from gearcad.planetary.gearbox_sets import MemberSet, SetCentral, SetGear, SetGearing, SetPlanet
 
 _PERMITTED = ("name", "input", "output", "joined", "mesh_efficiency", *sorted(OF_GEARBOXES))
 _OF_STATE = ("held", "joined")
 _OF_CENTRAL, _OF_PLANET = ("teeth", "meshes"), ("name", "teeth", "meshes", "beside")
+
+_OF_SET = ("planets", "axial_position")
+"""Keys of a set beside those that its gears share."""
+
+_OF_PLACES = ("axial_position", "clocking", "centre_distance", "mate_distance")
+"""Keys of a gear of a set beside its teeth; a central has the first."""
+
+_OF_GEARS = {*_OF_SET, *(field.partition(".")[0] for field in SHARED)}
+"""Keys of a set by which its gears are known."""
+
+_NOT_HERE = ("double_helix", "drawing", "material")
+"""Keys of gears that gearboxes do not take."""
 
 Part = TypeVar("Part")
 
@@ -57,37 +73,161 @@ class PlanetaryGearboxDesign(Design):
         )
         return _made(cls, "planetary", where, name=name, gearbox=gearbox)
 
+    @property
+    def gears(self) -> dict[str, Gear]:
+        """Gears of all sets by names such as "set1.sun"; none where only teeth are known."""
+        assemblies = self.gearbox.assemblies.items()
+        return {f"{name}.{part}": own.gear for name, each in assemblies for part, own in each.gearing.gears.items()}
+
+    @property
+    def pairs(self) -> dict[str, GearPair]:
+        """Pairs of all meshes by names such as "set1.sun-planet"."""
+        return {f"{name}.{mesh}": pair for name, each in self.gearbox.assemblies.items() for mesh, pair in each.pairs.items()}
+
+    @property
+    def described(self) -> Mapping[str, Described]:
+        """Gears and pairs by their names."""
+        return {**self.gears, **self.pairs}
+
     def to_dict(self) -> JsonObject:
         """Return the document of `data.json`: sets with their teeth, joined members, input and output, states."""
         return {**super().to_dict(), "planetary": self.gearbox.to_dict()}
 
 
 def _set(content: Any, number: int, where: Where) -> MemberSet:
-    """Return the set of a table: its name, its carrier's, its planets, and a table for each sun and ring."""
+    """Return the set of a table: its name, its carrier's, its planets, a table for each sun and ring, and what these share."""
     key = f"planetary.set[{number}]"
     if not isinstance(content, Mapping):
         raise SpecError(f"{where(key)}: {key}: must be a table")
     name = _text(content, key, "name", where)
+    geared = bool(_OF_GEARS & set(content))
+    shared = {each: value for each, value in content.items() if each in _OF_GEARS}
     listed = content.get("planet", [])
     if not isinstance(listed, list):
         raise SpecError(f"{where(key)}: {key}.planet: must be headed [[planetary.set.planet]], once for each")
-    planets = []
+    planets, tables = [], {}
     for place, each in enumerate(listed):
         own = f"{key}.planet[{place}]"
-        _require_keys(each, own, _OF_PLANET, where)
-        planets.append(_made(SetPlanet, own, where, **({"name": "planet", "teeth": None} | dict(each))))
+        _require_keys(each, own, None if geared else _OF_PLANET, where)
+        given = {"name": "planet", "teeth": None} | {part: each[part] for part in _OF_PLANET if part in each}
+        planets.append(_made(SetPlanet, own, where, **given))
+        tables[planets[-1].name] = GearTable(own, each)
     centrals = []
     for central, each in content.items():
-        if central in ("name", "carrier", "planet"):
+        if central in ("name", "carrier", "planet") or central in shared:
             continue
         own = f"{key}.{central}"
-        _require_keys(each, own, _OF_CENTRAL, where)
+        _require_keys(each, own, None if geared else _OF_CENTRAL, where)
         mate = each.get("meshes", planets[0].name if len(planets) == 1 else None)
         if mate is None:
             raise SpecError(f"{where(own)}: {own}.meshes is missing: the planet that it meshes with", f"{own}.meshes")
         centrals.append(_made(SetCentral, own, where, name=central, teeth=each.get("teeth"), meshes=mate))
+        tables[central] = GearTable(own, each)
     carrier = content.get("carrier", "carrier")
-    return _made(MemberSet, key, where, name=name, centrals=tuple(centrals), planets=tuple(planets), carrier=carrier)
+    found = _made(MemberSet, key, where, name=name, centrals=tuple(centrals), planets=tuple(planets), carrier=carrier)
+    if geared:
+        found = SetReader(found, key, shared, tables, where).geared()
+        _made(SetAssembly(found).check, key, where, of=name)
+    return found
+
+
+class GearTable(NamedTuple):
+    """The key and the content of the table of a central or a planet."""
+
+    key: str
+    content: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class SetReader:
+    """Reader of the gears of a set: `shared` values of its table, and the tables of its centrals and planets by their names."""
+
+    subject: MemberSet
+    key: str
+    shared: Mapping[str, Any]
+    tables: Mapping[str, GearTable]
+    where: Where
+
+    def geared(self) -> MemberSet:
+        """Return the set with its gears, every tip alteration of "auto" resolved. Raises SpecError."""
+        spec = self._spec()
+        inputs: dict[str, dict[str, Any]] = {}
+        for name in (part.name for part in self.subject.parts):
+            with spec.blame(name):
+                inputs[name] = {"name": name} | spec.gear_inputs(name)
+        words = {name: own.get("tip_alteration", AUTO) for name, own in inputs.items() if "tip_diameter" not in own}
+        automatic = [name for name, word in words.items() if word == AUTO]
+        clear = [name for name, word in words.items() if word == CLEAR and inputs[name]["teeth"] < 0]
+        for name in (*automatic, *clear):
+            inputs[name]["tip_alteration"] = 0.0
+        found = self._with({name: self._gear(spec, name, own) for name, own in inputs.items()})
+        for names, key in ((automatic, AUTO), (clear, CLEAR)):
+            if names:
+                altered = _made(SetAssembly(found).tip_alterations, self.key, self.where, clear=key == CLEAR)
+                for name in names:
+                    inputs[name]["tip_alteration"] = altered[name]
+                found = self._with({name: self._gear(spec, name, own) for name, own in inputs.items()})
+        return found
+
+    def _spec(self) -> Spec:
+        """Return the values of all gears under their names, with what the set shares."""
+        values: dict[str, Given] = {}
+        for name, table in self.tables.items():
+            for field, value in entries(table.content, PARTS):
+                if field not in (*_OF_PLANET[2:], *_OF_PLACES, "name"):
+                    self._add(values, name, field, value, f"{table.key}.{field}")
+        spec = Spec(values, self.where, {name: table.key for name, table in self.tables.items()})
+        given = [(field, value) for field, value in entries(self.shared, PARTS) if field not in _OF_SET]
+        senses = self._senses()
+        for name in self.tables:
+            giving_way = spec.giving_way(name)
+            for field, value in given:
+                if f"{name}.{field}" in values or field in giving_way or (field == "helix_angle" and name not in senses):
+                    continue
+                turned = -value if field == "helix_angle" and senses[name] < 0 and isinstance(value, int | float) else value
+                self._add(values, name, field, turned, f"{self.key}.{field}")
+        return spec
+
+    def _add(self, values: dict[str, Given], name: str, field: str, value: Any, key: str) -> None:
+        """Add a value of a gear. Raises SpecError for a key that gears of gearboxes do not have."""
+        said = GEAR_FIELDS.get(field)
+        if said is None or field.partition(".")[0] in _NOT_HERE:
+            near = nearest_of(field, GEAR_FIELDS, tuple(GEAR_FIELDS))
+            words = f"did you mean {near}?" if near and said is None else "no gear of a gearbox has it"
+            raise SpecError(f"{self.where(key)}: {shown(key)}: unknown key; {words}", key)
+        if isinstance(value, int) and not isinstance(value, bool):
+            value = value if said.whole else float(value)
+        values[f"{name}.{field}"] = Given(value, key)
+
+    def _senses(self) -> dict[str, int]:
+        """Return 1 for gears with the hand of the first central, -1 for those of the other hand; none beside these."""
+        rings = {each.name for each in self.subject.centrals if each.teeth < 0}
+        meshes = [(part.name, part.meshes) for part in self.subject.parts if part.meshes]
+        found = {self.subject.centrals[0].name: 1}
+        for _ in meshes:
+            for one, other in meshes:
+                sense = 1 if one in rings else -1
+                for own, mate in ((one, other), (other, one)):
+                    if own in found and mate not in found:
+                        found[mate] = sense * found[own]
+        return found
+
+    def _gear(self, spec: Spec, name: str, inputs: Mapping[str, Any]) -> SetGear:
+        with spec.blame(name):
+            gear = Gear(**inputs)
+        table = self.tables[name]
+        permitted = _OF_PLACES if any(each.name == name for each in self.subject.planets) else _OF_PLACES[:1]
+        given = {field: table.content[field] for field in _OF_PLACES if field in table.content}
+        for field in given:
+            if field not in permitted:
+                key = f"{table.key}.{field}"
+                raise SpecError(f"{self.where(key)}: {key}: unknown key here; it belongs to a planet", key)
+        return _made(SetGear, table.key, self.where, gear=gear, **given)
+
+    def _with(self, gears: Mapping[str, SetGear]) -> MemberSet:
+        given = {"planets": None} | {field: self.shared[field] for field in _OF_SET if field in self.shared}
+        gearing = _made(SetGearing, self.key, self.where, gears=dict(gears), **given)
+        return replace(self.subject, gearing=gearing)
 
 
 def _states(content: Any, where: Where) -> Iterator[GearboxState]:
@@ -116,23 +256,28 @@ def _text(table: Mapping[str, Any], owner: str, key: str, where: Where) -> str:
     return value
 
 
-def _require_keys(table: Any, key: str, permitted: tuple[str, ...], where: Where) -> None:
+def _require_keys(table: Any, key: str, permitted: tuple[str, ...] | None, where: Where) -> None:
+    """Raise SpecError unless something is a table, with permitted keys where these are known here."""
     if not isinstance(table, Mapping):
-        raise SpecError(
-            f"{where(key)}: {shown(key)} = {format_number(table)}: must be a table with {', '.join(permitted)}", key
-        )
+        words = f"a table with {', '.join(permitted)}" if permitted else "a table, such as { teeth = 24 }"
+        raise SpecError(f"{where(key)}: {shown(key)} = {format_number(table)}: must be {words}", key)
+    if permitted is None:
+        return
     for name in table:
         if name not in permitted:
             full = f"{key}.{name}"
             raise SpecError(f"{where(full)}: {shown(full)}: unknown key; permitted are {', '.join(permitted)}", full)
 
 
-def _made(kind: type[Part], key: str, where: Where, **values: Any) -> Part:
-    """Return what a table makes. Raises SpecError with the place of what is wrong."""
+def _made(kind: Callable[..., Part], key: str, where: Where, *, of: str = "", **values: Any) -> Part:
+    """Return what a table makes, `of` a set. Raises SpecError with the place of what is wrong."""
     try:
         return kind(**values)
     except InputError as error:
-        own = error.parameter if isinstance(error, ParameterError) and "." in error.parameter else f"{key}.{error.parameter}"
-        full = own if own.startswith("planetary") else f"planetary.{own}"
-        value = "is missing" if error.value is None else f"= {shown(format_number(error.value))}"
+        full = error.parameter if error.parameter.startswith("planetary.") else f"{key}.{error.parameter}"
+        own = f"{of or values.get('name')}."
+        if error.parameter.startswith(own):  # of a set, by its name
+            full = f"{key}.{error.parameter.removeprefix(own)}"
+        unit = f" {error.unit}" if error.unit else ""
+        value = "is missing" if error.value is None else f"= {shown(format_number(error.value))}{unit}"
         raise SpecError(f"{where(full)}: {full} {value}: {error.permitted}", full) from error

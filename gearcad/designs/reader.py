@@ -112,6 +112,9 @@ _TOGETHER = {"ci": ("ci-github", "ci-gitlab")}
 NO_DESIGNS = ("drawing_title", "measured")
 """Starters that are no spec and no table of designs."""
 
+NOT_ON_PAGE = (*NO_DESIGNS, "ravigneaux", "simpson")
+"""Starters that the page does not take: those that are no designs, and gearboxes of planetary sets."""
+
 
 _NONE = ("bearing_shelf", "drawing_words", "page_words", "messages_de", "tool_shelf")
 """Templates without a starter."""

@@ -310,7 +310,7 @@ class Spec:
         """
         values = {}
         for table, content in tables.items():
-            for field, value in _entries(content, PARTS_BESIDE.get(table, _TABLES_OF_GEAR)):
+            for field, value in entries(content, PARTS_BESIDE.get(table, _TABLES_OF_GEAR)):
                 key = f"{table}.{field}"
                 said = field_of(table, field)
                 if said is None:
@@ -515,12 +515,12 @@ def _missing(fields: Mapping[str, FieldSchema]) -> dict[str, Any]:
     return {key: None for key, field in fields.items() if field.required}
 
 
-def _entries(content: Mapping[str, Any], parts: Mapping[str, type[Any] | None]) -> Iterator[tuple[str, Any]]:
+def entries(content: Mapping[str, Any], parts: Mapping[str, type[Any] | None]) -> Iterator[tuple[str, Any]]:
     """Yield the keys and values of one table, those of its parts, such as `rack` and `body`, joined to them with a dot."""
     for field, value in content.items():
         if field in parts and isinstance(value, Mapping):
             kind = parts[field]
-            yield from ((f"{field}.{inner}", item) for inner, item in _entries(value, parts_of(kind) if kind else {}))
+            yield from ((f"{field}.{inner}", item) for inner, item in entries(value, parts_of(kind) if kind else {}))
         else:
             yield field, value
 

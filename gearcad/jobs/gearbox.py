@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
-from gearcad.core.records import JsonObject
+from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Progress, one_thread
 from gearcad.designs.design import Design
 from gearcad.designs.gearbox_spec import PlanetaryGearboxDesign
 from gearcad.designs.keys import DesignKind
 from gearcad.jobs.job import Job
 from gearcad.planetary.gearbox import Gearbox, StateResult
+from gearcad.planetary.gearbox_assembly import GearboxPhases
 from gearcad.version import __version__
 
 
@@ -21,6 +23,12 @@ class GearboxStudy:
 
     gearbox: Gearbox
     states: Mapping[str, StateResult]
+    notices: tuple[Notice, ...] = ()
+
+    @cached_property
+    def phases(self) -> dict[str, dict[str, GearboxPhases | None]]:
+        """Phases of the meshes in each state, where the gears are known."""
+        return {name: self.gearbox.phases(each) for name, each in self.states.items()} if self.gearbox.assemblies else {}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,12 +42,20 @@ class PlanetaryGearbox(Job[PlanetaryGearboxDesign, GearboxStudy]):
     @one_thread()
     def run(self, design: Design, progress: Progress | None = None) -> GearboxStudy:
         """Return the study of a gearbox. Raises GeometryError and SolverError for a state in which it cannot run."""
-        gearbox = self.accepted(design, progress).gearbox
-        return GearboxStudy(gearbox=gearbox, states={state.name: gearbox.solve(state) for state in gearbox.states})
+        accepted = self.accepted(design, progress)
+        gearbox = accepted.gearbox
+        states = {state.name: gearbox.solve(state) for state in gearbox.states}
+        return GearboxStudy(gearbox=gearbox, states=states, notices=accepted.notices)
 
     def document(self, result: GearboxStudy) -> JsonObject:
         """Return what each state does, by its name."""
         gearbox = result.gearbox
+        states = {name: each.to_dict() for name, each in result.states.items()}
+        for name, phases in result.phases.items():
+            states[name]["phases"] = {mesh: None if each is None else each.to_dict() for mesh, each in phases.items()}
+        assembly = {name: each.to_dict() for name, each in gearbox.assemblies.items()}
+        for name, bottom in gearbox.bottoms.items():
+            assembly[name]["axial_position"] = bottom
         return {
             "kind": self.verb,
             "name": gearbox.name,
@@ -47,5 +63,9 @@ class PlanetaryGearbox(Job[PlanetaryGearboxDesign, GearboxStudy]):
             "input": gearbox.input,
             "output": gearbox.output,
             "mesh_efficiency": gearbox.mesh_efficiency,
-            "states": {name: each.to_dict() for name, each in result.states.items()},
+            "states": states,
+            "assembly": assembly or None,
         }
+
+    def notices(self, result: GearboxStudy) -> Sequence[Notice]:
+        return result.notices

@@ -7,106 +7,26 @@ Each mesh on a carrier is one equation, z_i (w_i - w_c) + z_j (w_j - w_c) = 0, w
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.core.errors import GeometryError, ParameterError, SolverError, require_number, require_whole
+from gearcad.core.errors import GeometryError, ParameterError, SolverError, require_number
 from gearcad.core.records import Floats, Indices, JsonObject
+from gearcad.planetary.gearbox_assembly import GearboxPhases, SetAssembly
+from gearcad.planetary.gearbox_sets import GearboxMesh, MemberSet, meshes_of
+from gearcad.planetary.poses import GearPlace
 
-_MOST_TEETH = 2000
 _FREE = 1e-9
 """Share of the greatest singular value below which a motion is free, and a torque not determined."""
 
+_GAP = 5.0
+"""Free height (mm) between sets whose place is not given."""
+
 _MOST_TRIES = 64
 """Tries to find the senses in which power rolls through the meshes: losses change them where power nearly balances."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class SetPlanet:
-    """A planet of a set: `teeth`, the planet that it `meshes` with, or the planet `beside` which it sits on one body."""
-
-    name: str
-    teeth: int
-    meshes: str = ""
-    beside: str = ""
-
-    def __post_init__(self) -> None:
-        require_whole("teeth", self.teeth, at_least=3, at_most=_MOST_TEETH)
-        if self.meshes and self.beside:
-            raise ParameterError("beside", self.beside, "must not be given with meshes: a rim turns with its body")
-
-
-@dataclass(frozen=True, kw_only=True)
-class SetCentral:
-    """A sun or a ring (`teeth` below 0) of a set, and the planet that it `meshes` with."""
-
-    name: str
-    teeth: int
-    meshes: str
-
-    def __post_init__(self) -> None:
-        if isinstance(self.teeth, bool) or not isinstance(self.teeth, int) or not 3 <= abs(self.teeth) <= _MOST_TEETH:
-            permitted = f"must be a whole number from 3 to {_MOST_TEETH}, or from -{_MOST_TEETH} to -3 for a ring"
-            raise ParameterError("teeth", self.teeth, permitted)
-
-
-@dataclass(frozen=True, kw_only=True)
-class MemberSet:
-    """A planetary set: its centrals, its planets, and the carrier on which these sit. Raises ParameterError."""
-
-    name: str
-    centrals: tuple[SetCentral, ...]
-    planets: tuple[SetPlanet, ...]
-    carrier: str = "carrier"
-
-    def __post_init__(self) -> None:
-        names = [each.name for each in self.planets]
-        if not self.centrals or not names:
-            raise ParameterError(self.name, None, "must have a sun or a ring, and a planet")
-        every = [*names, *(each.name for each in self.centrals), self.carrier]
-        if twice := [name for name in every if every.count(name) > 1]:
-            raise ParameterError(f"{self.name}.{twice[0]}", twice[0], "must be the name of one member or planet")
-        parts: tuple[SetCentral | SetPlanet, ...] = (*self.centrals, *self.planets)
-        for part in parts:
-            for key in ("meshes", "beside"):
-                mate = getattr(part, key, "")
-                if mate and (mate not in names or mate == part.name):
-                    others = ", ".join(name for name in names if name != part.name) or "none"
-                    raise ParameterError(f"{self.name}.{part.name}.{key}", mate, f"must be another planet of the set: {others}")
-
-    @property
-    def members(self) -> tuple[str, ...]:
-        """Names of carrier and centrals with that of the set, such as "set1.sun"."""
-        return tuple(f"{self.name}.{each}" for each in (self.carrier, *(central.name for central in self.centrals)))
-
-    def to_dict(self) -> JsonObject:
-        """Return teeth and mates of centrals and planets by their names, and the name of the carrier."""
-        planets = {
-            each.name: {"teeth": each.teeth, "meshes": each.meshes or None, "beside": each.beside or None}
-            for each in self.planets
-        }
-        centrals = {each.name: {"teeth": each.teeth, "meshes": each.meshes} for each in self.centrals}
-        return {"centrals": centrals, "planets": planets, "carrier": self.carrier}
-
-    def body_of(self, planet: str) -> str:
-        """Return the name of the planet on whose body a planet sits."""
-        beside = next(each.beside for each in self.planets if each.name == planet)
-        return self.body_of(beside) if beside else planet
-
-
-class GearboxMesh(NamedTuple):
-    """A mesh: its name, its set's carrier, and body and teeth of both gears."""
-
-    name: str
-    carrier: str
-    first: str
-    first_teeth: int
-    second: str
-    second_teeth: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,6 +54,11 @@ class StateResult:
     torques: Mapping[str, float | None]
     clutches: Mapping[str, float | None]
     rolling: Mapping[str, float | None]
+    mesh_torques: Mapping[str, float | None]
+    """Torques that each mesh puts on its second gear, on all its planets together, by the nominal ratio of its teeth."""
+
+    planet_speeds: Mapping[str, float]
+    """Speeds of the planets by the names of their bodies."""
 
     def to_dict(self) -> JsonObject:
         """Return plain values."""
@@ -146,6 +71,8 @@ class StateResult:
             "torques": dict(self.torques),
             "clutch_torques": dict(self.clutches),
             "rolling_power": dict(self.rolling),
+            "mesh_torques": dict(self.mesh_torques),
+            "planet_speeds": dict(self.planet_speeds),
         }
 
 
@@ -181,6 +108,32 @@ class Gearbox:
         for key, name in named:
             if "." in name and name not in self.members:
                 raise ParameterError(key, name, f"must be a shaft without a dot, or one of {', '.join(self.members)}")
+        if any(each.gearing for each in self.sets) and not self.assemblies:
+            name = next(each.name for each in self.sets if each.gearing is None)
+            raise ParameterError(
+                f"{name}.planets", None, "must be given with normal_module and face_width, as of the other sets"
+            )
+        for assembly in self.assemblies.values():
+            assembly.check()
+        if self.assemblies:
+            self._check_heights()
+
+    def _check_heights(self) -> None:
+        """Raise GeometryError for gears of two sets that pass through each other at the same height."""
+        spans = [(name, *span) for name in self.assemblies for span in self._spans(name)]
+        for (first, one, low, top, *near), (second, other, bottom, high, *far) in itertools.combinations(spans, 2):
+            apart = min(top, high) <= max(low, bottom) or min(near[1], far[1]) <= max(near[0], far[0])
+            if first != second and not apart:
+                names = f"{first}.{one} and {second}.{other}"
+                permitted = f"must keep {names} apart, which pass through each other at the same height"
+                raise GeometryError(f"{second}.axial_position", self.bottoms[second], permitted, "mm")
+
+    def _spans(self, name: str) -> Iterator[tuple[str, float, float, float, float]]:
+        """Yield the gears of a set with the heights and radii (mm) between which their teeth pass."""
+        assembly, bottom = self.assemblies[name], self.bottoms[name]
+        for part, own in assembly.gearing.gears.items():
+            inner, outer = assembly.reach(part)
+            yield part, bottom + own.axial_position, bottom + own.top, inner, outer
 
     @property
     def members(self) -> tuple[str, ...]:
@@ -188,9 +141,59 @@ class Gearbox:
         return tuple(name for each in self.sets for name in each.members)
 
     @cached_property
+    def assemblies(self) -> dict[str, SetAssembly]:
+        """Sets whose gears are known, put together, by their names; none unless the gears of all sets are known."""
+        known = all(each.gearing is not None for each in self.sets)
+        return {each.name: SetAssembly(each) for each in self.sets} if known else {}
+
+    @cached_property
+    def bottoms(self) -> dict[str, float]:
+        """Height of the bottom of each set (mm): the given one, or above the set before it, and 0 of the first."""
+        found: dict[str, float] = {}
+        top = 0.0
+        for name, assembly in self.assemblies.items():
+            gears = assembly.gearing.gears.values()
+            low, high = min(each.axial_position for each in gears), max(each.top for each in gears)
+            given = assembly.gearing.axial_position
+            found[name] = top - low if given is None else given
+            top = max(top, found[name] + high + _GAP)
+        return found
+
+    def pose(self, state: StateResult | None = None, angle: float = 0.0) -> dict[str, GearPlace]:
+        """Return all gears in mesh by names such as "set1.sun" and "set1.planet 2", the input turned by `angle` (degrees).
+
+        Without a `state` they stand where they were put together.
+        """
+        found: dict[str, GearPlace] = {}
+        for name, assembly in self.assemblies.items():
+            speeds = {} if state is None else {**state.speeds, **state.planet_speeds}
+            own = {part: speeds.get(f"{name}.{part}", 0.0) * angle for part in assembly.turning}
+            places = assembly.places(own, self.bottoms[name])
+            found |= {f"{name}.{part}": place for part, place in places.items()}
+        return found
+
+    def phases(self, state: StateResult) -> dict[str, GearboxPhases | None]:
+        """Return the phases of each mesh in a state with the input turning counter-clockwise and driving, by its name.
+
+        None where the torque of a mesh is not determined. A mesh that carries nothing is taken as on the left flanks.
+        """
+        found: dict[str, GearboxPhases | None] = {}
+        for name, assembly in self.assemblies.items():
+            for mesh in assembly.meshes:
+                torque = state.mesh_torques[f"{name}.{mesh.name}"]
+                member = assembly.subject.body_of(mesh.second)
+                relative = state.planet_speeds[f"{name}.{member}"] - state.speeds[f"{name}.{assembly.subject.carrier}"]
+                found[f"{name}.{mesh.name}"] = (
+                    None
+                    if torque is None
+                    else assembly.phases(mesh, side=-1 if torque > 0 else 1, turning=-1 if relative < 0 else 1)
+                )
+        return found
+
+    @cached_property
     def meshes(self) -> tuple[GearboxMesh, ...]:
         """Meshes of all sets: of centrals, and of planets with planets."""
-        return tuple(mesh for each in self.sets for mesh in _meshes_of(each))
+        return tuple(mesh for each in self.sets for mesh in meshes_of(each))
 
     def to_dict(self) -> JsonObject:
         """Return the sets with their teeth and mates, joined members, and what each state holds and joins."""
@@ -221,14 +224,9 @@ class Gearbox:
         return _Bodies(self, state).result()
 
 
-def _meshes_of(each: MemberSet) -> Iterator[GearboxMesh]:
-    teeth = {planet.name: planet.teeth for planet in each.planets}
-    carrier = f"{each.name}.{each.carrier}"
-    parts: Sequence[SetCentral | SetPlanet] = (*each.centrals, *(planet for planet in each.planets if planet.meshes))
-    for part in parts:
-        own = part.name if isinstance(part, SetCentral) else each.body_of(part.name)
-        first, second = (f"{each.name}.{body}" for body in (own, each.body_of(part.meshes)))
-        yield GearboxMesh(f"{each.name}.{part.name}-{part.meshes}", carrier, first, part.teeth, second, teeth[part.meshes])
+def _on_second(mesh: GearboxMesh, torque: float | None) -> float | None:
+    """Return the torque on the second gear of a mesh from that on its first one."""
+    return None if torque is None else torque * mesh.second_teeth / mesh.first_teeth
 
 
 class _Bodies:
@@ -236,10 +234,11 @@ class _Bodies:
 
     def __init__(self, gearbox: Gearbox, state: GearboxState) -> None:
         self.gearbox, self.state = gearbox, state
-        planets = {f"{each.name}.{each.body_of(planet.name)}" for each in gearbox.sets for planet in each.planets}
+        bodies_of = (f"{each.name}.{each.body_of(planet.name)}" for each in gearbox.sets for planet in each.planets)
+        self.planets = tuple(dict.fromkeys(bodies_of))
         shafts = {name for group in (*gearbox.joined, *state.joined, state.held) for name in group}
         self.members = tuple(dict.fromkeys((*gearbox.members, gearbox.input, gearbox.output, *sorted(shafts))))
-        of = {name: name for name in (*self.members, *sorted(planets))}
+        of = {name: name for name in (*self.members, *sorted(self.planets))}
         for group in gearbox.joined:
             roots = {_root(of, name) for name in group}
             for root in roots:
@@ -307,6 +306,8 @@ class _Bodies:
             torques={gearbox.input: 1.0, gearbox.output: on_output, **dict(zip(self.state.held, brakes, strict=True))},
             clutches={f"{first}-{second}": each for (first, second), each in zip(self.clutches, on_clutches, strict=True)},
             rolling={mesh.name: each for mesh, each in zip(gearbox.meshes, rolling, strict=True)},
+            mesh_torques={mesh.name: _on_second(mesh, each) for mesh, each in zip(gearbox.meshes, torques, strict=False)},
+            planet_speeds={name: float(speeds[self.at[name]]) for name in self.planets},
         )
 
     def _torques(self, speeds: Floats) -> tuple[list[float | None], list[float | None]]:

@@ -49,10 +49,13 @@ def sheet_of(design: Design) -> Sheet:
     if design.kind is DesignKind.GEARBOX:
         from gearcad.sheet.trains import gearbox_sections
 
-        title = f"gearbox of {len(document['planetary']['sets'])} planetary sets"
-        return Sheet(
-            design.name, title, "lengths in mm, angles in degrees", "", gearbox_sections(document["planetary"]), design.notices
-        )
+        number, sections = len(document["planetary"]["sets"]), gearbox_sections(document["planetary"])
+        if design.gears:
+            pairs = {name: flattened(document[name]) for name in design.described if name not in design.gears}
+            sections = (*sections, gear_section(design.gears, document, {}), pair_section(pairs))
+        title = "gearbox of 1 planetary set" if number == 1 else f"gearbox of {number} planetary sets"
+        clauses = "clauses of ISO 21771:2007" if design.gears else ""
+        return Sheet(design.name, title, "lengths in mm, angles in degrees", clauses, sections, design.notices)
     sections = tuple(section for section in _sections(design, document) if section.blocks)
     units = "lengths in mm, angles in degrees"
     clauses = "" if design.kind in (DesignKind.SPLINE, DesignKind.SHAFT) else "clauses of ISO 21771:2007"

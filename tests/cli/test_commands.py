@@ -26,10 +26,11 @@ PAIRS = [
     "uhlir-19-23-simple",
     VOLVO,
 ]
+GEARBOXES = ["ravigneaux", "simpson"]
 STARTERS = [*PAIRS, *PLANETARY, "rack", "spline", "spur", "wire-cut"]
 TRAINS = ["train-1-stage", "train-2-stage", "train-pairs", "two-stage"]
 TABLES = ["gears", "pairs", "planetary-sets", "rings"]
-NAMED = sorted([*STARTERS, *TRAINS, *TABLES, "drawing_title", "measured"])
+NAMED = sorted([*STARTERS, *TRAINS, *TABLES, *GEARBOXES, "drawing_title", "measured"])
 LISTED = sorted([*NAMED, "ci-github", "ci-gitlab"])
 
 RATIO = 1e-9

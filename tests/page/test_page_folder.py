@@ -39,7 +39,8 @@ def folder(tmp_path: Path) -> Folder:
 def test_only_specs_are_offered_among_other_toml() -> None:
     offered = Folder(templates()).specs()
     assert {"spur.toml", "fzg-c.toml", "rack.toml", "train-pairs.toml", "planetary-alm.toml"} <= set(offered)
-    assert offered == [path.name for path in starter_specs()]
+    gearboxes = ["ravigneaux.toml", "simpson.toml"]  # refused in one line when they are opened
+    assert offered == sorted([*(path.name for path in starter_specs()), *gearboxes])
 
 
 @pytest.mark.parametrize(

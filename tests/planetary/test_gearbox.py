@@ -16,7 +16,8 @@ from gearcad.cli import main
 from gearcad.core.errors import GeometryError, ParameterError, SolverError
 from gearcad.designs import PlanetaryGearboxDesign
 from gearcad.jobs.gearbox import PlanetaryGearbox
-from gearcad.planetary.gearbox import Gearbox, GearboxState, MemberSet, SetCentral, SetPlanet, StateResult
+from gearcad.planetary.gearbox import Gearbox, GearboxState, StateResult
+from gearcad.planetary.gearbox_sets import MemberSet, SetCentral, SetPlanet
 from gearcad.planetary.members import TrainLoad
 from gearcad.planetary.power import power_flow
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from gearcad.core.runtime import templates
 from gearcad.designs import Design
-from gearcad.designs.reader import NO_DESIGNS, read_spec, starters
+from gearcad.designs.reader import NOT_ON_PAGE, read_spec, starters
 from gearcad.jobs.strength import Rate
 from gearcad.solids import Format
 
@@ -62,6 +62,6 @@ def _values(value: Any) -> list[float]:
 
 
 def starter_specs() -> list[Path]:
-    """All that ship with gearcad, by name."""
-    files = (templates() / f"{name}.toml" for name in sorted(starters()) if name not in NO_DESIGNS)
+    """All that ship with gearcad and that the page takes, by name: no gearboxes of planetary sets."""
+    files = (templates() / f"{name}.toml" for name in sorted(starters()) if name not in NOT_ON_PAGE)
     return sorted(path for path in files if path.is_file())

@@ -14,7 +14,7 @@ from nicegui import background_tasks, ui
 from gearcad.core.errors import GearcadError, printable
 from gearcad.core.units import MM_PER_INCH, ShownUnit, UnitSystem, shown_unit
 from gearcad.designs.keys import GEAR_FIELDS
-from gearcad.designs.reader import NO_DESIGNS, kind_of, starter_text, starters
+from gearcad.designs.reader import NOT_ON_PAGE, kind_of, starter_text, starters
 from gearcad.page.components.elements import FilesView, InputsView, TextView
 from gearcad.page.fields import fields_of, given_texts, ranked_fields, used_texts
 from gearcad.page.folder import LARGEST_SPEC, LARGEST_TABLE, NEW, SPECS, TABLES, Folder, TakenError, pack, text_of
@@ -412,7 +412,7 @@ class FilesPanel:
 
 
 def _is_spec(name: str) -> bool:
-    return starter_text(name)[0].endswith(SPECS) and name not in NO_DESIGNS
+    return starter_text(name)[0].endswith(SPECS) and name not in NOT_ON_PAGE
 
 
 def _stem(name: str) -> str:

@@ -10,7 +10,7 @@ from nicegui import ui
 
 from gearcad.designs.design import Design
 from gearcad.designs.keys import DesignKind
-from gearcad.designs.reader import NO_DESIGNS, starter_text, starters
+from gearcad.designs.reader import NOT_ON_PAGE, starter_text, starters
 from gearcad.page.folder import SPECS
 from gearcad.page.panels.found import IdentifyPanel, ModifyPanel, SetSizePanel, SizePanel
 from gearcad.page.panels.search import TaskPlace
@@ -112,7 +112,7 @@ class TasksPanel:
     def _starters(self) -> None:
         with ui.element("div").classes("task-starters"):
             for name, said in starters().items():
-                if starter_text(name)[0].endswith(SPECS) and name not in NO_DESIGNS:
+                if starter_text(name)[0].endswith(SPECS) and name not in NOT_ON_PAGE:
                     with ui.element("button").props("type=button").on("click", partial(self._begin, name)):
                         ui.label(name).classes("name")
                         ui.label(self._place.words.message(said))
