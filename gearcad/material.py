@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Annotated, NamedTuple
 
@@ -14,15 +14,19 @@ from gearcad.core.quantities import (
     MODULUS,
     POISSON_RATIO,
     STRENGTH,
+    WHEN_GIVEN,
     AssumedNumber,
     AssumedText,
     Range,
     Words,
+    inputs_document,
     require_fields,
 )
-from gearcad.core.records import JsonObject, PerGear, concise
+from gearcad.core.records import JsonObject, PerGear, concise, is_assumed
+from gearcad.material_shelf import FILE, properties_of
 
 __all__ = [
+    "GRADED_GROUPS",
     "STEEL_MODULUS",
     "Grade",
     "Limit",
@@ -81,6 +85,13 @@ class MaterialGroup(StrEnum):
     NITROCARBURISED = "NV (nitrocar.)"
     """The same, nitrocarburised."""
 
+    PLASTIC = "plastic"
+    """Thermoplastic, rated by VDI 2736-2; ISO 6336-5 does not have it."""
+
+
+GRADED_GROUPS = tuple(group for group in MaterialGroup if group is not MaterialGroup.PLASTIC)
+"""Groups that have qualities in ISO 6336-5."""
+
 
 class MaterialQuality(StrEnum):
     """Quality: the demands on material and heat treatment in ISO 6336-5."""
@@ -101,7 +112,7 @@ class Grade(NamedTuple):
 
 
 _GRADE = re.compile(
-    rf"({'|'.join(re.escape(group.value) for group in MaterialGroup)}) +({'|'.join(each.value for each in MaterialQuality)})"
+    rf"({'|'.join(re.escape(group.value) for group in GRADED_GROUPS)}) +({'|'.join(each.value for each in MaterialQuality)})"
 )
 
 
@@ -116,6 +127,24 @@ _HARDNESS = Range("", 50.0, 1500.0)
 
 _CORE_HARDNESS = Range("HRC", 10.0, 60.0)
 
+WEAR_COEFFICIENT = Range("mm³/(N·m)", 1e-15, 1.0)
+"""Volume (mm³) that is worn off for each N of normal force and m of sliding."""
+
+ROOM_TEMPERATURE = 23.0
+"""Temperature (°C) at which a table's properties of a plastic stand in `Material`, as near as the table has it."""
+
+_PLASTIC_RATIO, _PLASTIC_DENSITY = AssumedNumber(0.4), AssumedNumber(1400.0)
+"""Poisson's ratio and density (kg/m³) of a plastic for which neither a spec nor a table has them."""
+
+
+class TabledNumber(float):
+    """A number of a material's table, where its value at room temperature stands for a curve over temperature."""
+
+    __slots__ = ()
+
+    tabled = True
+
+
 Limit = float | tuple[float, float] | None
 """An allowable stress (MPa), the range in which it lies, or none."""
 
@@ -129,7 +158,8 @@ class Material:
     MPa) how much where they are not hardened on the surface. With a `quality`, and the `hardness` of the flanks (HV; HBW of
     St, GGG, GTS and GG), a group has endurance limits by ISO 6336-5, unless they are given; `core_hardness` (HRC) counts
     for Eh MQ. A name such as "Eh MQ" gives group and quality. `yield_strength` is sigma_S or sigma_0.2, `tensile_strength`
-    sigma_B. Raises ParameterError, and GeometryError for a group or a quality that is not that of the name.
+    sigma_B, `wear_coefficient` k_w (mm³/(N·m)) that of Archard's law. A plastic takes what is not given from the row of its
+    name in `materials.csv`. Raises ParameterError, and GeometryError for a group or a quality that is not that of the name.
     """
 
     name: Annotated[str, Words("material")] = AssumedText("steel")
@@ -150,6 +180,9 @@ class Material:
     hardness: Annotated[float | None, _HARDNESS, Words("hardness of the flanks (HV or HBW)", "", "ISO 6336-5")] = None
     core_hardness: Annotated[float | None, _CORE_HARDNESS, Words("hardness of the core", "", "ISO 6336-5")] = None
     tensile_strength: Annotated[float | None, STRENGTH, Words("tensile strength", "σ_B")] = None
+    wear_coefficient: Annotated[float | None, WEAR_COEFFICIENT, Words("wear coefficient", "k_w", "VDI 2736-2"), WHEN_GIVEN] = (
+        None
+    )
 
     __repr__ = concise
 
@@ -158,6 +191,8 @@ class Material:
             raise ParameterError("name", self.name, "must be a text")
         require_fields(self)
         self._take_grade()
+        if self.plastic:
+            self._take_properties()
         for name in ("contact_limit", "root_limit"):
             if isinstance(value := getattr(self, name), list | tuple):
                 object.__setattr__(self, name, _range(name, value))
@@ -172,11 +207,34 @@ class Material:
                 raise GeometryError(field, given, permitted)
             object.__setattr__(self, field, value)
 
+    def _take_properties(self) -> None:
+        """Constants of a plastic that are not given: of its table, or assumed. Raises GeometryError and ParameterError."""
+        if self.quality is not None:
+            raise GeometryError("quality", self.quality, f"must be left out with the group {MaterialGroup.PLASTIC.value}")
+        if is_assumed(self.name):
+            object.__setattr__(self, "name", AssumedText("plastic"))
+        tables = properties_of(self.name)
+        usual = {"youngs_modulus": None, "poisson_ratio": _PLASTIC_RATIO, "density": _PLASTIC_DENSITY}
+        for field, assumed in usual.items():
+            given = getattr(self, field)
+            if not is_assumed(given) and not isinstance(given, TabledNumber):
+                continue
+            found = assumed if field not in tables else TabledNumber(tables[field].nearest(ROOM_TEMPERATURE))
+            if found is None:
+                permitted = f"must be given for a plastic, in MPa, or in {FILE} under the name {self.name}"
+                raise ParameterError(field, None, permitted)
+            object.__setattr__(self, field, found)
+
+    @property
+    def plastic(self) -> bool:
+        """Whether the material is a plastic, which VDI 2736-2 rates."""
+        return self.group is MaterialGroup.PLASTIC
+
     @property
     def asks_strength(self) -> bool:
-        """Whether an endurance limit, a local limit or a quality is given, which asks for a verdict on strength."""
+        """Whether a limit or a quality is given, or the material is a plastic, which asks for a verdict on strength."""
         limits = (self.contact_limit, self.root_limit, self.contact_endurance_limit, self.root_endurance_limit)
-        return self.quality is not None or any(each is not None for each in limits)
+        return self.plastic or self.quality is not None or any(each is not None for each in limits)
 
     @property
     def grade(self) -> Grade | None:
@@ -204,8 +262,8 @@ def by_gear(material: Materials) -> dict[str, Material]:
 def materials_document(material: Materials) -> JsonObject:
     """Return the materials as documents have them: "material" of both, or "materials" by gear."""
     if isinstance(material, Material):
-        return {"material": asdict(material)}
-    return {"materials": {role.value: asdict(each) for role, each in material.items()}}
+        return {"material": inputs_document(material)}
+    return {"materials": {role.value: inputs_document(each) for role, each in material.items()}}
 
 
 def elastic_constants(materials: PerGear[Material]) -> tuple[PerGear[float], PerGear[float]]:

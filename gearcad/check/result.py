@@ -47,7 +47,7 @@ from gearcad.contact.plane.sector import Plane
 from gearcad.contact.shared.loaded import Cycle, Extreme, LoadedPosition, RootStress
 from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact
 from gearcad.core.errors import GearcadError
-from gearcad.core.quantities import with_assumed
+from gearcad.core.quantities import inputs_document, with_assumed
 from gearcad.core.records import NOT_ASKED_WORDS, JsonObject, Notice, PerGear, Pictured, Verdict, strength_verdict, texts
 from gearcad.core.runtime import one_thread
 from gearcad.geometry import GearPair
@@ -317,7 +317,7 @@ def check_document(result: CheckResult) -> JsonObject:
     document = {
         "kind": "check",
         "model": result.model.value,
-        "load": asdict(result.load),
+        "load": inputs_document(result.load),
         "mounting": asdict(result.mounting),
         **materials_document(result.material),
         "options": asdict(result.options),

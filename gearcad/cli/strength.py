@@ -231,6 +231,7 @@ def strength_lines(rating: StrengthRating) -> Iterator[str]:
     yield from _wrapped("scuffing", _scuffing(rating))
     for group, factors in rating.factors.items():
         yield from _wrapped(group.value, (_factor(symbol, value, names) for symbol, value in factors.items()))
+    yield from _plastic(rating, document)
     for words, key in (("assumed", "assumed"), ("unconfirmed", "verify")):
         yield from _wrapped(words, document[key], "; ")
     yield from _wrapped("not judged", _not_judged(document["not_judged"]), "; ")
@@ -246,11 +247,25 @@ def _safeties(document: Mapping[str, Any], names: tuple[str, ...]) -> Iterator[s
     """Safety, stress, strength, torque and life, of flanks and roots."""
     for part, index in (("flank", "H"), ("root", "F")):
         required = document["required"][part]
-        yield _row(f"S_{index}, {part}", (*(_text(document["safety"][part][name]) for name in names), _text(required)))
+        least = " / ".join(map(_text, required.values())) if isinstance(required, Mapping) else _text(required)
+        yield _row(f"S_{index}, {part}", (*(_text(document["safety"][part][name]) for name in names), least))
         for symbol, words in ((f"sigma_{index}", "stress"), (f"sigma_{index}G", "strength")):
             yield _row(f"  {symbol}, {words} (MPa)", [_text(document["stresses"][symbol][name]) for name in names])
         yield _row("  permissible torque (N·m)", [_text(document["permissible_torque"][part][name]) for name in names])
         yield _row("  life at the required safety (h)", [_hours(document["life"][part][name]) for name in names])
+
+
+def _plastic(rating: StrengthRating, document: Mapping[str, Any]) -> Iterator[str]:
+    """What VDI 2736-2 has of gears of plastic: heat, wear and deformation, a line for each quantity."""
+    from gearcad.sheet.trains import OF_PLASTIC, plastic_quantities
+
+    if found := plastic_quantities(rating, document):
+        yield OF_PLASTIC
+    for each in found:
+        values = each.value.values() if isinstance(each.value, Mapping) else (each.value,)
+        unit = f" ({each.symbol.unit})" if each.symbol.unit else ""
+        doubt = ("unconfirmed",) if each.verify else ()
+        yield _row(f"  {each.key.removeprefix('plastic.')}{unit}", (*map(_text, values), *doubt))
 
 
 def _scuffing(rating: StrengthRating) -> Iterator[str]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import MISSING, dataclass, fields, is_dataclass
+from dataclasses import MISSING, asdict, dataclass, fields, is_dataclass
 from enum import Enum
 from functools import cache, cached_property
 from types import MappingProxyType, UnionType
@@ -185,6 +185,9 @@ def derive_count(instance: Any, field: str, value: int) -> None:
 Permitted = Range | Whole | Choice | Member
 
 
+WHEN_GIVEN = "when_given"
+"""Mark of a field that documents of inputs have only where it is given."""
+
 ELSEWHERE = "written elsewhere"
 """Mark of a field whose own fields are written elsewhere: in tables, or a file, of their own."""
 
@@ -237,6 +240,12 @@ def assumed_values(inputs: Any, key: str = "") -> Iterator[tuple[str, Any]]:
         return
     for name, value in parts.items():
         yield from assumed_values(value, f"{key}.{name}" if key else str(name))
+
+
+def inputs_document(inputs: DataclassInstance) -> dict[str, Any]:
+    """Return the fields of inputs as documents have them: those marked WHEN_GIVEN only where they are given."""
+    schema = schema_of(type(inputs))
+    return {key: value for key, value in asdict(inputs).items() if value is not None or WHEN_GIVEN not in schema[key].marks}
 
 
 def with_assumed(document: dict[str, Any]) -> dict[str, Any]:

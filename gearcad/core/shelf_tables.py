@@ -51,6 +51,19 @@ class ShelfTable:
             return str(self.path)
 
 
+class ShelfName(str):
+    """The name of something that a table of a shelf has, with the `folder` of the design that may have that table."""
+
+    folder: Path = Path()
+
+    @classmethod
+    def of(cls, name: str, folder: Path) -> ShelfName:
+        """Return the name as seen from a folder."""
+        made = cls(name)
+        made.folder = folder
+        return made
+
+
 class ShelfRow(NamedTuple):
     """A row of a table as it is written; `number` counts rows as a spreadsheet does."""
 

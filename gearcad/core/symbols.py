@@ -33,6 +33,7 @@ __all__ = [
     "PER_GEAR",
     "PLANETARY",
     "PLANETARY_MEMBER",
+    "PLASTIC",
     "RACK",
     "RACK_PAIR",
     "RATING",
@@ -552,6 +553,34 @@ STRENGTH = {
     "N_L": Symbol("N_L", "", "ISO 6336-2, 11", "load cycles of a tooth"),
 }
 """Symbols of a full rating: symbols, clauses and words of its factors, stresses and safeties."""
+
+PLASTIC = {
+    "P": Symbol("P", "W", "VDI 2736-2", "rolling power"),
+    "v_t": Symbol("v_t", "m/s", "VDI 2736-2", "velocity of the working pitch circles"),
+    "mu": Symbol("μ", "", "VDI 2736-2", "coefficient of friction"),
+    "H_V": Symbol("H_V", "", "VDI 2736-2", "degree of tooth loss"),
+    "eps_1": Symbol("ε_1", "", "VDI 2736-2", "contact ratio of the pinion's addendum"),
+    "eps_2": Symbol("ε_2", "", "VDI 2736-2", "contact ratio of the wheel's addendum"),
+    "temperature.flank": Symbol("θ_Fla", "°C", "VDI 2736-2", "temperature of the flanks", Better.LOWER),
+    "temperature.root": Symbol("θ_Fu", "°C", "VDI 2736-2", "temperature of the roots", Better.LOWER),
+    "E": Symbol("E", "MPa", "VDI 2736-2", "Young's modulus at the temperature of the flanks"),
+    "K_F": Symbol("K_F", "", "VDI 2736-2", "load factor of gears of plastic"),
+    "sigma_HlimN": Symbol("σ_HlimN", "MPa", "VDI 2736-2", "flank strength at its temperature, after the load cycles"),
+    "Y_Fa": Symbol("Y_Fa", "", "VDI 2736-2", "form factor with the load at the tip"),
+    "Y_Sa": Symbol("Y_Sa", "", "VDI 2736-2", "stress correction factor with the load at the tip"),
+    "Y_eps": Symbol("Y_ε", "", "VDI 2736-2", "contact ratio factor of the root"),
+    "sigma_F": Symbol("σ_F", "MPa", "VDI 2736-2", "root stress with the load at the tip", Better.LOWER),
+    "sigma_FlimN": Symbol("σ_FlimN", "MPa", "VDI 2736-2", "root strength at its temperature, after the load cycles"),
+    "static": Symbol("σ_Fmax", "MPa", "VDI 2736-2", "static root stress", Better.LOWER),
+    "static_permitted": Symbol("σ_FPmax", "MPa", "VDI 2736-2", "permissible static root stress"),
+    "l_Fl": Symbol("l_Fl", "mm", "VDI 2736-2", "length of the flank that touches"),
+    "k_w": Symbol("k_w", "mm³/(N·m)", "VDI 2736-2", "wear coefficient"),
+    "wear": Symbol("W_m", "µm", "VDI 2736-2", "mean wear of the flanks", Better.LOWER),
+    "wear_permitted": Symbol("W_zul", "µm", "VDI 2736-2", "permitted mean wear"),
+    "deformation": Symbol("λ", "mm", "VDI 2736-2", "deformation of a pair of teeth", Better.LOWER),
+    "deformation_permitted": Symbol("λ_zul", "mm", "VDI 2736-2", "permitted deformation"),
+}
+"""Symbols of the rating of gears of plastic, of what has one value and of what has one for each gear."""
 
 STRENGTH_FIGURES = {
     "passed": Symbol("", "", "", "whether all required safeties are reached; empty where that was not judged or not asked for"),

@@ -17,12 +17,13 @@ from typing import Any, ClassVar, Protocol, Self
 from gearcad.core.errors import ParameterError, SpecError, format_number, shown, shown_path
 from gearcad.core.output import file_bytes
 from gearcad.core.records import JsonObject, Notice, concise, texts
+from gearcad.core.shelf_tables import ShelfName
 from gearcad.designs.keys import DesignKind
 from gearcad.geometry import Gear
 from gearcad.geometry.tool_shelf import ToolName
 from gearcad.geometry.tool_tables import FILE as TOOLS
+from gearcad.material_shelf import FILE as MATERIALS
 from gearcad.shafts.bearing_shelf import FILE as BEARINGS
-from gearcad.shafts.bearing_shelf import BearingName
 from gearcad.version import __version__
 
 _PART = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
@@ -121,6 +122,7 @@ _BLANK = "body.step"
 """Key of a gear's blank of its own."""
 
 _BEARING = re.compile(r"(?:^|\.)bearings?\[\d+\]\.name$")
+_MATERIAL = re.compile(r"(?:^|\.)material\.name$")
 """Key of the name of a bearing of a shaft."""
 
 _fence: ContextVar[Path | None] = ContextVar("the folder in which files must be", default=None)
@@ -193,8 +195,8 @@ def _found_value(key: str, value: Any, folder: Path) -> Any:
             return value  # no TOML: who reads it says so, and where it is
     if names_file(key):
         return _file_path(key, value, folder)
-    if names_bearing(key):
-        return _bearing_name(key, value, folder)
+    if (table := shelf_of(key)) is not None:
+        return _shelf_name(key, value, folder, table)
     return _tool_name(key, value, folder) if names_tool(key) else value
 
 
@@ -203,18 +205,20 @@ def names_tool(key: str) -> bool:
     return key.rpartition(".")[2] == "tool"
 
 
-def names_bearing(key: str) -> bool:
-    """Return whether a text under a key is the name of a bearing, which the folder of the design may have."""
-    return _BEARING.search(key) is not None
+def shelf_of(key: str) -> str | None:
+    """Return the file of the table that may have the bearing or the material a key names; None for other keys."""
+    if _MATERIAL.search(key) is not None:
+        return MATERIALS
+    return None if _BEARING.search(key) is None else BEARINGS
 
 
-def _bearing_name(key: str, name: Any, folder: Path) -> Any:
-    """Return the name of a bearing with the folder of its design. What is no text stays as it is."""
+def _shelf_name(key: str, name: Any, folder: Path, table: str) -> Any:
+    """Return the name of a bearing or a material with the folder of its design. What is no text stays as it is."""
     if not isinstance(name, str):
         return name
-    if (fence := _fence.get()) is not None and not _resolved(folder / BEARINGS).is_relative_to(fence):
+    if (fence := _fence.get()) is not None and not _resolved(folder / table).is_relative_to(fence):
         raise ParameterError(key, name, "must be of a table in the folder of the page")
-    return BearingName.of(name, folder)
+    return ShelfName.of(name, folder)
 
 
 def _tool_name(key: str, name: Any, folder: Path) -> Any:
@@ -238,8 +242,8 @@ def _find_tools(tables: Any, folder: Path, before: str = "") -> None:
             full = f"{before}.{key}" if before else key
             if key == "tool":
                 tables[key] = _tool_name(full, each, folder)
-            elif names_bearing(full):
-                tables[key] = _bearing_name(full, each, folder)
+            elif (table := shelf_of(full)) is not None:
+                tables[key] = _shelf_name(full, each, folder, table)
             else:
                 _find_tools(each, folder, full)
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypedDict
 
 from gearcad.core.errors import GeometryError, SpecError, format_number, shown
-from gearcad.core.quantities import parts_of, with_assumed
+from gearcad.core.quantities import inputs_document, parts_of, with_assumed
 from gearcad.core.records import JsonObject, PerGear
 from gearcad.designs.design import Described, Design, Where
 from gearcad.designs.keys import BESIDE, KEYS, MAIN_TABLES, DesignKind, explain_unknown_table
@@ -67,7 +67,7 @@ class ToothedDesign(Design):
             if isinstance(value, PerGear):  # a material for each gear
                 value = dict(zip(self.made_of, value, strict=True))
             if isinstance(value, Mapping):
-                document["materials"] = {name: asdict(material) for name, material in value.items()}
+                document["materials"] = {name: inputs_document(material) for name, material in value.items()}
             elif value is not None:
                 document[table] = _plain(value)
         document |= drawing_documents(self.drawing, self.drawings)
@@ -80,7 +80,7 @@ class ToothedDesign(Design):
 def _plain(options: DataclassInstance) -> dict[str, Any]:
     """Return the fields of a table, without parts that are not there."""
     absent = [part for part in parts_of(type(options)) if getattr(options, part) is None]
-    return {key: value for key, value in asdict(options).items() if key not in absent}
+    return {key: value for key, value in inputs_document(options).items() if key not in absent}
 
 
 def require_known_tables(tables: Mapping[str, Any], where: Where) -> None:

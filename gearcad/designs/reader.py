@@ -116,7 +116,7 @@ NOT_ON_PAGE = (*NO_DESIGNS, "ravigneaux", "simpson")
 """Starters that the page does not take: those that are no designs, and gearboxes of planetary sets."""
 
 
-_NONE = ("bearing_shelf", "drawing_words", "page_words", "messages_de", "tool_shelf")
+_NONE = ("bearing_shelf", "drawing_words", "material_shelf", "page_words", "messages_de", "tool_shelf")
 """Templates without a starter."""
 
 

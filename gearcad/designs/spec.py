@@ -45,7 +45,7 @@ from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.mating import tip_on_form_circle
 from gearcad.geometry.tool_shelf import find_tool, module_given
 from gearcad.geometry.tool_tables import PARTS as TOOL_PARTS
-from gearcad.material import Grade, Material, MaterialGroup, MaterialQuality, grade_of
+from gearcad.material import GRADED_GROUPS, Grade, Material, MaterialQuality, grade_of
 
 if TYPE_CHECKING:
     from gearcad.drawing.options import DrawingOptions, PartDrawing
@@ -632,7 +632,7 @@ def _own(spec: Spec, gear: str) -> list[Mapping[str, Given]]:
 
 
 def _permitted() -> str:
-    groups = ", ".join(group.value for group in MaterialGroup)
+    groups = ", ".join(group.value for group in GRADED_GROUPS)
     qualities = ", ".join(quality.value for quality in MaterialQuality)
     return f'must be a group and a quality of ISO 6336-5, such as "Eh MQ": {groups}; {qualities}'
 

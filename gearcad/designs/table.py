@@ -14,7 +14,7 @@ from typing import Any
 
 from gearcad.core.errors import GeometryError, ParameterError, SpecError, format_number, printable, shown, shown_path
 from gearcad.core.records import Role
-from gearcad.core.shelf_tables import column_letter
+from gearcad.core.shelf_tables import ShelfName, column_letter
 from gearcad.designs.cells import (
     CellReader,
     Layout,
@@ -28,10 +28,10 @@ from gearcad.designs.cells import (
 from gearcad.designs.design import (
     Design,
     is_inline,
-    names_bearing,
     names_file,
     names_tool,
     require_plain_name,
+    shelf_of,
     with_files_found,
 )
 from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_SETS, SHARED, Cell, DesignKind
@@ -41,7 +41,9 @@ from gearcad.designs.train_designs import missing_fault, missing_keys
 from gearcad.designs.train_keys import ALL, TrainKey, general_key
 from gearcad.geometry.gear_parts import MODULE_OR_PITCH
 from gearcad.geometry.tool_shelf import Shelf
-from gearcad.shafts.bearing_shelf import BearingName, text_of_bearing
+from gearcad.material_shelf import FILE as MATERIALS
+from gearcad.material_shelf import text_of_material
+from gearcad.shafts.bearing_shelf import text_of_bearing
 
 Where = Callable[[str], str]
 
@@ -242,8 +244,10 @@ class DesignRow:
         shelf = Shelf(Path(self.table).parent)
         texts |= {key: shelf.text_of(str(each)) for key, each in self.values.items() if names_tool(key)}
         folder = Path(self.table).parent
-        bearings = {key: BearingName.of(str(each), folder) for key, each in self.values.items() if names_bearing(key)}
-        texts |= {key: text for key, name in bearings.items() if (text := text_of_bearing(name))}
+        for key, each in self.values.items():
+            if (table := shelf_of(key)) is not None:
+                own = text_of_material if table == MATERIALS else text_of_bearing
+                texts |= {key: text} if (text := own(ShelfName.of(str(each), folder))) else {}
         return {"name": self.name, **self.values, **{f"{key}: text": text for key, text in texts.items()}}
 
     def all_faults(self) -> list[str]:

@@ -192,10 +192,10 @@ def load_of(given: Mapping[str, Any]) -> Load:
 
 
 def material_of(option: str, name: str, hardness: float | None) -> Material:
-    from gearcad.material import Material, MaterialGroup, grade_of
+    from gearcad.material import GRADED_GROUPS, Material, grade_of
 
     if grade_of(name) is None:
-        groups = ", ".join(group.value for group in MaterialGroup)
+        groups = ", ".join(group.value for group in GRADED_GROUPS)
         permitted = f'must be a group and a quality (ML, MQ, ME) of ISO 6336-5, such as "Eh MQ": {groups}'
         raise ParameterError(option, name, permitted)
     try:

@@ -42,7 +42,7 @@ from gearcad.geometry import Gear
 from gearcad.geometry.gear_parts import NAMED_RACKS
 from gearcad.geometry.tool_shelf import Shelf
 from gearcad.load import Load
-from gearcad.material import MaterialGroup, MaterialQuality
+from gearcad.material import GRADED_GROUPS, MaterialQuality
 from gearcad.sizing.geometry import Axis, Free, ShiftMap, gear_map, pair_map
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ _TITLES = {
 _LATER = ("mounting", "mesh", "dynamics", "drawing", "check", "rating", "verify")
 """Tables that users need later, which the page shows folded if the spec does not have them."""
 
-_GRADES = tuple(f"{group} {quality}" for group in MaterialGroup for quality in MaterialQuality)
+_GRADES = tuple(f"{group} {quality}" for group in GRADED_GROUPS for quality in MaterialQuality)
 _OFFERED = {"rack": tuple(NAMED_RACKS), "material": _GRADES, "profile_shift": (AUTO,), "tip_alteration": (AUTO, CLEAR)}
 """Words that specs take at keys of these names, beside numbers or names of one's own; tools have names of their own."""
 

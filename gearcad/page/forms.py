@@ -16,7 +16,7 @@ from gearcad.identify.measurements import Gauge, Measurements
 from gearcad.jobs.modify import Modify
 from gearcad.jobs.set_size_options import SET_OPTIONS, set_option_fields, set_task_of, shared_options
 from gearcad.jobs.size_options import SIZE_OPTIONS, SizeOption, option_fields, task_of
-from gearcad.material import MaterialGroup, MaterialQuality
+from gearcad.material import GRADED_GROUPS, MaterialQuality
 from gearcad.page.fields import tool_names
 from gearcad.planetary.members import SetType
 from gearcad.sizing.task import Criterion
@@ -209,7 +209,7 @@ def _set_choices(name: str) -> tuple[str, ...]:
 
 def _size_choices(name: str) -> tuple[str, ...]:
     if name in ("material", "wheel_material"):
-        return tuple(f"{group} {quality}" for group in MaterialGroup for quality in MaterialQuality)
+        return tuple(f"{group} {quality}" for group in GRADED_GROUPS for quality in MaterialQuality)
     if name == "tool":
         return tool_names()
     if name == "by":

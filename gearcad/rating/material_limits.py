@@ -263,6 +263,8 @@ def _limit(material: Material, given: float | None, *, root: bool) -> tuple[floa
     """Return a limit (MPa) of contact or root and its source; None and the reason if it is not known."""
     if given is not None:
         return given, _GIVEN
+    if material.plastic:
+        return None, "VDI 2736-2, by temperature and load cycles"
     if (grade := material.grade) is None:
         lacking = "group" if material.group is None else "quality"
         return None, f"not known: the material has no {lacking}, and no limit is given"

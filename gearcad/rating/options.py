@@ -10,7 +10,7 @@ from functools import lru_cache
 from typing import Annotated, Any, Literal, NamedTuple
 
 from gearcad.core.errors import GeometryError, ParameterError, format_number, is_finite_number, require_whole
-from gearcad.core.quantities import LENGTH, OFFSET, AssumedCount, AssumedNumber, Range, Whole, Words, require_fields
+from gearcad.core.quantities import LENGTH, OFFSET, WHEN_GIVEN, AssumedCount, AssumedNumber, Range, Whole, Words, require_fields
 from gearcad.core.records import PerGear, Role, concise, is_assumed
 from gearcad.geometry import Gear, GearPair
 from gearcad.rating.editions import Both, Edition, both, take_both
@@ -283,6 +283,9 @@ class LubricantOptions:
     lubrication: Annotated[Lubrication | None, Words("how oil comes to the teeth", "X_S")] = None
     scuffing_stage: Annotated[int | None, Whole(1, 14), Words("FZG load stage of the oil, A/8.3/90", "", "ISO 14635-1")] = None
     relative_structure_factor: Annotated[float | None, Range("", 0.1, 3.0), Words("relative structure factor", "X_W")] = None
+    friction: Annotated[
+        float | None, Range("", 1e-6, 2.0), Words("friction of plastic teeth", "μ", "VDI 2736-2"), WHEN_GIVEN
+    ] = None
 
     @property
     def oil_supply(self) -> Lubrication:

@@ -32,7 +32,14 @@ from gearcad.report.document import (
     sentences,
     written,
 )
-from gearcad.sheet.trains import LONGEST_LIFE, Quantity, factor_quantities, safety_quantities
+from gearcad.sheet.trains import (
+    LONGEST_LIFE,
+    OF_PLASTIC,
+    Quantity,
+    factor_quantities,
+    plastic_quantities,
+    safety_quantities,
+)
 
 _NONE = "–"  # an en dash where there is no value
 
@@ -55,6 +62,7 @@ def safety_rows(rating: StrengthRating, document: Mapping[str, Any]) -> list[Rep
 def factor_groups(rating: StrengthRating, document: Mapping[str, Any]) -> list[Group]:
     """All factors and stresses, each with its clause."""
     groups = factor_quantities(rating, document)
+    groups |= {OF_PLASTIC: found} if (found := plastic_quantities(rating, document)) else {}
     return [Group(title, [_row(each, rating.names) for each in quantities]) for title, quantities in groups.items()]
 
 

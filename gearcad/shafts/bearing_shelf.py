@@ -32,19 +32,6 @@ _COLUMNS = (
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
-class BearingName(str):
-    """The name of a bearing, with the `folder` of the design that may have it in its table."""
-
-    folder: Path = Path()
-
-    @classmethod
-    def of(cls, name: str, folder: Path) -> BearingName:
-        """Return the name as seen from a folder."""
-        made = cls(name)
-        made.folder = folder
-        return made
-
-
 def bearing_of(name: str) -> Mapping[str, Any]:
     """Return what the bearing of a name has, under the keys of a spec; empty for a name of no table. Raises SpecError."""
     plain = " ".join(name.split())

@@ -96,9 +96,9 @@ def _material_section(document: Mapping[str, Any]) -> Section:
     if not every and "material" in document:
         every = {"": document["material"]}
     rows = [
-        _row(f"material.{key}", symbol, [of[key] for of in every.values()])
+        _row(f"material.{key}", symbol, [of.get(key) for of in every.values()])
         for key, symbol in symbols_of(Material).items()
-        if any(of[key] is not None for of in every.values())
+        if any(of.get(key) is not None for of in every.values())
     ]
     return Section(tuple(every) if len(every) > 1 else (), block("Material", rows))
 

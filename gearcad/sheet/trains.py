@@ -234,12 +234,46 @@ def factor_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> di
     return {title: of for title, of in (first, (_BEHIND, behind), *others) if of}
 
 
+OF_PLASTIC = "Gears of plastic, VDI 2736-2"
+"""Title of the block of what VDI 2736-2 has of gears of plastic."""
+
+
+def plastic_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> list[Quantity]:
+    """Return what VDI 2736-2 has of a pair with a gear of plastic, in the order of its steps; empty for other pairs."""
+    found = document.get("plastic")
+    if found is None:
+        return []
+    verify, names = set(rating.verify), rating.names
+
+    def gears(part: str, key: str) -> dict[str, float | None]:
+        return {name: found[part].get(name, {}).get(key) for name in names}
+
+    values = {key: value for key, value in found.items() if key in symbols.PLASTIC}
+    values |= {f"temperature.{part}": of for part, of in found["temperature"].items()}
+    values |= {"static": gears("static", "sigma_Fmax"), "static_permitted": gears("static", "permitted")}
+    values |= {"wear": gears("wear", "mean"), "wear_permitted": gears("wear", "permitted")}
+    values["deformation_permitted"] = found["unconfirmed"]["permitted_deformation"]
+    doubtful = {"k_theta": ("temperature.flank", "temperature.root"), "lambda_zul": ("deformation_permitted",)}
+    doubtful |= {"S_Smin": ("static_permitted",)}
+    marked = {key for symbol in verify for key in doubtful.get(symbol, (symbol,))}
+    return [
+        Quantity(f"plastic.{key}", symbol, values[key], key in marked)
+        for key, symbol in symbols.PLASTIC.items()
+        if key in values and not _is_empty(values[key])
+    ]
+
+
+def _is_empty(value: Any) -> bool:
+    return all(each is None for each in value.values()) if isinstance(value, Mapping) else value is None
+
+
 def strength_sections(rating: StrengthRating, name: str = "") -> tuple[Section, ...]:
     """Return the safeties, then factors by what they are of, a column for each gear, without what is not known; of a mesh its
     `name`.
     """
     document = rating.to_dict()
     groups = {"Safety": list(safety_quantities(rating, document)), **factor_quantities(rating, document)}
+    groups |= {OF_PLASTIC: found} if (found := plastic_quantities(rating, document)) else {}
     before = f"{name}." if name else "strength."
     rows = {title: [_row(before, each, rating.names) for each in quantities] for title, quantities in groups.items()}
     blocks = tuple(each for title, of in rows.items() for each in block(title, filter(_is_known, of)))

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from gearcad.core.errors import GearcadError, InputError
+from gearcad.core.quantities import inputs_document
 from gearcad.core.records import JsonObject, PerGear, Pictured, Verdict
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.geometry import Gear, GearPair
@@ -240,9 +241,9 @@ class Sizing(Pictured):
             "task": {
                 **given,
                 "criterion": task.criterion.value,
-                "load": asdict(task.load),
-                "materials": {role.value: asdict(material) for role, material in task.materials.items()},
-                "rating": asdict(task.rating),
+                "load": inputs_document(task.load),
+                "materials": {role.value: inputs_document(material) for role, material in task.materials.items()},
+                "rating": inputs_document(task.rating),
                 "rack": asdict(task.rack),
                 **({} if task.tool is None else {"tool": str(task.tool)}),
             },

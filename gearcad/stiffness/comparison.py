@@ -5,12 +5,13 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.contact.shared.bodies import BodyModel
+from gearcad.core.quantities import inputs_document
 from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -138,7 +139,7 @@ class StiffnessComparison(Pictured):
     def to_dict(self, harmonics: int = 0) -> JsonObject:
         """Return the document of `stiffness.json`, with so many Fourier coefficients of each curve."""
         return {
-            "load": asdict(self.load),
+            "load": inputs_document(self.load),
             **materials_document(self.material),
             "body": self.bodies,
             "common_width": self.pair.common_width.width,

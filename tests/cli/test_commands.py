@@ -20,6 +20,7 @@ PAIRS = [
     "alm-18-161",
     "double-23-81",
     "fzg-c",
+    "plastic-51-52",
     "reducer-21-43",
     "ring-22-70",
     "uhlir-19-23",

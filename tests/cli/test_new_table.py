@@ -52,6 +52,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "planetary-alm-in-phase",
         "planetary-differential",
         "planetary-sets",
+        "plastic-51-52",
         "printed-planetary",
         "rack",
         "ravigneaux",

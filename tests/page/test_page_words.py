@@ -101,6 +101,7 @@ def _titles_of_sheets() -> set[str]:
         "Mounting",
         "Rating",
         "Shafts",
+        trains.OF_PLASTIC,
     }
     single |= {"Shafts", "Segments"}
     return single.union(

@@ -134,7 +134,7 @@ class WorkHardening(Generic[Values]):
 def work_hardening(materials: PerGear[Material], conditions: Conditions[Values]) -> WorkHardening[Values]:
     """Return Z_W by clause 13: for a soft steel wheel whose pinion is hard (13.2) or harder (13.3). Of a pinion it is 1."""
     pinion, wheel = materials
-    if pinion.group is None or wheel.group is None or not is_soft(wheel.group):
+    if pinion.group is None or wheel.group is None or pinion.plastic or wheel.plastic or not is_soft(wheel.group):
         return WorkHardening()
     hard, soft = brinell(pinion), brinell(wheel)
     if soft is None:

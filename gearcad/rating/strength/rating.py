@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any
 
 from gearcad.core import symbols
+from gearcad.core.quantities import inputs_document
 from gearcad.core.records import NOT_ASKED_WORDS, JsonObject, Notice, PerGear, Pictured, Role, Verdict, strength_verdict, texts
 from gearcad.geometry import GearPair, RackPair
 from gearcad.load import Load
@@ -21,6 +22,7 @@ from gearcad.rating.options import RatingOptions
 from gearcad.rating.scuffing import Risk, Scuffing
 from gearcad.rating.strength.duty import LoadCase, PartStrength, RatedPart, told
 from gearcad.rating.strength.permissible import Y_ST
+from gearcad.rating.strength.plastic import PlasticProof, PlasticRating
 from gearcad.rating.tolerances import GearTolerances
 
 
@@ -41,8 +43,8 @@ class StrengthRating(Pictured):
     `nominal` is the rating by geometry and torque alone, with K_A. `load_factors` are those of the load, of a spectrum those of
     its nominal torque, and `cases` its loads; None where they are not known, for the reason that the parts have. `governing` is
     the load with the greatest torque: stresses, speed factors and what is told of load factors are of it, safeties and lives of
-    the whole spectrum. `assumed` says in words what was not given, `verify` has the symbols of what rests on one source or on
-    memory. Gears of a set have `own_names`.
+    the whole spectrum. `plastic` has what VDI 2736-2 says of a pair with a gear of plastic. `assumed` says in words what was
+    not given, `verify` has the symbols of what rests on one source or on memory. Gears of a set have `own_names`.
     """
 
     pair: GearPair | RackPair
@@ -62,6 +64,7 @@ class StrengthRating(Pictured):
     verify: tuple[str, ...]
     notices: tuple[Notice, ...]
     own_names: PerGear[str] | None = None
+    plastic: PlasticRating | None = None
 
     def __repr__(self) -> str:
         return f"<StrengthRating of {self.pair.name!r} at {self.load.torque:g} N·m: {self.verdict}>"
@@ -177,7 +180,12 @@ class StrengthRating(Pictured):
     def required_verdicts(self) -> tuple[Verdict, ...]:
         """Verdicts of flanks and roots of both gears, and of scuffing where its safety is required."""
         scuffing = () if self.options.required_safety_scuffing is None else (self.scuffing_verdict,)
-        return (*(each.verdict for _, each in self.every), *scuffing)
+        return (*(each.verdict for _, each in self.every), *scuffing, *(each.verdict for each in self.proofs.values()))
+
+    @property
+    def proofs(self) -> Mapping[str, PlasticProof]:
+        """Wear and static load of gears of plastic, by name."""
+        return {} if self.plastic is None else self.plastic.proofs
 
     @property
     def strength(self) -> Verdict:
@@ -195,7 +203,8 @@ class StrengthRating(Pictured):
         found = {name: each.reason for name, each in self.every if each.safety is None}
         if self.options.required_safety_scuffing is not None and self.scuffing_verdict is Verdict.NOT_JUDGED:
             found["scuffing"] = "its temperatures are not known" if self.scuffing is None else self.scuffing.reason
-        return found
+        not_judged = {name: each for name, each in self.proofs.items() if each.verdict is Verdict.NOT_JUDGED}
+        return found | {name: each.reason or "its limit is as recalled: confirm it" for name, each in not_judged.items()}
 
     @property
     def verdict(self) -> str:
@@ -206,6 +215,7 @@ class StrengthRating(Pictured):
             return f"strength not judged: {'; '.join(dict.fromkeys(self.not_judged.values()))}"
         failed = [name for name, each in self.every if each.verdict is Verdict.FAILED]
         failed += ["scuffing"] if self.scuffing_verdict is Verdict.FAILED else []
+        failed += [name for name, each in self.proofs.items() if each.verdict is Verdict.FAILED]
         words = "strength passed" if not failed else f"strength NOT passed: {', '.join(failed)}"
         words += f"; not judged: {', '.join(self.not_judged)}" if self.not_judged else ""
         return f"{words}; {self.scuffing_unasked}" if self.scuffing_unasked else words
@@ -257,8 +267,8 @@ def strength_document(of: StrengthRating) -> JsonObject:
     return {
         "standard": of.options.standard.value,
         **({} if of.own_names is None else {"gears": _gears(of, of.own_names)}),
-        "load": asdict(of.load),
-        "materials": _gears(of, of.materials.map(asdict)),
+        "load": inputs_document(of.load),
+        "materials": _gears(of, of.materials.map(inputs_document)),
         "factors": factors,
         "stresses": stresses,
         "load_cycles": _by_part(of, lambda each: each.cycles),
@@ -275,18 +285,23 @@ def strength_document(of: StrengthRating) -> JsonObject:
         "assumed": list(of.assumed),
         "verify": list(of.verify),
         "unconfirmed": list(of.verify),
-        "required": {
-            "flank": of.options.required_safety_flank,
-            "root": of.options.required_safety_root,
-            "scuffing": of.options.required_safety_scuffing,
-        },
+        "required": _required(of),
         "not_judged": dict(of.not_judged),
         "strength": of.strength.value,
         "passed": of.passed,
         "notices": [notice.to_dict() for notice in of.notices],
         "warnings": list(of.warnings),
+        **({} if of.plastic is None else {"plastic": of.plastic.to_dict()}),
         "nominal": of.nominal.to_dict(),
     }
+
+
+def _required(of: StrengthRating) -> dict[str, Any]:
+    """Return the required safeties: one of both gears, or in a pair with a gear of plastic that of each."""
+    scuffing = {"scuffing": of.options.required_safety_scuffing}
+    if of.plastic is not None:
+        return _by_part(of, lambda each: each.required) | scuffing
+    return {"flank": of.options.required_safety_flank, "root": of.options.required_safety_root} | scuffing
 
 
 def _tolerances(of: StrengthRating) -> dict[str, Any]:
@@ -347,6 +362,8 @@ def _stresses(of: StrengthRating) -> JsonObject:
         "sigma_Flim": _gears(of, of.limits.map(lambda each: each.root)),
         "sigma_F0": _gears(of, of.nominal.roots.map(lambda root: root.nominal_stress)),
     }
+    if (plastic := of.plastic) is not None:  # whose load is at the tip
+        found["sigma_F0"] |= {of.names.pick(role): plastic.nominal_root_stresses.pick(role) for role in plastic.plastic_roles}
     for both in of.parts.values():
         found |= _by_symbol(of, both.map(lambda each: each.stresses()))
     return found

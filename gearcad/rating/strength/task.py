@@ -13,13 +13,14 @@ from gearcad.core.records import Notice, PerGear, Role, is_assumed
 from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.gear import halves
 from gearcad.load import Load
-from gearcad.material import Material, of_both
+from gearcad.material import Material, MaterialGroup, of_both
 from gearcad.rating.factors import endurance_cycles, to_verify
 from gearcad.rating.load_factor_formulas import helix_factors, shaft_deflection
 from gearcad.rating.load_factors import NO_SHAFTS, BodyLoad, FaceLoadSource, LoadFactors
 from gearcad.rating.material_limits import EnduranceLimits, endurance_limits_of
 from gearcad.rating.nominal_rating import Rating, rate, rate_rack
 from gearcad.rating.options import RatingOptions
+from gearcad.rating.plastic_formulas import PlasticGeometry
 from gearcad.rating.root_stress import RootRating
 from gearcad.rating.scuffing import Scuffing, scuffing
 from gearcad.rating.strength.duty import Duty, PartStrength, RatedPart, Resistance, judged
@@ -31,6 +32,7 @@ from gearcad.rating.strength.permissible import (
     root_resistance,
     work_hardening,
 )
+from gearcad.rating.strength.plastic import PlasticRating
 from gearcad.rating.strength.rating import StrengthRating
 from gearcad.rating.tolerances import GearTolerances, gear_tolerances
 from gearcad.rating.tooth_stiffness import rim_of
@@ -64,12 +66,17 @@ def load_factors_of_half(half: GearPair, materials: PerGear[Material], load: Loa
     return replace(bent, assumed=found.assumed)
 
 
-def given_factors(load: Load, options: RatingOptions) -> LoadFactors:
-    """Return the load factors as given in the options. Raises ParameterError if one of them is not a number."""
+def given_factors(load: Load, options: RatingOptions, usual: float | None = None) -> LoadFactors:
+    """Return the load factors as given in the options; `usual` stands for a method, if there is such a value.
+
+    Raises ParameterError if one of them is not a number.
+    """
     given = {"dynamic_factor": options.dynamic_factor, "face_load_factor": options.face_load_factor}
     given["transverse_load_factor"] = options.transverse_load_factor
     for name, value in given.items():
-        if isinstance(value, str):
+        if isinstance(value, str) and usual is not None:
+            given[name] = usual
+        elif isinstance(value, str):
             raise ParameterError(f"rating.{name}", value, "must be a number for a rack, for which the standard has no method")
     dynamic, face, transverse = (float(value) for value in given.values())
     return LoadFactors(
@@ -102,6 +109,8 @@ class Reasons:
 
     def _of_material(self, part: RatedPart, role: Role) -> Iterator[str]:
         limits, material = self.limits.pick(role), self.materials.pick(role)
+        if material.plastic:
+            yield "gears of plastic are rated by VDI 2736-2 in external pairs, not with a rack or a ring"
         limit, source = (
             (limits.contact, limits.contact_source) if part is RatedPart.FLANK else (limits.root, limits.root_source)
         )
@@ -113,7 +122,7 @@ class Reasons:
     def _of_flank(self, role: Role) -> Iterator[str]:
         if (ratio := self.pair.transverse_contact_ratio) > 2:
             yield f"Z_eps, Z_B and Z_D of ISO 6336-2 hold for a transverse contact ratio up to 2, here {ratio:.4g}"
-        if self.limits.pick(role.mate).contact is None:
+        if self.limits.pick(role.mate).contact is None and not self.materials.pick(role.mate).plastic:
             yield f"sigma_Hlim of the {role.mate.value} is not known, and the oil film goes by the softer gear"
 
     def _of_root(self, role: Role) -> Iterator[str]:
@@ -207,6 +216,8 @@ class StrengthTask:
         """
         if isinstance(self.rated, RackPair):
             return given_factors(load, self.options)
+        if any(each.plastic for each in self.materials):  # soft teeth even out deviations
+            return given_factors(load, self.options, 1.0)
         if self.halved:
             found = load_factors_of_half(self.rated, self.materials, load, self.options)
         else:
@@ -237,6 +248,8 @@ class StrengthTask:
 
     def part(self, part: RatedPart, role: Role) -> PartStrength:
         """Return one flank or root: judged, or its known values with the reason why it is not judged."""
+        if self.plastic is not None and self.materials.pick(role).plastic:
+            return self.plastic.part(part, role)
         options, reason = self.options, self.reasons.of(part, role)
         required = options.required_safety_flank if part is RatedPart.FLANK else options.required_safety_root
         resistance = self.resistance(part, role)
@@ -256,9 +269,11 @@ class StrengthTask:
         """sigma_HG or sigma_FG of a gear; None without its limits, or group."""
         group, limits = self.materials.pick(role).group, self.limits
         contact = limits.map(lambda each: each.contact)
-        if group is None:
+        if group is None or group is MaterialGroup.PLASTIC:
             return None
         if part is RatedPart.FLANK:
+            if self.materials.pick(role.mate).plastic:  # its softness has no part in the oil film
+                contact = PerGear(contact.pick(role), contact.pick(role))
             if contact.pinion is None or contact.wheel is None:
                 return None
             known = PerGear(contact.pinion, contact.wheel)
@@ -272,10 +287,27 @@ class StrengthTask:
     # ------------------------------------------------------------------ beside them
 
     @cached_property
+    def plastic(self) -> PlasticRating | None:
+        """The rating by VDI 2736-2 of two external gears of which one is of plastic."""
+        pair = self.rated
+        if isinstance(pair, RackPair) or pair.internal or not any(each.plastic for each in self.materials):
+            return None
+        return PlasticRating(
+            geometry=PlasticGeometry(pair),
+            materials=self.materials,
+            load=self.rated_load,
+            options=self.options,
+            cycles=self.duty.cycles,
+            halves=2 if self.halved else 1,
+        )
+
+    @cached_property
     def scuffing(self) -> Scuffing | None:
         """Scuffing of gears whose load factors are known, under the hottest of the loads."""
         pair = self.rated
         if isinstance(pair, RackPair) or isinstance(self.load_factors, InputError):
+            return None
+        if any(each.plastic for each in self.materials):
             return None
         cases = self.duty.cases()
         found = [scuffing(pair, self.materials, case.load, case.factors, self.options, self.driver) for case in cases]
@@ -307,7 +339,7 @@ def assumed_of(task: StrengthTask) -> Iterator[str]:
     if task.hardening.assumed:
         yield task.hardening.assumed
     for role, material in task.materials.items():
-        if material.group is not None and task.limits.pick(role).root is not None:
+        if material.group is not None and not material.plastic and task.limits.pick(role).root is not None:
             notch = task.nominal.roots.pick(role).section.notch_parameter
             if said := notch_strength(material, material.group, notch).assumed:
                 yield f"{said} ({task.nominal.names.pick(role)})"
@@ -319,6 +351,8 @@ def assumed_of(task: StrengthTask) -> Iterator[str]:
         yield from task.load_factors.assumed
     if task.scuffing is not None and task.scuffing.judged:
         yield from task.scuffing.assumed
+    if task.plastic is not None:
+        yield from task.plastic.assumed
 
 
 def _defaults(task: StrengthTask) -> Iterator[str]:
@@ -368,6 +402,8 @@ def verify_of(task: StrengthTask) -> Iterator[str]:
         yield from task.load_factors.verify
     if task.scuffing is not None and task.scuffing.judged:
         yield from task.scuffing.verify
+    if task.plastic is not None:
+        yield from task.plastic.verify
 
 
 def _limited(task: StrengthTask, part: RatedPart) -> bool:
@@ -387,6 +423,8 @@ def notices_of(task: StrengthTask, parts: Mapping[RatedPart, PerGear[PartStrengt
         yield from task.load_factors.notices
     if task.scuffing is not None and task.scuffing.judged:
         yield from task.scuffing.notices
+    if task.plastic is not None:
+        yield from task.plastic.notices
     yield from _beyond_knee(parts, task.nominal.names)
 
 
@@ -453,6 +491,7 @@ def _rating(task: StrengthTask) -> StrengthRating:
         flank=parts[RatedPart.FLANK],
         root=parts[RatedPart.ROOT],
         scuffing=task.scuffing,
+        plastic=task.plastic,
         tolerances=task.tolerances,
         assumed=tuple(dict.fromkeys(assumed_of(task))),
         verify=tuple(dict.fromkeys(verify_of(task))),
