@@ -40,7 +40,7 @@ class PlanetaryGearboxDesign(Design):
     """A gearbox of several planetary sets, whose members are joined, and held by brakes and clutches."""
 
     kind: ClassVar[DesignKind] = DesignKind.GEARBOX
-    elsewhere: ClassVar[str] = "a gearbox of planetary sets is for `gearcad planetary` and `gearcad data`"
+    elsewhere: ClassVar[str] = "a gearbox of planetary sets is for `gearcad planetary`, data and build"
 
     gearbox: Gearbox
 

@@ -58,8 +58,11 @@ def job_of(verb: str) -> type[Job[Any, Any]]:
 def job_for(job: Job[Any, Result], design: Design) -> Job[Any, Result]:
     """Return the job for a design: of a train of pairs the one that does the same with it and with each of its meshes.
 
-    What trains need is imported for trains only.
+    What trains and gearboxes of planetary sets need is imported for these only.
     """
+    if design.kind.value == "planetary_gearbox":
+        other: Job[Any, Result] = import_module("gearcad.jobs.gearbox_bodies").suited_to_gearbox(job)
+        return other
     if design.kind.value != "train":
         return job
     found: Job[Any, Result] = import_module("gearcad.jobs.train_sheets").job_for(job, design)

@@ -138,7 +138,7 @@ def _teeth_fit(assembly: SetAssembly, planets: int) -> bool:
 def test_tooth_positions_of_random_ravigneaux_sets_counted_in_whole_numbers() -> None:
     """Planets put in at n/N of a turn see both suns and the ring as the first ones do, but for whole pitches of all."""
     rng, fitting = random.Random(1), 0
-    for _ in range(40):
+    for _ in range(16):
         small, short, large, long = rng.randint(18, 34), rng.randint(17, 24), rng.randint(24, 40), rng.randint(17, 24)
         each = ravigneaux(small, short, large, long, 1)
         try:
@@ -151,7 +151,7 @@ def test_tooth_positions_of_random_ravigneaux_sets_counted_in_whole_numbers() ->
             fits = all((ring - small) * n % planets == 0 == (large + small) * n % planets for n in range(planets))
             assert _teeth_fit(assembly, planets) is fits, (small, short, large, long, planets)
             fitting += fits
-    assert fitting > 40
+    assert fitting > 16
 
 
 @pytest.mark.parametrize("kind", ["A", "B", "C", "D"])

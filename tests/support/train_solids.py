@@ -127,7 +127,7 @@ class TrainSolids:
         angle = math.atan2(rim.axle.y, rim.axle.x)
         radius = abs(mesh.pair.working_pitch_diameters.pick(mesh.central_role)) / 2
         near = radius * math.cos(angle), radius * math.sin(angle), 6 * mesh.rim.gear.normal_module
-        return _distance(_faces(self.placed(central, turned), *near), _faces(self.placed(rim), *near))
+        return distance_of(faces_near(self.placed(central, turned), *near), faces_near(self.placed(rim), *near))
 
     def stage_distance(self, layout: TrainLayout) -> list[float]:
         """Of the gears of each stage."""
@@ -136,11 +136,11 @@ class TrainSolids:
             x, y = (getattr(wheel.axle, name) - getattr(pinion.axle, name) for name in ("x", "y"))
             share = pinion.body.gear.reference_diameter / 2 / math.hypot(x, y)
             near = pinion.axle.x + share * x, pinion.axle.y + share * y, 6 * pinion.body.gear.normal_module
-            found.append(_distance(_faces(self.placed(pinion), *near), _faces(self.placed(wheel), *near)))
+            found.append(distance_of(faces_near(self.placed(pinion), *near), faces_near(self.placed(wheel), *near)))
         return found
 
 
-def _faces(shape: cadquery.Shape, x: float, y: float, radius: float) -> cadquery.Compound:
+def faces_near(shape: cadquery.Shape, x: float, y: float, radius: float) -> cadquery.Compound:
     """The faces of teeth that come nearer than a radius to an upright axis."""
     found = []
     for face in shape.Faces():
@@ -151,7 +151,7 @@ def _faces(shape: cadquery.Shape, x: float, y: float, radius: float) -> cadquery
     return cadquery.Compound.makeCompound(found)
 
 
-def _distance(one: cadquery.Shape, other: cadquery.Shape) -> float:
+def distance_of(one: cadquery.Shape, other: cadquery.Shape) -> float:
     measured = BRepExtrema_DistShapeShape(one.wrapped, other.wrapped)
     assert measured.IsDone()
     return float(measured.Value())

@@ -16,13 +16,16 @@ from gearcad.solids.facets.tessellation import Facets
 
 if TYPE_CHECKING:
     from gearcad.solids.files.gear_train_products import GearTrainProduct
+    from gearcad.solids.files.gearbox_products import GearboxProduct
     from gearcad.solids.files.products import FileOptions, GearProduct, PairProduct, RackPairProduct, RackProduct, SplineProduct
     from gearcad.solids.files.shaft_products import ShaftProduct
     from gearcad.solids.files.train_products import CarrierProduct, TrainProduct
 
     PartProduct: TypeAlias = GearProduct | RackProduct
     BodyProduct: TypeAlias = CarrierProduct | ShaftProduct
-    AssemblyProduct: TypeAlias = PairProduct | RackPairProduct | SplineProduct | TrainProduct | GearTrainProduct
+    AssemblyProduct: TypeAlias = (
+        PairProduct | RackPairProduct | SplineProduct | TrainProduct | GearTrainProduct | GearboxProduct
+    )
 
 
 class Format(Enum):
