@@ -38,6 +38,14 @@ _ERRORS = {
 """Columns of comparisons that are errors (%) beside what is permitted, by quantity."""
 
 
+_OF_RACKS = {
+    "force along the rack, from its back": "torque reaction of the wheel",
+    "root stress, rack": "root stress, wheel",
+    "discretisation error, root tension, rack": "discretisation error, root tension, wheel",
+}
+"""Comparisons of a rack, which counts as the wheel."""
+
+
 def check_columns(document: Mapping[str, Any]) -> JsonObject:
     """Return the figures of a check.json for one line of a table.
 
@@ -65,9 +73,10 @@ def _compared(document: Mapping[str, Any]) -> Iterator[tuple[str, float | None]]
     for each in document["comparisons"]:
         if each["subject"] == "strength":
             continue
-        if (column := _DEVIATIONS.get(each["quantity"])) is not None:
+        quantity = _OF_RACKS.get(each["quantity"], each["quantity"])
+        if (column := _DEVIATIONS.get(quantity)) is not None:
             yield column, None if each["deviation"] is None else 100 * each["deviation"]
-        elif (column := _ERRORS.get(each["quantity"])) is not None:
+        elif (column := _ERRORS.get(quantity)) is not None:
             yield column, each["computed"]
 
 

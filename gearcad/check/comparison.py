@@ -225,6 +225,10 @@ class FoundStrength:
         }
 
 
+SECTION = "a transverse section of helical teeth is no model of the gears: their lines of contact run across the flanks"
+"""Reason why a section judges no strength."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class CheckStrength:
     """Strength by finite elements and by the rating, side by side."""
@@ -280,8 +284,9 @@ class CheckStrength:
     @property
     def below_required(self) -> tuple[str, ...]:
         """Safeties by finite elements that are less than required, in words."""
+        names = self.rating.names
         return tuple(
-            f"S_{part.index} of the {role.value} is {found.safety:.3g}, below {found.rated.required:.3g} required"
+            f"S_{part.index} of the {names.pick(role)} is {found.safety:.3g}, below {found.rated.required:.3g} required"
             for part, both in self.parts.items()
             for role, found in both.items()
             if found.below
@@ -320,6 +325,8 @@ class CheckStrength:
         """
         raised = rated_stress = None
         factors = self.rating.load_factors
+        if self.task.is_section:
+            stress, missing = None, SECTION
         if stress is not None and factors is not None and not factors.unknown:
             product = math.prod(self.applied[part].values())
             raised = stress * (math.sqrt(product) * self.contact_ratio_factor if part is RatedPart.FLANK else product)
@@ -381,7 +388,7 @@ def strength_comparisons(strength: CheckStrength) -> Iterator[Comparison]:
             rated = found.rated
             if rated.safety is None:
                 continue
-            words = f"{symbol} of the {role.value}"
+            words = f"{symbol} of the {strength.rating.names.pick(role)}"
             note = f"sigma_{part.index} = {rated.stress:.5g} MPa against {rated.strength:.5g} MPa"
             yield at_least(f"{words}, {edition.part(2)[:-2]}", rated.safety, rated.required, f"{clause}, 5", note)
             raised = "" if found.raised is None else f", {found.raised:.5g} MPa with {strength.applied_words(part)}"

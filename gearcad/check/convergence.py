@@ -172,7 +172,7 @@ class SweepPoint(NamedTuple):
     """One torque (N·m on the pinion) of the sweep: mean mesh stiffness (N/(mm·µm)), greatest pressure (None where all contacts
     are near edges) and root tensions (MPa).
 
-    `torsional_stiffness` is M/phi of each gear (N·m/rad).
+    `torsional_stiffness` is M/phi of each gear (N·m/rad); of a rack force over travel (N/µm).
     """
 
     torque: float
@@ -244,8 +244,9 @@ def sweep_point(cycle: Cycle) -> SweepPoint:
     """Return the figures of a cycle at its torque."""
     few, model = figures(cycle), cycle.model
     turns, _ = cycle.mean("approach_parts")
-    # A gear whose flank gives way by u along the line of action turns by u/r_b under the torque F r_b.
-    radii = np.array([model.pair.pinion.base_diameter, model.pair.wheel.base_diameter]) / 2
+    # A gear whose flank gives way by u along the line of action turns by u/r_b under the torque F r_b. A rack moves by
+    # u/cos alpha_t under the force F cos alpha_t.
+    radii = np.array([body.flank.lever for body in model.bodies])
     force = model.force(cycle.torque) * model.width
     stiffness = PerGear(*(force * radii**2 / turns / 1000).tolist())
     return SweepPoint(abs(cycle.torque), few.mesh_stiffness, few.contact_pressure, few.root_tension, stiffness)

@@ -13,9 +13,10 @@ from gearcad.check.summary import PlaneSummary, SolidSummary, Summary, root_peak
 from gearcad.check.task import CheckTask, face_factors
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.flank import ToothLoad
-from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, Cycle
+from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, Cycle, FlankCompliance
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.core.records import Floats, JsonObject, PerGear, Role
+from gearcad.geometry import RackPair
 from gearcad.meshing.outline import OutlineSide
 from gearcad.rating.tooth_stiffness import mesh_stiffness_alpha
 
@@ -151,14 +152,20 @@ def root_compared(task: CheckTask, cycle: Cycle, summary: Summary) -> PerGear[Ro
     return PerGear.each(compared)
 
 
+def _rim_depth(task: CheckTask, role: Role, body: FlankCompliance) -> float:
+    """Return how far below its roots a body is flexible (normal modules)."""
+    if (gear := task.gears.get(role)) is not None:
+        return body.flank.upward * (gear.profile.root_diameter / 2 - body.hub_radius) / gear.normal_module
+    assert isinstance(task.pair, RackPair)
+    rack = task.pair.rack
+    return (rack.height - rack.root_depth) / rack.normal_module
+
+
 def explain_stiffness(task: CheckTask, cycle: Cycle, summary: Summary, sweep: Sequence[SweepPoint]) -> StiffnessExplanation:
     """Return the explanation of the mesh stiffness: the bodies, the load, and how pairs of teeth share it."""
     standard, model = task.rating.stiffness, cycle.model
     parts = cycle.values("approach_parts").mean(axis=0)
-    rims = [
-        body.flank.upward * (gear.profile.root_diameter / 2 - body.hub_radius) / gear.normal_module
-        for gear, body in zip(task.pair.gears, model.bodies, strict=True)
-    ]
+    rims = [_rim_depth(task, role, model.bodies.pick(role)) for role in Role]
     swept = [point.mesh_stiffness for point in sweep]
     return StiffnessExplanation(
         mean=Compared(computed=summary.mesh_stiffness_mean, standard=standard.mesh_alpha),
@@ -229,8 +236,8 @@ def root_concentration(task: CheckTask, cycle: PlaneCycle, role: Role) -> RootCo
 
     Beside a notch the rest of the root has the stress of its own.
     """
-    gear, rating = task.pair.gears.pick(role), task.rating.roots.pick(role)
-    outline = gear.profile.root
+    gear, rating = task.gears.get(role), task.rating.roots.pick(role)
+    outline = None if gear is None else gear.profile.root
     if outline is None:
         return None
     fillets, side = cycle.model.fillets.pick(role), OutlineSide.LEFT_FILLET

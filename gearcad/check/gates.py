@@ -16,7 +16,7 @@ from gearcad.contact.shared.loaded import Cycle
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.core.errors import format_number
 from gearcad.core.records import Notice, PerGear, Role
-from gearcad.geometry import Gear
+from gearcad.geometry import Gear, RackPair
 from gearcad.geometry.gear_data import RING_RIM_LIMIT
 from gearcad.material import Limit, Material, by_gear
 from gearcad.rating.load_factor_formulas import root_face_load_factor, width_to_height
@@ -57,9 +57,10 @@ class _Rim(NamedTuple):
         return f"the {self.role.value}'s rim ({thickness:.3g} mm, {self.ratio:.3g} tooth depths)"
 
 
-def _rims(task: CheckTask) -> PerGear[_Rim]:
-    supports, radii, gears = task.body.supports(task.pair), task.body.inner_radii(task.pair), task.pair.gears
-    return PerGear.each(lambda role: _Rim(role, gears.pick(role), supports.pick(role), radii.pick(role)))
+def _rims(task: CheckTask) -> list[_Rim]:
+    """Return the rims of both gears; a rack has none."""
+    supports, radii = task.body.supports(task.pair), task.body.inner_radii(task.pair)
+    return [_Rim(role, gear, supports.pick(role), radii.pick(role)) for role, gear in task.gears.items()]
 
 
 def rim_gates(task: CheckTask) -> Iterator[Comparison]:
@@ -82,7 +83,8 @@ def bending_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
 
     Where a rim bends, its roots are compressed more than stretched, and its bore is stretched too.
     """
-    for role, rim in _rims(task).items():
+    for rim in _rims(task):
+        role = rim.role
         material = task.materials.pick(role)
         limit = material.root_limit
         least = limit[0] if isinstance(limit, tuple) else limit
@@ -106,7 +108,8 @@ def bending_notes(task: CheckTask, summary: Summary) -> PerGear[str]:
             f"({compression:.0f} MPa) that rises"
         )
 
-    return _rims(task).map(lambda rim: note(rim) if rim.support.bends else "")
+    notes = {rim.role: note(rim) for rim in _rims(task) if rim.support.bends}
+    return PerGear.each(lambda role: notes.get(role, ""))
 
 
 def rim_notices(task: CheckTask, summary: Summary) -> Iterator[Notice]:
@@ -181,9 +184,11 @@ def compare_common(
     quantity, `flicker` is what positions may miss of a pressure.
     """
     yield from _reactions(cycle, equilibrium)
-    yield from _mesh_errors(convergence, errors, summary)
+    yield from _mesh_errors(task, convergence, errors, summary)
     yield from _sampling(summary, flicker)
     yield from rim_gates(task)
+    if task.is_section:  # no stress of a section is that of the gears
+        return
     yield from _material_limits(task, summary)
     yield from bending_limits(task, summary)
     yield from strength_comparisons(CheckStrength.of(task, summary))
@@ -201,20 +206,27 @@ def _reactions(cycle: Cycle, source: str) -> Iterator[Comparison]:
     model = cycle.model
     force = model.force(cycle.torque) * model.width / 1000
     for role, body in model.bodies.items():
-        nominal = force * body.flank.base_radius
+        nominal = force * body.flank.lever
         every = [(each.torques.pick(role), nominal * each.torque_ratios.pick(role)) for each in cycle.every]
         worst, applied = max(every, key=lambda torques: farness(*torques))
-        yield agrees(f"torque reaction of the {role.value}", worst, applied, _REACTION, "N·m", source)
+        if role is Role.WHEEL and isinstance(model.pair, RackPair):
+            words = "equilibrium: the force along the rack, of the torque that is applied through the teeth"
+            yield agrees("force along the rack, from its back", 1000 * worst, 1000 * applied, _REACTION, "N", words)
+        else:
+            yield agrees(f"torque reaction of the {role.value}", worst, applied, _REACTION, "N·m", source)
 
 
-def _mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...], summary: Summary) -> Iterator[Comparison]:
+def _mesh_errors(
+    task: CheckTask, convergence: tuple[Convergence, ...], limits: tuple[float, ...], summary: Summary
+) -> Iterator[Comparison]:
     """Yield the estimated error of each quantity, by mesh and positions together, against what it may be (relative)."""
     for each, limit in zip(convergence, limits, strict=bool(convergence)):
         between = summary.sampling_error[each.key]
         source = "three meshes, Richardson, and what the positions may miss"
         note = f"{100 * each.error:.2g} % by the mesh ({each.order_words}), {100 * between:.2g} % by the positions"
         told = 100 * (each.error + between)
-        yield at_most(f"discretisation error, {each.quantity}", told, 100 * limit, "%", source, note)
+        quantity = each.quantity.replace(Role.WHEEL.value, task.rating.names.wheel)
+        yield at_most(f"discretisation error, {quantity}", told, 100 * limit, "%", source, note)
 
 
 def _sampling(summary: Summary, of_pressure: float) -> Iterator[Comparison]:
@@ -242,7 +254,10 @@ def _material_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     every = [(f", {gear}" if gear else "", of) for gear, of in by_gear(task.material).items()]
     pressures = [(f"contact pressure{whose}", summary.contact_pressure, of, of.contact_limit) for whose, of in every]
     tensions = summary.root_tension
-    roots = [(f"root stress, {role.value}", tensions.pick(role), of, of.root_limit) for role, of in task.materials.items()]
+    roots = [
+        (f"root stress, {task.rating.names.pick(role)}", tensions.pick(role), of, of.root_limit)
+        for role, of in task.materials.items()
+    ]
     below = [(f"von Mises stress below the flank{whose}", summary.von_mises, of, of.yield_strength) for whose, of in every]
     for found, told, reason in (
         (pressures, away, missing("contact_pressure", "")),
@@ -271,9 +286,10 @@ def standards(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     sharing = "ISO puts the whole load on one pair of teeth at its outer point; the FE shares it, and sees the true fillet"
     notes = bending_notes(task, summary)
     for role, rating in task.rating.roots.items():
+        name = task.rating.names.pick(role)
         source = f"sigma_F0, {edition.dated_part(3)} Method B, over b = {rating.width:.4g} mm"
         value, reference = summary.root_tension.pick(role), task.rating.root_stresses.pick(role)
-        yield beside(f"root stress, {role.value}", value, reference, root, "MPa", source, sharing + notes.pick(role))
+        yield beside(f"root stress, {name}", value, reference, root, "MPa", source, sharing + notes.pick(role))
     standard = task.rating.stiffness
     body = "ISO's discs are stiffer or softer than this body; see how the bodies are held"
     for words, value, reference, symbol in (
@@ -394,7 +410,7 @@ def _face(task: CheckTask, summary: SolidSummary, shafts: LoadOnShafts | None) -
     )
     if shafts is not None:
         flank, source = shafts.mesh.face_load_factor, "ISO 6336-1:2006 annex E"
-        root = root_face_load_factor(flank, width_to_height(task.pair))
+        root = root_face_load_factor(flank, width_to_height(task.gear_pair))
         deflection, factor = shafts.method_c
         note = (
             "annex E has the same shafts, and slices of teeth as springs that know nothing of each other; on rigid shafts the "

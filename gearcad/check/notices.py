@@ -48,6 +48,7 @@ def elastic_end(task: CheckTask, summary: Summary) -> str:
     """Return in words which stress is beyond linear elasticity, of which gear and beyond which bound; empty if none is."""
     found = []
     for role, material in task.materials.items():
+        own = task.rating.names.pick(role)
         known, scale = material.yield_strength, material.youngs_modulus / _STEEL
         if known is None and material.youngs_modulus < _METAL:
             continue
@@ -61,7 +62,7 @@ def elastic_end(task: CheckTask, summary: Summary) -> str:
             ("root stress", summary.root_tension.pick(role), root, words),
         ):
             if stress > bound:
-                found.append(f"{name} of the {role.value} {stress:.0f} MPa exceeds {bound:.0f} MPa ({source})")
+                found.append(f"{name} of the {own} {stress:.0f} MPa exceeds {bound:.0f} MPa ({source})")
     return "; ".join(found)
 
 
@@ -73,7 +74,7 @@ def _elastic(task: CheckTask, summary: Summary) -> Iterator[Notice]:
 
 def _few_teeth(task: CheckTask, cycle: Cycle) -> Iterator[Notice]:
     teeth = task.options.body_teeth or None
-    held = [task.body.teeth_held(gear) for gear in task.pair.gears]
+    held = [task.body.teeth_held(gear) for gear in task.gears.values()]
     shared = any(len(position.contacts) > 1 for position in cycle.positions)
     if teeth is not None and shared and any(each is not None and each < _FEW_TEETH for each in held):
         text = (
@@ -97,7 +98,7 @@ def _strain(task: CheckTask, summary: Summary) -> Iterator[Notice]:
 
 
 def _bodies(task: CheckTask, cycle: Cycle) -> Iterator[Notice]:
-    for role, gear in task.pair.gears.items():
+    for role, gear in task.gears.items():
         if gear.body.web_thickness:
             text = f"the {role.value}'s web is in the standard's stiffness alone (C_R): the finite elements are a full disc"
             yield Notice("full-disc", text)
@@ -119,10 +120,11 @@ def _rim_of(ring: Gear, radius: float) -> Iterator[Notice]:
 
 def _corners(task: CheckTask, cycle: Cycle, summary: Summary) -> Iterator[Notice]:
     if summary.corner_positions:
-        relieved = any(gear.modification.tip_relief for gear in task.pair.gears)
+        relieved = any(gear.modification.tip_relief for gear in task.gears.values())
         advice = "the tip relief given does not prevent it under this load" if relieved else "tip relief would avoid it"
         early, late = cycle.tip_positions(Role.WHEEL), cycle.tip_positions(Role.PINION)
-        where = f"the wheel's before the path of contact begins at {early}, the pinion's after its end at {late}"
+        mate = task.rating.names.wheel
+        where = f"the {mate}'s before the path of contact begins at {early}, the pinion's after its end at {late}"
         yield Notice(
             "corner-contact",
             f"a tip corner touches at {summary.corner_positions} of {len(cycle.positions)} positions ({where}): its pressure "

@@ -172,7 +172,7 @@ def shaft_notices(task: CheckTask) -> Iterator[Notice]:
             for segment, low, high in zip(shaft.segments, shaft.ends, shaft.ends[1:], strict=False)
             if low < middle + half - 1e-6 and high > middle - half + 1e-6
         ]
-        root = task.pair.gears.pick(role).root_diameter
+        root = task.gears[role].root_diameter
         if min(inside) < _THINNER * root:
             text = (
                 f"the shaft of the {role.value} is {min(inside):.4g} mm thick in the face, its gear {root:.4g} mm at the root: "

@@ -23,7 +23,7 @@ from gearcad.core.quantities import (
     require_fields,
 )
 from gearcad.core.records import PerGear, concise
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.material import STEEL_MODULUS
 
 __all__ = ["CheckOptions", "Model"]
@@ -43,7 +43,10 @@ class Model(Enum):
     """Bodies over their face widths, in contact along lines."""
 
 
-_MODELS = Choice((*(model.value for model in Model), _AUTO))
+_SECTION = "section"
+"""Choice of the plane model, of helical teeth too."""
+
+_MODELS = Choice((*(model.value for model in Model), _SECTION, _AUTO))
 _POSITIONS = {Model.PLANE: 60, Model.SOLID: 24}
 _SHAFT_BORE = LENGTH._replace(least=0.0)
 _TORQUES = TORQUE._replace(signed=False)
@@ -53,7 +56,10 @@ _TORQUES = TORQUE._replace(signed=False)
 class CheckOptions:
     """Options of the structural check. Raises ParameterError.
 
-    `model` is "2d", "3d", or "auto": solid bodies for helical gears, a plane for spur gears. `positions` over one base pitch,
+    `model` is "2d", "3d", "section", or "auto": solid bodies for helical gears, a plane for spur gears. A "section" is the
+    plane model, of helical gears too: their transverse section under the load per width, which judges no strength.
+
+    `positions` over one base pitch,
     0 for the model's own number (60 in the plane, 24 of solids); `refinement` makes the edges of all elements that many times
     shorter; `convergence` "off" leaves out the other meshes, and with them the estimate of the error. `body_teeth` of each
     body, 0 for the full ring, and what holds its `cuts`: "fixed", "sliding" or "free". `pinion_inner_diameter`,
@@ -68,7 +74,7 @@ class CheckOptions:
     gears) or "stress": of the plane model only, as `contact_band` is of the solid one.
     """
 
-    model: Annotated[str, _MODELS, Words("model: plane (2d) or solid bodies (3d)")] = _AUTO
+    model: Annotated[str, _MODELS, Words("model: plane (2d), solid bodies (3d) or section")] = _AUTO
     plane: Annotated[str, Choice(tuple(_PLANES)), Words("plane strain or plane stress")] = "strain"
     positions: Annotated[int, Whole(12, 1000, may_vanish=True), Words("positions over one base pitch")] = 0
     refinement: Annotated[float, Range("", 0.25, 4.0), Words("how much finer than usual the elements are")] = 1.0
@@ -97,15 +103,29 @@ class CheckOptions:
             raise ParameterError("body_teeth", self.body_teeth, "must be odd (the loaded tooth stands in the middle), or 0")
         object.__setattr__(self, "torques", tuple(map(float, self.torques)))
 
-    def model_for(self, pair: GearPair) -> Model:
-        """Return the model of a pair. Raises GeometryError for helical gears in a plane."""
+    def model_for(self, pair: GearPair | RackPair) -> Model:
+        """Return the model of a pair. Raises GeometryError for helical gears in a plane, ParameterError for a solid rack."""
         helix = pair.pinion.helix_angle
+        if self.model == _SECTION:
+            return Model.PLANE
+        if isinstance(pair, RackPair):
+            return self._model_of_rack(helix)
         if self.model == _AUTO:
             return Model.SOLID if helix else Model.PLANE
         if helix and self.model == Model.PLANE.value:
             permitted = "must be 0 for model 2d: the lines of contact of helical teeth run across the flank, as in model 3d"
             raise GeometryError("pair.helix_angle", helix, permitted, "deg")
         return Model(self.model)
+
+    def _model_of_rack(self, helix: float) -> Model:
+        """Return the model of a pinion and a rack: sections, of spur teeth unless they are asked for."""
+        if self.model == Model.SOLID.value:
+            permitted = 'must be "2d", "section" or "auto" for a rack: there are no solid bodies of racks'
+            raise ParameterError("check.model", self.model, permitted)
+        if helix:
+            permitted = 'must be 0 for a rack, which has no solid bodies; check.model = "section" takes the transverse section'
+            raise GeometryError("pair.helix_angle", helix, permitted, "deg")
+        return Model.PLANE
 
     def positions_of(self, model: Model) -> int:
         """Return the positions over one base pitch."""

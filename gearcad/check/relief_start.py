@@ -12,7 +12,7 @@ from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.contact.shared.loaded import Cycle, FlankCompliance, FlexiblePair, PairContact
 from gearcad.contact.shared.local_contact import onsets, start_lengths
 from gearcad.core.records import JsonObject, Notice, PerGear, Role
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.modification import ReliefTransition, TransitionSource, longest_transition
 
 __all__ = ["ReliefStart", "relief_starts", "start_comparisons", "start_notice", "start_notices"]
@@ -100,7 +100,7 @@ def _start(role: Role, reliefs: tuple[StartedRelief, ...], pressure: float, half
     return ReliefStart(role, reliefs, told[0], told[1], told[2], reason)
 
 
-def _started(pair: GearPair) -> PerGear[tuple[StartedRelief, ...]]:
+def _started(pair: GearPair | RackPair) -> PerGear[tuple[StartedRelief, ...]]:
     """Return the linear reliefs of each gear that start where flanks carry."""
     line = line_of_action(pair)
     ends = [line.lengths(end) for end in pair.usable_path]
@@ -123,8 +123,11 @@ def _greatest(found: Iterable[PairContact]) -> PerGear[float]:
 def _again(cycle: Cycle, angles: list[float], factor: float) -> PerGear[float]:
     """Return the greatest pressures (MPa) at roll angles (deg) with transitions as long as `factor` times these."""
     model: FlexiblePair[FlankCompliance] = cycle.model
-    pinion, wheel = (_with_transitions(gear, factor) for gear in model.pair.gears)
-    changed = model.with_flanks(replace(model.pair, pinion=pinion, wheel=wheel))
+    if isinstance(pair := model.pair, RackPair):  # flanks of a rack are not modified
+        changed = model.with_flanks(replace(pair, pinion=_with_transitions(pair.pinion, factor)))
+    else:
+        pinion, wheel = (_with_transitions(gear, factor) for gear in pair.gears)
+        changed = model.with_flanks(replace(pair, pinion=pinion, wheel=wheel))
     other: Cycle = replace(cycle, model=changed, positions=(), between=())
     return _greatest(contact for angle in angles for contact in other.contacts_at(angle))
 

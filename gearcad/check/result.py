@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, ClassVar, NamedTuple, TypedDict
 
 from gearcad.check import pictures
-from gearcad.check.comparison import CheckStrength, Comparison, Subject, verdict
+from gearcad.check.comparison import SECTION, CheckStrength, Comparison, Subject, verdict
 from gearcad.check.convergence import SOLID_ORDER, Convergence, SweepPoint, SweepTrends
 from gearcad.check.explanation import (
     Explanations,
@@ -50,7 +50,7 @@ from gearcad.core.errors import GearcadError
 from gearcad.core.quantities import inputs_document, with_assumed
 from gearcad.core.records import NOT_ASKED_WORDS, JsonObject, Notice, PerGear, Pictured, Verdict, strength_verdict, texts
 from gearcad.core.runtime import one_thread
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.load import Load
 from gearcad.material import Materials, by_gear, materials_document
 from gearcad.mounting import Mounting
@@ -103,6 +103,18 @@ class MeanLag(NamedTuple):
     parts: PerGear[float]
 
 
+class PitchLineError(NamedTuple):
+    """Mean lag of a rack along the pitch line, and how far it swings (µm)."""
+
+    mean: float
+    swing: float
+
+
+def _pressure_cosine(pair: RackPair) -> float:
+    """Return cos alpha_t: a distance along the line of action over that along the pitch line."""
+    return math.cos(math.radians(pair.working_transverse_pressure_angle))
+
+
 @dataclass(frozen=True, kw_only=True)
 class CheckResult(Pictured, ABC):
     """A task, and all results of its check."""
@@ -127,9 +139,19 @@ class CheckResult(Pictured, ABC):
     # ------------------------------------------------------------------ the task
 
     @property
-    def pair(self) -> GearPair:
+    def pair(self) -> GearPair | RackPair:
         """Gear pair as mounted."""
         return self.task.pair
+
+    @property
+    def names(self) -> PerGear[str]:
+        """Names of both gears: pinion and wheel, or pinion and rack."""
+        return self.rating.names
+
+    @property
+    def ring(self) -> bool:
+        """True of a pinion in a ring."""
+        return isinstance(self.pair, GearPair) and self.pair.internal
 
     @property
     def material(self) -> Materials:
@@ -183,6 +205,14 @@ class CheckResult(Pictured, ABC):
     def bending(self) -> PerGear[bool]:
         """Whether the rim of each gear bends."""
         return self.task.body.supports(self.pair).map(lambda support: support.bends)
+
+    @property
+    def pitch_line_error(self) -> PitchLineError | None:
+        """The transmission error of a rack along the pitch line; None of gears."""
+        if not isinstance(self.pair, RackPair):
+            return None
+        cosine = _pressure_cosine(self.pair)
+        return PitchLineError(self.mean_lag.whole / cosine, self.summary.transmission_error_peak_to_peak / cosine)
 
     @cached_property
     def load_share(self) -> LoadShare:
@@ -251,6 +281,8 @@ class CheckResult(Pictured, ABC):
     def strength(self) -> Verdict:
         """The verdict on strength by `strength_verdict`: the rating's, with the limits of local stresses as further gates."""
         rating = self.safeties.rating
+        if self.task.is_section and rating.asked:
+            return Verdict.NOT_JUDGED
         gates = verdict(self.comparisons, Subject.STRENGTH)
         return strength_verdict(rating.asked, rating.required_verdicts, [gates] if gates is Verdict.FAILED else [])
 
@@ -297,6 +329,8 @@ class CheckResult(Pictured, ABC):
     @property
     def _not_judged(self) -> str:
         """Return why strength was not judged: each reason of the rating once."""
+        if self.task.is_section:
+            return SECTION
         return "; ".join(dict.fromkeys(self.safeties.rating.not_judged.values()))
 
     # ------------------------------------------------------------------ what to know before trusting it
@@ -404,6 +438,20 @@ class PlaneCheck(CheckResult):
             stiffness=explain_stiffness(self.task, self.cycle, self.summary, self.sweep),
             root_stress=explain_plane_roots(self.task, self.cycle, self.summary, self.load_share),
         )
+
+    @property
+    def own_document(self) -> JsonObject:
+        """Of a section of helical teeth its helix angle (deg) and load (N/mm); of a rack the force along it (N), and its lag
+        along the pitch line (µm) at the positions.
+        """
+        section: JsonObject = {}
+        if self.task.is_section:
+            load = self.cycle.model.force(self.torque)
+            section["section"] = {"helix_angle": self.pair.pinion.helix_angle, "line_load": load, "notice": SECTION}
+        if not isinstance(self.pair, RackPair):
+            return section
+        lag = self.cycle.values("transmission_error") / _pressure_cosine(self.pair)
+        return section | {"rack": {"force": self.pair.rack_force(abs(self.torque)), "transmission_error": lag.tolist()}}
 
     @property
     def contacts_along_path(self) -> list[PlanePairContact]:
@@ -519,7 +567,11 @@ class SolidCheck(CheckResult):
 
     def _as_method(self, mounting: Mounting) -> StiffnessMethod:
         return SolidContact(
-            pair=self.pair, material=self.material, body=self.options.body, mounting=mounting, bodies=self.cycle.model
+            pair=self.task.gear_pair,
+            material=self.material,
+            body=self.options.body,
+            mounting=mounting,
+            bodies=self.cycle.model,
         )
 
     # ------------------------------------------------------------------ files and documents
@@ -548,4 +600,4 @@ class SolidCheck(CheckResult):
     @cached_property
     def tooth_surfaces(self) -> PerGear[ToothSurface]:
         """Surfaces of the most stressed tooth of each gear."""
-        return PerGear(*map(pictures.tooth_surface, self.tooth_stresses, self.pair.gears))
+        return PerGear(*map(pictures.tooth_surface, self.tooth_stresses, self.task.gear_pair.gears))

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from gearcad.check.comparison import SECTION
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, SOLID_FACTORS, sweep_points, three_meshes, three_solid_meshes
 from gearcad.check.gates import compare_plane, compare_solid
 from gearcad.check.notices import common_notices
@@ -19,11 +20,13 @@ from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle, plane_pressure, thin_faces, wide_plane_contacts
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.contact.shared.line_of_action import loaded_left
+from gearcad.contact.shared.loaded import EngagedPair
 from gearcad.contact.solid.cycle import SolidCycle, wide_solid_contacts
 from gearcad.contact.solid.pair import LEFT, POSITION_SECONDS, SolidPair, SolidSizes, expected_bodies, solid_pair
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Floats, JsonObject, Notice, freeze
 from gearcad.core.runtime import Agenda, Expected, Progress, Share, machine_memory, unheard
+from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.meshing.outline import MeshSizes, NotchPlace
 from gearcad.mounting import Mounting
@@ -52,7 +55,7 @@ def sizes_of(task: CheckTask, factor: float) -> SolidSizes:
 def _bodies(task: CheckTask) -> dict[str, Expected]:
     factors = dict(zip((COARSER, BODIES, FINER), SOLID_FACTORS, strict=True))
     wanted = (BODIES, COARSER, FINER) if task.options.refines else (BODIES,)
-    pair = loaded_left(task.pair, task.torque)
+    pair = loaded_left(task.gear_pair, task.torque)
     return {name: expected_bodies(pair, task.body, sizes_of(task, factors[name]), fields=name == BODIES) for name in wanted}
 
 
@@ -164,6 +167,11 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     )
 
 
+def plane_load(task: CheckTask) -> float:
+    """Return the normal force in the transverse section (N per mm of common width)."""
+    return EngagedPair(task.pair).force(task.torque)
+
+
 def plane_model(task: CheckTask, factor: float = 1.0) -> PlanePair:
     """Return the sections of both gears of a task, with elements `factor` times smaller than it asks for. Raises what
     `check_pair` does.
@@ -186,6 +194,10 @@ def _refined(task: CheckTask, middle: PlaneCycle) -> Iterator[PlaneCycle]:
 
 def plane_notices(task: CheckTask) -> Iterator[Notice]:
     """Yield notices on what a plane model does not know of these bodies."""
+    if task.is_section:
+        load = plane_load(task)
+        text = f"{SECTION}; here every mm of the common width carries {load:.4g} N, and strength is not judged"
+        yield Notice("section", text)
     yield from thin_faces(task.pair, task.material, task.options.plane_state)
     yield from plane_pressure(task.material, task.options.plane_state)
     yield from _wider_gears(task)
@@ -194,20 +206,21 @@ def plane_notices(task: CheckTask) -> Iterator[Notice]:
 
 def _wider_gears(task: CheckTask) -> Iterator[Notice]:
     """Yield the gears whose root carries over more than the common width."""
-    common = task.pair.common_width.width
+    common = task.width
     for role, rating in task.rating.roots.items():
-        own = task.pair.gears.pick(role).face_width
+        own, name = task.face_widths.pick(role), task.rating.names.pick(role)
+        whole = "--model 3d has the whole width" if isinstance(task.pair, GearPair) else "the plane model has no more"
         if rating.width > (1 + _WORTH_A_WORD) * common:
             carry = f"by {task.rating.edition.part(3)} {rating.width:.4g} mm carry at its root"
             yield Notice(
                 "wider-root",
-                f"the {role.value} is {own:.4g} mm wide, and the plane model has the {common:.4g} mm in mesh; {carry}, "
-                f"with {100 * (1 - common / rating.width):.2g} % less stress; --model 3d has the whole width",
+                f"the {name} is {own:.4g} mm wide, and the plane model has the {common:.4g} mm in mesh; {carry}, "
+                f"with {100 * (1 - common / rating.width):.2g} % less stress; {whole}",
             )
 
 
 def _left_out(task: CheckTask) -> Iterator[Notice]:
-    along = [role for role, gear in task.pair.gears.items() if gear.modification.along_face]
+    along = [role for role, gear in task.gears.items() if gear.modification.along_face]
     left_out = [f"the {role.value}'s modifications along the face width" for role in along]
     left_out += ["the misalignment"] if task.mounting.tilted else []
     left_out += ["the shafts"] if task.shafts is not None else []
@@ -217,7 +230,7 @@ def _left_out(task: CheckTask) -> Iterator[Notice]:
 
 def _unresolved_notches(task: CheckTask) -> Iterator[Notice]:
     """Yield the gears with a grinding notch that is too sharp for the elements of bodies."""
-    for role, gear in task.pair.gears.items():
+    for role, gear in task.gears.items():
         notch = NotchPlace.of(gear)
         if notch is not None and notch.sharp(gear.normal_module):
             text = f"grinding notch with a radius of {notch.radius:.3g} mm: elements of bodies do not resolve its stress"
@@ -276,7 +289,7 @@ def solid_model(task: CheckTask, factor: float = 1.0, tell: Share = unheard, *, 
     They keep what `fields` of teeth need if these are asked for. Raises what `check_pair` does.
     """
     sizes = sizes_of(task, factor)
-    pair, mounting = loaded_left(task.pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
+    pair, mounting = loaded_left(task.gear_pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
     made = solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, fields=fields, tell=tell)
     return made if task.supports is None else made.on(task.supports)
 
@@ -296,7 +309,7 @@ def _cycle(model: SolidPair, task: CheckTask) -> SolidCycle:
 def _edge_notices(task: CheckTask, cycle: SolidCycle, summary: SolidSummary) -> Iterator[Notice]:
     greatest = max(contact.edge_pressure for _, contact in cycle.contacts)
     if summary.contact_pressure is None or greatest >= _EDGE_RATIO * summary.contact_pressure:
-        modified = any(gear.modification.present for gear in task.pair.gears)
+        modified = any(gear.modification.present for gear in task.gears.values())
         advice = "the modifications given do not prevent it" if modified else "reliefs and crowning would lower it"
         yield Notice(
             "edge-pressure",
@@ -359,7 +372,7 @@ def load_distribution(task: CheckTask, tell: Share = unheard) -> LoadDistributio
     plain = replace(options, helix_modification=HelixModification.NONE)  # the flanks have their own
     if task.shafts is not None:
         plain = replace(plain, shaft_deflection=0.0)  # the shafts have their own
-    mesh = LoadedMesh(pair=task.pair, materials=task.materials, load=task.load, options=plain)
+    mesh = LoadedMesh(pair=task.gear_pair, materials=task.materials, load=task.load, options=plain)
     require_ratable(mesh.pair, task.load)
     speed_factor = dynamic_factor(mesh).factors["K_v"]
     off = _standing_off(mesh, mounting, speed_factor, on_shafts=task.shafts is not None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
@@ -9,16 +10,16 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 from gearcad.check.options import CheckOptions, Model
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.line_of_action import gears_loaded_left
-from gearcad.contact.shared.loaded import LoadedCycle, LoadedPosition, PairContact
+from gearcad.contact.shared.loaded import LoadedCycle, LoadedPosition, PairContact, width_in_mesh
 from gearcad.core.errors import GeometryError, ParameterError
-from gearcad.core.records import PerGear
-from gearcad.geometry import Gear, GearPair
+from gearcad.core.records import PerGear, Role
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
 from gearcad.mounting import Mounting, SupportCompliance
 from gearcad.rating.load_factor_formulas import face_load_factor, helix_factors, root_face_load_factor, width_to_height
 from gearcad.rating.load_factors import BodyLoad, FaceLoadSource, deflection_of
-from gearcad.rating.nominal_rating import Rating, rate
+from gearcad.rating.nominal_rating import Rating, rate, rate_rack
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import StrengthRating, rate_strength
 
@@ -34,7 +35,7 @@ class CheckTask:
     None for rigid ones.
     """
 
-    pair: GearPair
+    pair: GearPair | RackPair
     material: Materials
     load: Load
     mounting: Mounting
@@ -43,6 +44,30 @@ class CheckTask:
     body_load: BodyLoad | None = None
     face_load: FaceLoadSource | None = None
     shafts: MeshOnShafts | None = None
+
+    @property
+    def gear_pair(self) -> GearPair:
+        """The pair of gears. Raises TypeError for a pinion and a rack, which solid bodies and shafts do not know."""
+        if isinstance(self.pair, RackPair):
+            raise TypeError("a pinion and a rack are no pair of gears")
+        return self.pair
+
+    @property
+    def gears(self) -> Mapping[Role, Gear]:
+        """The gears; of a pinion and a rack the pinion alone."""
+        return {Role.PINION: self.pair.pinion} if isinstance(self.pair, RackPair) else dict(self.pair.gears.items())
+
+    @property
+    def face_widths(self) -> PerGear[float]:
+        """Face widths of both gears, or of pinion and rack (mm)."""
+        pair = self.pair
+        mate = pair.rack if isinstance(pair, RackPair) else pair.wheel
+        return PerGear(pair.pinion.face_width, mate.face_width)
+
+    @property
+    def width(self) -> float:
+        """Common face width (mm)."""
+        return width_in_mesh(self.pair)
 
     @property
     def materials(self) -> PerGear[Material]:
@@ -65,6 +90,11 @@ class CheckTask:
         return self.options.model_for(self.pair)
 
     @property
+    def is_section(self) -> bool:
+        """True of a transverse section of helical teeth, which is no model of the gears."""
+        return self.model is Model.PLANE and bool(self.pair.pinion.helix_angle)
+
+    @property
     def body(self) -> BodyModel:
         """The bodies as the model of the pair takes them."""
         body = self.options.body
@@ -77,7 +107,7 @@ class CheckTask:
         """
         if self.shafts is None:
             return None
-        return replace(self.shafts, pair=self.pair, torque=self.torque, misalignment=self.mounting.misalignment)
+        return replace(self.shafts, pair=self.gear_pair, torque=self.torque, misalignment=self.mounting.misalignment)
 
     @cached_property
     def supports(self) -> SupportCompliance | None:
@@ -87,6 +117,8 @@ class CheckTask:
     @cached_property
     def rating(self) -> Rating:
         """Rating by ISO 6336 or DIN 3990, Method B: nominal stresses with K_A."""
+        if isinstance(self.pair, RackPair):
+            return rate_rack(self.pair, self.material, self.load, self.rating_options)
         return rate(self.pair, self.material, self.load, self.rating_options)
 
     @cached_property
@@ -98,7 +130,7 @@ class CheckTask:
 
 
 def check_task(
-    pair: GearPair,
+    pair: GearPair | RackPair,
     material: Materials,
     load: Load,
     options: CheckOptions | None = None,
@@ -107,12 +139,13 @@ def check_task(
     face_load: FaceLoadSource | None = None,
     shafts: MeshOnShafts | None = None,
 ) -> CheckTask:
-    """Return the task of a pair in its mounting, on its shafts. Raises ParameterError and GeometryError for what cannot be
-    checked.
+    """Return the task of a pair in its mounting, on its shafts; a pinion and a rack have neither.
+
+    Raises ParameterError and GeometryError for what cannot be checked.
     """
     options, mounting = options or CheckOptions(), mounting or Mounting()
     task = CheckTask(
-        pair=mounting.mounted(pair),
+        pair=pair if isinstance(pair, RackPair) else mounting.mounted(pair),
         material=material,
         load=load,
         mounting=mounting,
@@ -174,7 +207,7 @@ def face_factors(task: CheckTask) -> FaceFactors:
     rating = task.rating
     misalignment = task.mounting.misalignment + sum(_mismatch(task))
     flank = face_load_factor(misalignment, rating.stiffness.mesh_beta, rating.specific_load)
-    return FaceFactors(misalignment, flank, root_face_load_factor(flank, width_to_height(task.pair)))
+    return FaceFactors(misalignment, flank, root_face_load_factor(flank, width_to_height(task.gear_pair)))
 
 
 def method_c_on_shafts(task: CheckTask) -> tuple[float, float]:
@@ -184,9 +217,7 @@ def method_c_on_shafts(task: CheckTask) -> tuple[float, float]:
     is 1. Raises ParameterError for a shaft that is half given.
     """
     rating, options = task.rating, task.rating_options
-    deflection = float(
-        deflection_of(options, rating.specific_load, task.pair.common_width.width, task.pair.pinion.reference_diameter)
-    )
+    deflection = float(deflection_of(options, rating.specific_load, task.width, task.pair.pinion.reference_diameter))
     factor = helix_factors(options.helix_modification, options.standard).deflection
     misalignment = 1.33 * factor * deflection + abs(face_factors(task).misalignment)
     return deflection, face_load_factor(misalignment, rating.stiffness.mesh_beta, rating.specific_load)
@@ -197,11 +228,11 @@ def _mismatch(task: CheckTask) -> PerGear[float]:
 
     It is that by the helix angle modification of each gear.
     """
-    width, carries_left = task.pair.common_width.width, task.torque > 0
+    width, carries_left = task.width, task.torque > 0
 
     def grows(gear: Gear) -> float:
         hand = -1 if gear.helix_angle < 0 else 1
         depth = gear.modification.helix_angle_modification * hand * (-1 if carries_left else 1)
         return depth * width / gear.face_width
 
-    return gears_loaded_left(task.pair).map(grows)
+    return gears_loaded_left(task.gear_pair).map(grows)

@@ -154,7 +154,7 @@ def _aligned(rows: list[_Line]) -> list[tuple[str, str]]:
 @click.command(short_help="Check the strength of SPEC's pair by finite elements.")
 @spec_argument
 @output_option
-@click.option("--model", type=click.Choice(["2d", "3d"]), help="Plane or solid bodies.  [default: 3d for helical gears]")
+@click.option("--model", type=click.Choice(["2d", "3d", "section"]), help="Plane, solid, section.  [default: 3d if helical]")
 @json_option
 @quiet_option
 @debug_option

@@ -110,10 +110,10 @@ def _require_rigid_hubs(task: CheckTask) -> None:
     body = task.body
     for role, support in body.supports(task.pair).items():
         if support.hold is not Hold.RIGID:
-            held = "rim" if task.pair.gears.pick(role).internal else "bore"
+            held = "rim" if task.gear_pair.gears.pick(role).internal else "bore"
             permitted = f'must be "{Hold.RIGID.value}" for a deck, which holds the {held} all round'
             raise ParameterError(f"check.{role.value}_support", support.hold.value, permitted)
-        if body.teeth_held(task.pair.gears.pick(role)) is not None and body.cuts is not Cuts.FIXED:
+        if body.teeth_held(task.gear_pair.gears.pick(role)) is not None and body.cuts is not Cuts.FIXED:
             raise ParameterError("check.cuts", body.cuts.value, f'must be "{Cuts.FIXED.value}" for a deck')
 
 
@@ -122,11 +122,12 @@ def require_same_flanks(task: CheckTask) -> None:
 
     A plane deck is of the sections in the middle of both gears, our own check of those in the middle of the common width.
     """
-    middle = task.pair.common_width.offset
-    for offset, gear in zip((middle, middle - task.pair.axial_offset), task.pair.gears, strict=True):
+    pair = task.gear_pair
+    middle = pair.common_width.offset
+    for offset, gear in zip((middle, middle - pair.axial_offset), pair.gears, strict=True):
         if gear.modification.along_face and offset:
             permitted = "must be 0 for a plane deck of flanks that are modified along the face width"
-            raise GeometryError("pair.axial_offset", task.pair.axial_offset, permitted, "mm")
+            raise GeometryError("pair.axial_offset", pair.axial_offset, permitted, "mm")
 
 
 _STIFFNESS = 10.0
@@ -153,7 +154,7 @@ class PairDecks(ABC):
     @property
     def pair(self) -> GearPair:
         """The pair as mounted."""
-        return self.task.pair
+        return self.task.gear_pair
 
     @property
     def left(self) -> bool:

@@ -142,6 +142,7 @@ def plane_tooth_deck(decks: PlaneDecks, roll_angle: float, role: Role) -> PlaneT
     position = decks.cycle.solve(roll_angle)
     mesh = joined({role.value: decks.mesh(role, decks.zones(roll_angle, role))})
     flank = decks.cycle.model.bodies.pick(role).flank
+    assert isinstance(flank, LoadedFlank)  # of a gear
     loaded, pressures = list[Faces](), list[Floats]()
     for contact in position.contacts:
         name = decks.side(role, decks.tooth(role, contact.tooth), "flank")

@@ -121,7 +121,7 @@ def solid_task(task: CheckTask) -> CheckTask:
 
     Where it asks for rings, they have so few teeth that CalculiX has done within minutes.
     """
-    teeth = task.options.body_teeth or max(_FEWEST_TEETH, 2 * teeth_moved(task.pair) + 1)
+    teeth = task.options.body_teeth or max(_FEWEST_TEETH, 2 * teeth_moved(task.gear_pair) + 1)
     return replace(task, shafts=None, options=replace(task.options, model=Model.SOLID.value, body_teeth=teeth))
 
 

@@ -369,7 +369,7 @@ class PairSpec(Spec):
         return replace(pair, wheel=replace(pair.wheel, tip_alteration=given.value + change))
 
 
-_BESIDE = ("material", "load", "rating", "drawing", "verify")
+_BESIDE = ("material", "load", "check", "rating", "drawing", "verify")
 _GEARS = ("pinion", "rack")
 
 
@@ -378,14 +378,12 @@ class RackPairDesign(ToothedDesign):
     """A pinion and a rack, with the inputs that later stages need."""
 
     kind: ClassVar[DesignKind] = DesignKind.RACK_PAIR
-    elsewhere: ClassVar[str] = (
-        "finite elements, stiffness and dynamics know gears only; a pinion and a rack have `gearcad data`, `gearcad build`,"
-        " `gearcad draw` and `gearcad rate`"
-    )
+    elsewhere: ClassVar[str] = "a pinion and a rack are for `gearcad data`, build, draw, check, rate, stiffness and verify"
 
     pair: RackPair
     material: Materials | None = None
     load: Load | None = None
+    check: CheckOptions | None = None
     rating: RatingOptions | None = None
 
     @classmethod
@@ -451,6 +449,13 @@ class RackPairDesign(ToothedDesign):
         if self.load is None:
             raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {why}")
         return self.load
+
+    def check_task(self, why: str, options: CheckOptions | None = None) -> CheckTask:
+        """Return the task of a check of the pair, as that of a `PairDesign`, but without mounting and shafts."""
+        from gearcad.check.task import check_task
+
+        material, load = self.material or Material(), self.loaded(why)
+        return check_task(self.pair, material, load, options or self.check, rating=self.rating)
 
 
 class _RackPairSpec(Spec):

@@ -137,6 +137,11 @@ class RackProfile:
             curves.append(Straight(RackCurveKind.CHAMFER, end, top))
         return (*curves, Straight(RackCurveKind.TIP, top, (0.0, tip)))
 
+    def contour(self, chord_error: float) -> Floats:
+        """Return the points (n, 2) of a tooth from the middle of a space to the next, without the last one."""
+        half = np.concatenate([curve.points(parameters_within(curve, chord_error))[:-1] for curve in self.curves])
+        return np.concatenate([half, [[0.0, self.tip_height]], half[:0:-1] * [-1, 1]])
+
     def half_thickness_on_flank(self, height: float) -> float:
         """Return half the transverse tooth thickness (mm) at a height (mm) if the flank went on to there."""
         return float(self._on_flank(height))
@@ -210,7 +215,7 @@ def _outline(rack: RackData, profile: RackProfile, near: tuple[float, float], po
     """Return the section at z = 0 of the pinion, or of a rack by itself, between two places along it (mm)."""
     first, last = (int(place // profile.pitch) for place in near)
     middles = (np.arange(first - 1, last + 2) + 0.5) * profile.pitch
-    tooth = _tooth(profile, CHORD_ERROR * pixel)
+    tooth = profile.contour(CHORD_ERROR * pixel)
     shift = 0.0 if pose is None else -rack.drift * pose.z
     x = (middles[:, None] + tooth[:, 0]).ravel() + shift
     y = np.tile(tooth[:, 1], len(middles))
@@ -221,12 +226,6 @@ def _outline(rack: RackData, profile: RackProfile, near: tuple[float, float], po
     if pose is not None:
         points = np.column_stack([pose.x - points[:, 1], pose.y + points[:, 0]])
     return f'<path d="{polygon(points, pixel)}"/>'
-
-
-def _tooth(profile: RackProfile, chord_error: float) -> Floats:
-    """Return the points (n, 2) of a tooth from space to space, without the last one."""
-    half = np.concatenate([curve.points(parameters_within(curve, chord_error))[:-1] for curve in profile.curves])
-    return np.concatenate([half, [[0.0, profile.tip_height]], half[:0:-1] * [-1, 1]])
 
 
 _DERIVED = (

@@ -21,11 +21,12 @@ from gearcad.core.symbols import STIFFNESS, STRENGTH_FIGURES
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
 from gearcad.designs.keys import RIGID_SHAFTS
 from gearcad.dynamics.planetary.planetary_strength import TrainStrength
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.jobs.job import ReportedJob, Subject, Writer, as_design
 from gearcad.jobs.train import suited
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.mounting import Mounting
 from gearcad.planetary import TrainLoad
 from gearcad.rating.load_factors import BodyLoad
 from gearcad.rating.strength import INFINITE, StrengthRating, rate_strength
@@ -41,14 +42,16 @@ _NO_LOAD = "without it there is no stress"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Check(ReportedJob[PairDesign, CheckResult]):
-    """The structural check of a pair; `model` ("2d" or "3d") wins over that of the design's own [check].
+class Check(ReportedJob[PairDesign | RackPairDesign, CheckResult]):
+    """The structural check of a pair, or of a pinion and a rack.
+
+    `model` ("2d" or "3d") wins over that of the design's own [check].
 
     Without `report` there is check.json alone, and nothing is solved for the report only.
     """
 
     verb = "check"
-    accepts = (DesignKind.PAIR,)
+    accepts = (DesignKind.PAIR, DesignKind.RACK_PAIR)
     why = "a single gear has nothing to press against"
     sometimes: ClassVar[tuple[str, ...]] = ("stress_pinion.vtu", "stress_wheel.vtu")
 
@@ -65,11 +68,11 @@ class Check(ReportedJob[PairDesign, CheckResult]):
     def expected(self, design: Design) -> Expected:
         return expected_check(self._task(self.accepted(design)))
 
-    def _task(self, design: PairDesign) -> CheckTask:
+    def _task(self, design: PairDesign | RackPairDesign) -> CheckTask:
         """Return the task of the design, by the model of the job if it has one."""
         return design.check_task(_NO_LOAD, self._options(design))
 
-    def _options(self, design: PairDesign) -> CheckOptions:
+    def _options(self, design: PairDesign | RackPairDesign) -> CheckOptions:
         options = design.check or CheckOptions()
         return options if self.model is None else replace(options, model=self.model)
 
@@ -110,7 +113,7 @@ def _check_write_report(result: CheckResult, head: Mapping[str, str], path: Path
 
 
 def check(
-    subject: Design | GearPair,
+    subject: Design | GearPair | RackPair,
     load: Load | None = None,
     *,
     model: str | None = None,
@@ -340,14 +343,14 @@ _STIFFNESS_NO_LOAD = "stiffness depends on it"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stiffness(ReportedJob[PairDesign, StiffnessComparison]):
+class Stiffness(ReportedJob[PairDesign | RackPairDesign, StiffnessComparison]):
     """Mesh stiffness by `methods`, at so many `positions` over one base pitch (0: those of each method).
 
     `fourier` says how many harmonics of each curve the document has.
     """
 
     verb = "stiffness"
-    accepts = (DesignKind.PAIR,)
+    accepts = (DesignKind.PAIR, DesignKind.RACK_PAIR)
     why = "a single gear has no mesh"
 
     methods: Sequence[str] = tuple(METHODS)
@@ -372,7 +375,7 @@ class Stiffness(ReportedJob[PairDesign, StiffnessComparison]):
             design.loaded(_STIFFNESS_NO_LOAD),
             self.methods,
             body=(design.check or CheckOptions()).body,
-            mounting=design.mounting,
+            mounting=_mounting(design),
             positions=self.positions,
             progress=progress,
         )
@@ -381,7 +384,7 @@ class Stiffness(ReportedJob[PairDesign, StiffnessComparison]):
         design = self.accepted(design)
         design.loaded(_STIFFNESS_NO_LOAD)
         pair, material, body = design.pair, design.material or Material(), (design.check or CheckOptions()).body
-        return expected_methods(pair, material, self.methods, body=body, mounting=design.mounting, positions=self.positions)
+        return expected_methods(pair, material, self.methods, body=body, mounting=_mounting(design), positions=self.positions)
 
     def document(self, result: StiffnessComparison) -> JsonObject:
         """Return the content of stiffness.json: N/µm, per face width N/(mm·µm), degrees, µm."""
@@ -411,6 +414,11 @@ class Stiffness(ReportedJob[PairDesign, StiffnessComparison]):
         }
 
 
+def _mounting(design: PairDesign | RackPairDesign) -> Mounting | None:
+    """Return the mounting of a design; a pinion and a rack have none."""
+    return design.mounting if isinstance(design, PairDesign) else None
+
+
 def _stiffness_write_report(comparison: StiffnessComparison, head: Mapping[str, str], path: Path) -> None:
     from gearcad.report import write_stiffness_report
 
@@ -422,7 +430,7 @@ def _write_curves(comparison: StiffnessComparison, path: Path) -> None:
 
 
 def stiffness(
-    subject: Design | GearPair,
+    subject: Design | GearPair | RackPair,
     load: Load | None = None,
     *,
     methods: Sequence[str] = tuple(METHODS),

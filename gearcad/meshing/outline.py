@@ -309,14 +309,10 @@ _NOTCH_RADIUS = 0.6
 def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool, notched: bool = True) -> HalfLengths:
     """Return the wanted edge lengths on the curves of half a tooth; shorter in a grinding notch where it is `notched`."""
     module, grow = gear.normal_module, sizes.growth
-    fillet, other = sizes.fillet * module, sizes.outline * module
+    fillet = sizes.fillet * module
     bent = min(fillet, max(_half_fillet(gear), _SHORTEST_HALF * module)) if gear.internal else fillet
-    flank, corner = (sizes.flank * module, sizes.corner * module) if loaded else (other, other)
     notch = NotchPlace.of(gear) if notched else None
     first = fillet if notch is None else notch.shorter(fillet, module)
-
-    def on_flank(run: Floats, whole: float) -> Floats:
-        return np.minimum(flank, np.minimum(first + grow * run, corner + grow * (whole - run)))
 
     def on_fillet(run: Floats, _whole: float) -> Floats:
         if notch is None:
@@ -324,14 +320,30 @@ def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool, notched: bool = 
         outside = np.maximum(np.maximum(notch.start - run, run - notch.end), 0.0)
         return np.minimum(bent, notch.shorter(bent, module) + grow * outside)
 
-    curves: dict[CurveKind, EdgeLength] = {
+    return HalfLengths(plain_lengths(module, sizes, loaded=loaded, flank_start=first) | {CurveKind.FILLET: on_fillet})
+
+
+def plain_lengths(
+    module: float, sizes: MeshSizes, *, loaded: bool, flank_start: float | None = None
+) -> dict[CurveKind, EdgeLength]:
+    """Return the wanted edge lengths on the curves of half a tooth of a normal module (mm) that has no grinding notch.
+
+    Those of the flank begin with `flank_start` (mm) beside the fillet, if it is not that of the fillet.
+    """
+    grow, fillet, other = sizes.growth, sizes.fillet * module, sizes.outline * module
+    flank, corner = (sizes.flank * module, sizes.corner * module) if loaded else (other, other)
+    first = fillet if flank_start is None else flank_start
+
+    def on_flank(run: Floats, whole: float) -> Floats:
+        return np.minimum(flank, np.minimum(first + grow * run, corner + grow * (whole - run)))
+
+    return {
         CurveKind.ROOT: lambda run, whole: np.minimum(sizes.cut * module, fillet + grow * (whole - run)),
-        CurveKind.FILLET: on_fillet,
+        CurveKind.FILLET: lambda run, _whole: np.full_like(run, fillet),
         CurveKind.INVOLUTE: on_flank,
         CurveKind.CHAMFER: lambda run, _whole: np.minimum(other, corner + grow * run),
         CurveKind.TIP: lambda run, _whole: np.minimum(other, corner + grow * run),
     }
-    return HalfLengths(curves)
 
 
 def _half_fillet(gear: Gear) -> float:
@@ -355,12 +367,17 @@ def _stretch(curve: Curve, lengths: HalfLengths, first: float, last: float) -> S
 def _cut(root: float, held: float, angle: float, sizes: MeshSizes, module: float) -> Stretch:
     """Return the radial cut from the root circle to the held one, edges growing up to the rim's."""
     direction = np.array([math.cos(angle), math.sin(angle)])
-    rim, cut = sizes.rim * module, sizes.cut * module
 
     def points(s: Floats) -> Floats:
         result: Floats = (root + s[:, None] * (held - root)) * direction
         return result
 
+    return graded_cut(points, sizes, module)
+
+
+def graded_cut(points: Callable[[Floats], Floats], sizes: MeshSizes, module: float) -> Stretch:
+    """Return the cut ahead along a line of `points` from the root down, edges growing up to the rim's."""
+    rim, cut = sizes.rim * module, sizes.cut * module
     grading = graded(points, lambda run, _whole: np.minimum(rim, cut + sizes.growth * run))
     return Stretch(OutlineSide.AHEAD, points(grading.with_middles(max(2, math.ceil(grading.edges)))))
 

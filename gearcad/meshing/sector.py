@@ -43,12 +43,13 @@ class SectorMesh(SectorSides):
     """Quadratic triangles of tooth 0, centred on +x, and its share of the body.
 
     `points` (n, 2) in mm, vertices first; `triangles` (m, 6), three vertices and the nodes between 0-1, 1-2, 2-0,
-    counter-clockwise.
+    counter-clockwise. `straight` sectors, those of a rack, follow each other along y and not round a circle.
     """
 
     points: Floats
     triangles: Wholes
     sides: Mapping[OutlineSide, Wholes]
+    straight: bool = False
 
     @property
     def cells(self) -> Wholes:
@@ -70,7 +71,7 @@ def mesh_sector(
     outline = sector_outline(gear, held_radius, sizes or MeshSizes(), left, right)
     corners = np.concatenate([stretch.ends[:-1] for stretch in outline])
     points, triangles = fill_polygon(corners)
-    return _quadratic(points, triangles, outline)
+    return quadratic_sector(points, triangles, outline)
 
 
 def fill_polygon(outline: Floats, growth: float | None = None) -> tuple[Floats, Wholes]:
@@ -121,7 +122,7 @@ def fill_polygon(outline: Floats, growth: float | None = None) -> tuple[Floats, 
     return points, place[found].reshape(-1, 3)
 
 
-def _quadratic(points: Floats, triangles: Wholes, outline: list[Stretch]) -> SectorMesh:
+def quadratic_sector(points: Floats, triangles: Wholes, outline: list[Stretch], *, straight: bool = False) -> SectorMesh:
     """Add mid-side nodes: on the exact curve along the outline, half-way elsewhere."""
     x, y = (points[triangles][:, :, axis] for axis in (0, 1))
     area = (x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])
@@ -142,7 +143,7 @@ def _quadratic(points: Floats, triangles: Wholes, outline: list[Stretch]) -> Sec
         # The tip comes in two halves, one after the other.
         sides[stretch.side] = np.r_[sides[stretch.side], chain[1:]] if stretch.side in sides else chain
     nodes = np.c_[triangles, len(points) + which.reshape(-1, 3)]
-    return SectorMesh(np.r_[points, middles], nodes, sides)
+    return SectorMesh(np.r_[points, middles], nodes, sides, straight)
 
 
 _HOLLOW = 0.03

@@ -132,7 +132,7 @@ def live_error(design: PairDesign, count: int | None = None) -> JsonObject:
     try:
         task = design.check_task("the transmission error depends on it")
         positions = count or task.options.positions_of(Model.PLANE)
-        bodies = _bodies(_plain(task.pair), task.material, task.options, task.mounting)
+        bodies = _bodies(_plain(task.gear_pair), task.material, task.options, task.mounting)
         model = bodies.with_flanks(task.pair)
         angles = model.roll_angles(positions).tolist()
         errors = [1000 * model.solve(angle, task.torque).approach for angle in angles]

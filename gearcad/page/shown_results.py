@@ -72,7 +72,7 @@ def shown_check(result: CheckResult, document: Mapping[str, Any]) -> JsonObject:
         "pattern": {
             "across": _rounded(_across(result)),
             "pinion": _rounded(rolls),
-            "wheel": _rounded(pair.base_tangent.length - rolls),
+            "wheel": _rounded(model.line.whole - rolls),
             "pressure": _with_gaps(pressures),
         },
         "teeth": {},
@@ -148,10 +148,9 @@ def _filled(pattern: Floats) -> Floats:
 
 def _over_radius(result: CheckResult, role: Role, rolls: Floats, pressures: Floats) -> dict[str, list[Any]]:
     """Radii (n,) of a gear, rising, and the greatest pressure (MPa) of all the face width when a contact passes there."""
-    length = rolls if role is Role.PINION else result.pair.base_tangent.length - rolls
-    base = result.pair.gears.pick(role).base_diameter / 2
+    length = rolls if role is Role.PINION else result.cycle.model.line.whole - rolls
     known = ~np.isnan(pressures).all(axis=1)
-    radii, greatest = np.hypot(base, length[known]), np.nanmax(pressures[known], axis=1)
+    radii, greatest = result.cycle.model.bodies.pick(role).flank.radii(length[known]), np.nanmax(pressures[known], axis=1)
     order = np.argsort(radii)
     return {"radius": _rounded(radii[order]), "pressure": np.round(greatest[order], 1).tolist()}
 
@@ -198,7 +197,7 @@ def _tooth(result: SolidCheck, role: Role, rolls: Floats, pressures: Floats) -> 
     corners = index.reshape(-1, 4)
     triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     mirrored = np.array([1.0, 1.0 if result.torque > 0 else -1.0, 1.0])
-    gear = result.pair.gears.pick(role)
+    gear = result.task.gears[role]
     outside = _above_root(field.points[used], gear.profile.root_diameter / 2, gear.internal)
     return {
         "stress": _surface(field.points[used] * mirrored, triangles[outside[triangles].all(axis=1)], field.von_mises[used])
@@ -215,10 +214,10 @@ def _above_root(points: Floats, root: float, internal: bool) -> Any:
 
 def _flank_surface(result: SolidCheck, role: Role, rolls: Floats, pressures: Floats, mirrored: Floats) -> JsonObject:
     """The flank of tooth 0 as far as it touches: pressure (MPa) at rolls and places across the common width."""
-    model, gear = result.cycle.model, result.pair.gears.pick(role)
+    model, gear = result.cycle.model, result.task.gears[role]
     known = ~np.isnan(pressures)
     rows = np.flatnonzero(known.any(axis=1))
-    length = rolls if role is Role.PINION else result.pair.base_tangent.length - rolls
+    length = rolls if role is Role.PINION else model.line.whole - rolls
     radius, angle = model.bodies.pick(role).flank.polar(length[rows])
     low, high = model.common_heights(role)
     heights = _across(result) + (low + high) / 2

@@ -11,7 +11,7 @@ from gearcad.check.on_shafts import LoadOnShafts
 from gearcad.check.pictures import ToothSurface
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
 from gearcad.core.records import Floats, PerGear, Role
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.material import Limit, by_gear
 from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, legend_above, new_figure, prepared, short
 
@@ -93,7 +93,7 @@ def plot_transmission_error(result: CheckResult, ax: Axes | None = None) -> Axes
     cycle = result.cycle
     curves = [("transmission error", cycle.course("transmission_error"), result.mean_lag.whole, DARK, "-", 1.5)]
     parts = 1000 * cycle.course("approach_parts")
-    for (gear, colour, _), part, mean in zip(GEARS, parts.T, result.mean_lag.parts, strict=True):
+    for gear, (_, colour, _), part, mean in zip(result.names, GEARS, parts.T, result.mean_lag.parts, strict=True):
         curves.append((f"part of the {gear}", part, mean, colour, "--", 1.2))
     for words, values, mean, colour, style, width in curves:
         label = f"{words}, mean {short(mean)} µm"
@@ -107,7 +107,8 @@ def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
     axes = prepared(ax, _ROLL, "root stress in MPa")
     angles = result.cycle.course("roll_angle")
     standard = r"$\sigma_{F0}$" if result.load.application_factor == 1 else r"$\sigma_{F0} K_A$"
-    for role, (words, colour, _) in GEARS.items():
+    for role, (_, colour, _) in GEARS.items():
+        words = result.names.pick(role)
         for name, style in (("tension", "-"), ("compression", "--")):
             stresses = [getattr(position, name).pick(role).stress for position in result.cycle.every]
             axes.plot(angles, stresses, color=colour, linestyle=style, label=f"{words}, {name}")
@@ -125,7 +126,7 @@ def _limits(result: CheckResult, name: str) -> list[Limit]:
     return list(dict.fromkeys(getattr(material, name) for material in by_gear(result.material).values()))
 
 
-def mark_path(axes: Axes, pair: GearPair) -> None:
+def mark_path(axes: Axes, pair: GearPair | RackPair) -> None:
     """The points A to E of the path of contact, by name."""
     across = axes.get_xaxis_transform()
     for name, place in pair.path_of_contact._asdict().items():
@@ -166,7 +167,7 @@ def plot_contact_pattern(result: SolidCheck, role: Role, ax: Axes | None = None)
     Contact of edges is left out.
     """
     axes = new_figure().subplots() if ax is None else ax
-    cells, own = result.cells, result.pair.gears.pick(role)
+    cells, own = result.cells, result.task.gears[role]
     cells = cells.only(~cells.on_edge)
     _map(
         axes,
@@ -323,11 +324,14 @@ def _plot_field(result: PlaneCheck, ax: Axes | None, reach: float, most: float, 
     axes.set_aspect("equal")
     axes.set_xlim(stress.x - 1.45 * reach, stress.x + 1.45 * reach)
     axes.set_ylim(stress.y - reach, stress.y + reach)
-    sense = "away from the ring's" if result.pair.internal else "towards the wheel's"
-    axes.set_xlabel(f"from the pinion's axis {sense} in mm")
+    sense = "the rack" if isinstance(result.pair, RackPair) else "the wheel's"
+    towards = "away from the ring's" if result.ring else f"towards {sense}"
+    axes.set_xlabel(f"from the pinion's axis {towards} in mm")
     axes.set_ylabel("across in mm")
     for role, place in names.items():
-        axes.text(*place, role.value, transform=axes.transAxes, ha="center", va="center", fontsize=9, bbox=_ON_WHITE)
+        axes.text(
+            *place, result.names.pick(role), transform=axes.transAxes, ha="center", va="center", fontsize=9, bbox=_ON_WHITE
+        )
     return axes
 
 
@@ -336,7 +340,8 @@ def plot_fillets(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     tooth.
     """
     axes = prepared(ax, "tangent angle, from the middle of the tooth, in °", "stress along the fillet in MPa")
-    for role, (words, colour, marker) in GEARS.items():
+    for role, (_, colour, marker) in GEARS.items():
+        words = result.names.pick(role)
         curves, found = result.fillet_curves.pick(role), result.root_peaks.pick(role)
         for kind, curve, style in (("tension", curves.tension, "-"), ("compression", curves.compression, "--")):
             root = curve.angles >= _LEAST_ANGLE
@@ -440,8 +445,10 @@ def plot_sweep_stiffness(result: CheckResult, ax: Axes | None = None) -> Axes:
     torques, stiffness = _swept(result, "mesh_stiffness")
     axes.plot(torques, 100 * stiffness / stiffness[-1], "^-", color=DARK, label=f"mesh: {short(stiffness[-1])} N/(mm µm)")
     _, turning = _swept(result, "torsional_stiffness")
-    for (gear, colour, marker), values in zip(GEARS, turning.T, strict=True):
+    for gear, (_, colour, marker), values in zip(result.names, GEARS, turning.T, strict=True):
         words = rf"$M/\varphi$, {gear}: {short(values[-1])} N·m/rad"
+        if gear == "rack":
+            words = f"force over travel, rack: {short(values[-1])} N/µm"
         axes.plot(torques, 100 * values / values[-1], marker=marker, linestyle="--", color=colour, label=words)
     axes.axhline(100, color=MARKED, linewidth=0.8)
     axes.set_xlim(left=0)

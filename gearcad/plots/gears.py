@@ -78,6 +78,51 @@ def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
     return axes
 
 
+_RACK_REACH = 1.15
+"""Length of a rack that is drawn on each side, over the pinion's tip radius."""
+
+
+def rack_pair_inches(pair: RackPair) -> tuple[float, float]:
+    """Return the size of a picture of a pinion and a rack."""
+    reach = _RACK_REACH * pair.pinion.tip_diameter
+    wide = pair.pinion.tip_diameter / 2 + pair.mounting_distance + pair.rack.height
+    return _WIDTH, min(max(_WIDTH * reach / wide, _LEAST), _MOST)
+
+
+def plot_rack_pair(pair: RackPair, ax: Axes | None = None) -> Axes:
+    """Draw a transverse section of a pinion and the rack near it, a tooth of the pinion in a space of the rack.
+
+    The pitch circle and the pitch line are dash-dotted; the path of contact of left flanks, from A to E, is drawn on the line
+    of action.
+    """
+    from matplotlib.patches import Circle
+
+    axes = new_figure(rack_pair_inches(pair)).subplots() if ax is None else ax
+    pinion, rack, (own, other) = pair.pinion, pair.rack, [colour for _, (_, colour, _) in GEARS.items()]
+    fill_gear(axes, pinion, (0.0, 0.0), 0.0, own)
+    reach = _RACK_REACH * pinion.tip_diameter / 2
+    tooth, pitch = rack.profile.contour(_CHORD * pinion.normal_module), rack.transverse_pitch
+    count = math.ceil(reach / pitch)
+    along = np.concatenate([tooth + np.array([(number + 0.5) * pitch, 0.0]) for number in range(-count, count)])
+    back = [[count * pitch, -rack.height], [-count * pitch, -rack.height]]
+    y, height = np.concatenate([along, [[count * pitch, -rack.root_depth]], back]).T
+    axes.fill(pair.mounting_distance - height, y, facecolor=f"{other}40", edgecolor=other, linewidth=0.9)
+    axes.add_patch(Circle((0, 0), pair.pitch_radius, fill=False, edgecolor=DARK, linestyle="-.", linewidth=0.7))
+    axes.axvline(pair.pitch_radius, color=DARK, linestyle="-.", linewidth=0.7)
+    axes.plot(0, 0, "+", color=DARK, markersize=9, markeredgewidth=0.8)
+    angle, path = math.radians(pair.working_transverse_pressure_angle), pair.path_of_contact
+    first = pinion.base_diameter / 2 * np.array([math.cos(angle), -math.sin(angle)])
+    line = first + np.outer([0.0, path.A, path.E, 2 * path.C], [math.sin(angle), math.cos(angle)])
+    axes.plot(*line.T, color=MARKED, linewidth=0.8)
+    axes.plot(*line[1:3].T, color=DARK, linewidth=2.2, solid_capstyle="butt")
+    axes.set_aspect("equal")
+    margin = _MARGIN * pinion.normal_module
+    axes.set_xlim(-pinion.tip_diameter / 2 - margin, pair.back_distance + margin)
+    axes.set_ylim(-reach, reach)
+    axes.set_axis_off()
+    return axes
+
+
 def plot_backlash(pair: GearPair, ax: Axes | None = None) -> Axes:
     """Backlash at the working circles and along the base normal over the centre distance, where the pair can be mounted."""
     axes = prepared(ax, "change of the centre distance in µm", "backlash in µm")

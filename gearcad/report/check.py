@@ -51,6 +51,7 @@ from gearcad.report.document import (
     figure_address,
     gear_rows,
     load_rows,
+    names_of_pair,
     page_html,
     pair_picture,
     pair_rows,
@@ -116,6 +117,7 @@ def stiffness_html(comparison: StiffnessComparison, design_name: str, head: Mapp
         figures=_figures(comparison),
         pair_picture=pair_picture(comparison.pair),
         gear_rows=gear_rows(comparison.pair, _GEAR),
+        names=names_of_pair(comparison.pair),
         pair_rows=pair_rows(comparison.pair),
         load_rows=load_rows(comparison.material, comparison.load, Mounting()),
     )
@@ -320,8 +322,11 @@ class CheckSections(ABC, Generic[Checked]):
     @property
     def stiffness_reasons(self) -> list[str]:
         """Reasons why the stiffness differs from that of the standard."""
-        of, part, ring = self.result.explanations.stiffness, self.result.rating.edition.part(1), self.result.pair.internal
-        return [sentences("reasons_check.txt", macro, of, part, ring) for macro in ("compared", "bodies", "load", "sharing")]
+        of, part, names = self.result.explanations.stiffness, self.result.rating.edition.part(1), self.result.names
+        ring = self.result.ring
+        return [
+            sentences("reasons_check.txt", macro, of, part, ring, names) for macro in ("compared", "bodies", "load", "sharing")
+        ]
 
     # ------------------------------------------------------------------ figures
 
@@ -365,8 +370,8 @@ class CheckSections(ABC, Generic[Checked]):
         """Figures over torque, and over mesh size if a convergence study was made."""
         of = self.result
         found = [
-            _common("Pressure over torque", partial(plot_sweep_pressure, of), "sweep_pressure", of.trends),
-            _common("Stiffness over torque", partial(plot_sweep_stiffness, of), "sweep_stiffness", of.trends),
+            _common("Pressure over torque", partial(plot_sweep_pressure, of), "sweep_pressure", of.trends, of.names),
+            _common("Stiffness over torque", partial(plot_sweep_stiffness, of), "sweep_stiffness", of.trends, of.names),
         ]
         if of.convergence:
             found.append(self.figure("Convergence", partial(plot_convergence, of), "convergence"))
@@ -405,8 +410,8 @@ class CheckSections(ABC, Generic[Checked]):
         return rating_rows(self.result)
 
 
-def _common(title: str, draw: Callable[[Axes], Axes], caption: str, of: object) -> ReportFigure:
-    return ReportFigure(title, picture_address(draw, "svg"), sentences("captions_check.txt", caption, of))
+def _common(title: str, draw: Callable[[Axes], Axes], caption: str, *of: object) -> ReportFigure:
+    return ReportFigure(title, picture_address(draw, "svg"), sentences("captions_check.txt", caption, *of))
 
 
 def _row(comparison: Comparison) -> ComparisonRow:
@@ -461,7 +466,11 @@ class PlaneSections(CheckSections[PlaneCheck]):
         part = self.result.rating.edition.part(3)
         roots = self.result.explanations.root_stress
         leans = self.result.rating.roots.map(lambda root: root.section.lean)
-        return [sentences("reasons_plane.txt", "root_stress", of, role, part, leans.pick(role)) for role, of in roots.items()]
+        names = self.result.names
+        return [
+            sentences("reasons_plane.txt", "root_stress", of, names.pick(role), part, leans.pick(role))
+            for role, of in roots.items()
+        ]
 
     @cached_property
     def figures(self) -> list[ReportFigure]:

@@ -20,11 +20,11 @@ from gearcad.core.quantities import symbols_of
 from gearcad.core.records import is_assumed
 from gearcad.core.runtime import templates
 from gearcad.core.symbols import Symbol
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.load import Load
 from gearcad.material import Material, Materials, by_gear
 from gearcad.mounting import Mounting
-from gearcad.plots.gears import pair_inches, plot_pair
+from gearcad.plots.gears import pair_inches, plot_pair, plot_rack_pair, rack_pair_inches
 from gearcad.plots.paper import FIGURE_INCHES, new_figure, short
 from gearcad.version import __version__
 
@@ -227,8 +227,11 @@ class ReportFigure(NamedTuple):
     caption: str
 
 
-def pair_picture(pair: GearPair) -> ReportFigure:
-    """Return a picture of both gears in mesh."""
+def pair_picture(pair: GearPair | RackPair) -> ReportFigure:
+    """Return a picture of both gears, or of a pinion and a rack, in mesh."""
+    if isinstance(pair, RackPair):
+        address = picture_address(partial(plot_rack_pair, pair), "svg", rack_pair_inches(pair))
+        return ReportFigure("The pair in mesh", address, sentences("captions_check.txt", "rack_pair", pair))
     address = picture_address(partial(plot_pair, pair), "svg", pair_inches(pair))
     return ReportFigure("The pair in mesh", address, sentences("captions_check.txt", "pair", pair))
 
@@ -261,6 +264,14 @@ _PAIR = (
     " circumferential_backlash"
 )
 
+_OF_RACK = ("length", "height", "tip_height", "root_depth", "transverse_pitch")
+"""Keys of what a rack has beside them."""
+
+_RACK_PAIR = (
+    "mounting_distance travel_per_revolution working_transverse_pressure_angle transverse_contact_ratio common_width.width"
+    " circumferential_backlash"
+)
+
 _ROUNDING = 1e-9
 """Value below which a length or number is rounding."""
 
@@ -275,8 +286,18 @@ class ReportRow(NamedTuple):
     source: str
 
 
-def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[ReportRow]:
-    """Return the rows of both gears: their fields `keys`, and the modifications of their flanks."""
+def names_of_pair(pair: GearPair | RackPair) -> list[str]:
+    """Return the names of both gears: pinion and wheel, or pinion and rack."""
+    return ["pinion", "rack" if isinstance(pair, RackPair) else "wheel"]
+
+
+def gear_rows(pair: GearPair | RackPair, keys: str = _GEAR) -> list[ReportRow]:
+    """Return the rows of both gears: their fields `keys`, and the modifications of their flanks.
+
+    Those of a rack are its height and what it has in common with gears.
+    """
+    if isinstance(pair, RackPair):
+        return _rack_pair_rows(pair, keys)
     gears = (pair.pinion, pair.wheel)
     values = [_flat(gear.to_dict() | {"modification": gear.flank_form.in_use}) for gear in gears]
     written = symbols_of(Gear) | symbols.GEAR
@@ -284,8 +305,20 @@ def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[ReportRow]:
     return [_row(written[key], *(gear.get(key) for gear in values)) for key in (*keys.split(), *present)]
 
 
-def pair_rows(pair: GearPair) -> list[ReportRow]:
+def _rack_pair_rows(pair: RackPair, keys: str) -> list[ReportRow]:
+    pinion = _flat(pair.pinion.to_dict() | {"modification": pair.pinion.flank_form.in_use})
+    rack, of_rack = _flat(pair.rack.to_dict()), symbols_of(Rack) | symbols.RACK
+    written = symbols_of(Gear) | symbols.GEAR | of_rack
+    modified = [key for key in written if key.startswith("modification.") and key in pinion]
+    every = dict.fromkeys([*keys.split(), *modified, *_OF_RACK])
+    return [_row(written[key], pinion.get(key), rack.get(key)) for key in every]
+
+
+def pair_rows(pair: GearPair | RackPair) -> list[ReportRow]:
     """Return the rows of the pair."""
+    if isinstance(pair, RackPair):
+        values, written = _flat(pair.to_dict()), symbols_of(RackPair) | symbols.PAIR | symbols.RACK_PAIR
+        return [_row(written[key], values[key]) for key in _RACK_PAIR.split()]
     values = _flat(pair.to_dict())
     written = symbols_of(GearPair) | symbols.PAIR
     return [_row(written[key], values[key]) for key in _PAIR.split()]
@@ -308,9 +341,10 @@ def rating_rows(result: CheckResult) -> list[ReportRow]:
     """The rating by symbols: values of the pair, then those of each gear, then what the formulas say of a ring."""
     values = result.rating.to_dict()
     rows = [_row(symbol, values[key]) for key, symbol in symbols.RATING.items()]
-    gears = (values["pinion"], values["wheel"])
-    rows += [_row(symbol, *(gear[key] for gear in gears)) for key, symbol in symbols.GEAR_RATING.items()]
-    if formula := values["wheel"].get("formula"):
+    gears = [values[name] for name in result.names]
+    # A rack lacks what the standard has of circles.
+    rows += [_row(symbol, *(gear.get(key) for gear in gears)) for key, symbol in symbols.GEAR_RATING.items()]
+    if formula := gears[1].get("formula"):
         rows += [_row(symbol, None, formula[key]) for key, symbol in symbols.RING_FORMULA.items()]
     return rows
 

@@ -292,7 +292,7 @@ def strength_section(of: CheckStrength) -> StrengthSection:
     for part, both in of.parts.items():
         for role, found in both.items():
             if found.reason:
-                reasons.setdefault(found.reason, []).append(f"{part.value} of the {role.value}")
+                reasons.setdefault(found.reason, []).append(f"{part.value} of the {of.rating.names.pick(role)}")
     return StrengthSection(rows, reasons, [each for each in told if each], groups, of.rating.assumed, of.rating.verify)
 
 
@@ -301,7 +301,7 @@ def _strength_row(of: CheckStrength, part: RatedPart, role: Role, found: FoundSt
     stress = nominal.contact_stresses if part is RatedPart.FLANK else nominal.root_stresses
     style = "" if rated.safety is None else "good" if rated.safety >= rated.required else "bad"
     return StrengthRow(
-        words=f"{_PARTS[part]}, {role.value}",
+        words=f"{_PARTS[part]}, {of.rating.names.pick(role)}",
         nominal=short(stress.pick(role)),
         found=_strength_text(found.stress),
         rated=_strength_text(found.rated_stress),

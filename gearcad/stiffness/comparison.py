@@ -11,9 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.shared.loaded import width_in_mesh
 from gearcad.core.quantities import inputs_document
 from gearcad.core.records import Floats, JsonObject, Notice, Pictured, texts
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.load import Load
 from gearcad.material import Materials, materials_document
 from gearcad.mesh_cycle import MeshCycle
@@ -38,7 +39,7 @@ class StiffnessComparison(Pictured):
     `titles` are those of all methods that there are, by name, in their order.
     """
 
-    pair: GearPair
+    pair: GearPair | RackPair
     material: Materials
     load: Load
     body: BodyModel
@@ -142,7 +143,7 @@ class StiffnessComparison(Pictured):
             "load": inputs_document(self.load),
             **materials_document(self.material),
             "body": self.bodies,
-            "common_width": self.pair.common_width.width,
+            "common_width": width_in_mesh(self.pair),
             "transverse_contact_ratio": self.pair.transverse_contact_ratio,
             "overlap_ratio": self.pair.overlap_ratio,
             "methods": {

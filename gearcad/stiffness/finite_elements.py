@@ -16,7 +16,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from gearcad.contact.plane.cycle import thin_faces
-from gearcad.contact.plane.flank import PlaneCompliance
+from gearcad.contact.plane.flank import PlaneCompliance, PlaneFlank
 from gearcad.contact.plane.pair import PlanePair, flank_body, plane_pair
 from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.contact.shared.line_of_action import loaded_left
@@ -25,7 +25,7 @@ from gearcad.contact.solid.pair import POSITION_SECONDS, SolidPair, SolidSizes, 
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats, Notice, PerGear
 from gearcad.core.runtime import Expected
-from gearcad.geometry import Body, Gear
+from gearcad.geometry import Body, Gear, RackPair
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.stiffness.method import SinglePair, SliceMethod, StiffnessMethod, left_out
@@ -99,6 +99,7 @@ def weighted_displacement(body: PlaneCompliance, length: float, half_width: floa
     place = np.arange(_POINTS, 0, -1) * math.pi / (_POINTS + 1)
     weight = 2 / (_POINTS + 1) * np.sin(place) ** 2
     flank = body.flank
+    assert isinstance(flank, PlaneFlank)  # of a gear
     # A distance along the tangent is that much of arc: d(arc) = (length/r_b) d(length).
     arc = flank.arc(np.array([length])) + half_width * np.cos(place)
     lengths = flank.upward * np.sqrt(2 * flank.base_radius * np.maximum(flank.upward * arc, 0.0))
@@ -113,6 +114,7 @@ def _displacements(gear: Gear, bodies: list[WeightedBody], curvatures: Floats, h
     """2 U/F² (n,) in mm²/N where the flank's radius of curvature in the section is `curvatures` (n,) in mm."""
     total, side = np.zeros(len(curvatures)), -1 if gear.internal else 1
     for weight, body in bodies:
+        assert isinstance(body.flank, PlaneFlank)  # of a gear
         section = body.flank.gear
         lengths = curvatures
         if section is not gear:
@@ -213,7 +215,7 @@ class ContactMethod(StiffnessMethod):
 
     def _cycle(self, load: Load, count: int) -> MeshCycle:
         torque, force = math.copysign(self.torque(load), load.torque), self.force(load)
-        angles = EngagedPair(self.mounted).roll_angles(count)
+        angles = EngagedPair(self.engaged).roll_angles(count)
         # All torques at one position after another: what a model knows of flanks there serves all of them.
         loads = [torque * (1 + sign * _STEP) for sign in (0, -1, 1)]
         found, softer, harder = zip(
@@ -228,7 +230,7 @@ class ContactMethod(StiffnessMethod):
         um = 1000 / force
         return MeshCycle(
             **self.inputs(load),
-            roll_angle=np.r_[angles, angles[0] + 360 / self.mounted.pinion.teeth],
+            roll_angle=np.r_[angles, angles[0] + 360 / self.engaged.pinion.teeth],
             mesh_stiffness=_closed(1 / (um * (approach - rigid))),
             tangent_stiffness=_closed(2 * _STEP / (um * further)),
             transmission_error=_closed(1000 * approach),
@@ -255,6 +257,7 @@ class PlaneContact(ContactMethod):
     """Those of a check, if there was one; else they are made."""
 
     plane: ClassVar[Plane]
+    rack_form = True
     default_positions: ClassVar[int] = 120
     seconds: ClassVar[float] = 3.0
 
@@ -270,7 +273,7 @@ class PlaneContact(ContactMethod):
         if self.bodies is not None:
             return self.bodies
         error = self.mounting.pitch_error
-        return plane_pair(self.mounted, self.material, plane=self.plane, body=self.body, pitch_error=error)
+        return plane_pair(self.engaged, self.material, plane=self.plane, body=self.body, pitch_error=error)
 
     def _position(self, roll_angle: float, torque: float) -> _Position:
         found = self.model.solve(roll_angle, torque)
@@ -284,8 +287,10 @@ class PlaneContact(ContactMethod):
 
     def notices(self, load: Load) -> Iterator[Notice]:
         """Yield notices on thin gears, and on what a section leaves out."""
-        yield from thin_faces(self.mounted, self.material, self.plane)
-        along = any(gear.modification.along_face for gear in self.mounted.gears)
+        pair = self.engaged
+        yield from thin_faces(pair, self.material, self.plane)
+        gears = (pair.pinion,) if isinstance(pair, RackPair) else pair.gears
+        along = any(gear.modification.along_face for gear in gears)
         found = [
             *(["modifications along the face width"] if along else []),
             *(["misalignment"] if self.mounting.tilted else []),

@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.shared.loaded import width_in_mesh
 from gearcad.core.errors import GeometryError, ParameterError, require_whole
-from gearcad.core.records import Floats, Notice, PerGear
+from gearcad.core.records import Floats, Notice, PerGear, Role
 from gearcad.core.runtime import Expected, Share, unheard
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.geometry.gear import refuse_halves
 from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
@@ -178,7 +179,7 @@ class StiffnessMethod(ABC):
     method's own number. Raises ParameterError and GeometryError for what the method cannot treat.
     """
 
-    pair: GearPair
+    pair: GearPair | RackPair
     material: Materials = field(default_factory=Material)
     body: BodyModel = field(default_factory=BodyModel)
     mounting: Mounting = field(default_factory=Mounting)
@@ -193,6 +194,8 @@ class StiffnessMethod(ABC):
     load_dependent: ClassVar[bool] = True
     no_internal_form: ClassVar[str] = ""
     """Reason why the method has no form for rings, which it refuses."""
+    rack_form: ClassVar[bool] = False
+    """Whether the method has a form for a pinion and a rack."""
     mean_only: ClassVar[bool] = False
     """True of a method that knows no course over the mesh."""
     load_positions: ClassVar[int] = 48
@@ -204,12 +207,17 @@ class StiffnessMethod(ABC):
         if not (isinstance(self.positions, int) and self.positions == 0):
             require_whole("positions", self.positions, at_least=FEWEST_POSITIONS, at_most=MOST_POSITIONS)
         refuse_halves(self.pair.pinion, self.name)
-        if self.pair.internal and self.no_internal_form:
+        if isinstance(self.pair, RackPair):
+            if not self.rack_form:
+                raise ParameterError(
+                    "pair", "pinion and rack", f"must be two gears for {self.name}, which has no form for racks"
+                )
+        elif self.pair.internal and self.no_internal_form:
             permitted = f"must be above 0 for {self.name}: {self.no_internal_form}"
             raise GeometryError("wheel.teeth", self.pair.wheel.teeth, permitted)
-        ratio = self.mounted.usable_contact_ratio
+        ratio = self.engaged.usable_contact_ratio
         if ratio < 1:
-            whole = self.mounted.transverse_contact_ratio
+            whole = self.engaged.transverse_contact_ratio
             reason = (
                 "between two pairs of teeth no tooth would be in contact"
                 if whole < 1
@@ -240,14 +248,21 @@ class StiffnessMethod(ABC):
         return of_both(self.material)
 
     @cached_property
+    def engaged(self) -> GearPair | RackPair:
+        """The pair at the centre distance of its mounting; a pinion and a rack stand at their own mounting distance."""
+        return self.pair if isinstance(self.pair, RackPair) else self.mounting.mounted(self.pair)
+
+    @property
     def mounted(self) -> GearPair:
-        """The pair at the centre distance of its mounting."""
-        return self.mounting.mounted(self.pair)
+        """The pair of gears at the centre distance of its mounting. Raises TypeError for a pinion and a rack."""
+        if isinstance(self.engaged, RackPair):
+            raise TypeError("a pinion and a rack are no pair of gears")
+        return self.engaged
 
     @property
     def width(self) -> float:
         """Common face width (mm), on which all of the load is."""
-        return self.mounted.common_width.width
+        return width_in_mesh(self.engaged)
 
     def torque(self, load: Load) -> float:
         """Return the torque that the pinion carries, application factor included (N·m, positive)."""
@@ -255,7 +270,7 @@ class StiffnessMethod(ABC):
 
     def force(self, load: Load) -> float:
         """Return F_bt: the force that all flanks carry together along the line of action (N)."""
-        return 2000 * self.torque(load) / self.mounted.pinion.base_diameter
+        return 2000 * self.torque(load) / self.engaged.pinion.base_diameter
 
     def inputs(self, load: Load) -> dict[str, Any]:
         """Return the fields of a MeshCycle on its method, the load and the pair, under the names there."""
@@ -271,7 +286,8 @@ class StiffnessMethod(ABC):
 
     def notices(self, load: Load) -> Iterator[Notice]:
         """Yield notices to read before trusting the method with this pair under a load: here what nominal teeth leave out."""
-        gears = self.mounted.gears.items()
+        pair = self.engaged
+        gears = [(Role.PINION, pair.pinion)] if isinstance(pair, RackPair) else list(pair.gears.items())
         found = [f"the {role.value}'s flank modifications" for role, gear in gears if gear.modification.present]
         found += ["misalignment and pitch errors"] if self.mounting.tilted or self.mounting.pitch_error else []
         yield from left_out(found)

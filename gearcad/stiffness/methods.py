@@ -12,13 +12,13 @@ from gearcad.contact.shared.bodies import BodyModel
 from gearcad.core.errors import GearcadError, ParameterError
 from gearcad.core.records import Notice
 from gearcad.core.runtime import Agenda, Expected, Progress
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.geometry.gear import refuse_halves
 from gearcad.load import Load
 from gearcad.material import Materials
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
-from gearcad.rating.nominal_rating import rate
+from gearcad.rating.nominal_rating import Rating, rate, rate_rack
 from gearcad.stiffness.beam import PotentialEnergy, WeberBanaschek
 from gearcad.stiffness.comparison import MeanAtTorque, StiffnessComparison
 from gearcad.stiffness.finite_elements import PlaneStrainContact, PlaneStressContact, SolidContact, StrainEnergy
@@ -35,11 +35,12 @@ class MethodB(StiffnessMethod):
     name = "iso6336"
     title = "ISO 6336-1, Method B"
     mean_only = True
+    rack_form = True
     holds = ("all that Weber and Banaschek hold, times 0.8 from measurements (C_M)",)
 
     def _cycle(self, load: Load, count: int) -> MeshCycle:
-        found = rate(self.mounted, self.material, load).stiffness
-        half = 180 / self.mounted.pinion.teeth
+        found = self._rating(load).stiffness
+        half = 180 / self.engaged.pinion.teeth
         secant, tangent = (np.full(2, each * self.width) for each in (found.mesh_beta, found.mesh_alpha))
         return MeshCycle(
             **self.inputs(load),
@@ -50,8 +51,14 @@ class MethodB(StiffnessMethod):
             single_stiffness=found.single * self.width,
         )
 
+    def _rating(self, load: Load) -> Rating:
+        """Return the nominal rating of the pair."""
+        if isinstance(self.engaged, RackPair):
+            return rate_rack(self.engaged, self.material, load)
+        return rate(self.engaged, self.material, load)
+
     def notices(self, load: Load) -> Iterator[Notice]:
-        for notice in rate(self.mounted, self.material, load).notices:
+        for notice in self._rating(load).notices:
             if notice.code.startswith(("scope-", "stiffness-")):
                 yield notice
         yield from super().notices(load)
@@ -77,7 +84,7 @@ _PARTS = (0.1, 0.3, 0.55, 0.77)
 
 
 def compare_methods(
-    pair: GearPair,
+    pair: GearPair | RackPair,
     material: Materials,
     load: Load,
     methods: Sequence[str | StiffnessMethod] = tuple(METHODS),
@@ -113,7 +120,7 @@ def compare_methods(
     if not cycles:
         raise failures[0]
     return StiffnessComparison(
-        pair=mounting.mounted(pair),
+        pair=pair if isinstance(pair, RackPair) else mounting.mounted(pair),
         material=material,
         load=load,
         body=body,
@@ -125,7 +132,7 @@ def compare_methods(
 
 
 def expected_methods(
-    pair: GearPair,
+    pair: GearPair | RackPair,
     material: Materials,
     methods: Sequence[str],
     *,
@@ -143,7 +150,7 @@ def expected_methods(
 class _MethodInputs(NamedTuple):
     """Inputs of all methods."""
 
-    pair: GearPair
+    pair: GearPair | RackPair
     material: Materials
     body: BodyModel
     mounting: Mounting

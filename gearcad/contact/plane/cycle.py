@@ -17,14 +17,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.contact.plane.flank import PlaneCompliance, ToothLoad, near_elements, seen_from
+from gearcad.contact.plane.flank import PlaneCompliance, ToothLoad, seen_from
 from gearcad.contact.plane.pair import ContactPair, ContactSolution, PlanePair
 from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.contact.shared.line_of_action import overlap
 from gearcad.contact.shared.loaded import FAIR, INTERIOR, TOOTH_ORDER, LoadedCycle, LoadedPosition, PairContact, RootStress
 from gearcad.contact.shared.local_contact import HollowContact, conformal_notices, onsets, start_distance
 from gearcad.core.records import Floats, Notice, PerGear, Role, Wholes
-from gearcad.geometry import GearPair
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.material import Materials, of_both
 from gearcad.meshing.fem import field_gradients, node_places, shape_values
 from gearcad.meshing.outline import OutlineSide
@@ -285,12 +285,13 @@ def _start_pressures(model: PlanePair, pair: ContactPair, pressures: Floats, to_
 
 def conformal(contact: PlanePairContact) -> bool:
     """Return whether a contact in a hollow flank is too wide to be treated as that of two cylinders."""
-    return contact.pair.lengths.wheel < 0 and _hollow(contact).conformal
+    return not contact.pair.flat and contact.pair.lengths.wheel < 0 and _hollow(contact).conformal
 
 
 def wide_plane_contacts(cycle: PlaneCycle) -> Iterator[Notice]:
     """Yield a notice for a ring whose contact is conformal."""
-    if cycle.model.pair.internal:
+    pair = cycle.model.pair
+    if isinstance(pair, GearPair) and pair.internal:
         yield from conformal_notices(_hollow(contact) for _, contact in cycle.interior_contacts)
 
 
@@ -298,16 +299,18 @@ def _hollow(contact: PlanePairContact) -> HollowContact:
     return HollowContact(contact.hertz_half_width, contact.pair.lengths.pinion)
 
 
-def thin_faces(pair: GearPair, material: Materials, plane: Plane) -> Iterator[Notice]:
+def thin_faces(pair: GearPair | RackPair, material: Materials, plane: Plane) -> Iterator[Notice]:
     """Yield a notice for each gear that is too thin for plane strain."""
     if plane is Plane.STRESS:
         return
-    for role, gear in pair.gears.items():
+    mate: Gear | Rack = pair.rack if isinstance(pair, RackPair) else pair.wheel
+    for role, gear in PerGear[Gear | Rack](pair.pinion, mate).items():
         stiffer = 100 * of_both(material).pick(role).poisson_ratio ** 2
         width, thickness = gear.face_width, gear.transverse_tooth_thickness
         if width < thickness:
+            name = "rack" if isinstance(gear, Rack) else role.value
             text = (
-                f"the {role.value}'s face width of {width:.4g} mm is below its tooth thickness, {thickness:.4g} mm: so thin a "
+                f"the {name}'s face width of {width:.4g} mm is below its tooth thickness, {thickness:.4g} mm: so thin a "
                 "body is nearer to plane stress than to plane strain, which "
                 f"makes it up to {stiffer:.2g} % too stiff; plane stress or solid bodies (3d) show it"
             )
@@ -433,11 +436,23 @@ def _pose(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: int) ->
     model = cycle.model
     lengths = model.line.lengths(model.roll_length(position.roll_angle) + tooth * model.line.pitch)
     heading = model.bodies.pick(role).flank.heading(np.asarray(lengths.pick(role)))
-    opposite, away = (0.0, 0.0) if role is Role.PINION else (np.pi, model.pair.centre_distance)
-    along = np.radians(model.pair.working_transverse_pressure_angle)
-    if role is Role.WHEEL and model.pair.internal:
-        return _turn(heading - along) * _MIRRORED, np.array([away, 0.0])
-    return _turn(opposite - along - heading), np.array([away, 0.0])
+    along, pair = np.radians(model.pair.working_transverse_pressure_angle), model.pair
+    if role is Role.PINION:
+        return _turn(-along - heading), np.zeros(2)
+    if isinstance(pair, RackPair):
+        return _turn(np.array(np.pi)), np.array([pair.mounting_distance, _moved_rack(cycle, lengths.wheel)])
+    if pair.internal:
+        return _turn(heading - along) * _MIRRORED, np.array([pair.centre_distance, 0.0])
+    return _turn(np.pi - along - heading), np.array([pair.centre_distance, 0.0])
+
+
+def _moved_rack(cycle: PlaneCycle, length: float) -> float:
+    """Return where along y (mm) the middle of a rack's tooth is that touches at a place of its flank (mm)."""
+    model = cycle.model
+    angle = np.radians(model.pair.working_transverse_pressure_angle)
+    _, half = model.wheel.flank.points(length)
+    along = model.line.whole - length  # from T1 on the line of action
+    return float(-model.base_radius * np.sin(angle) + along * np.cos(angle) + half)
 
 
 def _turn(angle: Floats) -> Floats:
@@ -458,7 +473,7 @@ def _smooth_stresses(
         if apart == 0:
             singular += _at_length(body, body.singular, contact.centre(role)) * contact.force
     near = np.zeros(len(mesh.triangles), bool)
-    near[near_elements(body.flank.gear, mesh)] = True
+    near[body.flank.near_elements(mesh)] = True
     stress = np.empty((len(mesh.triangles), 6, 3))
     stress[near] = _element_stresses(body, mesh.triangles[near], smooth)
     # Beyond, Flamant's field was not taken off: there the strips are, so that both can be averaged where they meet.

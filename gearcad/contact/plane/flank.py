@@ -9,6 +9,7 @@ exactly, so the elements carry only the smooth rest (singularity subtraction).
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -19,7 +20,7 @@ import numpy as np
 from gearcad.contact.plane.ring import Ring, SurfaceStresses, far_responses
 from gearcad.contact.plane.sector import PlaneElasticity, element_forces, key_load, node_dofs
 from gearcad.contact.shared.bodies import Hold
-from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, FlankCompliance, LoadedFlank, RootStress
+from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, BodyFlank, FlankCompliance, LoadedFlank, RootStress
 from gearcad.core.records import Floats, JsonObject, Wholes
 from gearcad.geometry import Gear
 from gearcad.meshing.fem import quadrature, shape_slopes, shape_values
@@ -84,12 +85,65 @@ Compliance = Callable[[Floats, Floats], Floats]
 """Normal displacements (n, m) in mm at roll lengths (n,) by 1 N per mm of width at roll lengths (m,)."""
 
 
-@dataclass(frozen=True)
-class PlaneFlank(LoadedFlank):
-    """The loaded flank of a section: its nodes from root to tip, and their roll lengths (mm)."""
+class SectionFlank(BodyFlank):
+    """The loaded flank of a section: its `nodes` from root to tip, and their places, `lengths` (mm).
+
+    These are roll lengths of an involute; on the straight flank of a rack they grow as evenly along the line of action.
+    """
 
     nodes: Wholes
     lengths: Floats
+
+    @property
+    @abstractmethod
+    def sharp_root(self) -> bool:
+        """Whether the flank ends in a corner at the root, beside which no load can be taken off as on a straight edge."""
+
+    @abstractmethod
+    def near_elements(self, mesh: SectorMesh) -> Wholes:
+        """Return the elements of the tooth and a module of the body below it: where Flamant's field is taken off."""
+
+    @abstractmethod
+    def arc(self, lengths: Floats) -> Floats:
+        """Return the distance along the flank (mm), which rises towards the tip."""
+
+    @abstractmethod
+    def length_at(self, arc: float) -> float:
+        """Return the place (mm) at a distance along the flank (mm)."""
+
+    @abstractmethod
+    def heading(self, lengths: Floats) -> Floats:
+        """Return the angles (rad) of the tangents of the base circle that places lie on, to the middle of the tooth."""
+
+    @abstractmethod
+    def points(self, lengths: Floats | float) -> Floats:
+        """Return the points (..., 2) at places (mm)."""
+
+    def inward(self, lengths: Floats) -> Floats:
+        """Return the unit normals (..., 2) into the tooth."""
+        heading = self.heading(lengths)
+        return np.stack([np.sin(heading), -np.cos(heading)], -1)
+
+    def towards_tip(self, lengths: Floats) -> Floats:
+        """Return the unit tangents (..., 2) towards the tip."""
+        heading = self.heading(lengths)
+        tangents: Floats = self.upward * np.stack([np.cos(heading), np.sin(heading)], -1)
+        return tangents
+
+
+@dataclass(frozen=True)
+class PlaneFlank(LoadedFlank, SectionFlank):
+    """The loaded flank of a gear's section: its nodes from root to tip, and their roll lengths (mm)."""
+
+    nodes: Wholes
+    lengths: Floats
+
+    @property
+    def sharp_root(self) -> bool:
+        return self.gear.undercut
+
+    def near_elements(self, mesh: SectorMesh) -> Wholes:
+        return near_elements(self.gear, mesh)
 
     def arc(self, lengths: Floats) -> Floats:
         """Return the arc length along the involute (mm) from the base circle, which rises towards the tip:
@@ -101,16 +155,6 @@ class PlaneFlank(LoadedFlank):
     def length_at(self, arc: float) -> float:
         """Return the roll length (mm) at an arc length (mm)."""
         return math.copysign(math.sqrt(2 * self.base_radius * abs(arc)), arc)
-
-    def inward(self, lengths: Floats) -> Floats:
-        """Return the unit normals (..., 2) into the tooth."""
-        heading = self.heading(lengths)
-        return np.stack([np.sin(heading), -np.cos(heading)], -1)
-
-    def towards_tip(self, lengths: Floats) -> Floats:
-        """Return the unit tangents (..., 2) towards the tip."""
-        heading = self.heading(lengths)
-        return self.upward * np.stack([np.cos(heading), np.sin(heading)], -1)
 
     def points(self, lengths: Floats | float) -> Floats:
         """Return the points (..., 2) at roll lengths (mm)."""
@@ -135,7 +179,7 @@ class PlaneCompliance(FlankCompliance):
     `hub_forces` (3, m) are the dofs of a hub that follows the bore.
     """
 
-    flank: PlaneFlank
+    flank: SectionFlank
     ring: Ring
     elasticity: PlaneElasticity
     loads: Floats
@@ -302,7 +346,11 @@ def _within(spline: CubicSpline, at: Floats) -> Floats:
 
 def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> PlaneCompliance:
     """Solve the body for unit loads at about 24 places of the flank, graded towards the tip."""
-    flank = flank_of(gear, ring.sector.mesh)
+    return solved_flank(flank_of(gear, ring.sector.mesh), ring, elasticity)
+
+
+def solved_flank(flank: SectionFlank, ring: Ring, elasticity: PlaneElasticity) -> PlaneCompliance:
+    """Solve the body for unit loads at about 24 places of its flank, graded towards the tip."""
     loads = _load_places(flank)
     forces, singular = _unit_forces(flank, ring, elasticity, flank.points(loads), flank.inward(loads))
     displacements, torques = ring.solve(forces)
@@ -312,11 +360,11 @@ def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> Pla
 
 
 def _unit_forces(
-    flank: PlaneFlank, ring: Ring, elasticity: PlaneElasticity, points: Floats, directions: Floats
+    flank: SectionFlank, ring: Ring, elasticity: PlaneElasticity, points: Floats, directions: Floats
 ) -> tuple[Floats, Floats]:
     """Nodal forces (2 n, m) of 1 N per mm at points (m, 2) along unit vectors, and the fields (2 n, m) to be taken off."""
     mesh = ring.sector.mesh
-    near = near_elements(flank.gear, mesh)
+    near = flank.near_elements(mesh)
     nodes = np.unique(mesh.triangles[near])
     singular = np.zeros((2 * len(mesh.points), len(points)))
     for column, (at, into) in enumerate(zip(points, directions, strict=True)):
@@ -327,14 +375,14 @@ def _unit_forces(
     return forces, singular
 
 
-def _load_places(flank: PlaneFlank) -> Floats:
+def _load_places(flank: SectionFlank) -> Floats:
     """Return the roll lengths of vertices of the flank: 3 % of its length apart, closer by and by towards the tip corner.
 
     An undercut flank ends in a corner at the root as well, where no load can be taken off as one on a straight edge.
     """
     arc = flank.arc(flank.lengths[::2])
     to_tip = arc[-1] - arc
-    first, last = int(flank.gear.undercut), len(arc) - 2
+    first, last = int(flank.sharp_root), len(arc) - 2
     chosen = [last]
     for place in range(last - 1, first - 1, -1):
         before = to_tip[chosen[-1]]
@@ -433,7 +481,7 @@ class Fillets:
 
     def _all_round(self, side: OutlineSide, loads: list[ToothLoad], sign: int) -> Iterator[Floats]:
         """Yield the stresses of every tooth of the gear, with the key where it adds most tension (1) or compression (-1)."""
-        torque = self.body.flank.base_radius * sum(load.force * load.arm for load in loads)
+        torque = self.body.flank.lever * sum(load.force * load.arm for load in loads)
         by_key = torque * sign * (sign * self._by_key(side)).max(axis=0)
         for own in range(self.body.ring.support.teeth):
             yield self.stresses(side, seen_from(own, loads)) + by_key
@@ -522,6 +570,8 @@ class Fillets:
 def surface_rows(mesh: SectorMesh, side: OutlineSide, modulus: float) -> tuple[Floats, Floats, SurfaceStresses]:
     """Return the radius (mm) and tangent angle (deg) of places (n,) on a side of a mesh, and their stresses by displacements.
 
+    Of a rack it is the height over its reference line (mm) instead of the radius.
+
     `modulus` (MPa) is that of the plane state. The places are those where quadratic elements have the most accurate strains.
     """
     places = quadrature("line3", _AT_STRAINS).places
@@ -532,7 +582,8 @@ def surface_rows(mesh: SectorMesh, side: OutlineSide, modulus: float) -> tuple[F
     angle = np.degrees(np.arctan2(along[:, 1], np.abs(along[:, 0])))
     strain = np.tile(slope, (len(edges), 1))[:, :, None] * (along / (along**2).sum(-1, keepdims=True))[:, None]
     dofs = node_dofs(np.repeat(edges, len(slope), axis=0))
-    return np.hypot(*where.T), angle, SurfaceStresses(dofs, strain.reshape(len(where), -1) * modulus)
+    radius = where[:, 0] if mesh.straight else np.hypot(*where.T)
+    return radius, angle, SurfaceStresses(dofs, strain.reshape(len(where), -1) * modulus)
 
 
 def seen_from(own: int, loads: list[ToothLoad]) -> list[ToothLoad]:

@@ -14,11 +14,13 @@ from itertools import pairwise, product
 import numpy as np
 
 from gearcad.contact.plane.flank import Fillets, PlaneCompliance, flank_compliance
+from gearcad.contact.plane.rack_body import rack_body
 from gearcad.contact.plane.ring import Ring, assemble
 from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.contact.shared.bodies import BodyModel, Support
 from gearcad.contact.shared.line_of_action import (
     LineOfAction,
+    RackLine,
     facing_gap,
     facing_pairs,
     line_of_action,
@@ -32,7 +34,7 @@ from gearcad.contact.shared.tip_edge import tip_edges
 from gearcad.core.complementarity import complementary
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Bools, Floats, Indices, PerGear, Role
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.gear import refuse_halves
 from gearcad.material import Materials, of_both
 from gearcad.meshing.outline import MeshSizes
@@ -61,7 +63,7 @@ class ContactPair:
     """A pair of flanks: tooth `tooth` of the pinion (0 is the middle one), in contact at roll `lengths` (mm).
 
     `added_curvature` (1/mm) is what modified flanks have more than the two involutes, where they come nearest. `arms` (over
-    the base radii) and `tilts` (rad) are those of `TipEdges`.
+    the base radii) and `tilts` (rad) are those of `TipEdges`. `flat`: the wheel is a rack, whose flanks are straight.
     """
 
     tooth: int
@@ -70,18 +72,19 @@ class ContactPair:
     added_curvature: float = 0.0
     arms: PerGear[float] = _NORMAL_ARMS
     tilts: PerGear[float] = _NO_TILTS
+    flat: bool = False
 
     @property
     def plain_radius(self) -> float:
-        """Reduced radius of curvature (mm) of the two involutes."""
+        """Reduced radius of curvature (mm) of the two involutes, or of one and a straight flank."""
         pinion, wheel = self.lengths
-        return pinion * wheel / (pinion + wheel)
+        return pinion if self.flat else pinion * wheel / (pinion + wheel)
 
     @property
     def radius(self) -> float:
         """Reduced radius of curvature (mm); infinite where one flank is hollower than the other is round."""
         pinion, wheel = self.lengths
-        curvature = (pinion + wheel) / (pinion * wheel) + self.added_curvature
+        curvature = (1 / pinion if self.flat else (pinion + wheel) / (pinion * wheel)) + self.added_curvature
         return 1 / curvature if curvature > 0 else math.inf
 
 
@@ -257,7 +260,7 @@ def _contact_pair(
 ) -> ContactPair:
     low, high = overlap(line, pinion_length)
     touching = line.lengths(pinion_length)
-    radius = touching.pinion * touching.wheel / line.whole
+    radius = line.radius(pinion_length)
     reach = span(tooth, radius)
     first, last = max(low, middle - reach), min(high, middle + reach)
     finest = max(min(2 * reach / cells, _of_transition(line, touching, radius, reach)), 2 * reach / _MOST, least_width)
@@ -269,11 +272,12 @@ def _contact_pair(
     gap = gap + width**2 / 24 / radius
     added = 0.0 if line.exact else _curvature(line, tooth, pinion_length, middle) - 1 / radius
     formed = ContactCells(place, width, facing, gap)
+    flat = isinstance(line, RackLine)
     if low <= 0 <= high:
-        return ContactPair(tooth, touching, formed, added)
+        return ContactPair(tooth, touching, formed, added, flat=flat)
     edges = tip_edges(line, touching.map(lambda length: np.array([length])))
     arms, tilts = (each.map(lambda of: float(of[0])) for each in edges)
-    return ContactPair(tooth, touching, formed, added, arms, tilts)
+    return ContactPair(tooth, touching, formed, added, arms, tilts, flat)
 
 
 def _of_transition(line: LineOfAction, touching: PerGear[float], radius: float, reach: float) -> float:
@@ -326,7 +330,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         """True unless the middle pair of teeth stands proud."""
         return not self.line.proud
 
-    def with_flanks(self, pair: GearPair) -> PlanePair:
+    def with_flanks(self, pair: GearPair | RackPair) -> PlanePair:
         """Return the same bodies with other modifications of an otherwise equal pair, as it is mounted."""
         return replace(self, pair=pair, line=line_of_action(pair, 1000 * self.line.proud), known=KnownContacts())
 
@@ -407,7 +411,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
 
 
 def plane_pair(
-    pair: GearPair,
+    pair: GearPair | RackPair,
     material: Materials,
     *,
     plane: Plane = Plane.STRAIN,
@@ -422,6 +426,8 @@ def plane_pair(
     """
     refuse_halves(pair.pinion, "contact")
     body, sizes = body or BodyModel(), sizes or MeshSizes()
+    if isinstance(pair, RackPair):
+        return _with_rack(pair, material, plane, body, sizes, pitch_error, solve)
     # As many neighbours as can touch at once, with one more place for a corner that touches early or late.
     neighbours = max(1, math.floor(pair.transverse_contact_ratio + 0.2))
     line = line_of_action(pair, pitch_error)
@@ -435,6 +441,23 @@ def plane_pair(
         )
     )
     return PlanePair(pair, line, PerGear(pinion, wheel))
+
+
+def _with_rack(
+    pair: RackPair,
+    material: Materials,
+    plane: Plane,
+    body: BodyModel,
+    sizes: MeshSizes,
+    pitch_error: float,
+    solve: Callable[[Gear, Ring, PlaneElasticity], PlaneCompliance],
+) -> PlanePair:
+    """Return a pinion and a rack, which is held along its back."""
+    neighbours = max(1, math.floor(pair.transverse_contact_ratio + 0.2))
+    own, of_rack = (PlaneElasticity(each, plane) for each in of_both(material))
+    radius, support = body.of_pinion(pair.pinion)
+    pinion = flank_body(pair.pinion, radius, own, body, neighbours, sizes, solve, support)
+    return PlanePair(pair, line_of_action(pair, pitch_error), PerGear(pinion, rack_body(pair.rack, of_rack, neighbours, sizes)))
 
 
 def flank_body(

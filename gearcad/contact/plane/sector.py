@@ -354,12 +354,12 @@ class CutAxes(NamedTuple):
     def of(cls, mesh: SectorMesh) -> CutAxes:
         """Return the axes of the nodes at the cuts of a mesh."""
         nodes = np.union1d(mesh.behind, mesh.ahead)
-        return cls.at(nodes, mesh.points[nodes])
+        return cls.at(nodes, mesh.points[nodes], straight=mesh.straight)
 
     @classmethod
-    def at(cls, nodes: Wholes, points: Floats) -> CutAxes:
-        """Return the axes of nodes (k,) at points (k, 2)."""
-        angles = np.arctan2(points[:, 1], points[:, 0])
+    def at(cls, nodes: Wholes, points: Floats, *, straight: bool = False) -> CutAxes:
+        """Return the axes of nodes (k,) at points (k, 2): those of x and y in the `straight` row of a rack's sectors."""
+        angles = np.zeros(len(points)) if straight else np.arctan2(points[:, 1], points[:, 0])
         cosine, sine = np.cos(angles), np.sin(angles)
         return cls(nodes, np.array([[cosine, sine], [-sine, cosine]]))
 
@@ -383,8 +383,8 @@ class Sector:
     """The stiffness of a tooth's sector, and what the hub does to it; dofs are in its own frame, but for those of its cuts.
 
     `mesh` is the gear's, `whole` has its share of the shaft too, and its elements the `stiffness` (m, 12, 12) in x and y.
-    `held` dofs belong to the hub and move with `turn` (dofs,) when it turns by 1 rad; `hub` (dofs, hub) are the forces of its
-    dofs, `hub_matrix` what they do to themselves.
+    `held` dofs belong to the hub and move with `turn` (dofs,) when it turns by 1 rad, or a rack moves by 1 mm; `hub`
+    (dofs, hub) are the forces of its dofs, `hub_matrix` what they do to themselves.
     """
 
     mesh: SectorMesh
@@ -442,7 +442,7 @@ class Sector:
     def at_cuts(self) -> CutAxes:
         """Axes of those dofs alone to which the sector is condensed."""
         nodes = self.condensed.kept[::2] // 2
-        return CutAxes.at(np.arange(len(nodes)), self.whole.points[nodes])
+        return CutAxes.at(np.arange(len(nodes)), self.whole.points[nodes], straight=self.whole.straight)
 
     @cached_property
     def cut_matrix(self) -> Floats:
@@ -460,7 +460,7 @@ def make_sector(mesh: SectorMesh, elasticity: PlaneElasticity, support: Support 
         shafts = element_stiffness(whole, shaft, np.arange(len(mesh.triangles), len(whole.triangles)))
         stiffness = np.concatenate([stiffness, shafts])
     held, turn = node_dofs(held_nodes(mesh, support)), np.zeros(2 * len(whole.points))
-    turn[held] = rigid_motions(whole.points)[..., 0].ravel()[held]
+    turn[held] = rigid_motions(whole.points)[..., 2 if mesh.straight else 0].ravel()[held]
     axes = CutAxes.of(whole)
     turn, nothing = axes.polar(turn), np.zeros((len(turn), 0))
     sector = Sector(mesh, whole, axes, stiffness, held, turn, nothing, np.zeros((3, 3)))

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from gearcad.core.errors import GeometryError, ParameterError, format_number, require_number, require_whole
 from gearcad.core.records import Floats, PerGear, Role, naming
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.material import STEEL_MODULUS, Material
 from gearcad.meshing.outline import held_radius
 from gearcad.rating.tooth_stiffness import RIM_LIMIT
@@ -167,7 +167,8 @@ class Support:
     """Support of the bore of a body of `teeth` sectors, or the rim of a ring (not AUTO).
 
     `shaft` is the shaft's material and `shaft_bore` (mm) its own bore; `key` the half width (rad) of the keyway, seen from the
-    axis. Of a ring on `bolts` those have `bolt_circle` (mm), and the loaded tooth stands midway between two.
+    axis. Of a ring on `bolts` those have `bolt_circle` (mm), and the loaded tooth stands midway between two. A `straight` body
+    is a rack's, held along its back.
     """
 
     hold: Hold = Hold.RIGID
@@ -177,6 +178,7 @@ class Support:
     key: float = 0.0
     bolts: int = 0
     bolt_circle: float = 0.0
+    straight: bool = False
 
     @property
     def floats(self) -> bool:
@@ -295,15 +297,28 @@ class BodyModel:
         """Return the number of teeth of a gear between cuts; None for the full ring."""
         return self.teeth if self.teeth is not None and self.teeth < gear.tooth_count else None
 
-    def inner_radii(self, pair: GearPair) -> PerGear[float]:
-        """Return the radii (mm) at which the bodies of pinion and wheel are held. Raises ParameterError and GeometryError."""
+    def inner_radii(self, pair: GearPair | RackPair) -> PerGear[float]:
+        """Return the radii (mm) at which the bodies of pinion and wheel are held; infinite for a rack.
+
+        Raises ParameterError and GeometryError.
+        """
+        if isinstance(pair, RackPair):
+            return PerGear(self.of_pinion(pair.pinion)[0], math.inf)
         return PerGear.each(lambda role: _inner_radius(pair.gears.pick(role), self.inner_diameters.pick(role)))
 
-    def supports(self, pair: GearPair) -> PerGear[Support]:
+    def supports(self, pair: GearPair | RackPair) -> PerGear[Support]:
         """Return the supports of the bodies of pinion and wheel at these radii. Raises ParameterError and GeometryError."""
+        if isinstance(pair, RackPair):
+            self._check_rack()
+            return PerGear(self.of_pinion(pair.pinion)[1], Support(Hold.RIGID, pair.rack.whole_pitches, straight=True))
         radii = self.inner_radii(pair)
         pinion, wheel = (self._support(gear, radii.pick(role), role) for role, gear in pair.gears.items())
         return PerGear(pinion, wheel)
+
+    def of_pinion(self, pinion: Gear) -> tuple[float, Support]:
+        """Return the radius (mm) at which a pinion is held, and its support, whatever its mate. Raises as `supports` does."""
+        radius = _inner_radius(pinion, self.inner_diameters.pinion)
+        return radius, self._support(pinion, radius, Role.PINION)
 
     def _support(self, gear: Gear, radius: float, role: Role) -> Support:
         hold, ring = self.holds.pick(role), self.teeth_held(gear) is None
@@ -322,6 +337,13 @@ class BodyModel:
             found = support_of(gear, radius, hold, Material(youngs_modulus=self.shaft_modulus), self.shaft_bores.pick(role))
         return replace(found, hold=Hold.FREE) if self.solid and found.hold is Hold.KEY else found
 
+    def _check_rack(self) -> None:
+        if (hold := self.holds.wheel) not in (Hold.AUTO, Hold.RIGID):
+            raise ParameterError("check.wheel_support", hold.value, 'must be "rigid" for a rack, which is held along its back')
+        if (diameter := self.inner_diameters.wheel) is not None:
+            permitted = "must be left out: a rack is held along its back, at rack.height"
+            raise ParameterError("check.wheel_inner_diameter", diameter, permitted, "mm")
+
     def _check_ring(self, hold: Hold, key: str) -> None:
         if hold not in (Hold.AUTO, Hold.RIGID, Hold.BOLTS):
             raise ParameterError(key, hold.value, 'must be "rigid" or "bolts": a ring is held on its rim, it has no bore')
@@ -332,9 +354,13 @@ class BodyModel:
         """Return the same bodies as solids: of what can hold them, only "rigid" and "free"."""
         return replace(self, solid=True)
 
-    def describe(self, pair: GearPair) -> dict[str, str]:
+    def describe(self, pair: GearPair | RackPair) -> dict[str, str]:
         """Return the bodies of pinion and wheel in words, as documents have them."""
         radii, supports = self.inner_radii(pair), self.supports(pair)
+        if isinstance(pair, RackPair):
+            back = f"{format_number(round(pair.rack.height, 4))} mm below its reference line"
+            pinion = self._words(pair.pinion, radii.pinion, supports.pinion)
+            return {"pinion": pinion, "wheel": f"rack, a strip of teeth held along its back, {back}"}
         each = PerGear.each(lambda role: self._words(pair.gears.pick(role), radii.pick(role), supports.pick(role)))
         return each._asdict()
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from gearcad.core.records import Floats, PerGear
-from gearcad.geometry import FlankForm, Gear, GearPair, ReliefShape
+from gearcad.geometry import FlankForm, FlankModification, Gear, GearPair, Rack, RackPair, ReliefShape
 
 
 def loaded_left(pair: GearPair, torque: float) -> GearPair:
@@ -128,6 +128,57 @@ class TransverseFlank:
         length = contact + base * turn
         return length, contact - (length * np.cos(turn) - base * np.sin(turn))
 
+    def turned(self, away: Floats) -> Floats:
+        """Return the angles (rad) by which the flank's normals turn over distances (mm) of roll."""
+        result: Floats = away / self.base_radius
+        return result
+
+    def arms(self, place: Floats, along: Floats, slope: Floats) -> Floats:
+        """Return the lever arms, over the base radius, of forces tilted by `slope` (rad).
+
+        They act on points at `place` (mm) along the tangent and `along` (mm) the line of action.
+        """
+        arms: Floats = ((self.base_radius + place) * np.cos(slope) - along * np.sin(slope)) / self.base_radius
+        return arms
+
+
+@dataclass(frozen=True)
+class StraightFlank(TransverseFlank):
+    """A straight flank of a rack in the transverse section: the limit of a wheel's as its number of teeth grows.
+
+    Places on it are heights over the reference line over sin alpha_t (mm): so they grow as evenly along the line of action as
+    roll lengths do, but from the reference line on. `slope` is tan alpha_t.
+    """
+
+    slope: float
+
+    @classmethod
+    def of(cls, rack: Rack, height: float) -> StraightFlank:
+        """Return the flanks of a rack at a height (mm) over its face width."""
+        angle = math.radians(rack.transverse_pressure_angle)
+        first, last = -rack.profile.form_depth / math.sin(angle), rack.profile.tip_form_height / math.sin(angle)
+        hand = -1 if rack.helix_angle < 0 else 1
+        form = FlankForm(FlankModification(), first, last, rack.face_width, math.inf, hand, rack.normal_module)
+        return cls(form, height, math.tan(angle))
+
+    def depth(self, lengths: Floats) -> Floats:
+        """Return zeros: flanks of a rack are not modified."""
+        return np.zeros_like(lengths)
+
+    def along_tangent(self, contact: Any, length: float) -> Any:
+        return (length - contact) * self.slope
+
+    def facing(self, contact: float | Floats, place: Floats) -> tuple[Floats, Floats]:
+        return contact + place / self.slope, np.zeros_like(place)
+
+    def turned(self, away: Floats) -> Floats:
+        return np.zeros_like(away)
+
+    def arms(self, place: Floats, along: Floats, slope: Floats) -> Floats:
+        # The part of the force along the pitch line, over that of a normal force.
+        arms: Floats = np.cos(slope) - self.slope * np.sin(slope)
+        return arms
+
 
 @dataclass(frozen=True, eq=False)
 class LineOfAction:
@@ -152,6 +203,19 @@ class LineOfAction:
         """Return the roll lengths of both flanks (mm) that touch at `pinion_length` (mm from T1)."""
         return PerGear(pinion_length, self.whole - pinion_length)
 
+    def radius(self, length: float) -> float:
+        """Return the reduced radius of curvature (mm) of both involutes where they touch at a roll length (mm) of either."""
+        return length * (self.whole - length) / self.whole
+
+    def bulge(self, pinion_length: float, place: float) -> float:
+        """Return the gap (mm) between two involutes that touch at `pinion_length`, at a place along the tangent (mm)."""
+        return place**2 * self.whole / 2 / pinion_length / (self.whole - pinion_length)
+
+    def curved(self, pinion_length: float) -> bool:
+        """Return whether both flanks have a curvature to speak of where they touch at `pinion_length` (mm from T1)."""
+        rest = math.copysign(1.0, self.flanks.wheel.base_radius) * (self.whole - pinion_length)
+        return min(pinion_length, rest) > LEAST_LENGTH * self.module
+
     def taken_back(self, tooth: int, lengths: PerGear[Floats]) -> Floats:
         """Return the gap (mm) that modifications and pitch errors add between the flanks of a pair of teeth at roll lengths."""
         if self.exact:
@@ -161,13 +225,39 @@ class LineOfAction:
         return depth - self.proud if tooth == 0 else depth
 
 
+@dataclass(frozen=True, eq=False)
+class RackLine(LineOfAction):
+    """The line of action of a pinion and a rack, whose flanks are straight: `whole` is where the places of both add up to."""
+
+    def radius(self, length: float) -> float:
+        return length
+
+    def bulge(self, pinion_length: float, place: float) -> float:
+        return place**2 / 2 / pinion_length
+
+    def curved(self, pinion_length: float) -> bool:
+        return pinion_length > LEAST_LENGTH * self.module
+
+
+def _rack_line(pair: RackPair, pitch_error: float) -> RackLine:
+    """Return the line of action of a pinion and a rack in the section through the middle of both faces."""
+    pinion, sine = pair.pinion, math.sin(math.radians(pair.working_transverse_pressure_angle))
+    flanks = PerGear(
+        TransverseFlank(pinion.flank_form, pinion.face_width / 2), StraightFlank.of(pair.rack, pair.rack.face_width / 2)
+    )
+    whole = pair.path_of_contact.C + pair.pitch_line_height / sine
+    return RackLine(whole, pinion.transverse_base_pitch, flanks, pinion.normal_module, pitch_error / 1000)
+
+
 @lru_cache(16)
-def line_of_action(pair: GearPair, pitch_error: float = 0.0) -> LineOfAction:
+def line_of_action(pair: GearPair | RackPair, pitch_error: float = 0.0) -> LineOfAction:
     """Return the line of action of a pair in the transverse section through the middle of its common face width; left flanks of
     the pinion carry.
 
     `pitch_error` (µm) is how far the flanks of the middle pair of teeth stand proud, both together.
     """
+    if isinstance(pair, RackPair):
+        return _rack_line(pair, pitch_error)
     middle = pair.common_width.offset
     forms = gears_loaded_left(pair).map(lambda gear: gear.flank_form)
     pinion = TransverseFlank(forms.pinion, pair.pinion.face_width / 2 + middle)
@@ -220,7 +310,7 @@ def overlap(line: LineOfAction, pinion_length: float) -> tuple[float, float]:
     """
     _, wheel_length = line.lengths(pinion_length)
     one, other = line.flanks
-    if min(pinion_length, math.copysign(1.0, other.base_radius) * wheel_length) <= LEAST_LENGTH * line.module:
+    if not line.curved(pinion_length):
         return 0.0, 0.0
     return (
         max(one.along_tangent(pinion_length, one.first), -other.along_tangent(wheel_length, other.last)),
@@ -237,7 +327,7 @@ def nearest(line: LineOfAction, tooth: int, pinion_length: float) -> tuple[float
         return None
     if line.exact:
         place = min(max(0.0, low), high)
-        return place**2 * line.whole / 2 / pinion_length / (line.whole - pinion_length), place
+        return line.bulge(pinion_length, place), place
     places = np.linspace(low, high, _SAMPLES)
     _, gap = facing_gap(line, tooth, pinion_length, places)
     # The top of a parabola between the samples: else contact would jump from one to the next as gears roll.

@@ -20,7 +20,7 @@ import numpy as np
 from gearcad.contact.shared.line_of_action import LineOfAction
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Floats, JsonObject, PerGear, Role
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.involute import involute_at_roll
 from gearcad.rating.contact_stress import half_width, reduced_radius
 
@@ -36,8 +36,26 @@ def roll_lengths(radii: Floats, base_radius: float) -> Floats:
     return result
 
 
+class BodyFlank(ABC):
+    """The flank of tooth 0 of a gear or a rack that loads press on; places on it (mm) rise from root to tip."""
+
+    @property
+    @abstractmethod
+    def lever(self) -> float:
+        """Work of a normal force (1 N) as the hub turns by 1 rad, or a rack moves by 1 mm: r_b (mm), cos alpha_t of a rack."""
+
+    @property
+    @abstractmethod
+    def upward(self) -> int:
+        """Direction of the tip: 1 where it lies outwards, -1 where it lies inwards, as on a ring."""
+
+    @abstractmethod
+    def radii(self, lengths: Floats) -> Floats:
+        """Return the radii (mm) of places; of a rack the heights over its reference line."""
+
+
 @dataclass(frozen=True)
-class LoadedFlank:
+class LoadedFlank(BodyFlank):
     """The exact flank of tooth 0 that loads press on, that with y > 0; places on it are roll lengths (mm).
 
     Those of a ring are negative, and rise from root to tip as others do: so the formulas of all flanks are the same.
@@ -51,6 +69,10 @@ class LoadedFlank:
         return self.gear.profile.base_diameter / 2
 
     @property
+    def lever(self) -> float:
+        return self.base_radius
+
+    @property
     def upward(self) -> int:
         """Direction of the tip: 1 where it lies outwards, -1 where it lies inwards, as on a ring."""
         return -1 if self.gear.internal else 1
@@ -58,6 +80,9 @@ class LoadedFlank:
     def roll_lengths(self, radii: Floats) -> Floats:
         """Return the roll lengths (mm) at radii (n,) in mm."""
         return self.upward * roll_lengths(radii, self.base_radius)
+
+    def radii(self, lengths: Floats) -> Floats:
+        return np.hypot(self.base_radius, lengths)
 
     def polar(self, lengths: Floats) -> tuple[Floats, Floats]:
         """Return the radii (mm) and angles (rad) of places in the transverse section."""
@@ -73,9 +98,9 @@ class LoadedFlank:
 class FlankCompliance(ABC):
     """A gear body's responses to unit loads normal to its flank: what every model tells of a body."""
 
-    flank: LoadedFlank
+    flank: BodyFlank
     torques: Floats
-    """Torques on the hub by each unit load."""
+    """Torques on the hub by each unit load; of a rack the forces along its back."""
 
     @property
     @abstractmethod
@@ -105,9 +130,16 @@ class FlankCompliance(ABC):
 
 @dataclass(frozen=True)
 class EngagedPair:
-    """A pair in rotation: place of contact at a roll angle, and force of a torque."""
+    """A pair in rotation, or a pinion and a rack: place of contact at a roll angle, and force of a torque."""
 
-    pair: GearPair
+    pair: GearPair | RackPair
+
+    @property
+    def gear_pair(self) -> GearPair:
+        """The pair of gears. Raises TypeError for a pinion and a rack."""
+        if isinstance(self.pair, RackPair):
+            raise TypeError("a pinion and a rack are no pair of gears")
+        return self.pair
 
     @property
     def repeats(self) -> bool:
@@ -117,7 +149,7 @@ class EngagedPair:
     @property
     def width(self) -> float:
         """Common face width (mm), on which all of the load is."""
-        return self.pair.common_width.width
+        return width_in_mesh(self.pair)
 
     @property
     def base_radius(self) -> float:
@@ -133,10 +165,8 @@ class EngagedPair:
 
         `modulus` is E* (MPa); half width by Hertz.
         """
-        at_pitch_point = self.pair.path_of_contact.C
-        radii = (at_pitch_point, self.pair.base_tangent.length - at_pitch_point)
-        half = float(half_width(self.force(torque), reduced_radius(radii), modulus))
-        depth = min((gear.tip_diameter - gear.root_diameter) / 2 for gear in self.pair.gears)
+        radius, depth = _at_pitch_point(self.pair)
+        half = float(half_width(self.force(torque), radius, modulus))
         if half > depth:
             most = abs(torque) * (depth / half) ** 2  # the half width goes with the root of the load
             permitted = f"must be at most {most:.4g} N·m in size for these teeth and this modulus of elasticity"
@@ -164,6 +194,20 @@ class EngagedPair:
         return (2 * np.arange(count) + 1 - count) / (2 * count) * pitch
 
 
+def width_in_mesh(pair: GearPair | RackPair) -> float:
+    """Return the common face width (mm)."""
+    return pair.common_width if isinstance(pair, RackPair) else pair.common_width.width
+
+
+def _at_pitch_point(pair: GearPair | RackPair) -> tuple[float, float]:
+    """Return the reduced radius of curvature at the pitch point, and the least depth of the teeth (mm)."""
+    at = pair.path_of_contact.C
+    if isinstance(pair, RackPair):
+        return at, min((pair.pinion.tip_diameter - pair.pinion.root_diameter) / 2, pair.rack.tip_height + pair.rack.root_depth)
+    radius = reduced_radius((at, pair.base_tangent.length - at))
+    return radius, min((gear.tip_diameter - gear.root_diameter) / 2 for gear in pair.gears)
+
+
 Body = TypeVar("Body", bound=FlankCompliance, covariant=True)
 
 
@@ -185,8 +229,10 @@ class FlexiblePair(EngagedPair, ABC, Generic[Body]):
         return self.bodies.wheel
 
     @abstractmethod
-    def with_flanks(self, pair: GearPair) -> Self:
-        """Return the same bodies with other modifications of an otherwise equal pair, as it is mounted."""
+    def with_flanks(self, pair: Any) -> Self:
+        """Return the same bodies with other modifications of an otherwise equal pair - gears, or pinion and rack - as it is
+        mounted.
+        """
 
     @property
     @abstractmethod

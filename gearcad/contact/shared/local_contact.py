@@ -113,7 +113,7 @@ def start_lengths(line: LineOfAction) -> Floats:
     for role, flank in line.flanks.items():
         for onset in onsets(flank):
             stretch = abs(flank.base_radius / onset.roll)
-            radius = onset.roll * (line.whole - onset.roll) / line.whole
+            radius = line.radius(onset.roll)
             shift = onset.sense * radius * onset.slope / 2 * stretch
             steps = min(_STEPS * abs(shift) / max(onset.length * stretch, _LEAST_TRANSITION), _MOST_STEPS)
             rolls = onset.roll + np.linspace(0.0, shift, math.ceil(steps) + 1)

@@ -68,16 +68,15 @@ def _tilted(
     """Return arms over the base radius, and tilts (rad), of tips at places (n,) along the tangent (mm)."""
     _, behind = own.facing(contact, place)
     lengths, _ = mate.facing(opposite, -place)
-    turn = (lengths - opposite) / mate.base_radius
-    slope = turn + _relieved(mate, lengths) * mate.base_radius / (lengths * np.cos(turn))
-    arms = ((own.base_radius + place) * np.cos(slope) - (contact - behind) * np.sin(slope)) / own.base_radius
-    return arms, slope - (own.last - contact) / own.base_radius
+    turn = mate.turned(lengths - opposite)
+    slope = turn
+    if mate.form.modification.present:
+        slope = turn + _relieved(mate, lengths) * mate.base_radius / (lengths * np.cos(turn))
+    return own.arms(place, contact - behind, slope), slope - own.turned(own.last - contact)
 
 
 def _relieved(flank: TransverseFlank, lengths: Floats) -> Floats:
     """Return the slope (mm per mm of roll) of a flank's modification at roll lengths (n,), but for its ends."""
-    if not flank.form.modification.present:
-        return np.zeros_like(lengths)
     inside = np.clip(lengths, flank.first + _STEP, flank.last - _STEP)
     result: Floats = (flank.depth(inside + _STEP) - flank.depth(inside - _STEP)) / (2 * _STEP)
     return result

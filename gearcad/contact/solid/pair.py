@@ -186,6 +186,7 @@ class SolidPair(FlexiblePair[SolidCompliance]):
     are held rigidly where they sit on their `supports`, which give way as a whole; None stands for rigid ones.
     """
 
+    pair: GearPair
     mounting: Mounting
     cells: int
     fillets: PerGear[SolidFillets] = field(repr=False)
